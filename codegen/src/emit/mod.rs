@@ -23,7 +23,6 @@ mod names;
 mod options;
 mod origin;
 mod outputs;
-mod parameters;
 mod places;
 mod print;
 mod register;

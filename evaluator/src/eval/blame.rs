@@ -80,7 +80,7 @@ fn read(value: &Value, out: &mut Vec<NodeId>) {
                 }
             }
         }
-        other => Evaluator::leaves(other, out),
+        other => other.flatten(out),
     }
 }
 

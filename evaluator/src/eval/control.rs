@@ -153,7 +153,7 @@ impl Evaluator<'_> {
         let mark = self.scope.enter();
         let outcome = self.side(tail, span, evaluate);
         let departed = std::mem::take(&mut self.departed);
-        self.flatten(outcome, departed, mark, span)
+        self.side_of(outcome, departed, mark, span)
     }
 
     /// Evaluates what is only looked at where a run-time condition holds.
@@ -226,16 +226,16 @@ impl Evaluator<'_> {
         let mut joined = Vec::new();
         let (mut lefts, mut rights) = (Vec::new(), Vec::new());
         for (slot, a, b) in pairs {
-            let (a, b) = self.agree(&a, &b, span)?;
-            Self::leaves(&a, &mut lefts);
-            Self::leaves(&b, &mut rights);
+            let (a, b) = self.unify(&a, &b, span)?;
+            a.flatten(&mut lefts);
+            b.flatten(&mut rights);
             joined.push((slot, a));
         }
         let nodes = self.merge_nodes(condition, regions, &lefts, &rights);
         let mut nodes = nodes.into_iter();
         let mut results = Vec::new();
         for (slot, template) in joined {
-            let value = Self::with_leaves(&template, &mut nodes);
+            let value = template.unflatten(&mut nodes);
             match slot {
                 None => results.push(value),
                 Some(slot) => {

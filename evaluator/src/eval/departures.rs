@@ -224,7 +224,7 @@ impl Evaluator<'_> {
 
     /// Makes one state of those who left a side and those who go on, so that it can leave a region: who left by which way
     /// is told by a boolean each.
-    pub fn flatten(&mut self, outcome: Eval, departed: Vec<Departure>, mark: usize, span: Span) -> Eval<Side> {
+    pub fn side_of(&mut self, outcome: Eval, departed: Vec<Departure>, mark: usize, span: Span) -> Eval<Side> {
         let (value, last) = match outcome {
             Ok(value) => (Some(value), None),
             Err(Exit::Left(way)) => (None, Some(way)),
@@ -359,9 +359,9 @@ impl Evaluator<'_> {
     /// A value of the same shape that nobody looks at.
     pub fn blank(&mut self, value: &Value) -> Value {
         let mut leaves = Vec::new();
-        Self::leaves(value, &mut leaves);
+        value.flatten(&mut leaves);
         let blanks: Vec<NodeId> = leaves.into_iter().map(|id| self.unused(self.ty(id))).collect();
-        Self::with_leaves(value, &mut blanks.into_iter())
+        value.unflatten(&mut blanks.into_iter())
     }
 
     /// Any value of a type.

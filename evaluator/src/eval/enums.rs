@@ -146,7 +146,7 @@ impl Evaluator<'_> {
             match (x.as_mut(), y.as_mut()) {
                 (Some(x), Some(y)) => {
                     for ((_, x), (_, y)) in x.iter_mut().zip(y) {
-                        (*x, *y) = self.agree(x, y, span)?;
+                        (*x, *y) = self.unify(x, y, span)?;
                     }
                 }
                 (Some(x), None) => *y = Some(self.blank_fields(x)),

@@ -74,7 +74,7 @@ impl Evaluator<'_> {
         for slot in &carried {
             let value = self.scope.at(*slot).1.clone();
             let value = self.settle(&value, span)?;
-            Self::leaves(&value, &mut initial);
+            value.flatten(&mut initial);
             self.scope.set(*slot, value);
         }
         types.extend(initial.iter().map(|id| self.ty(*id)));
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
         for slot in &carried {
             let (name, template) = self.scope.at(*slot);
             let name = name.to_owned();
-            let value = Self::with_leaves(&template.clone(), &mut inner);
+            let value = template.clone().unflatten(&mut inner);
             self.name_params(&value, &name, span);
             self.scope.set(*slot, value);
         }
@@ -97,18 +97,18 @@ impl Evaluator<'_> {
         self.loops.round();
         let outcome = iteration(self, params[0]).map(|()| Value::unit());
         let departed = std::mem::take(&mut self.departed);
-        let side = self.flatten(outcome, departed, mark, span);
+        let side = self.side_of(outcome, departed, mark, span);
         let mut results = Vec::new();
         let mut changed = None;
         let mut wider = Vec::new();
         for slot in &carried {
             let value = self.scope.at(*slot).1.clone();
             match self.settle(&value, span) {
-                Ok(value) if same_shape(&value, settled.at(*slot).1) => Self::leaves(&value, &mut results),
-                Ok(value) => match self.agree(settled.at(*slot).1, &value, span) {
+                Ok(value) if same_shape(&value, settled.at(*slot).1) => value.flatten(&mut results),
+                Ok(value) => match self.unify(settled.at(*slot).1, &value, span) {
                     // It is less than what is carried, or what is carried has to be more.
                     Ok((first, value)) if same_shape(&first, settled.at(*slot).1) && same_shape(&first, &value) => {
-                        Self::leaves(&value, &mut results);
+                        value.flatten(&mut results);
                     }
                     Ok((first, _)) if !same_shape(&first, settled.at(*slot).1) => wider.push((*slot, first)),
                     _ => changed = Some(changes(settled.at(*slot).0, span)),
@@ -150,14 +150,14 @@ impl Evaluator<'_> {
         let mut outs = outs.into_iter();
         for slot in &carried {
             let (name, template) = settled.at(*slot);
-            let value = Self::with_leaves(template, &mut outs);
+            let value = template.unflatten(&mut outs);
             self.name(&value, name, span);
             self.scope.set(*slot, value);
         }
         for way in exits {
             let Some(condition) = left.next() else { break };
             let way = match way {
-                Way::Return(value) => Way::Return(Self::with_leaves(&value, &mut left)),
+                Way::Return(value) => Way::Return(value.unflatten(&mut left)),
                 other => other,
             };
             let scope = self.scope.clone();
@@ -196,7 +196,7 @@ impl Evaluator<'_> {
             let way = match way {
                 Way::Return(value) => {
                     let value = self.settle(value, span)?;
-                    Self::leaves(&value, &mut leaves);
+                    value.flatten(&mut leaves);
                     Way::Return(value)
                 }
                 other => other.clone(),
@@ -211,7 +211,7 @@ impl Evaluator<'_> {
             let mut params = params.into_iter();
             if let Some(flag) = params.next() {
                 let way = match &way {
-                    Way::Return(value) => Way::Return(Self::with_leaves(value, &mut params)),
+                    Way::Return(value) => Way::Return(value.unflatten(&mut params)),
                     other => other.clone(),
                 };
                 self.name_exit(flag, &way, span);

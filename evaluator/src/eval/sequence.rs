@@ -82,7 +82,7 @@ impl Evaluator<'_> {
             .iter()
             .map(|row| {
                 let mut leaves = Vec::new();
-                Self::leaves(row, &mut leaves);
+                row.flatten(&mut leaves);
                 leaves
             })
             .collect();
@@ -159,10 +159,10 @@ impl Evaluator<'_> {
         }
         let mut widest = rows[0].clone();
         for row in rows.iter() {
-            widest = self.agree(&widest, row, span)?.0;
+            widest = self.unify(&widest, row, span)?.0;
         }
         for row in rows.iter_mut() {
-            *row = self.agree(row, &widest, span)?.0;
+            *row = self.unify(row, &widest, span)?.0;
         }
         Ok(())
     }
@@ -230,7 +230,7 @@ impl Evaluator<'_> {
                 }
             });
         }
-        Self::with_leaves(&columns.template, &mut nodes.into_iter())
+        columns.template.unflatten(&mut nodes.into_iter())
     }
 
     /// An element, at an index that is not known, of an array of arrays, tuples or structures; `None` of an array of

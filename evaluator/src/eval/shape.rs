@@ -7,6 +7,51 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
+impl Value {
+    /// The nodes that a settled value is made of, in order.
+    pub fn flatten(&self, out: &mut Vec<NodeId>) {
+        match self {
+            Value::Node(id) | Value::OneOf(id, _) => out.push(*id),
+            Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| field.flatten(out)),
+            Value::Tuple(parts) => parts.iter().for_each(|part| part.flatten(out)),
+            Value::Array(parts) => parts.iter().for_each(|part| part.flatten(out)),
+            Value::Enum(choice) => {
+                if let Tag::Node(id) = choice.tag {
+                    out.push(id);
+                }
+                choice.all().for_each(|(_, value)| value.flatten(out));
+            }
+            _ => {}
+        }
+    }
+
+    /// A value of the same shape made of other nodes.
+    pub fn unflatten(&self, nodes: &mut impl Iterator<Item = NodeId>) -> Value {
+        match self {
+            Value::Node(id) => Value::Node(nodes.next().unwrap_or(*id)),
+            Value::OneOf(id, all) => Value::OneOf(nodes.next().unwrap_or(*id), Rc::clone(all)),
+            Value::Struct { ty, fields } => {
+                let fields = fields
+                    .iter()
+                    .map(|(name, field)| (name.clone(), field.unflatten(nodes)));
+                Value::structure(ty.clone(), fields.collect())
+            }
+            Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| p.unflatten(nodes)).collect()),
+            Value::Array(parts) => Value::array(parts.iter().map(|p| p.unflatten(nodes)).collect()),
+            Value::Enum(choice) => {
+                let tag = match choice.tag {
+                    Tag::Node(id) => Tag::Node(nodes.next().unwrap_or(id)),
+                    known => known,
+                };
+                let mut changed = choice.with_fields(|value| value.unflatten(nodes));
+                changed.tag = tag;
+                Value::Enum(Rc::new(changed))
+            }
+            other => other.clone(),
+        }
+    }
+}
+
 impl Evaluator<'_> {
     /// The value with every integer a node and every array of numbers one node, as a structured loop needs it.
     pub fn settle(&mut self, value: &Value, span: Span) -> Eval {
@@ -87,51 +132,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The nodes that a settled value is made of, in order.
-    pub fn leaves(value: &Value, out: &mut Vec<NodeId>) {
-        match value {
-            Value::Node(id) | Value::OneOf(id, _) => out.push(*id),
-            Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| Self::leaves(field, out)),
-            Value::Tuple(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
-            Value::Array(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
-            Value::Enum(choice) => {
-                if let Tag::Node(id) = choice.tag {
-                    out.push(id);
-                }
-                choice.all().for_each(|(_, value)| Self::leaves(value, out));
-            }
-            _ => {}
-        }
-    }
-
-    /// A value of the same shape made of other nodes.
-    pub fn with_leaves(value: &Value, nodes: &mut impl Iterator<Item = NodeId>) -> Value {
-        match value {
-            Value::Node(id) => Value::Node(nodes.next().unwrap_or(*id)),
-            Value::OneOf(id, all) => Value::OneOf(nodes.next().unwrap_or(*id), Rc::clone(all)),
-            Value::Struct { ty, fields } => {
-                let fields = fields
-                    .iter()
-                    .map(|(name, field)| (name.clone(), Self::with_leaves(field, nodes)));
-                Value::structure(ty.clone(), fields.collect())
-            }
-            Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
-            Value::Array(parts) => Value::array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
-            Value::Enum(choice) => {
-                let tag = match choice.tag {
-                    Tag::Node(id) => Tag::Node(nodes.next().unwrap_or(id)),
-                    known => known,
-                };
-                let mut changed = choice.with_fields(|value| Self::with_leaves(value, nodes));
-                changed.tag = tag;
-                Value::Enum(Rc::new(changed))
-            }
-            other => other.clone(),
-        }
-    }
-
     /// Two values of one shape, integers given the type of the other side.
-    pub fn agree(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
+    pub fn unify(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
         Ok(match (a, b) {
             _ if a == b => (a.clone(), b.clone()),
             (Value::Int(_) | Value::Node(_), Value::Int(_) | Value::Node(_)) => {
@@ -153,7 +155,7 @@ impl Evaluator<'_> {
             ) if ty == other => {
                 let (mut l, mut r) = (Vec::new(), Vec::new());
                 for ((name, a), (_, b)) in left.iter().zip(right.iter()) {
-                    let (a, b) = self.agree(a, b, span)?;
+                    let (a, b) = self.unify(a, b, span)?;
                     l.push((name.clone(), a));
                     r.push((name.clone(), b));
                 }
@@ -201,7 +203,7 @@ impl Evaluator<'_> {
     }
 
     fn agree_all(&mut self, left: &[Value], right: &[Value], span: Span) -> Eval<(Vec<Value>, Vec<Value>)> {
-        let pairs: Eval<Vec<_>> = left.iter().zip(right).map(|(a, b)| self.agree(a, b, span)).collect();
+        let pairs: Eval<Vec<_>> = left.iter().zip(right).map(|(a, b)| self.unify(a, b, span)).collect();
         Ok(pairs?.into_iter().unzip())
     }
 }

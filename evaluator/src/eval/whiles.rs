@@ -155,7 +155,7 @@ impl Evaluator<'_> {
     /// Whether all numbers in a value are known.
     fn is_known(&self, value: &Value) -> bool {
         let mut leaves = Vec::new();
-        Self::leaves(value, &mut leaves);
+        value.flatten(&mut leaves);
         leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
     }
 

@@ -1,6 +1,6 @@
 //! The Rust of a shader's uniform struct: laid out as the shader has it, which the caller's compiler checks.
 
-use super::bindings::{identifier, spaced};
+use super::{identifier, spaced};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{BindingKind, Element, Manifest, REGION, Scalar, UniformField, ValueType};

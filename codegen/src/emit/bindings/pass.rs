@@ -1,0 +1,259 @@
+//! What binds a shader and runs it: a pass over a picture, or triangles that are drawn.
+
+use super::inputs::Input;
+use super::{identifier, spaced};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use straightline_manifest::{Manifest, REGION};
+
+/// How inputs and uniforms are taken and passed on.
+pub struct Given {
+    /// The parameter of inputs.
+    used: TokenStream,
+    /// The parameter of values that are set at run time, if there are some.
+    parameters: TokenStream,
+    /// The statement that gives inputs their names.
+    pairs: TokenStream,
+    /// What is needed beside inputs and target.
+    options: TokenStream,
+    /// Methods that set such values later.
+    setters: TokenStream,
+}
+
+impl Given {
+    /// `parameters` is the structure of values that are set at run time, empty if there are none.
+    pub fn of(inputs: &[Input], parameters: &TokenStream, setters: TokenStream) -> Given {
+        let count = Literal::usize_unsuffixed(inputs.len());
+        let pairs = inputs.iter().map(|input| {
+            let (field, name) = (&input.name, &input.bound);
+            quote! { (#name, Resource::from(inputs.#field)) }
+        });
+        let (parameters, options) = match parameters.is_empty() {
+            true => (
+                TokenStream::new(),
+                quote! { straightline_runtime::BindOptions::default() },
+            ),
+            false => (
+                quote! { parameters: &Parameters, },
+                quote! { straightline_runtime::BindOptions::default().uniforms(&parameters.to_bytes()) },
+            ),
+        };
+        Given {
+            used: match inputs.is_empty() {
+                true => quote! { _: &Inputs },
+                false => quote! { inputs: &Inputs<'_> },
+            },
+            parameters,
+            pairs: quote! { let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*]; },
+            options,
+            setters,
+        }
+    }
+}
+
+/// A kernel of pixels, as its bindings run it.
+pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStream {
+    let Given {
+        used,
+        parameters,
+        pairs,
+        options,
+        setters,
+    } = given;
+    let (target_ty, target) = (&targets.ty, &targets.given);
+    let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
+        quote! {
+            /// Binds the shader for a rectangle: from `region.first` of `inputs` to `region.place` of the target.
+            ///
+            /// # Errors
+            ///
+            /// Those of `bind`, and if the rectangle leaves the inputs or the target.
+            pub fn bind_region(
+                &self,
+                #used,
+                #parameters
+                #target_ty,
+                region: straightline_runtime::Region,
+            ) -> Result<Bound, Error> {
+                #pairs
+                self.0.bind_with(&inputs, #target, &#options.region(region)).map(Bound)
+            }
+        }
+    });
+    quote! {
+        /// The shader on a device: make it once, and bind it to what it reads and writes.
+        #[derive(Debug)]
+        pub struct Pass(straightline_runtime::Pass);
+
+        impl Pass {
+            /// Compiles the shader.
+            ///
+            /// # Errors
+            ///
+            /// If the device cannot run it or is lost.
+            pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+                straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
+            }
+
+            /// Binds the shader: from `inputs` to the target.
+            ///
+            /// # Errors
+            ///
+            /// If an input or the target does not fit, naming it.
+            pub fn bind(
+                &self,
+                #used,
+                #parameters
+                #target_ty,
+            ) -> Result<Bound, Error> {
+                #pairs
+                self.0.bind_with(&inputs, #target, &#options).map(Bound)
+            }
+
+            #region
+
+            /// The pass itself, to ask what it binds.
+            #[must_use]
+            pub fn inner(&self) -> &straightline_runtime::Pass {
+                &self.0
+            }
+        }
+
+        /// The shader with what it reads and writes: encode it every frame.
+        #[derive(Debug)]
+        pub struct Bound(straightline_runtime::Bound);
+
+        impl Bound {
+            /// Records the shader.
+            pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+                self.0.encode(encoder);
+            }
+
+            #setters
+
+            /// What is bound itself, for timing it.
+            #[must_use]
+            pub fn inner(&self) -> &straightline_runtime::Bound {
+                &self.0
+            }
+        }
+    }
+}
+
+/// A kernel that has values interpolated, as its bindings draw it: behind a vertex shader of the caller's.
+pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
+    let Given {
+        used,
+        parameters,
+        pairs,
+        options,
+        setters,
+    } = given;
+    let members = manifest.varyings.iter();
+    let members: String = members
+        .map(|v| format!("@location({}) {}: {},\n", v.location, v.name, v.ty))
+        .collect();
+    quote! {
+        /// What the vertex shader must give, as members of a structure in WGSL.
+        pub const VARYINGS: &str = #members;
+
+        /// The shader on a device, behind a vertex shader: make it once, and bind it to what it reads.
+        #[derive(Debug)]
+        pub struct Draw(straightline_runtime::Draw);
+
+        impl Draw {
+            /// Compiles the shader, and the vertex shader of `options`, which gives [`VARYINGS`].
+            ///
+            /// # Errors
+            ///
+            /// If they do not fit together, the device cannot run them or is lost.
+            pub fn new(device: &wgpu::Device, options: &straightline_runtime::DrawOptions<'_>) -> Result<Self, Error> {
+                straightline_runtime::Draw::from_json(device, MANIFEST, WGSL, options).map(Self)
+            }
+
+            /// Binds the shader to what it reads.
+            ///
+            /// # Errors
+            ///
+            /// If an input does not fit, naming it.
+            pub fn bind(&self, #used, #parameters) -> Result<BoundDraw, Error> {
+                #pairs
+                self.0.bind_with(&inputs, &#options).map(BoundDraw)
+            }
+
+            /// What is drawn itself, to ask what it binds.
+            #[must_use]
+            pub fn inner(&self) -> &straightline_runtime::Draw {
+                &self.0
+            }
+        }
+
+        /// The shader with what it reads: set it in a render pass, and draw triangles.
+        #[derive(Debug)]
+        pub struct BoundDraw(straightline_runtime::BoundDraw);
+
+        impl BoundDraw {
+            /// Sets the pipeline and the shader's bind group; vertices and draw calls are the caller's.
+            pub fn set(&self, pass: &mut wgpu::RenderPass<'_>) {
+                self.0.set(pass);
+            }
+
+            #setters
+
+            /// What is bound itself.
+            #[must_use]
+            pub fn inner(&self) -> &straightline_runtime::BoundDraw {
+                &self.0
+            }
+        }
+    }
+}
+
+/// How a pass is given what it writes.
+pub struct Targets {
+    /// The parameter.
+    ty: TokenStream,
+    /// What is passed on.
+    given: TokenStream,
+    /// The structure of several.
+    pub structure: TokenStream,
+}
+
+impl Targets {
+    pub fn of(manifest: &Manifest) -> Targets {
+        if manifest.outputs.len() == 1 {
+            return Targets {
+                ty: quote! { target: &wgpu::TextureView },
+                given: quote! { target },
+                structure: TokenStream::new(),
+            };
+        }
+        if manifest.outputs.is_empty() {
+            return Targets {
+                ty: TokenStream::new(),
+                given: quote! { &[] as &[(&str, &wgpu::TextureView)] },
+                structure: TokenStream::new(),
+            };
+        }
+        let names: Vec<&str> = manifest.outputs.iter().map(|o| o.name.as_str()).collect();
+        let fields: Vec<_> = names.iter().map(|name| identifier(name)).collect();
+        let docs = manifest.outputs.iter().map(|output| {
+            let at = output.location.map_or(String::new(), |k| format!(" at location {k}"));
+            spaced(&format!(
+                "The target of `{}`{at}, generated for `{}`.",
+                output.name, output.format
+            ))
+        });
+        Targets {
+            ty: quote! { targets: &Targets<'_> },
+            given: quote! { &[#((#names, targets.#fields)),*] },
+            structure: quote! {
+                /// What the shader writes: textures of one size.
+                #[derive(Clone, Copy, Debug)]
+                pub struct Targets<'a> {
+                    #(#[doc = #docs] pub #fields: &'a wgpu::TextureView,)*
+                }
+            },
+        }
+    }
+}
