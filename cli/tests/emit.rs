@@ -178,6 +178,12 @@ fn workgroups_share_texels_where_they_are_asked_to() {
     assert_eq!(json["sharing"]["workgroup"], serde_json::json!([16, 16]));
     assert_eq!(json["sharing"]["tiles"][0]["reads_of_a_thread"], 2);
     assert_eq!(json["barriers"], 1);
+    let of_loops = &json["loops_of_the_source"];
+    let of_loops = of_loops.as_array().expect("a list of loops");
+    assert!(!of_loops.is_empty(), "{json}");
+    for of_loop in of_loops {
+        assert!(of_loop["unroll"] == "full" && of_loop["line"].as_u64() > Some(0), "{of_loop}");
+    }
     fails(
         &["explain", "sraa", "--share", "quad"],
         2,

@@ -103,6 +103,17 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
     if let Some(sharing) = &compiled.sharing {
         out.insert("sharing".into(), sharing_json(sharing));
     }
+    let loops = compiled.loops.iter().map(|report| {
+        json!({
+            "loop": report.path(),
+            "line": report.span.line,
+            "unroll": report.unroll.to_string(),
+            "unrolled_because": report.reason,
+            "copies": report.copies,
+            "operations": report.operations,
+        })
+    });
+    out.insert("loops_of_the_source".into(), loops.collect());
     if let Some(paper) = paper {
         if paper.weight_evaluations > 0 {
             out.insert("paper_weight_evaluations".into(), json!(paper.weight_evaluations));
