@@ -55,6 +55,8 @@ impl<'g> Groups<'g> {
                     self.flush(&mut out);
                     *body = self.block(std::mem::take(body));
                     out.push(stmt);
+                    // What comes behind it is not of the group before it, nor of its body's.
+                    self.commented = None;
                 }
                 StmtKind::If { then, otherwise, .. } => {
                     self.flush(&mut out);
