@@ -33,17 +33,17 @@ pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, St
     };
     let off = |of: Option<f64>| of.map_or_else(|| "–".to_owned(), |off| format!("{off:.0e}"));
     let fast = |asked: &&Asked| asked.form == IsaForm::Fast && asked.path == SpirvPath::Naga;
-    let rows = cycles.shaders.iter().filter(fast).map(|asked| {
+    let rows = cycles.shaders.iter().filter(fast).filter_map(|asked| {
         let timed = times
             .kernels
             .iter()
-            .find(|kernel| kernel.kernel == asked.kernel && kernel.options == asked.options);
-        let form = |kind| -> Option<&Form> { timed?.form(kind) };
+            .find(|kernel| kernel.kernel == asked.kernel && kernel.options == asked.options)?;
+        let form = |kind| -> Option<&Form> { timed.form(kind) };
         let (exact, fast) = (form(FormKind::Full), form(FormKind::FullFast));
         let ratio = exact
             .zip(fast)
             .map(|(exact, fast)| fast.ratio.median / exact.ratio.median);
-        vec![
+        Some(vec![
             asked.kernel.clone(),
             of(asked, IsaForm::Unrolled),
             format!("**{}**", of(asked, IsaForm::Fast)),
@@ -53,7 +53,7 @@ pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, St
             format!("**{}**", off(fast.and_then(|form| form.difference_999))),
             off(exact.and_then(|form| form.difference)),
             format!("**{}**", off(fast.and_then(|form| form.difference))),
-        ]
+        ])
     });
     Ok(markdown(&head, rows.collect()))
 }

@@ -5,7 +5,7 @@ use super::quality::GEOMETRIC;
 use std::path::Path;
 use straightline_isa::Figures;
 use straightline_study::record::{
-    FormKind, IsaForm, IsaRecord, KernelForms, LoopsRecord, QualityRecord, Record, SpirvPath, SweepRecord,
+    FormKind, IsaForm, IsaRecord, KernelForms, LoopsRecord, QualityRecord, Record, SpirvPath, SweepRecord, Swept,
 };
 
 /// The small kernels of others.
@@ -202,21 +202,21 @@ fn speedup(record: &LoopsRecord, name: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("{name} has no form without loops"))
 }
 
-/// Of what is emitted over what Slang's compiler made, pattern by pattern.
+/// Of what is emitted over what Slang's compiler made, pattern by pattern: medians of the rounds' ratios.
 fn over_rivals(record: &SweepRecord) -> Result<Vec<f64>, String> {
-    let ms = |pattern: &str, is_rival: bool| {
-        let found = record.variants.iter().find(|swept| {
-            swept.settings.get("pattern").is_some_and(|p| p == pattern) && swept.rival.is_some() == is_rival
-        });
-        let measured = found.and_then(|swept| swept.measured.as_ref());
-        measured
-            .map(|measured| measured.median_ms)
+    let of = |pattern: &&str| {
+        let is = |swept: &&Swept| swept.rival.is_some() && swept.settings.get("pattern").is_some_and(|p| p == pattern);
+        let measured = record
+            .variants
+            .iter()
+            .find(is)
+            .and_then(|swept| swept.measured.as_ref());
+        let ratio = measured.and_then(|measured| measured.times_as_fast.as_ref());
+        ratio
+            .map(|ratio| 1.0 / ratio.median)
             .ok_or_else(|| format!("nothing is measured of {pattern}"))
     };
-    ["ordered4", "ordered16"]
-        .iter()
-        .map(|pattern| Ok(ms(pattern, true)? / ms(pattern, false)?))
-        .collect()
+    ["ordered4", "ordered16"].iter().map(of).collect()
 }
 
 /// Time of SMAA by that of SRAA 4, on the scenes for which both are made.
