@@ -3,7 +3,7 @@
 use super::markdown;
 use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
-/// By a compiler and on a driver: cycles, time and error of what changes no bit, and of what may.
+/// Cycles by a compiler, and errors on a driver, of what changes no bit and of what may.
 pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, String> {
     let Some(family) = cycles.devices.keys().next() else {
         return Err("the record has no family".to_owned());
@@ -12,8 +12,6 @@ pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, St
         "kernel",
         "cycles",
         "**fast**",
-        "ms",
-        "**speedup**",
         "off f64 by",
         "**fast**",
         "all pixels",
@@ -40,15 +38,10 @@ pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, St
             .find(|kernel| kernel.kernel == asked.kernel && kernel.options == asked.options)?;
         let form = |kind| -> Option<&Form> { timed.form(kind) };
         let (exact, fast) = (form(FormKind::Full), form(FormKind::FullFast));
-        let ratio = exact
-            .zip(fast)
-            .map(|(exact, fast)| fast.ratio.median / exact.ratio.median);
         Some(vec![
             asked.kernel.clone(),
             of(asked, IsaForm::Unrolled),
             format!("**{}**", of(asked, IsaForm::Fast)),
-            exact.map_or_else(|| "–".to_owned(), |form| format!("{:.1}", form.time.median_ms)),
-            ratio.map_or_else(|| "–".to_owned(), |ratio| format!("**{ratio:.2}**")),
             off(exact.and_then(|form| form.difference_999)),
             format!("**{}**", off(fast.and_then(|form| form.difference_999))),
             off(exact.and_then(|form| form.difference)),
