@@ -18,7 +18,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:234)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:238)
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
@@ -39,7 +39,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
-            // kernels/src/sraa/mod.rs:265
+            // kernels/src/sraa/mod.rs:269
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
@@ -52,17 +52,17 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:269
+                        // kernels/src/sraa/mod.rs:273
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
                     let apart = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
                     var number = 16.0;
                     if apart < 16.0 {
-                        // kernels/src/sraa/metric.rs:101
+                        // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:270
+                    // kernels/src/sraa/mod.rs:274
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use straightline_evaluator::diagnostic::Errors;
-use straightline_evaluator::policy::{Branches, ReadOrder, Share, Transport, Unroll};
+use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 
 /// Name of the file with the bindings.
@@ -126,6 +126,12 @@ impl KernelConfig {
     /// if that is given.
     pub fn share(mut self, share: Share) -> Self {
         self.settings.share = share;
+        self
+    }
+
+    /// Which algebra may be done with floats: with [`Math::Fast`] what may change roundings too. By default what changes no bit.
+    pub fn math(mut self, math: Math) -> Self {
+        self.settings.math = math;
         self
     }
 

@@ -12,7 +12,7 @@ use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::ir::{Graph, Invocation, verify};
 use straightline_evaluator::passes;
-use straightline_evaluator::policy::{Branches, LoopPolicy, Policy, ReadOrder, Share, Transport, Unroll};
+use straightline_evaluator::policy::{Branches, LoopPolicy, Math, Policy, ReadOrder, Share, Transport, Unroll};
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
@@ -53,6 +53,8 @@ pub struct Settings {
     pub share_loads: bool,
     /// What pixels share of the texels that they read. The result is the same, bit for bit.
     pub share: Share,
+    /// Which algebra may be done with floats: what changes no bit, or what may change roundings too.
+    pub math: Math,
 }
 
 impl Settings {
@@ -66,6 +68,7 @@ impl Settings {
             branches: self.branches,
             reads: self.reads,
             share: self.share,
+            math: self.math,
         }
     }
 }
@@ -83,6 +86,7 @@ impl Default for Settings {
             block: [1, 1],
             share_loads: true,
             share: Share::default(),
+            math: Math::default(),
         }
     }
 }
@@ -302,6 +306,9 @@ impl Kernel {
             // Sharing makes new common terms, and those leave others unused.
             graph = stage("clean", passes::clean(&graph))?;
         }
+        if settings.math == Math::Fast {
+            graph = stage("fast", passes::clean(&passes::fast(&graph)))?;
+        }
         let refused = |what: String, help: &str| {
             let error = Diagnostic::at(evaluated.span, what).label("this kernel").help(help);
             Errors::new(vec![error], &self.files)
@@ -381,6 +388,7 @@ impl Kernel {
             graph = stage("share-by-workgroup", passes::clean(&tiled))?;
             sharing = Some(Arc::new(found));
         }
+        let graph = stage("coordinates", passes::clean(&passes::by_component(&graph)))?;
         let schedule = passes::schedule(&graph, settings.reads);
         let within_budget = |statements: u32| {
             if statements <= settings.budget {

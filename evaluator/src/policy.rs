@@ -172,6 +172,40 @@ impl FromStr for Share {
     }
 }
 
+/// Which algebra may be done with floats.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Math {
+    /// What changes no bit of the result.
+    #[default]
+    Exact,
+    /// What may change a rounding too (`docs/semantics.md`): results differ from the native function's by little, and which little is
+    /// for a test of the kernel's to say.
+    Fast,
+}
+
+impl Math {
+    /// Both.
+    pub const ALL: [Math; 2] = [Math::Exact, Math::Fast];
+}
+
+impl fmt::Display for Math {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Math::Exact => "exact",
+            Math::Fast => "fast",
+        })
+    }
+}
+
+impl FromStr for Math {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let known = Math::ALL.into_iter().find(|math| math.to_string() == text);
+        known.ok_or_else(|| format!("unknown mathematics `{text}`: exact or fast"))
+    }
+}
+
 /// How the lanes of a quad communicate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Transport {
@@ -232,6 +266,8 @@ pub struct Policy {
     pub reads: ReadOrder,
     /// What pixels share of what they read.
     pub share: Share,
+    /// Which algebra was done with floats.
+    pub math: Math,
 }
 
 impl Policy {
@@ -312,6 +348,9 @@ impl fmt::Display for Policy {
         }
         if self.share != Share::Invocation {
             write!(f, "; share {}", self.share)?;
+        }
+        if self.math != Math::Exact {
+            write!(f, "; math {}", self.math)?;
         }
         Ok(())
     }

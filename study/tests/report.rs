@@ -165,6 +165,7 @@ fn tune() -> TuneRecord {
         name: options.iter().map(|(a, b)| format!("{a} {b}")).collect(),
         options: options.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect(),
         precision: "f32".to_owned(),
+        math: "exact".to_owned(),
         block: [1, 1],
         error,
         non_finite: 0,

@@ -3,7 +3,8 @@
 mod common;
 
 use common::same_bits;
-use straightline_codegen::{Compiled, Unroll};
+use straightline_codegen::ir::print;
+use straightline_codegen::{Compiled, Kernel, Math, Settings, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_testbed::execute::{Inputs, interpret};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal};
@@ -141,6 +142,49 @@ fn fallback_is_taken_where_a_pixel_is_not_finite() {
             false => *guarded,
         });
         same_bits(&expected.collect::<Vec<_>>(), &fallback).unwrap_or_else(|e| panic!("{pattern}: {e}"));
+    }
+}
+
+/// The largest difference of what a kernel gives in `f32` to the same without fast mathematics in `f64`.
+fn off(fast: &Compiled, exact: &Compiled, inputs: &Inputs) -> f64 {
+    let real = interpret::<f64>(exact, inputs, false).unwrap_or_else(|error| panic!("{error}"));
+    let pairs = bits(fast, inputs).into_iter().zip(real.texels);
+    let lanes = pairs.flat_map(|(a, b)| a.into_iter().zip(b));
+    lanes.map(|(a, b)| (f64::from(a) - b).abs()).fold(0.0, f64::max)
+}
+
+/// What fast mathematics gives is as far from `f64` as what changes no bit is, but for some roundings.
+#[test]
+fn fast_mathematics_changes_roundings_and_no_more() {
+    let filter = |name: &str| {
+        let path = format!("{}/../kernels/filters/{name}.rs", env!("CARGO_MANIFEST_DIR"));
+        Kernel::locate(&path).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    let sraa = || Kernel::builtin("sraa").unwrap_or_else(|errors| panic!("{errors}"));
+    for (name, kernel, set) in [
+        ("sraa", sraa(), options(&[])),
+        ("sraa 16", sraa(), options(&[("pattern", "latin16")])),
+        ("sraa planes", sraa(), options(&[("metric", "planes-normals"), ("difference", "relative")])),
+        ("bilateral", filter("bilateral"), Options::new()),
+        ("kuwahara", filter("kuwahara"), Options::new()),
+        ("sobel", filter("sobel"), Options::new()),
+    ] {
+        let with = |math| {
+            let settings = Settings {
+                options: set.clone(),
+                math,
+                ..Settings::default()
+            };
+            kernel.compile(&settings).unwrap_or_else(|errors| panic!("{name}: {errors}"))
+        };
+        let (exact, fast) = (with(Math::Exact), with(Math::Fast));
+        assert_ne!(print(&exact.graph), print(&fast.graph), "{name}: nothing was done");
+        let inputs = surfaces::inputs(&set, uvec2(40, 30), 5);
+        let (by_exact, by_fast) = (off(&exact, &exact, &inputs), off(&fast, &exact, &inputs));
+        assert!(
+            by_fast <= 2.0 * by_exact + 1.0e-6,
+            "{name}: {by_fast:.1e} where {by_exact:.1e} was"
+        );
     }
 }
 

@@ -70,6 +70,8 @@ fn now(text: &str, template: &Compiled) -> Result<String, String> {
     let made = match directive(text, "run").ok_or("no directive")? {
         "clean" => passes::clean(&graph),
         "share-loads" => passes::share_loads(&graph),
+        "coordinates" => passes::clean(&passes::by_component(&graph)),
+        "fast" => passes::clean(&passes::fast(&graph)),
         "share-by-workgroup" => passes::clean(&passes::by_workgroup(&graph, [4, 4])?.0),
         other => return Err(format!("there is no pass `{other}`")),
     };

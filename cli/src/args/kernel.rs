@@ -5,7 +5,7 @@ use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Branches, Kernel, ReadOrder, Settings, Share, Transport, Unroll};
+use straightline_codegen::{Branches, Kernel, Math, ReadOrder, Settings, Share, Transport, Unroll};
 
 /// Which kernel, with which options.
 #[derive(Debug, Clone, Args)]
@@ -58,6 +58,9 @@ pub struct OptionArgs {
     /// theirs, `workgroup(WxH)` so many. The picture is the same
     #[arg(help_heading = "Kernel options", long, value_name = "HOW", default_value = "invocation", value_parser = |s: &str| s.parse::<Share>())]
     pub share: Share,
+    /// Algebra with floats: `exact` changes no bit of the result, `fast` may change roundings, for fewer and cheaper operations
+    #[arg(help_heading = "Kernel options", long, value_name = "HOW", default_value = "exact", value_parser = |s: &str| s.parse::<Math>())]
+    pub math: Math,
     /// Pixels that one compute invocation computes, across and down
     #[arg(help_heading = "Kernel options", long, value_name = "WxH", default_value = "1x1", value_parser = size)]
     pub block: UVec2,
@@ -74,6 +77,7 @@ impl Default for OptionArgs {
             budget: Settings::BUDGET,
             transport: None,
             share: Share::default(),
+            math: Math::default(),
             block: UVec2::ONE,
         }
     }
@@ -90,6 +94,7 @@ impl OptionArgs {
             budget: self.budget,
             transport: self.transport,
             share: self.share,
+            math: self.math,
             block: self.block.to_array(),
             ..Settings::default()
         }

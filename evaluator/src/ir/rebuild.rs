@@ -16,8 +16,8 @@ pub trait Replace {
     /// Makes what comes first.
     fn begin(&mut self, builder: &mut Builder<'_>);
 
-    /// What stands for a node of the old graph; `None` for the same again.
-    fn node(&mut self, builder: &mut Builder<'_>, old: NodeId) -> Option<NodeId>;
+    /// What stands for a node of the old graph, of which `new` has what stands for the nodes before it; `None` for the same again.
+    fn node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId>;
 }
 
 /// Leaves every node what it is.
@@ -26,7 +26,7 @@ struct Nothing;
 impl Replace for Nothing {
     fn begin(&mut self, _: &mut Builder<'_>) {}
 
-    fn node(&mut self, _: &mut Builder<'_>, _: NodeId) -> Option<NodeId> {
+    fn node(&mut self, _: &mut Builder<'_>, _: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
         None
     }
 }
@@ -139,7 +139,7 @@ impl Walk<'_, '_> {
         if !self.live.nodes[id.0 as usize] || self.new_ids[id.0 as usize].is_some() {
             return;
         }
-        if let Some(new) = replace.node(&mut self.builder, id) {
+        if let Some(new) = replace.node(&mut self.builder, id, &self.new_ids) {
             return self.take_over(id, new);
         }
         self.set_results(id);

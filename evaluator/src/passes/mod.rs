@@ -2,7 +2,9 @@
 //!
 //! A pass takes a graph and builds another. [`schedule`] alone decides order and place.
 
+mod coordinates;
 mod count;
+mod fast;
 mod floor;
 mod fold;
 mod lanes;
@@ -13,7 +15,9 @@ mod reads;
 mod schedule;
 mod tiles;
 
+pub use coordinates::by_component;
 pub use count::{count, layers_read};
+pub use fast::fast;
 pub use floor::floor;
 pub use fold::Exact;
 pub use lanes::{by_derivatives, expand};

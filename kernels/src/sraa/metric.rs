@@ -1,7 +1,7 @@
 //! What tells two surfaces apart (paper §3.2, Table 1).
 
 use super::gbuffer::{Normals, Surface};
-use super::options::{Guards, Sraa, Turn};
+use super::options::{Guards, Mask, Normalisation, Sraa, Turn};
 use super::view::View;
 use crate::prelude::*;
 
@@ -87,11 +87,14 @@ impl Tilt {
 /// the exponential needs. Without it, samples that no tap saw are off by up to 0.05.
 pub(super) const FAR: f32 = 16.0;
 
+/// From this tau on a difference of [`FAR`] weighs nothing: exp(-16 * 16) is less than half of the smallest number of 32 bits.
+const STEEP: f32 = 16.0;
+
 /// The least depth that another is divided by.
 const NEAREST: f32 = 1.0e-30;
 
 /// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones, at
-/// most [`FAR`].
+/// most [`FAR`]. Where that would weigh nothing, no bound is needed: weights that are not shifted are 0 beyond it too.
 pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
         Metric::PlanesNormals => {
@@ -102,7 +105,22 @@ pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> 
         Metric::Normals => number(cfg, turned(cfg, sample, tap)),
         Metric::Depth => deeper(cfg, sample, tap),
     };
-    tally("weight_evaluations", larger.min(FAR))
+    tally(
+        "weight_evaluations",
+        if weighs_nothing_far_away(cfg) {
+            larger
+        } else {
+            larger.min(FAR)
+        },
+    )
+}
+
+/// Whether the weight of a difference of [`FAR`] is 0 as it is of all beyond.
+fn weighs_nothing_far_away(cfg: &Sraa) -> bool {
+    match cfg.normalisation {
+        Normalisation::Shifted => false,
+        Normalisation::Paper | Normalisation::Epsilon => cfg.tau >= STEEP && cfg.mask == Mask::None,
+    }
 }
 
 /// A difference, or [`FAR`]: what is not a number, as of a normal that was divided by its length of zero, is of no surface at all.

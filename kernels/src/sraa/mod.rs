@@ -94,7 +94,7 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
         Guards::Fallback => {
             let color = reconstructed::<TAPS, SIDE>(cfg, inputs);
             #[cfg_attr(false, branch)]
-            if color.is_finite() {
+            if (color.x + color.y + color.z + color.w).abs() < TOO_LARGE {
                 color
             } else {
                 again::<TAPS, SIDE>(cfg, inputs)
@@ -221,6 +221,10 @@ fn mean_of_kept<const TAPS: usize>(
         }
     }
 }
+
+/// What a sum is of which a component is infinite, or none at all is if one is not a number; and, rarely, one of large colours, which
+/// are then filtered again for nothing.
+const TOO_LARGE: f32 = 1.0e38;
 
 /// Less than any sum of weights that counts.
 const EPSILON: f32 = 1.0e-30;

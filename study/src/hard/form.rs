@@ -1,6 +1,7 @@
 //! Which kernels hard cases are run with, in which options.
 
 use super::case::Case;
+use straightline_codegen::Math;
 use straightline_kernels::HalfPrecision;
 
 /// What a kernel reads, and which definition judges it.
@@ -29,6 +30,8 @@ pub struct Form {
     pub family: Family,
     /// Options that are not the default.
     pub options: Vec<(String, String)>,
+    /// Which algebra is done.
+    pub math: Math,
     /// Whether it promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
     pub promises: bool,
     /// Whether it runs cases that set options.
@@ -60,6 +63,7 @@ impl Form {
             kernel: family.kernel().to_owned(),
             family,
             options: owned(options),
+            math: Math::Exact,
             promises: true,
             takes_options: false,
         }
@@ -67,6 +71,11 @@ impl Form {
 
     fn unpromised(mut self) -> Form {
         self.promises = false;
+        self
+    }
+
+    fn fast(mut self) -> Form {
+        self.math = Math::Fast;
         self
     }
 
@@ -81,6 +90,7 @@ impl Form {
         vec![
             Form::new("sraa", Sraa, &[]).taking_options(),
             Form::new("sraa fallback", Sraa, &[("guards", "fallback")]).taking_options(),
+            Form::new("sraa fast", Sraa, &[]).fast().taking_options(),
             Form::new("sraa 16", Sraa, &[("pattern", "latin16")]),
             Form::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
             Form::new("sraa normals", Sraa, &[("metric", "normals")]),
@@ -127,6 +137,7 @@ impl Form {
             ),
             Form::new("upsampling gaussian", Upsampling, &[("screen", "gaussian")]),
             Form::new("bilateral", Bilateral, &[]),
+            Form::new("bilateral fast", Bilateral, &[]).fast(),
         ]
     }
 

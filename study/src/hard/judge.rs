@@ -209,6 +209,7 @@ pub fn compile(form: &Form, options: &[(String, String)]) -> Result<Compiled, Ha
             form::Family::Upsampling | form::Family::Bilateral => Some(straightline_codegen::Transport::Block),
             _ => None,
         },
+        math: form.math,
         ..Default::default()
     };
     let kernel = straightline_codegen::Kernel::builtin(&form.kernel);

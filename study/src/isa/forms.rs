@@ -7,8 +7,8 @@ use crate::record::{IsaForm, SpirvPath};
 use std::path::Path;
 use std::process::Command;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::ir::Invocation;
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Share, Stage, Unroll};
+use straightline_codegen::ir::{Invocation, print};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Math, Settings, Share, Stage, Unroll};
 
 /// A form by one way to SPIR-V.
 pub struct Spirv {
@@ -109,6 +109,16 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
             };
             // Some kernels have no such form, and say so where it is asked for.
             Ok(subject.kernel.compile(&block).ok())
+        }
+        (IsaForm::Fast, _) => {
+            let full = settings(Unroll::Full, &subject.options);
+            let exact = compile(&subject.kernel, &full)?;
+            let fast = Settings {
+                math: Math::Fast,
+                ..full
+            };
+            let fast = compile(&subject.kernel, &fast)?;
+            Ok((print(&fast.graph) != print(&exact.graph)).then_some(fast))
         }
         (IsaForm::Tile, _) => {
             let tile = Settings {

@@ -2,7 +2,7 @@
 
 use crate::loops::{Input, Subject};
 use straightline_codegen::Kernel;
-use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::diagnostic::{Diagnostic, Errors};
 
 /// A kernel that compilers are asked about.
 #[derive(Clone, Debug)]
@@ -34,28 +34,55 @@ const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale",
 const SEARCHED: (&str, &str) = ("search", "five");
 const PLACED: (&str, &str) = ("shading", "placed");
 
+/// Where the filter is computed again, with all tests, and what stands there instead.
+const AGAIN: [&str; 2] = [
+    "                again::<TAPS, SIDE>(cfg, inputs)\n",
+    "                vec4(color.x, color.y, color.z, 0.0)\n",
+];
+
+/// SRAA of which nothing is computed again, so that what is left is the path that nearly every pixel takes, the test at its end
+/// among it. A compiler that is asked about the whole adds the other path, which it cannot know to be rare.
+fn taken() -> Result<Kernel, Errors> {
+    let changed = |what: &str| Errors::of(Diagnostic::new(format!("the source of `sraa` has changed: {what}")));
+    let entry = straightline_kernels::find("sraa").ok_or_else(|| changed("it is no kernel"))?;
+    let found: usize = entry
+        .sources
+        .iter()
+        .map(|source| source.text.matches(AGAIN[0]).count())
+        .sum();
+    let is_main = |source: &&straightline_kernels::SourceFile| source.text.contains("pub fn sraa(");
+    let main = entry.sources.iter().find(is_main).filter(|_| found == 1);
+    let main = main.ok_or_else(|| changed("it is not known where it filters again"))?;
+    let text = main.text.replace(AGAIN[0], AGAIN[1]);
+    let kernel = Kernel::from_text(main.path, &text, "sraa");
+    let others = entry.sources.iter().filter(|source| source.path != main.path);
+    Ok(others.fold(kernel, |kernel, source| kernel.with_text(source.path, source.text)))
+}
+
 /// SRAA without tests, with what goes beyond the paper, and with as much work as its rival by Slang.
 ///
 /// # Errors
 ///
 /// The kernel is none.
 pub fn further() -> Result<Vec<Asking>, Errors> {
-    let of = |kernel: &str, name: &str, options: &[(&str, &str)], slang| -> Result<Asking, Errors> {
-        Ok(Asking {
+    let of = |kernel: Kernel, name: &str, options: &[(&str, &str)], slang| -> Asking {
+        Asking {
             subject: Subject {
                 name: name.to_owned(),
                 options: options
                     .iter()
                     .map(|(n, v)| ((*n).to_owned(), (*v).to_owned()))
                     .collect(),
-                kernel: Kernel::builtin(kernel)?,
+                kernel,
                 by_hand: Err("its loops are those of the default".to_owned()),
                 input: Input::Roof,
             },
             slang,
-        })
+        }
     };
-    let asking = |name: &str, options: &[(&str, &str)], slang| of("sraa", name, options, slang);
+    let asking = |name: &str, options: &[(&str, &str)], slang| -> Result<Asking, Errors> {
+        Ok(of(Kernel::builtin("sraa")?, name, options, slang))
+    };
     let relative = |more: &[(&'static str, &'static str)]| [&RELATIVE[..], more].concat();
     let same_work = |pattern| [&[("pattern", pattern)], &SAME_WORK[..]].concat();
     let (four, sixteen) = (
@@ -66,10 +93,27 @@ pub fn further() -> Result<Vec<Asking>, Errors> {
         asking("SRAA 4, no tests", &[("guards", "none")], None)?,
         asking("SRAA 16, no tests", &[("pattern", "latin16"), ("guards", "none")], None)?,
         asking("SRAA 4, fallback", &[("guards", "fallback")], None)?,
+        of(
+            taken()?,
+            "SRAA 4, fallback, the path taken",
+            &[("guards", "fallback")],
+            None,
+        ),
+        of(
+            taken()?,
+            "SRAA 16, fallback, the path taken",
+            &[("pattern", "latin16"), ("guards", "fallback")],
+            None,
+        ),
         asking("SRAA 4, relative depth", &RELATIVE, None)?,
         asking("SRAA 4, searched", &relative(&[SEARCHED]), None)?,
         asking("SRAA 4, placed and searched", &relative(&[PLACED, SEARCHED]), None)?,
-        of("sraa_place", "where SRAA 4 is shaded", &RELATIVE, None)?,
+        of(
+            Kernel::builtin("sraa_place")?,
+            "where SRAA 4 is shaded",
+            &RELATIVE,
+            None,
+        ),
         asking("SRAA 4, as in Slang", &same_work("ordered4"), Some(four))?,
         asking("SRAA 16, as in Slang", &same_work("ordered16"), Some(sixteen))?,
     ])

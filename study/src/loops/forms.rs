@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Precision, Settings, Share, Stage, Unroll};
+use straightline_codegen::ir::print;
+use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Math, Precision, Settings, Share, Stage, Unroll};
 use straightline_runtime::{Pass, PassOptions};
 use straightline_testbed::execute::{Bench, Inputs, Uploaded, Uploads};
 
@@ -88,6 +89,17 @@ impl Forms {
                         ..settings(Unroll::Full)
                     };
                     subject.kernel.compile(&settings).map_err(reason)
+                }
+                FormKind::FullFast => {
+                    let settings = Settings {
+                        math: Math::Fast,
+                        ..settings(Unroll::Full)
+                    };
+                    let fast = subject.kernel.compile(&settings).map_err(reason);
+                    fast.and_then(|fast| match print(&fast.graph) == print(&full.graph) {
+                        true => Err("fast mathematics has nothing to do in it".to_owned()),
+                        false => Ok(fast),
+                    })
                 }
                 FormKind::FullHalf if !half => Err("the device has no half precision (SHADER_F16)".to_owned()),
                 FormKind::FullHalf => match full.emit(&emit_options(kind)) {

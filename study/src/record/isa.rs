@@ -19,18 +19,21 @@ pub enum IsaForm {
     Block,
     /// One straight line, the pixels of a workgroup sharing what they read through its memory.
     Tile,
+    /// One straight line, with algebra that may change roundings.
+    Fast,
     /// One straight line that Slang's compiler made of the same work.
     Slang,
 }
 
 impl IsaForm {
     /// Every form.
-    pub const ALL: [IsaForm; 6] = [
+    pub const ALL: [IsaForm; 7] = [
         IsaForm::Unrolled,
         IsaForm::Looped,
         IsaForm::ByHand,
         IsaForm::Block,
         IsaForm::Tile,
+        IsaForm::Fast,
         IsaForm::Slang,
     ];
 
@@ -42,6 +45,7 @@ impl IsaForm {
             IsaForm::ByHand => "looped, hand-optimised",
             IsaForm::Block => "unrolled, 2x2 pixels",
             IsaForm::Tile => "unrolled, shared by workgroups",
+            IsaForm::Fast => "unrolled, fast mathematics",
             IsaForm::Slang => "unrolled, by Slang",
         }
     }

@@ -28,6 +28,8 @@ pub enum FormKind {
     FullBlock,
     /// As `Full`, the pixels of a workgroup sharing what they read through its memory.
     FullTile,
+    /// As `Full`, with algebra that may change roundings.
+    FullFast,
     /// As `Full`, computed in half precision.
     FullHalf,
     /// The reads and the store of `Full`, and next to no arithmetic between: a lower bound of every form.
@@ -36,7 +38,7 @@ pub enum FormKind {
 
 impl FormKind {
     /// Every form, in the order of tables.
-    pub const ALL: [FormKind; 12] = [
+    pub const ALL: [FormKind; 13] = [
         FormKind::Looped,
         FormKind::LoopedUnchecked,
         FormKind::LoopedByHand,
@@ -47,6 +49,7 @@ impl FormKind {
         FormKind::Full,
         FormKind::FullBlock,
         FormKind::FullTile,
+        FormKind::FullFast,
         FormKind::FullHalf,
         FormKind::Floor,
     ];
@@ -64,6 +67,7 @@ impl FormKind {
             FormKind::Full => "unrolled",
             FormKind::FullBlock => "unrolled, 2×2 pixels",
             FormKind::FullTile => "unrolled, shared by workgroups",
+            FormKind::FullFast => "unrolled, fast mathematics",
             FormKind::FullHalf => "unrolled, f16",
             FormKind::Floor => "floor",
         }

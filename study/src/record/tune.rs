@@ -13,6 +13,9 @@ pub struct Candidate {
     pub options: Vec<(String, String)>,
     /// `f16` or `f32`.
     pub precision: String,
+    /// Which algebra was done: `exact` or `fast`.
+    #[serde(default = "exact", skip_serializing_if = "is_exact")]
+    pub math: String,
     /// Pixels of one invocation.
     pub block: [u32; 2],
     /// Its error by the record's metric: dB of PSNR or mean FLIP.
@@ -37,6 +40,14 @@ pub struct Candidate {
     pub ratio: Option<Ratio>,
     /// Whether no other is both faster and better.
     pub front: bool,
+}
+
+fn exact() -> String {
+    "exact".to_owned()
+}
+
+fn is_exact(math: &str) -> bool {
+    math == "exact"
 }
 
 /// A term that the chosen shader does without.

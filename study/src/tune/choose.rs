@@ -217,6 +217,7 @@ impl Search {
             name: self.space.name(entry.variant),
             options,
             precision: self.space.precision(entry.variant).to_string(),
+            math: settings.math.to_string(),
             block: settings.block,
             error,
             non_finite,

@@ -1,7 +1,7 @@
 //! What a search varies: terms of the filter, each with its values, the one that computes most first.
 
 use std::collections::BTreeMap;
-use straightline_codegen::{Precision, Settings};
+use straightline_codegen::{Math, Precision, Settings};
 
 /// What can be left out of a filter, or be had cheaper. `docs/tune.md` has the same table, with reasons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -20,13 +20,15 @@ pub enum Term {
     FiniteTest,
     /// Precision of floats.
     Precision,
+    /// Whether algebra may change roundings.
+    Math,
     /// Pixels of one invocation.
     Block,
 }
 
 impl Term {
     /// Every term, in the order of [`Variant`]'s values.
-    pub const ALL: [Term; 8] = [
+    pub const ALL: [Term; 9] = [
         Term::Samples,
         Term::Metric,
         Term::Difference,
@@ -34,6 +36,7 @@ impl Term {
         Term::Mask,
         Term::FiniteTest,
         Term::Precision,
+        Term::Math,
         Term::Block,
     ];
 }
@@ -49,6 +52,8 @@ pub struct Value {
     pub options: Vec<(String, String)>,
     /// What shaders compute in.
     pub precision: Precision,
+    /// Which algebra is done.
+    pub math: Math,
     /// Pixels of one invocation, across and down.
     pub block: [u32; 2],
 }
@@ -60,6 +65,7 @@ impl Value {
             needs: needs.to_owned(),
             options: owned(options),
             precision: Precision::F32,
+            math: Math::Exact,
             block: [1, 1],
         }
     }
@@ -212,6 +218,13 @@ impl Space {
             ],
             precision,
             vec![
+                Value::of("exact", "exact mathematics", &[]),
+                Value {
+                    math: Math::Fast,
+                    ..Value::of("fast", "fast mathematics", &[])
+                },
+            ],
+            vec![
                 Value::of("1x1", "one pixel an invocation", &[]),
                 Value {
                     block: [2, 2],
@@ -274,8 +287,13 @@ impl Space {
         all
     }
 
-    /// Where depth is not compared, how it is compared means nothing: of variants that mean the same, the one that is searched.
+    /// Where depth is not compared, how it is compared means nothing, and fast mathematics has next to nothing to do where nothing is
+    /// tested: of variants that mean the same, the one that is searched.
     pub fn canonical(&self, variant: Variant) -> Variant {
+        let variant = match self.value(variant, Term::FiniteTest).label.as_str() {
+            "no finite test" => variant.with(Term::Math, 0),
+            _ => variant,
+        };
         match self.value(variant, Term::Metric).label.as_str() {
             "normals" => variant.with(Term::Difference, 0),
             _ => variant,
@@ -294,10 +312,11 @@ impl Space {
         found
     }
 
-    /// The variant that was run for this one's picture: blocks compute the same picture as single pixels, and so does a filter
-    /// without the finite test if all colours are finite.
+    /// The variant that was run for this one's picture: blocks compute the same picture as single pixels, fast mathematics one that
+    /// differs by roundings (what is measured is judged by its own), and a filter without the finite test the same if all colours are
+    /// finite.
     pub fn picture_of(&self, variant: Variant, finite: bool) -> Variant {
-        let single = variant.with(Term::Block, 0);
+        let single = variant.with(Term::Block, 0).with(Term::Math, 0);
         if finite {
             single.with(Term::FiniteTest, 0)
         } else {
@@ -320,6 +339,7 @@ impl Space {
         Settings {
             options,
             block,
+            math: self.value(variant, Term::Math).math,
             ..Settings::default()
         }
     }
@@ -411,7 +431,8 @@ mod tests {
         let space = Space::new(&offer()).unwrap();
         let all = space.variants();
         // Thirteen ways to tell surfaces apart, normals alone having no depth to compare.
-        assert_eq!(all.len(), 3 * 13 * 3 * 2 * 2 * 2 * 2);
+        // Fast mathematics where there are finite tests.
+        assert_eq!(all.len(), 3 * 13 * 3 * 2 * 3 * 2 * 2);
         let settings: BTreeSet<String> = all
             .iter()
             .map(|v| format!("{:?} {}", space.settings(*v), space.precision(*v)))

@@ -6,11 +6,14 @@
 mod budget;
 mod crates;
 mod encode;
+mod fast;
+mod goals;
 mod hard;
 mod isa;
 mod loops;
 mod quads;
 mod quality;
+mod rank;
 mod sweep;
 mod tiles;
 mod tune;
@@ -83,6 +86,20 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "tiles" => tiles::cycles(&IsaRecord::read(first).map_err(why)?),
         "tiles-times" => Ok(tiles::times(&LoopsRecord::read(first).map_err(why)?)),
         "isa" => isa::cycles(&IsaRecord::read(first).map_err(why)?),
+        "fast" => {
+            let times = files
+                .get(1)
+                .ok_or_else(|| format!("the table `{name}` needs two records"))?;
+            fast::mathematics(
+                &IsaRecord::read(first).map_err(why)?,
+                &LoopsRecord::read(times).map_err(why)?,
+            )
+        }
+        "goals" => goals::table(files),
+        "rank" => {
+            let times: Result<Vec<_>, _> = files[1..].iter().map(|file| LoopsRecord::read(file)).collect();
+            rank::correlations(&IsaRecord::read(first).map_err(why)?, &times.map_err(why)?)
+        }
         "tune" => {
             let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
             Ok(tune::scenes(&all.map_err(why)?))
@@ -95,7 +112,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, goals, hard, fast, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

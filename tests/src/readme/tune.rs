@@ -28,6 +28,7 @@ pub fn scenes(records: &[TuneRecord]) -> String {
                     .map(|(name, value)| format!("{name}={value}"))
                     .collect();
                 words.extend((c.precision != "f32").then(|| c.precision.clone()));
+                words.extend((c.math != "exact").then(|| format!("math {}", c.math)));
                 words.extend((c.block != [1, 1]).then(|| format!("block {}x{}", c.block[0], c.block[1])));
                 format!("`{}`", words.join(" "))
             })),

@@ -207,7 +207,7 @@ impl Replace for Tiling<'_> {
         }
     }
 
-    fn node(&mut self, b: &mut Builder<'_>, old: NodeId) -> Option<NodeId> {
+    fn node(&mut self, b: &mut Builder<'_>, old: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
         if let Some(texel) = self.early.get(&old) {
             return Some(*texel);
         }

@@ -1,0 +1,199 @@
+//! Coordinates of texels, component by component.
+
+use super::fold::Exact;
+use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild};
+use std::collections::BTreeSet;
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+
+/// Steps beyond which a coordinate might wrap: a pixel's is less than 2^20.
+const MAX_STEP: i32 = 1 << 30;
+
+/// Brings the neighbours of the pixel into their textures column by column and row by row, where that takes fewer operations than
+/// doing it texel by texel: 49 texels around a pixel lie in seven columns and seven rows, of which one needs nothing. Each coordinate
+/// is the same integer as before.
+///
+/// Comes behind every pass that looks for coordinates as vectors.
+pub fn by_component(graph: &Graph) -> Graph {
+    let found: Vec<Neighbour> = graph
+        .ids()
+        .filter(|id| is_read(&graph.node(*id).op))
+        .filter_map(|id| Neighbour::of(graph, graph.node(id).args[0]))
+        .collect();
+    // Of each distinct coordinate and of each distinct component; a vector's operation is one for each component.
+    let whole: BTreeSet<_> = found.iter().collect();
+    let parts: BTreeSet<_> = found.iter().flat_map(|at| [0, 1].map(|axis| at.part(axis))).collect();
+    let together: usize = whole.iter().map(|at| 2 * at.operations()).sum();
+    let apart: usize = parts.iter().map(Part::operations).sum();
+    if apart >= together {
+        return graph.clone();
+    }
+    let pass = Rebuild {
+        rules: &ByComponent,
+        share_loads: false,
+    };
+    rebuild(graph, &pass)
+}
+
+fn is_read(op: &Op) -> bool {
+    matches!(op, Op::Load { .. })
+}
+
+/// A coordinate that is a constant step away from the pixel and brought inside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Neighbour {
+    pixel: NodeId,
+    step: [i32; 2],
+    /// The largest coordinate, where it is brought below that.
+    last: Option<NodeId>,
+    /// Whether it is brought to at least 0.
+    from_zero: bool,
+    /// Whether the pixel itself is known to lie inside, so that a step back never leaves behind the last.
+    inside: bool,
+}
+
+/// One component of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Part {
+    pixel: NodeId,
+    axis: u8,
+    step: i32,
+    last: Option<NodeId>,
+    from_zero: bool,
+}
+
+impl Neighbour {
+    fn of(g: &Graph, id: NodeId) -> Option<Neighbour> {
+        let node = g.node(id);
+        if node.ty != PAIR {
+            return None;
+        }
+        let is_zero = |id: NodeId| g.constant(id).is_some_and(|bits| bits[..2] == [0, 0]);
+        let (moved, from_zero, last) = match (&node.op, &node.args[..]) {
+            (Op::Clamp, [moved, low, last]) if is_zero(*low) => (*moved, true, Some(*last)),
+            (Op::Binary(BinaryOp::Max), [moved, low]) if is_zero(*low) => (*moved, true, None),
+            (Op::Binary(BinaryOp::Min), [moved, last]) => (*moved, false, Some(*last)),
+            _ => return None,
+        };
+        let size = match last {
+            Some(last) => Some(size(g, last)?),
+            None => None,
+        };
+        let node = g.node(moved);
+        let constant = |id: NodeId| g.constant(id).map(|bits| [bits[0] as i32, bits[1] as i32]);
+        let (pixel, step) = match (&node.op, &node.args[..]) {
+            (Op::Pixel, _) => (moved, [0, 0]),
+            (Op::Binary(BinaryOp::Add), [a, b]) => match (constant(*a), constant(*b)) {
+                (None, Some(step)) => (*a, step),
+                (Some(step), None) => (*b, step),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let reached = step.iter().all(|step| (-MAX_STEP..=MAX_STEP).contains(step));
+        (g.node(pixel).op == Op::Pixel && reached).then_some(Neighbour {
+            pixel,
+            step,
+            last,
+            from_zero,
+            inside: g.invocation == Invocation::Pixel && size == Some(Op::FrameSize),
+        })
+    }
+
+    /// A component, brought inside on the sides on which it may lie outside. A pixel never lies before the first.
+    fn part(&self, axis: u8) -> Part {
+        let step = self.step[usize::from(axis)];
+        Part {
+            pixel: self.pixel,
+            axis,
+            step,
+            last: self.last.filter(|_| step > 0 || !self.inside),
+            from_zero: self.from_zero && step < 0,
+        }
+    }
+
+    fn operations(&self) -> usize {
+        let moves = usize::from(self.step != [0, 0]);
+        moves + usize::from(self.last.is_some()) + usize::from(self.from_zero)
+    }
+}
+
+/// The size of which `last` is the largest coordinate.
+fn size(g: &Graph, last: NodeId) -> Option<Op> {
+    let node = g.node(last);
+    let is_one = |id: NodeId| g.constant(id).is_some_and(|bits| bits[..2] == [1, 1]);
+    match (&node.op, &node.args[..]) {
+        (Op::Binary(BinaryOp::Sub), [size, one]) if is_one(*one) => match &g.node(*size).op {
+            size @ (Op::FrameSize | Op::TextureSize(_)) => Some(size.clone()),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+impl Part {
+    fn operations(&self) -> usize {
+        usize::from(self.step != 0) + usize::from(self.last.is_some()) + usize::from(self.from_zero)
+    }
+
+    fn made(&self, b: &mut Builder<'_>, like: NodeId) -> NodeId {
+        let mut at = b.add(Op::Extract(self.axis), [self.pixel], Type::I32);
+        if self.step != 0 {
+            let step = b.i32(self.step);
+            at = b.add(Op::Binary(BinaryOp::Add), [at, step], Type::I32);
+        }
+        if self.from_zero {
+            let zero = b.i32(0);
+            at = b.add(Op::Binary(BinaryOp::Max), [at, zero], Type::I32);
+        }
+        if let Some(last) = self.last {
+            let last = b.add(Op::Extract(self.axis), [last], Type::I32);
+            at = b.add(Op::Binary(BinaryOp::Min), [at, last], Type::I32);
+        }
+        if self.operations() > 1
+            && let Some(origin) = b.graph().origin(like).cloned()
+        {
+            let origin = Origin {
+                name: self.name().into(),
+                counters: [].into(),
+                ..origin
+            };
+            b.set_origin(at, &origin);
+        }
+        at
+    }
+
+    /// Which column or row it is, and from the second on by how much.
+    fn name(&self) -> String {
+        let side = match (self.axis, self.step) {
+            (0, 0) => "column",
+            (_, 0) => "row",
+            (0, ..0) => "left",
+            (0, _) => "right",
+            (_, ..0) => "above",
+            _ => "below",
+        };
+        match self.step.unsigned_abs() {
+            0 | 1 => side.to_owned(),
+            far => format!("{side}{far}"),
+        }
+    }
+}
+
+struct ByComponent;
+
+impl Rules for ByComponent {
+    fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        if !is_read(op) {
+            return Exact.simplify(b, op, args, ty);
+        }
+        let at = Neighbour::of(b.graph(), args[0])?;
+        let parts = [0, 1].map(|axis| at.part(axis).made(b, args[0]));
+        let coordinate = b.add(Op::Compose, parts, PAIR);
+        if let Some(origin) = b.graph().origin(args[0]).cloned() {
+            b.set_origin(coordinate, &origin);
+        }
+        let args = [&[coordinate], &args[1..]].concat();
+        Some(b.intern(op.clone(), args, ty))
+    }
+}

@@ -1,0 +1,214 @@
+//! Algebra that may change a rounding: what [`Math::Fast`](crate::policy::Math::Fast) asks for.
+//!
+//! Each rewrite is tagged with what it may change. None of them makes something finite infinite within the bounds that
+//! [`is_held`] sets to constants, none drops a test that the kernel makes, and none takes for granted that there is no NaN.
+
+use super::fold::Exact;
+use crate::ir::{
+    BinaryOp, Builder, Graph, Lanes, NodeId, Op, Rebuild, Replace, Scalar, Type, UnaryOp, rebuild_replacing,
+};
+use std::collections::HashMap;
+
+/// The kernel with fewer or cheaper operations on floats, each result off by some roundings:
+///
+/// - a division by a constant is a multiplication by its reciprocal, and so are several divisions by one value (1 rounding);
+/// - `exp` is `exp2`, log2 e going into constants (2 roundings of the exponent);
+/// - a constant factor goes into the constants of a sum, a product or a quotient (1 rounding a term; of a sum that cancels, of its
+///   largest term), where a multiplication and an addition are one step on most GPUs;
+/// - `x + 0` is `x` (a zero may have the other sign).
+pub fn fast(graph: &Graph) -> Graph {
+    let mut rewriting = Fast::of(graph);
+    let pass = Rebuild {
+        rules: &Exact,
+        share_loads: false,
+    };
+    rebuild_replacing(graph, &pass, &mut rewriting)
+}
+
+/// A constant factor, a number for each component.
+type Factor = [f32; 4];
+
+const LOG2_E: Factor = [std::f32::consts::LOG2_E; 4];
+
+struct Fast<'g> {
+    old: &'g Graph,
+    /// By node, how often it is used.
+    uses: Vec<u32>,
+    /// By divisor, how many quotients there are; of a vector by one number, one for each component.
+    quotients: HashMap<NodeId, u32>,
+}
+
+impl<'g> Fast<'g> {
+    fn of(old: &'g Graph) -> Fast<'g> {
+        let mut uses = vec![0; old.nodes.len()];
+        let mut quotients = HashMap::new();
+        for id in old.ids() {
+            let node = old.node(id);
+            node.args.iter().for_each(|arg| uses[arg.0 as usize] += 1);
+            if let Some((divisor, count)) = divisor(old, id) {
+                *quotients.entry(divisor).or_default() += count;
+            }
+        }
+        let leaving = old.regions.iter().flat_map(|region| region.leaving());
+        for id in old.outputs().iter().copied().chain(leaving) {
+            uses[id.0 as usize] += 1;
+        }
+        Fast { old, uses, quotients }
+    }
+
+    fn constant(&self, id: NodeId) -> Option<Factor> {
+        let bits: Lanes = self.old.constant(id)?;
+        (self.old.ty(id).kind() == Some(Scalar::F32)).then(|| bits.map(f32::from_bits))
+    }
+
+    /// A product's or a quotient's other side and the constant that it is multiplied by.
+    fn factor(&self, id: NodeId) -> Option<(NodeId, Factor)> {
+        let node = self.old.node(id);
+        let lanes = usize::from(node.ty.lanes());
+        let inverse = |divisor: Factor| {
+            let inverse = divisor.map(|x| 1.0 / x);
+            is_held(&inverse[..lanes]).then_some(inverse)
+        };
+        match (&node.op, &node.args[..]) {
+            (Op::Binary(BinaryOp::Mul), [x, k]) if self.constant(*k).is_some() => Some((*x, self.constant(*k)?)),
+            (Op::Binary(BinaryOp::Mul), [k, x]) if self.constant(*k).is_some() => Some((*x, self.constant(*k)?)),
+            (Op::Binary(BinaryOp::Div), [x, k]) => Some((*x, inverse(self.constant(*k)?)?)),
+            _ => None,
+        }
+    }
+
+    /// Whether a constant factor costs nothing here: it goes into a constant, or stands before one that is added.
+    fn absorbs(&self, id: NodeId) -> bool {
+        let node = self.old.node(id);
+        if self.constant(id).is_some() {
+            return true;
+        }
+        if self.uses[id.0 as usize] > 1 || node.ty.kind() != Some(Scalar::F32) {
+            return false;
+        }
+        match (&node.op, &node.args[..]) {
+            (Op::Unary(UnaryOp::Neg) | Op::Splat, [x]) => self.absorbs(*x),
+            (Op::Binary(BinaryOp::Add | BinaryOp::Sub), [x, y]) => {
+                let is_known = self.constant(*x).is_some() || self.constant(*y).is_some();
+                is_known || (self.absorbs(*x) && self.absorbs(*y))
+            }
+            _ => self.factor(id).is_some(),
+        }
+    }
+
+    /// A value of the old graph, times a constant.
+    fn scaled(&self, b: &mut Builder<'_>, id: NodeId, by: Factor, new: &[Option<NodeId>]) -> NodeId {
+        let node = self.old.node(id);
+        let lanes = usize::from(node.ty.lanes());
+        let times = |other: Factor| {
+            let product: Factor = std::array::from_fn(|k| by[k] * other[k]);
+            is_held(&product[..lanes]).then_some(product)
+        };
+        if let Some(product) = self.constant(id).and_then(times) {
+            return constant(b, node.ty, product);
+        }
+        if self.absorbs(id) {
+            match (&node.op, &node.args[..]) {
+                (Op::Unary(UnaryOp::Neg), [x]) => return self.scaled(b, *x, by.map(|k| -k), new),
+                (Op::Splat, [x]) if by[..lanes].iter().all(|k| k.to_bits() == by[0].to_bits()) => {
+                    let scaled = self.scaled(b, *x, [by[0]; 4], new);
+                    return b.add(Op::Splat, [scaled], node.ty);
+                }
+                (Op::Binary(op @ (BinaryOp::Add | BinaryOp::Sub)), [x, y]) => {
+                    let sides = [*x, *y].map(|side| self.scaled(b, side, by, new));
+                    return b.add(Op::Binary(*op), sides, node.ty);
+                }
+                _ => {}
+            }
+            if let Some((x, product)) = self.factor(id).and_then(|(x, k)| Some((x, times(k)?))) {
+                return self.scaled(b, x, product, new);
+            }
+        }
+        let same = new[id.0 as usize].expect("arguments are built before their users");
+        let factor = constant(b, node.ty, by);
+        b.add(Op::Binary(BinaryOp::Mul), [same, factor], node.ty)
+    }
+
+    /// A quotient by a value by which there are others, as a product with its reciprocal.
+    fn shared_quotient(&self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
+        let (divisor, _) = divisor(self.old, id)?;
+        if self.quotients.get(&divisor).is_none_or(|count| *count < 2) {
+            return None;
+        }
+        let node = self.old.node(id);
+        let dividend = new[node.args[0].0 as usize]?;
+        let below = new[divisor.0 as usize]?;
+        let of = self.old.ty(divisor);
+        let one = constant(b, of, [1.0; 4]);
+        let reciprocal = b.add(Op::Binary(BinaryOp::Div), [one, below], of);
+        let factor = match of == node.ty {
+            true => reciprocal,
+            false => b.add(Op::Splat, [reciprocal], node.ty),
+        };
+        Some(b.add(Op::Binary(BinaryOp::Mul), [dividend, factor], node.ty))
+    }
+}
+
+impl Replace for Fast<'_> {
+    fn begin(&mut self, _: &mut Builder<'_>) {}
+
+    fn node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
+        let node = self.old.node(id);
+        if node.ty.kind() != Some(Scalar::F32) || node.ty.is_array() {
+            return None;
+        }
+        let is_zero = |id: NodeId| {
+            self.constant(id)
+                .is_some_and(|k| k[..lanes(node.ty)].iter().all(|k| *k == 0.0))
+        };
+        match (&node.op, &node.args[..]) {
+            (Op::Unary(UnaryOp::Exp), [x]) => {
+                let exponent = self.scaled(b, *x, LOG2_E, new);
+                Some(b.add(Op::Unary(UnaryOp::Exp2), [exponent], node.ty))
+            }
+            (Op::Binary(BinaryOp::Add), [zero, x] | [x, zero]) if is_zero(*zero) => new[x.0 as usize],
+            (Op::Binary(BinaryOp::Mul | BinaryOp::Div), _) => match self.factor(id) {
+                Some((x, k)) if self.absorbs(x) || node.op == Op::Binary(BinaryOp::Div) => {
+                    Some(self.scaled(b, x, k, new))
+                }
+                Some(_) => None,
+                None => self.shared_quotient(b, id, new),
+            },
+            _ => None,
+        }
+    }
+}
+
+fn lanes(ty: Type) -> usize {
+    usize::from(ty.lanes())
+}
+
+/// What a node divides by, if it is one number and no constant, and how many quotients that makes.
+fn divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
+    let node = g.node(id);
+    let ([_, below], true) = (&node.args[..], node.op == Op::Binary(BinaryOp::Div)) else {
+        return None;
+    };
+    let is_float = node.ty.kind() == Some(Scalar::F32);
+    let of = match &g.node(*below).op {
+        Op::Splat => g.node(*below).args[0],
+        _ if node.ty.is_scalar() => *below,
+        _ => return None,
+    };
+    (is_float && g.constant(of).is_none()).then_some((of, u32::from(node.ty.lanes())))
+}
+
+/// Whether constants are 0 or lie where half precision has numbers of all its bits too: then no product of one of them is lost, or
+/// infinite, that was none.
+fn is_held(factors: &[f32]) -> bool {
+    let held = |k: f32| k == 0.0 || (6.2e-5..=65504.0).contains(&k.abs());
+    factors.iter().all(|k| held(*k))
+}
+
+fn constant(b: &mut Builder<'_>, ty: Type, values: Factor) -> NodeId {
+    let mut bits = [0; 4];
+    for (bits, value) in bits.iter_mut().zip(values).take(lanes(ty)) {
+        *bits = value.to_bits();
+    }
+    b.constant(ty, bits)
+}

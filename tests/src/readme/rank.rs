@@ -1,0 +1,160 @@
+//! Whether cycles by a compiler put shaders into the order of their times.
+
+use super::markdown;
+use straightline_isa::Family;
+use straightline_study::record::{FormKind, IsaForm, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
+
+/// A form that was timed, and the same as a compiler was asked about it.
+const SAME: [(FormKind, IsaForm, SpirvPath); 8] = [
+    (FormKind::Looped, IsaForm::Looped, SpirvPath::NagaBounded),
+    (FormKind::LoopedUnchecked, IsaForm::Looped, SpirvPath::Naga),
+    (FormKind::LoopedByHand, IsaForm::ByHand, SpirvPath::NagaBounded),
+    (FormKind::LoopedByHandUnchecked, IsaForm::ByHand, SpirvPath::Naga),
+    (FormKind::Full, IsaForm::Unrolled, SpirvPath::Naga),
+    (FormKind::FullBlock, IsaForm::Block, SpirvPath::Naga),
+    (FormKind::FullTile, IsaForm::Tile, SpirvPath::Naga),
+    (FormKind::FullFast, IsaForm::Fast, SpirvPath::Naga),
+];
+
+/// Pixels of the block that cycles of [`IsaForm::Block`] are of.
+const BLOCK: f64 = 4.0;
+
+/// A shader with its cycles a pixel and its time.
+struct Shader {
+    kernel: String,
+    kind: FormKind,
+    /// As the compiler left them.
+    branches: u64,
+    cycles: f64,
+    ms: f64,
+}
+
+/// Rank correlations of cycles with the times of each record, of all shaders and of some.
+pub fn correlations(cycles: &IsaRecord, times: &[LoopsRecord]) -> Result<String, String> {
+    let Some(family) = cycles.devices.keys().next() else {
+        return Err("the record has no family".to_owned());
+    };
+    let head = [
+        "driver",
+        "shaders",
+        "number",
+        "rank correlation",
+        "farthest from their rank",
+    ];
+    let mut rows = Vec::new();
+    for record in times {
+        let shaders: Vec<Shader> = record
+            .kernels
+            .iter()
+            .flat_map(|kernel| SAME.iter().filter_map(|same| shader(cycles, *family, kernel, same)))
+            .collect();
+        let is_line = |s: &&Shader| matches!(s.kind, FormKind::Full | FormKind::FullBlock | FormKind::FullFast);
+        let some: [(&str, Vec<&Shader>); 4] = [
+            ("all", shaders.iter().collect()),
+            ("without loops", shaders.iter().filter(is_line).collect()),
+            (
+                "unrolled, single pixels",
+                shaders.iter().filter(|s| s.kind == FormKind::Full).collect(),
+            ),
+            (
+                "loops that the compiler keeps",
+                shaders.iter().filter(|s| !is_line(s) && s.branches > 3).collect(),
+            ),
+        ];
+        for (name, shaders) in some {
+            let cycles = ranks(&shaders.iter().map(|s| s.cycles).collect::<Vec<_>>());
+            let times = ranks(&shaders.iter().map(|s| s.ms).collect::<Vec<_>>());
+            rows.push(vec![
+                driver(record),
+                name.to_owned(),
+                shaders.len().to_string(),
+                format!("{:.2}", pearson(&cycles, &times)),
+                farthest(&shaders, &cycles, &times),
+            ]);
+        }
+    }
+    Ok(markdown(&head, rows))
+}
+
+fn shader(
+    cycles: &IsaRecord,
+    family: Family,
+    kernel: &KernelForms,
+    (kind, form, path): &(FormKind, IsaForm, SpirvPath),
+) -> Option<Shader> {
+    let timed = kernel.form(*kind)?;
+    let asked = cycles.shaders.iter().find(|asked| {
+        (&asked.kernel, &asked.options, &asked.form, &asked.path) == (&kernel.kernel, &kernel.options, form, path)
+    })?;
+    let figures = asked.figures.get(&family)?;
+    let pixels = if *form == IsaForm::Block { BLOCK } else { 1.0 };
+    Some(Shader {
+        kernel: kernel.kernel.clone(),
+        kind: *kind,
+        branches: figures.branches,
+        cycles: figures.inverse_throughput as f64 / pixels,
+        ms: timed.time.median_ms,
+    })
+}
+
+/// What a record was taken with, in a word.
+fn driver(record: &LoopsRecord) -> String {
+    let circumstances = &record.circumstances;
+    match circumstances.adapter.contains("llvmpipe") {
+        true => "lavapipe".to_owned(),
+        false => "SwiftShader".to_owned(),
+    }
+}
+
+/// The rank of each, from 1; of equal ones the mean of theirs.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let rank = |value: &f64| {
+        let below = values.iter().filter(|other| *other < value).count();
+        let equal = values.iter().filter(|other| *other == value).count();
+        below as f64 + (equal as f64 + 1.0) / 2.0
+    };
+    values.iter().map(rank).collect()
+}
+
+/// The correlation coefficient, of ranks Spearman's.
+fn pearson(a: &[f64], b: &[f64]) -> f64 {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let product = |x: &[f64], mean_x: f64, y: &[f64], mean_y: f64| -> f64 {
+        x.iter().zip(y).map(|(x, y)| (x - mean_x) * (y - mean_y)).sum()
+    };
+    product(a, mean_a, b, mean_b) / (product(a, mean_a, a, mean_a) * product(b, mean_b, b, mean_b)).sqrt()
+}
+
+/// The three that time puts farthest from where cycles do.
+fn farthest(shaders: &[&Shader], cycles: &[f64], times: &[f64]) -> String {
+    let mut all: Vec<usize> = (0..shaders.len()).collect();
+    let off = |k: usize| times[k] - cycles[k];
+    all.sort_by(|a, b| off(*b).abs().total_cmp(&off(*a).abs()));
+    let named = all.iter().take(3).map(|k| {
+        let shader = shaders[*k];
+        let side = if off(*k) > 0.0 { "slower" } else { "faster" };
+        format!(
+            "{}, {} ({side} by {:.0})",
+            shader.kernel,
+            shader.kind.words(),
+            off(*k).abs()
+        )
+    });
+    named.collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_of_equal_values_are_their_mean_and_orders_correlate() {
+        assert_eq!(ranks(&[3.0, 1.0, 3.0, 9.0]), [2.5, 1.0, 2.5, 4.0]);
+        let (up, down) = ([1.0, 2.0, 3.0], [3.0, 2.0, 1.0]);
+        assert!((pearson(&up, &up) - 1.0).abs() < 1e-12 && (pearson(&up, &down) + 1.0).abs() < 1e-12);
+        // Spearman's of 1 2 3 4 5 and 2 1 4 3 5: 1 - 6 * 4 / (5 * 24).
+        let other = [2.0, 1.0, 4.0, 3.0, 5.0];
+        assert!((pearson(&ranks(&[1.0, 2.0, 3.0, 4.0, 5.0]), &ranks(&other)) - 0.8).abs() < 1e-12);
+    }
+}
