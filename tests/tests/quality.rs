@@ -90,6 +90,7 @@ fn setup(pictures: bool) -> Setup {
         post_processed: false,
         pan_scenes: 1,
         pictures,
+        only: Vec::new(),
         own: Vec::new(),
     }
 }
@@ -343,6 +344,7 @@ fn a_capture_that_lacks_something_says_so() {
     let blind = Capture {
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
         ..spheres()
     };

@@ -1,6 +1,7 @@
 //! A frame without a window, as bytes.
 
 use crate::gpu::Gpu;
+use crate::options::Parts;
 use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::future::poll_fn;
@@ -17,10 +18,10 @@ pub async fn draw(
     renderer: &mut Renderer,
     size: Size,
     time: f32,
-    sraa: bool,
+    parts: Parts,
 ) -> Result<Vec<u8>, Failure> {
     let target = target(gpu, size);
-    renderer.draw(time, sraa, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
+    renderer.draw(time, parts, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
 
     let [width, height] = size;
     let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
