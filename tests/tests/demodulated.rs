@@ -21,7 +21,7 @@ const SIZE: UVec2 = uvec2(21, 17);
 
 /// Both ways with everything that they meet: where albedo lies, where shading does, what reads the taps.
 fn sets() -> Vec<Options> {
-    let others: [&[(&str, &str)]; 20] = [
+    let others: [&[(&str, &str)]; 21] = [
         &[],
         &[("pattern", "latin16")],
         &[("layout", "superresolution")],
@@ -35,6 +35,7 @@ fn sets() -> Vec<Options> {
         &[("shading", "placed"), ("layout", "multisampled"), ("search", "seven")],
         &[("search", "five"), ("difference", "relative"), ("depth-scale", "3")],
         &[("resolve", "tent")],
+        &[("unseen-floor", "0.02"), ("normals", "octahedral")],
         &[("rest", "true"), ("pattern", "standard8")],
         &[("rest", "true"), ("search", "five"), ("shading", "placed")],
         &[

@@ -208,10 +208,11 @@ impl Passes {
         targets: &[&wgpu::TextureView],
         span: Option<Span<'_>>,
     ) {
-        let black = |target: &&_| attachment(target, wgpu::LoadOp::Clear(wgpu::Color::BLACK));
+        let attachments = targets.iter().map(|target| attachment(target, wgpu::LoadOp::Clear(wgpu::Color::BLACK)));
+        let attachments: Vec<_> = attachments.collect();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("cover"),
-            color_attachments: &targets.iter().map(black).collect::<Vec<_>>(),
+            color_attachments: &attachments,
             timestamp_writes: span.as_ref().map(Span::render_writes),
             ..Default::default()
         });

@@ -177,7 +177,8 @@ impl Sraa {
             && self.normalisation == Normalisation::Shifted
             && self.shading_samples() == 1
             && self.samples() <= 32;
-        self.search != Search::None || (self.demodulate != Demodulate::None && can_be)
+        self.search != Search::None
+            || (self.demodulate != Demodulate::None && can_be && self.unseen_floor > self.albedo_floor)
     }
 
     /// Refuses what light cannot be taken apart for.

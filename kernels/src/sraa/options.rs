@@ -57,7 +57,8 @@ options! {
         /// which the albedo says nothing.
         pub albedo_floor: f32 [0.001..=1.0] = 0.04,
         /// Of demodulate: the same of taps for a sample whose surface none of them shows, where what a dark one mirrors would shine many
-        /// times as bright. With resolve=box, normalisation=shifted, one shading sample a pixel and up to 32 geometry samples.
+        /// times as bright. With resolve=box, normalisation=shifted, one shading sample a pixel and up to 32 geometry samples. No more
+        /// than albedo-floor, it leaves out the branch that such samples take.
         pub unseen_floor: f32 [0.001..=1.0] = 0.25,
         /// Of demodulate: whether the image `rest` holds what of each pixel's colour does not follow the albedo: highlights, mirror
         /// images, haze. That is borrowed as it is.

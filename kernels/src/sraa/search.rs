@@ -53,17 +53,15 @@ pub(super) fn searched(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
         color: Vec4::ZERO,
         share: 0.0,
     };
-    match cfg.sets_apart() {
-        false => nothing,
-        true =>
-        {
-            #[cfg_attr(false, branch)]
-            if unseen != 0 {
-                each(cfg, inputs, unseen)
-            } else {
-                nothing
-            }
+    if cfg.sets_apart() {
+        #[cfg_attr(false, branch)]
+        if unseen != 0 {
+            each(cfg, inputs, unseen)
+        } else {
+            nothing
         }
+    } else {
+        nothing
     }
 }
 
