@@ -117,6 +117,9 @@ fn methods_of_the_users_own() {
     let own = |text: String| Method::own(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
     let with = |methods: Vec<Method>| Setup {
         own: methods,
+        only: ["SRAA 4", "1x", "SRAA 4, two shading samples"]
+            .map(str::to_owned)
+            .to_vec(),
         pan_frames: 0,
         post_processed: false,
         ..setup(false)
@@ -132,6 +135,8 @@ fn methods_of_the_users_own() {
     let [scene] = &outcome.scenes[..] else {
         panic!("one scene, not {}", outcome.scenes.len());
     };
+    // Those named, and the user's.
+    assert_eq!(scene.methods.len(), 3 + 5);
     let of = |name: &str| {
         let found = scene.methods.iter().find(|method| method.method == name);
         found.unwrap_or_else(|| panic!("no {name}"))

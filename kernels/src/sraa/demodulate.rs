@@ -108,14 +108,14 @@ fn rest(inputs: &Inputs, tap: Place) -> Vec4 {
 
 /// Whether a tap's colour, and what is known of it, may count.
 pub(super) fn may_count(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4) -> bool {
-    let known = match cfg.demodulate {
+    let kept = match cfg.demodulate {
         Demodulate::None | Demodulate::Albedo => is_kept(cfg, shaded),
         Demodulate::AlbedoShadow => is_kept(cfg, shaded) && is_kept(cfg, direct(inputs, tap)),
     };
     if cfg.rest && cfg.demodulate != Demodulate::None {
-        known && is_kept(cfg, rest(inputs, tap))
+        kept && is_kept(cfg, rest(inputs, tap))
     } else {
-        known
+        kept
     }
 }
 
