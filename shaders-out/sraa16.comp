@@ -437,59 +437,59 @@ void main() {
     float scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
     // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:200)
     vec4 shaded_t0 = texelFetch(sampler2D(color, unfiltered), at_t0, 0);
-    bool known_t0 = all(
+    bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t0 = mix(0.0, weights_s10_t0 + w_s15_t0 * scale_s15, known_t0);
-    vec4 result_t0 = mix(vec4(0.0), 0.0 + w_t0 * shaded_t0, bvec4(known_t0));
+    float w_t0 = mix(0.0, weights_s10_t0 + w_s15_t0 * scale_s15, kept_t0);
+    vec4 result_t0 = mix(vec4(0.0), 0.0 + w_t0 * shaded_t0, bvec4(kept_t0));
     vec4 shaded_t1 = texelFetch(sampler2D(color, unfiltered), at_t1, 0);
-    bool known_t1 = all(
+    bool kept_t1 = all(
         lessThan(floatBitsToUint(shaded_t1) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t1 = mix(0.0, weights_s13_t1 + w_s15_t1 * scale_s15, known_t1);
-    vec4 result_t1 = mix(result_t0, result_t0 + w_t1 * shaded_t1, bvec4(known_t1));
+    float w_t1 = mix(0.0, weights_s13_t1 + w_s15_t1 * scale_s15, kept_t1);
+    vec4 result_t1 = mix(result_t0, result_t0 + w_t1 * shaded_t1, bvec4(kept_t1));
     vec4 shaded_t2 = texelFetch(sampler2D(color, unfiltered), at_t2, 0);
-    bool known_t2 = all(
+    bool kept_t2 = all(
         lessThan(floatBitsToUint(shaded_t2) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t2 = mix(0.0, weights_s9_t2 + w_s13_t2 * scale_s13, known_t2);
-    vec4 result_t2 = mix(result_t1, result_t1 + w_t2 * shaded_t2, bvec4(known_t2));
+    float w_t2 = mix(0.0, weights_s9_t2 + w_s13_t2 * scale_s13, kept_t2);
+    vec4 result_t2 = mix(result_t1, result_t1 + w_t2 * shaded_t2, bvec4(kept_t2));
     vec4 shaded_t3 = texelFetch(sampler2D(color, unfiltered), at_t3, 0);
-    bool known_t3 = all(
+    bool kept_t3 = all(
         lessThan(floatBitsToUint(shaded_t3) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t3 = mix(0.0, weights_s12_t3 + w_s15_t3 * scale_s15, known_t3);
-    vec4 result_t3 = mix(result_t2, result_t2 + w_t3 * shaded_t3, bvec4(known_t3));
+    float w_t3 = mix(0.0, weights_s12_t3 + w_s15_t3 * scale_s15, kept_t3);
+    vec4 result_t3 = mix(result_t2, result_t2 + w_t3 * shaded_t3, bvec4(kept_t3));
     vec4 shaded_t4 = texelFetch(sampler2D(color, unfiltered), pixel, 0);
-    bool known_t4 = all(
+    bool kept_t4 = all(
         lessThan(floatBitsToUint(shaded_t4) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t4 = mix(0.0, weights_s14_t4 + w_s15_t4 * scale_s15, known_t4);
-    vec4 result_t4 = mix(result_t3, result_t3 + w_t4 * shaded_t4, bvec4(known_t4));
+    float w_t4 = mix(0.0, weights_s14_t4 + w_s15_t4 * scale_s15, kept_t4);
+    vec4 result_t4 = mix(result_t3, result_t3 + w_t4 * shaded_t4, bvec4(kept_t4));
     vec4 shaded_t5 = texelFetch(sampler2D(color, unfiltered), at_t5, 0);
-    bool known_t5 = all(
+    bool kept_t5 = all(
         lessThan(floatBitsToUint(shaded_t5) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t5 = mix(0.0, weights_s13_t5 + w_s14_t5 * scale_s14, known_t5);
-    vec4 result_t5 = mix(result_t4, result_t4 + w_t5 * shaded_t5, bvec4(known_t5));
+    float w_t5 = mix(0.0, weights_s13_t5 + w_s14_t5 * scale_s14, kept_t5);
+    vec4 result_t5 = mix(result_t4, result_t4 + w_t5 * shaded_t5, bvec4(kept_t5));
     vec4 shaded_t6 = texelFetch(sampler2D(color, unfiltered), at_t6, 0);
-    bool known_t6 = all(
+    bool kept_t6 = all(
         lessThan(floatBitsToUint(shaded_t6) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t6 = mix(0.0, weights_s11_t6 + w_s12_t6 * scale_s12, known_t6);
-    vec4 result_t6 = mix(result_t5, result_t5 + w_t6 * shaded_t6, bvec4(known_t6));
+    float w_t6 = mix(0.0, weights_s11_t6 + w_s12_t6 * scale_s12, kept_t6);
+    vec4 result_t6 = mix(result_t5, result_t5 + w_t6 * shaded_t6, bvec4(kept_t6));
     vec4 shaded_t7 = texelFetch(sampler2D(color, unfiltered), at_t7, 0);
-    bool known_t7 = all(
+    bool kept_t7 = all(
         lessThan(floatBitsToUint(shaded_t7) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t7 = mix(0.0, weights_s12_t7 + w_s14_t7 * scale_s14, known_t7);
-    vec4 result_t7 = mix(result_t6, result_t6 + w_t7 * shaded_t7, bvec4(known_t7));
+    float w_t7 = mix(0.0, weights_s12_t7 + w_s14_t7 * scale_s14, kept_t7);
+    vec4 result_t7 = mix(result_t6, result_t6 + w_t7 * shaded_t7, bvec4(kept_t7));
     vec4 shaded_t8 = texelFetch(sampler2D(color, unfiltered), at_t8, 0);
-    bool known_t8 = all(
+    bool kept_t8 = all(
         lessThan(floatBitsToUint(shaded_t8) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t8 = mix(0.0, weights_s6_t8 + w_s14_t8 * scale_s14, known_t8);
+    float w_t8 = mix(0.0, weights_s6_t8 + w_s14_t8 * scale_s14, kept_t8);
     float sum_t8 = w_t0 + w_t1 + w_t2 + w_t3 + w_t4 + w_t5 + w_t6 + w_t7 + w_t8;
-    vec4 quotient = mix(result_t7, result_t7 + w_t8 * shaded_t8, bvec4(known_t8)) / sum_t8;
+    vec4 quotient = mix(result_t7, result_t7 + w_t8 * shaded_t8, bvec4(kept_t8)) / sum_t8;
     imageStore(destination, pixel, mix(vec4(0.0), quotient, bvec4(sum_t8 > 1e-30)));
 }

@@ -439,86 +439,86 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     float scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
     // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:200)
     float4 shaded_t0 = color.Load(int3(at_t0, 0));
-    bool known_t0 = all(
+    bool kept_t0 = all(
         (asuint(shaded_t0) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true = weights_s10_t0 + w_s15_t0 * scale_s15;
-    float w_t0 = (known_t0 ? if_true : 0.0);
+    float w_t0 = (kept_t0 ? if_true : 0.0);
     float4 if_true_2 = 0.0 + w_t0 * shaded_t0;
-    float4 result_t0 = (known_t0 ? if_true_2 : float4(0.0, 0.0, 0.0, 0.0));
+    float4 result_t0 = (kept_t0 ? if_true_2 : float4(0.0, 0.0, 0.0, 0.0));
     float4 shaded_t1 = color.Load(int3(at_t1, 0));
-    bool known_t1 = all(
+    bool kept_t1 = all(
         (asuint(shaded_t1) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_3 = weights_s13_t1 + w_s15_t1 * scale_s15;
-    float w_t1 = (known_t1 ? if_true_3 : 0.0);
+    float w_t1 = (kept_t1 ? if_true_3 : 0.0);
     float4 if_true_4 = result_t0 + w_t1 * shaded_t1;
-    float4 result_t1 = (known_t1 ? if_true_4 : result_t0);
+    float4 result_t1 = (kept_t1 ? if_true_4 : result_t0);
     float4 shaded_t2 = color.Load(int3(at_t2, 0));
-    bool known_t2 = all(
+    bool kept_t2 = all(
         (asuint(shaded_t2) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_5 = weights_s9_t2 + w_s13_t2 * scale_s13;
-    float w_t2 = (known_t2 ? if_true_5 : 0.0);
+    float w_t2 = (kept_t2 ? if_true_5 : 0.0);
     float4 if_true_6 = result_t1 + w_t2 * shaded_t2;
-    float4 result_t2 = (known_t2 ? if_true_6 : result_t1);
+    float4 result_t2 = (kept_t2 ? if_true_6 : result_t1);
     float4 shaded_t3 = color.Load(int3(at_t3, 0));
-    bool known_t3 = all(
+    bool kept_t3 = all(
         (asuint(shaded_t3) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_7 = weights_s12_t3 + w_s15_t3 * scale_s15;
-    float w_t3 = (known_t3 ? if_true_7 : 0.0);
+    float w_t3 = (kept_t3 ? if_true_7 : 0.0);
     float4 if_true_8 = result_t2 + w_t3 * shaded_t3;
-    float4 result_t3 = (known_t3 ? if_true_8 : result_t2);
+    float4 result_t3 = (kept_t3 ? if_true_8 : result_t2);
     float4 shaded_t4 = color.Load(int3(pixel, 0));
-    bool known_t4 = all(
+    bool kept_t4 = all(
         (asuint(shaded_t4) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_9 = weights_s14_t4 + w_s15_t4 * scale_s15;
-    float w_t4 = (known_t4 ? if_true_9 : 0.0);
+    float w_t4 = (kept_t4 ? if_true_9 : 0.0);
     float4 if_true_10 = result_t3 + w_t4 * shaded_t4;
-    float4 result_t4 = (known_t4 ? if_true_10 : result_t3);
+    float4 result_t4 = (kept_t4 ? if_true_10 : result_t3);
     float4 shaded_t5 = color.Load(int3(at_t5, 0));
-    bool known_t5 = all(
+    bool kept_t5 = all(
         (asuint(shaded_t5) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_11 = weights_s13_t5 + w_s14_t5 * scale_s14;
-    float w_t5 = (known_t5 ? if_true_11 : 0.0);
+    float w_t5 = (kept_t5 ? if_true_11 : 0.0);
     float4 if_true_12 = result_t4 + w_t5 * shaded_t5;
-    float4 result_t5 = (known_t5 ? if_true_12 : result_t4);
+    float4 result_t5 = (kept_t5 ? if_true_12 : result_t4);
     float4 shaded_t6 = color.Load(int3(at_t6, 0));
-    bool known_t6 = all(
+    bool kept_t6 = all(
         (asuint(shaded_t6) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_13 = weights_s11_t6 + w_s12_t6 * scale_s12;
-    float w_t6 = (known_t6 ? if_true_13 : 0.0);
+    float w_t6 = (kept_t6 ? if_true_13 : 0.0);
     float4 if_true_14 = result_t5 + w_t6 * shaded_t6;
-    float4 result_t6 = (known_t6 ? if_true_14 : result_t5);
+    float4 result_t6 = (kept_t6 ? if_true_14 : result_t5);
     float4 shaded_t7 = color.Load(int3(at_t7, 0));
-    bool known_t7 = all(
+    bool kept_t7 = all(
         (asuint(shaded_t7) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_15 = weights_s12_t7 + w_s14_t7 * scale_s14;
-    float w_t7 = (known_t7 ? if_true_15 : 0.0);
+    float w_t7 = (kept_t7 ? if_true_15 : 0.0);
     float4 if_true_16 = result_t6 + w_t7 * shaded_t7;
-    float4 result_t7 = (known_t7 ? if_true_16 : result_t6);
+    float4 result_t7 = (kept_t7 ? if_true_16 : result_t6);
     float4 shaded_t8 = color.Load(int3(at_t8, 0));
-    bool known_t8 = all(
+    bool kept_t8 = all(
         (asuint(shaded_t8) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float if_true_17 = weights_s6_t8 + w_s14_t8 * scale_s14;
-    float w_t8 = (known_t8 ? if_true_17 : 0.0);
+    float w_t8 = (kept_t8 ? if_true_17 : 0.0);
     float sum_t8 = w_t0 + w_t1 + w_t2 + w_t3 + w_t4 + w_t5 + w_t6 + w_t7 + w_t8;
     float4 if_true_18 = result_t7 + w_t8 * shaded_t8;
-    float4 quotient = (known_t8 ? if_true_18 : result_t7) / sum_t8;
+    float4 quotient = (kept_t8 ? if_true_18 : result_t7) / sum_t8;
     destination[pixel] = (sum_t8 > 1e-30 ? quotient : float4(0.0, 0.0, 0.0, 0.0));
 }

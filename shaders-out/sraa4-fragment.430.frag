@@ -139,59 +139,59 @@ void main() {
     float scale_s3 = 0.25 / (w_s3_t4 + w_s3_t5 + w_s3_t7 + w_s3_t8);
     // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:200)
     vec4 shaded_t0 = texelFetch(color, at_t0, 0);
-    bool known_t0 = all(
+    bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t0 = (known_t0 ? w_s0_t0 * scale_s0 : 0.0);
-    vec4 result_t0 = (known_t0 ? 0.0 + w_t0 * shaded_t0 : vec4(0.0));
+    float w_t0 = (kept_t0 ? w_s0_t0 * scale_s0 : 0.0);
+    vec4 result_t0 = (kept_t0 ? 0.0 + w_t0 * shaded_t0 : vec4(0.0));
     vec4 shaded_t1 = texelFetch(color, at_t1, 0);
-    bool known_t1 = all(
+    bool kept_t1 = all(
         lessThan(floatBitsToUint(shaded_t1) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t1 = (known_t1 ? w_s0_t1 * scale_s0 + w_s1_t1 * scale_s1 : 0.0);
-    vec4 result_t1 = (known_t1 ? result_t0 + w_t1 * shaded_t1 : result_t0);
+    float w_t1 = (kept_t1 ? w_s0_t1 * scale_s0 + w_s1_t1 * scale_s1 : 0.0);
+    vec4 result_t1 = (kept_t1 ? result_t0 + w_t1 * shaded_t1 : result_t0);
     vec4 shaded_t2 = texelFetch(color, at_t2, 0);
-    bool known_t2 = all(
+    bool kept_t2 = all(
         lessThan(floatBitsToUint(shaded_t2) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t2 = (known_t2 ? w_s1_t2 * scale_s1 : 0.0);
-    vec4 result_t2 = (known_t2 ? result_t1 + w_t2 * shaded_t2 : result_t1);
+    float w_t2 = (kept_t2 ? w_s1_t2 * scale_s1 : 0.0);
+    vec4 result_t2 = (kept_t2 ? result_t1 + w_t2 * shaded_t2 : result_t1);
     vec4 shaded_t3 = texelFetch(color, at_t3, 0);
-    bool known_t3 = all(
+    bool kept_t3 = all(
         lessThan(floatBitsToUint(shaded_t3) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t3 = (known_t3 ? w_s0_t3 * scale_s0 + w_s2_t3 * scale_s2 : 0.0);
-    vec4 result_t3 = (known_t3 ? result_t2 + w_t3 * shaded_t3 : result_t2);
+    float w_t3 = (kept_t3 ? w_s0_t3 * scale_s0 + w_s2_t3 * scale_s2 : 0.0);
+    vec4 result_t3 = (kept_t3 ? result_t2 + w_t3 * shaded_t3 : result_t2);
     vec4 shaded_t4 = texelFetch(color, pixel, 0);
-    bool known_t4 = all(
+    bool kept_t4 = all(
         lessThan(floatBitsToUint(shaded_t4) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t4 = (known_t4 ? weights_s2_t4 + w_s3_t4 * scale_s3 : 0.0);
-    vec4 result_t4 = (known_t4 ? result_t3 + w_t4 * shaded_t4 : result_t3);
+    float w_t4 = (kept_t4 ? weights_s2_t4 + w_s3_t4 * scale_s3 : 0.0);
+    vec4 result_t4 = (kept_t4 ? result_t3 + w_t4 * shaded_t4 : result_t3);
     vec4 shaded_t5 = texelFetch(color, at_t5, 0);
-    bool known_t5 = all(
+    bool kept_t5 = all(
         lessThan(floatBitsToUint(shaded_t5) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t5 = (known_t5 ? w_s1_t5 * scale_s1 + w_s3_t5 * scale_s3 : 0.0);
-    vec4 result_t5 = (known_t5 ? result_t4 + w_t5 * shaded_t5 : result_t4);
+    float w_t5 = (kept_t5 ? w_s1_t5 * scale_s1 + w_s3_t5 * scale_s3 : 0.0);
+    vec4 result_t5 = (kept_t5 ? result_t4 + w_t5 * shaded_t5 : result_t4);
     vec4 shaded_t6 = texelFetch(color, at_t6, 0);
-    bool known_t6 = all(
+    bool kept_t6 = all(
         lessThan(floatBitsToUint(shaded_t6) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t6 = (known_t6 ? w_s2_t6 * scale_s2 : 0.0);
-    vec4 result_t6 = (known_t6 ? result_t5 + w_t6 * shaded_t6 : result_t5);
+    float w_t6 = (kept_t6 ? w_s2_t6 * scale_s2 : 0.0);
+    vec4 result_t6 = (kept_t6 ? result_t5 + w_t6 * shaded_t6 : result_t5);
     vec4 shaded_t7 = texelFetch(color, at_t7, 0);
-    bool known_t7 = all(
+    bool kept_t7 = all(
         lessThan(floatBitsToUint(shaded_t7) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t7 = (known_t7 ? w_s2_t7 * scale_s2 + w_s3_t7 * scale_s3 : 0.0);
-    vec4 result_t7 = (known_t7 ? result_t6 + w_t7 * shaded_t7 : result_t6);
+    float w_t7 = (kept_t7 ? w_s2_t7 * scale_s2 + w_s3_t7 * scale_s3 : 0.0);
+    vec4 result_t7 = (kept_t7 ? result_t6 + w_t7 * shaded_t7 : result_t6);
     vec4 shaded_t8 = texelFetch(color, at_t8, 0);
-    bool known_t8 = all(
+    bool kept_t8 = all(
         lessThan(floatBitsToUint(shaded_t8) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
     );
-    float w_t8 = (known_t8 ? w_s3_t8 * scale_s3 : 0.0);
+    float w_t8 = (kept_t8 ? w_s3_t8 * scale_s3 : 0.0);
     float sum_t8 = w_t0 + w_t1 + w_t2 + w_t3 + w_t4 + w_t5 + w_t6 + w_t7 + w_t8;
-    vec4 quotient = (known_t8 ? result_t7 + w_t8 * shaded_t8 : result_t7) / sum_t8;
+    vec4 quotient = (kept_t8 ? result_t7 + w_t8 * shaded_t8 : result_t7) / sum_t8;
     destination = (sum_t8 > 1e-30 ? quotient : vec4(0.0));
 }

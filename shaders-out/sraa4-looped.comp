@@ -102,14 +102,12 @@ void main() {
         // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:65)
         ivec2 at = clamp(pixel + ivec2(tap % 3 - 1, tap / 3 - 1), ivec2(0), last);
         vec4 shaded = texelFetch(sampler2D(color, unfiltered), at, 0);
-        bool known = all(
-            lessThan(floatBitsToUint(shaded) & uvec4(0x7fffffffu), uvec4(0x7f800000u))
-        );
+        bool kept = all(lessThan(floatBitsToUint(shaded) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));
         float w = 0.0;
-        if (known) {
+        if (kept) {
             w = weights[tap];
         }
-        if (known) {
+        if (kept) {
             // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:209)
             result += w * shaded;
         }

@@ -100,15 +100,15 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:65)
         int2 at = clamp(pixel + int2(tap % 3 - 1, tap / 3 - 1), int2(0, 0), last);
         float4 shaded = color.Load(int3(at, 0));
-        bool known = all(
+        bool kept = all(
             (asuint(shaded) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
                 < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
         );
         float w = 0.0;
-        if (known) {
+        if (kept) {
             w = weights[tap];
         }
-        if (known) {
+        if (kept) {
             // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:209)
             result += w * shaded;
         }

@@ -259,14 +259,14 @@ kernel void sraa(
             int _e305 = tap_3;
             metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e300, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e305, 3)) - as_type<uint>(1))))), metal::int2(0), last);
             metal::float4 shaded = color.read(metal::uint2(at_1), 0);
-            bool known = metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
+            bool kept = metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
             w = 0.0;
-            if (known) {
+            if (kept) {
                 int _e328 = tap_3;
                 float _e330 = weights.inner[metal::min(unsigned(_e328), 8u)];
                 w = _e330;
             }
-            if (known) {
+            if (kept) {
                 metal::float4 _e331 = result;
                 float _e332 = w;
                 result = _e331 + (_e332 * shaded);

@@ -94,12 +94,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:65)
         let at = clamp(pixel + vec2i(tap % 3 - 1, tap / 3 - 1), vec2i(0), last);
         let shaded = textureLoad(color, at, 0);
-        let known = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
+        let kept = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
         var w = 0.0;
-        if known {
+        if kept {
             w = weights[tap];
         }
-        if known {
+        if kept {
             // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:209)
             result += w * shaded;
         }
