@@ -225,6 +225,7 @@ fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
     fails_with(&["--scene", "rooof"], 2, &["no scene `rooof`", "terrain"]);
     fails_with(&["--mesh", "nowhere.glb"], 1, &["nowhere.glb", "cannot be read"]);
     let method = |text: &str, status, says: &[&str]| fails_with(&["--scene", "roof", "--method", text], status, says);
+    fails_with(&["--only", "SRAA 5"], 2, &["no method `SRAA 5`", "SRAA 4, demodulated"]);
     method("sharp", 2, &["`sharp` is no method", "NAME=KERNEL"]);
     method("sharp=sraa,wide", 2, &["`sharp=sraa,wide` is no method"]);
     method("SRAA 4=sraa", 2, &["there is a method `SRAA 4` already"]);

@@ -48,6 +48,7 @@ fn example(shading: ShadingSample) -> Capture {
         normal: Some(FrameLayers::new(normal.collect())),
         albedo: Some(albedo),
         direct: is_one.then(|| frame(SIZE, |i| vec4(i.sin(), 2.0, i, 0.0))),
+        rest: is_one.then(|| frame(SIZE, |i| vec4(0.5, i.cos(), 0.0, 0.0))),
         reference: Some(frame(SIZE, Vec4::splat)),
     }
 }
@@ -117,6 +118,7 @@ fn what_is_written_is_read() {
         normal: None,
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
         ..example(ShadingSample::Sample(2))
     };
@@ -154,6 +156,7 @@ fn a_capture_is_replaced_and_leaves_no_file_of_the_old_one() {
         normal: None,
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
         ..example(ShadingSample::Sample(0))
     };
@@ -256,6 +259,13 @@ fn a_capture_that_contradicts_itself_is_not_written() {
                 ..good.clone()
             },
             &["direct.exr", "3×3"],
+        ),
+        (
+            Capture {
+                rest: Some(frame(other, Vec4::splat)),
+                ..good.clone()
+            },
+            &["rest.exr", "3×3"],
         ),
         (
             Capture {
@@ -533,6 +543,7 @@ fn surplus_and_double_layers_are_refused() {
     let capture = Capture {
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
         ..example(ShadingSample::Sample(0))
     };

@@ -90,6 +90,7 @@ fn setup(pictures: bool) -> Setup {
         post_processed: false,
         pan_scenes: 1,
         pictures,
+        only: Vec::new(),
         own: Vec::new(),
     }
 }
@@ -116,6 +117,9 @@ fn methods_of_the_users_own() {
     let own = |text: String| Method::own(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
     let with = |methods: Vec<Method>| Setup {
         own: methods,
+        only: ["SRAA 4", "1x", "SRAA 4, two shading samples"]
+            .map(str::to_owned)
+            .to_vec(),
         pan_frames: 0,
         post_processed: false,
         ..setup(false)
@@ -131,6 +135,8 @@ fn methods_of_the_users_own() {
     let [scene] = &outcome.scenes[..] else {
         panic!("one scene, not {}", outcome.scenes.len());
     };
+    // Those named, and the user's.
+    assert_eq!(scene.methods.len(), 3 + 5);
     let of = |name: &str| {
         let found = scene.methods.iter().find(|method| method.method == name);
         found.unwrap_or_else(|| panic!("no {name}"))
@@ -343,6 +349,7 @@ fn a_capture_that_lacks_something_says_so() {
     let blind = Capture {
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
         ..spheres()
     };

@@ -53,7 +53,8 @@ pub struct CaptureArgs {
     /// With --shading listed: the geometry samples that are shaded, counted from 0: one, two or four
     #[arg(long, value_name = "SAMPLES", value_delimiter = ',')]
     pub shaded: Vec<usize>,
-    /// Also write the albedo of every geometry sample with the shadow on it, and the direct light: what `demodulate` needs
+    /// Also write the albedo of every geometry sample with the shadow on it, the direct light, and highlights and haze: what
+    /// `demodulate` needs
     #[arg(long)]
     pub albedo: bool,
     /// Also render the reference: this many shaded samples a pixel, 16 or 256

@@ -105,6 +105,9 @@ pub struct ErrorArgs {
     /// A method of your own to compare: options of `sraa`, `stalker` or `tabula_rasa`, or a kernel that reads what it likes of color, depth and normal; may be given several times
     #[arg(long = "method", value_name = "NAME=KERNEL[,OPTION=VALUE]...")]
     pub methods: Vec<String>,
+    /// Only this of the methods that are there, by its name; may be given several times. Not of captures, which have few
+    #[arg(long, value_name = "NAME")]
+    pub only: Vec<String>,
     /// Bloom and tone mapping follow, as in a game: methods before them, filters of the displayed picture after. SRAA and
     /// supersampling are tried after them too
     #[arg(long)]

@@ -5,8 +5,8 @@ use std::fmt;
 use std::time::Duration;
 use straightline_runtime::{Error, Span, Timer, wgpu};
 
-/// Passes of a frame at most: four of geometry, shading, SRAA, and to the screen.
-const PASSES: u32 = 7;
+/// Passes of a frame: five of geometry, placing, shading, SRAA, and to the screen.
+const PASSES: u32 = 9;
 
 /// Frames whose timestamps are waited for at most; those beyond are not timed on the device.
 const UNDER_WAY: usize = 8;
@@ -15,8 +15,8 @@ const UNDER_WAY: usize = 8;
 pub struct Clock {
     /// None where the device has no timestamps.
     timer: Option<Timer>,
-    /// Of each frame that the device has not told about yet, which of its passes is SRAA.
-    under_way: VecDeque<Option<usize>>,
+    /// Of each frame that the device has not told about yet, which of its passes are SRAA's.
+    under_way: VecDeque<&'static [usize]>,
     recorded: Sum,
     device: Sum,
     sraa: Sum,
@@ -86,7 +86,7 @@ impl Clock {
     }
 
     /// Ends the frame's part of `encoder`.
-    pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder, sraa: Option<usize>) -> Result<(), Error> {
+    pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder, sraa: &'static [usize]) -> Result<(), Error> {
         if let Some(timer) = self.running() {
             timer.resolve(encoder)?;
             self.under_way.push_back(sraa);
@@ -105,8 +105,8 @@ impl Clock {
         while let Some(sraa) = self.under_way.front() {
             let Some(spans) = timer.try_read()? else { break };
             self.device.add(spans.iter().sum());
-            if let Some(span) = sraa.and_then(|pass| spans.get(pass)) {
-                self.sraa.add(*span);
+            if !sraa.is_empty() {
+                self.sraa.add(sraa.iter().filter_map(|pass| spans.get(*pass)).sum());
             }
             self.under_way.pop_front();
         }

@@ -1,10 +1,10 @@
 //! A small deferred renderer with Subpixel Reconstruction Antialiasing in it.
 //!
-//! `cargo run` opens a window: Space turns SRAA on and off, Escape closes it. `cargo run -- --out picture.png` needs no
-//! window: `--size 1280x720`, `--time 2.5` and `--without-sraa` say what to draw, `--timestamps` to use those of software
-//! drivers too. `web/build` makes a page of it.
+//! `cargo run` opens a window: Space turns SRAA on and off, P, S and D what helps it, Escape closes the window. `cargo run -- --out
+//! picture.png` needs no window: `--size 1280x720`, `--time 2.5`, `--without-sraa` and `--without-placing` say what to draw,
+//! `--timestamps` to use those of software drivers too. `web/build` makes a page of it.
 //!
-//! To read: `renderer.rs` has the four passes of a frame in order, `scene.rs` what is drawn, `window.rs`, `web.rs` and
+//! To read: `renderer.rs` has the passes of a frame in order, `scene.rs` what is drawn, `window.rs`, `web.rs` and
 //! `picture.rs` where it goes, `clock.rs` what it costs.
 
 mod clock;
@@ -52,7 +52,7 @@ fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
     let gpu = pollster::block_on(gpu::Gpu::headless(options.timestamps))?;
     let time = options.time.unwrap_or(2.0);
     let mut renderer = renderer::Renderer::new(&gpu.device, &gpu.queue, options.size, picture::FORMAT)?;
-    let pixels = pollster::block_on(picture::draw(&gpu, &mut renderer, options.size, time, options.sraa))?;
+    let pixels = pollster::block_on(picture::draw(&gpu, &mut renderer, options.size, time, options.parts))?;
     image::save_buffer(path, &pixels, options.size[0], options.size[1], image::ColorType::Rgba8)?;
     // The frame before has the drivers' compiling in it.
     renderer.clock.take()?;
@@ -60,7 +60,7 @@ fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
     let mut until_done = Vec::new();
     for _ in 0..FRAMES {
         let begun = web_time::Instant::now();
-        renderer.draw(time, options.sraa, &target)?;
+        renderer.draw(time, options.parts, &target)?;
         gpu.device.poll(straightline_runtime::wgpu::PollType::wait_indefinitely())?;
         until_done.push(begun.elapsed());
     }

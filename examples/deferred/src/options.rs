@@ -1,6 +1,7 @@
 //! What to draw, as the command line or the address of a page says.
 
 use crate::{Failure, Size};
+use std::fmt;
 
 pub struct Options {
     /// A file to save a picture as.
@@ -8,25 +9,74 @@ pub struct Options {
     pub size: Size,
     /// The moment in seconds; otherwise time goes on, and a picture is of second 2.
     pub time: Option<f32>,
-    pub sraa: bool,
+    pub parts: Parts,
     /// Whether the timestamps of software drivers are used too.
     pub timestamps: bool,
+}
+
+/// What is on: SRAA, and what helps it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parts {
+    pub sraa: bool,
+    /// Shading a pixel where it has a surface that no pixel's centre shows.
+    pub placing: bool,
+    /// Looking farther for what no shading sample nearby shows.
+    pub searching: bool,
+    /// Borrowing light, and not the paint that it falls on.
+    pub demodulating: bool,
+}
+
+impl Parts {
+    pub const ALL: Parts = Parts { sraa: true, placing: true, searching: true, demodulating: true };
+
+    /// Each part with its name and its key.
+    fn each(&mut self) -> [(&mut bool, &'static str, &'static str); 4] {
+        [
+            (&mut self.sraa, "SRAA", "Space"),
+            (&mut self.placing, "placing", "P"),
+            (&mut self.searching, "searching", "S"),
+            (&mut self.demodulating, "demodulating", "D"),
+        ]
+    }
+
+    /// Turns the part of a key off or on. False if no part has it.
+    #[cfg(any(feature = "window", target_arch = "wasm32", test))]
+    pub fn press(&mut self, key: &str) -> bool {
+        let found = self.each().into_iter().find(|(_, _, own)| own.eq_ignore_ascii_case(key));
+        found.map(|(on, ..)| *on = !*on).is_some()
+    }
+
+    fn turn_off(&mut self, name: &str) -> bool {
+        let found = self.each().into_iter().find(|(_, own, _)| own.eq_ignore_ascii_case(name));
+        found.map(|(on, ..)| *on = false).is_some()
+    }
+}
+
+impl fmt::Display for Parts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = *self;
+        for (k, (on, name, key)) in parts.each().into_iter().enumerate() {
+            let (comma, state) = (if k == 0 { "" } else { ", " }, if *on { "on" } else { "off" });
+            write!(f, "{comma}{name} {state} ({key})")?;
+        }
+        Ok(())
+    }
 }
 
 impl Options {
     /// Reads `--name value`.
     pub fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Options, Failure> {
-        let mut options = Options { out: None, size: [960, 540], time: None, sraa: true, timestamps: false };
+        let mut options = Options { out: None, size: [960, 540], time: None, parts: Parts::ALL, timestamps: false };
         while let Some(argument) = arguments.next() {
             let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
             match argument.as_str() {
                 "--out" => options.out = Some(value()?),
                 "--size" => options.size = parse_size(&value()?)?,
                 "--time" => options.time = Some(value()?.parse()?),
-                "--without-sraa" => options.sraa = false,
                 "--timestamps" => options.timestamps = true,
+                _ if argument.strip_prefix("--without-").is_some_and(|part| options.parts.turn_off(part)) => {}
                 _ => {
-                    let there = "--out, --size, --time, --without-sraa and --timestamps";
+                    let there = "--out, --size, --time, --timestamps, and --without-sraa, -placing, -searching and -demodulating";
                     return Err(format!("no option {argument}: there are {there}").into());
                 }
             }
@@ -61,11 +111,24 @@ mod tests {
     #[test]
     fn an_address_says_what_the_command_line_does() {
         let options = Options::of_address("?size=320x180&time=2.5&without-sraa").unwrap();
-        assert_eq!((options.size, options.time, options.sraa), ([320, 180], Some(2.5), false));
+        assert_eq!((options.size, options.time, options.parts.sraa), ([320, 180], Some(2.5), false));
         let options = Options::of_address("").unwrap();
-        assert_eq!((options.size, options.time, options.sraa), ([960, 540], None, true));
-        for wrong in ["?size=0x4", "?size", "?colour=red", "?time=noon"] {
+        assert_eq!((options.size, options.time, options.parts), ([960, 540], None, Parts::ALL));
+        let options = Options::of_address("?without-placing&without-searching&without-demodulating").unwrap();
+        let alone = Parts { sraa: true, placing: false, searching: false, demodulating: false };
+        assert_eq!(options.parts, alone);
+        for wrong in ["?size=0x4", "?size", "?colour=red", "?time=noon", "?without-shadows", "?without-"] {
             assert!(Options::of_address(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn each_part_has_a_key() {
+        let mut parts = Parts::ALL;
+        for key in ["Space", "p", "S", "D"] {
+            assert!(parts.press(key), "{key}");
+        }
+        assert_eq!(parts.to_string(), "SRAA off (Space), placing off (P), searching off (S), demodulating off (D)");
+        assert!(!parts.press("x") && parts.press("d") && parts.demodulating);
     }
 }

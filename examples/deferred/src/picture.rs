@@ -1,6 +1,7 @@
 //! A frame without a window, as bytes.
 
 use crate::gpu::Gpu;
+use crate::options::Parts;
 use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::future::poll_fn;
@@ -17,10 +18,10 @@ pub async fn draw(
     renderer: &mut Renderer,
     size: Size,
     time: f32,
-    sraa: bool,
+    parts: Parts,
 ) -> Result<Vec<u8>, Failure> {
     let target = target(gpu, size);
-    renderer.draw(time, sraa, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
+    renderer.draw(time, parts, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
 
     let [width, height] = size;
     let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -97,7 +98,10 @@ mod tests {
     fn one_renderer_draws_frames_of_changing_size_with_and_without() {
         let gpu = pollster::block_on(Gpu::headless(false)).unwrap();
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
-        let mut frame = |size, time, sraa| pollster::block_on(draw(&gpu, &mut renderer, size, time, sraa)).unwrap();
+        let mut frame = |size, time, sraa| {
+            let parts = Parts { sraa, ..Parts::ALL };
+            pollster::block_on(draw(&gpu, &mut renderer, size, time, parts)).unwrap()
+        };
         for size in [[320, 180], [201, 133], [1, 1], [320, 180]] {
             let [with, without] = [true, false].map(|sraa| frame(size, 2.0, sraa));
             assert_eq!(with.len(), (size[0] * size[1] * 4) as usize);
@@ -109,6 +113,44 @@ mod tests {
         // The scene turns.
         let [now, later] = [2.0, 2.5].map(|time| frame([320, 180], time, true));
         assert!(now != later);
+    }
+
+    /// Mean squared difference of colours in 8 bits.
+    fn error(picture: &[u8], reference: &[f64]) -> f64 {
+        let squares = picture.iter().zip(reference).map(|(a, b)| (f64::from(*a) - b).powi(2));
+        squares.sum::<f64>() / reference.len() as f64
+    }
+
+    /// Against a picture shaded sixteen times a pixel: the same scene four times as large.
+    #[test]
+    fn each_part_brings_the_picture_nearer_to_supersampling() {
+        const OFF: Parts = Parts { sraa: false, placing: false, searching: false, demodulating: false };
+        let gpu = pollster::block_on(Gpu::headless(false)).unwrap();
+        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
+        let mut frame = |size, parts| pollster::block_on(draw(&gpu, &mut renderer, size, 2.0, parts)).unwrap();
+        let linear = |byte: u8| (f64::from(byte) / 255.0).powf(2.2);
+        let large = frame([1280, 720], OFF);
+        let shaded_often = (0..320 * 180 * 4).map(|k| {
+            let (x, y, channel) = (k / 4 % 320, k / 4 / 320, k % 4);
+            let at = |j: usize| large[((y * 4 + j / 4) * 1280 + x * 4 + j % 4) * 4 + channel];
+            255.0 * ((0..16).map(|j| linear(at(j))).sum::<f64>() / 16.0).powf(1.0 / 2.2)
+        });
+        let reference: Vec<f64> = shaded_often.collect();
+        let alone = Parts { sraa: true, ..OFF };
+        let helped = [
+            Parts { placing: true, ..alone },
+            Parts { searching: true, ..alone },
+            Parts { demodulating: true, ..alone },
+        ];
+        let mut off = |parts| error(&frame([320, 180], parts), &reference);
+        let (without, by_sraa, by_all) = (off(OFF), off(alone), off(Parts::ALL));
+        println!("{without:.1} without, {by_sraa:.1} by SRAA, {by_all:.1} by all");
+        assert!(by_sraa < 0.5 * without && by_all < 0.7 * by_sraa);
+        for parts in helped {
+            let found = off(parts);
+            println!("{parts}: {found:.1}");
+            assert!(found < 0.97 * by_sraa, "{parts}: {found} of {by_sraa}");
+        }
     }
 
     /// On a device with timestamps, whatever they are worth there, and on one that is the processor without.
@@ -123,7 +165,8 @@ mod tests {
             for sraa in [true, false] {
                 // More than are waited for.
                 for _ in 0..12 {
-                    pollster::block_on(draw(&gpu, &mut renderer, [320, 180], 2.0, sraa)).unwrap();
+                    let parts = Parts { sraa, ..Parts::ALL };
+                    pollster::block_on(draw(&gpu, &mut renderer, [320, 180], 2.0, parts)).unwrap();
                 }
                 let costs = renderer.clock.take().unwrap().unwrap();
                 assert!(!costs.recorded.is_zero());

@@ -1,33 +1,42 @@
-//! A frame in four passes: geometry, once for each of its four samples; shading, once a pixel; SRAA; and to the screen.
+//! A frame in five steps: geometry, once for each of its four samples and the centre; where each pixel is shaded; shading, once a
+//! pixel; SRAA; and to the screen.
 
 use crate::clock::Clock;
-use crate::shaders::sraa;
+use crate::options::Parts;
+use crate::shaders::{sraa, sraa_place};
 use crate::{Failure, Size, scene};
 use glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec2, Vec3, vec2, vec3};
-use straightline_runtime::{Span, wgpu};
+use straightline_runtime::{Bound, Span, wgpu};
 use web_time::Instant;
 use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
 
-/// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`. The first is
-/// shaded.
-const SAMPLES: [Vec2; 4] = [
+/// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`, and the centre.
+const SAMPLES: [Vec2; 5] = [
     vec2(-0.125, -0.375),
     vec2(0.375, -0.125),
     vec2(-0.375, 0.125),
     vec2(0.125, 0.375),
+    Vec2::ZERO,
 ];
 
 /// Linear depth, so that the kernel needs to know nothing of the projection.
 const DEPTH: TextureFormat = TextureFormat::R32Float;
 const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
 const ALBEDO: TextureFormat = TextureFormat::Rgba8Unorm;
+const PLACE: TextureFormat = TextureFormat::R32Uint;
 const COLOR: TextureFormat = TextureFormat::Rgba16Float;
 const Z_BUFFER: TextureFormat = TextureFormat::Depth32Float;
 
 /// Linear depth where there is nothing.
 const SKY: f64 = 1.0e6;
+
+/// A difference between surfaces that none exceeds: as a threshold, it turns off what begins there.
+const NEVER: f32 = 16.0;
+
+/// Which of a frame's passes are SRAA's: placing and the filter.
+const OF_SRAA: [usize; 2] = [SAMPLES.len(), SAMPLES.len() + 2];
 
 /// Bytes of the uniforms of `scene.wgsl`.
 const UNIFORMS: usize = 160;
@@ -36,10 +45,16 @@ const UNIFORMS: usize = 160;
 pub struct Renderer {
     queue: wgpu::Queue,
     passes: Passes,
-    sraa: sraa::Pass,
+    kernels: Kernels,
     targets: Targets,
     /// What the frames cost.
     pub clock: Clock,
+}
+
+/// Where each pixel is shaded, and the filter.
+struct Kernels {
+    place: sraa_place::Pass,
+    sraa: sraa::Pass,
 }
 
 /// Pipelines and what does not change with the size.
@@ -57,16 +72,18 @@ struct Passes {
 /// What does change with the size.
 struct Targets {
     size: Size,
-    /// Four layers each: one for each sample.
-    depth: wgpu::Texture,
-    normal: wgpu::Texture,
-    albedo: wgpu::TextureView,
+    /// Depth, normal and albedo: a layer for each sample.
+    geometry: [wgpu::Texture; 3],
     z_buffer: wgpu::TextureView,
-    /// Shaded once a pixel.
-    shaded: wgpu::TextureView,
+    /// At which sample each pixel is shaded.
+    place: wgpu::TextureView,
+    /// Shaded once a pixel, and what of that does not follow the albedo.
+    shaded: [wgpu::TextureView; 2],
     /// The same, antialiased.
     resolved: wgpu::TextureView,
-    /// SRAA from these to `resolved`.
+    /// From geometry to `place`.
+    placing: sraa_place::Bound,
+    /// From these to `resolved`.
     sraa: sraa::Bound,
 }
 
@@ -76,7 +93,7 @@ impl Renderer {
         let shader = device.create_shader_module(wgpu::include_wgsl!("scene.wgsl"));
         let corners = scene::corners();
         let numbers = corners.as_flattened().iter().flat_map(Vec3::to_array);
-        let sraa = sraa::Pass::new(device)?;
+        let kernels = Kernels { place: sraa_place::Pass::new(device)?, sraa: sraa::Pass::new(device)? };
         let passes = Passes {
             corners: buffer(device, queue, wgpu::BufferUsages::VERTEX, &bytes(numbers)),
             count: corners.len() as u32,
@@ -85,57 +102,67 @@ impl Renderer {
                 .map(|_| buffer(device, queue, wgpu::BufferUsages::UNIFORM, &[0; UNIFORMS]))
                 .collect(),
             geometry: pipeline(device, &shader, ["corner", "surface"], &[DEPTH, NORMAL, ALBEDO], true),
-            shading: pipeline(device, &shader, ["cover", "shade"], &[COLOR], false),
+            shading: pipeline(device, &shader, ["cover", "shade"], &[COLOR, COLOR], false),
             present: pipeline(device, &shader, ["cover", "present"], &[format], false),
             device: device.clone(),
         };
         Ok(Renderer {
             queue: queue.clone(),
             passes,
-            targets: Targets::new(device, size, &sraa)?,
-            sraa,
+            targets: Targets::new(device, size, &kernels)?,
+            kernels,
             clock: Clock::new(device, queue)?,
         })
     }
 
-    /// Records and submits the frame at `time` seconds, with or without antialiasing. Where the target has another size than
+    /// Records and submits the frame at `time` seconds, with the parts that are on. Where the target has another size than
     /// the last one, what lies between the passes is made anew, and SRAA bound to it.
-    pub fn draw(&mut self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
+    pub fn draw(&mut self, time: f32, parts: Parts, target: &wgpu::TextureView) -> Result<(), Failure> {
         let begun = Instant::now();
         let size = [target.texture().width(), target.texture().height()];
         if size != self.targets.size {
-            self.targets = Targets::new(&self.passes.device, size, &self.sraa)?;
+            self.targets = Targets::new(&self.passes.device, size, &self.kernels)?;
         }
         let distance = 5.4 + 1.0 * (0.4 * time).sin();
         let Renderer { queue, passes, targets, clock, .. } = self;
         for (sample, uniforms) in SAMPLES.iter().zip(&passes.uniforms) {
             queue.write_buffer(uniforms, 0, &view(size, time, distance, *sample));
         }
-        // A pixel covers more depth the farther away it is.
-        targets.sraa.set_depth_scale(queue, 120.0 / distance)?;
+        // Without SRAA nobody borrows, and each pixel needs the colour of its centre.
+        targets.placing.set_unseen(queue, if parts.sraa && parts.placing { 0.01 } else { NEVER })?;
+        targets.sraa.set_search_threshold(queue, if parts.searching { 0.05 } else { NEVER })?;
+        // All paint counts as white at least: of one colour.
+        targets.sraa.set_albedo_floor(queue, if parts.demodulating { 0.04 } else { 1.0 })?;
 
         let mut encoder = passes.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        // The shaded sample comes last, so that what is not kept for each sample is its own.
-        for sample in (0..SAMPLES.len()).rev() {
+        for sample in 0..SAMPLES.len() {
             passes.draw_geometry(&mut encoder, targets, sample as u32, clock.span()?);
         }
-        let (depth, normal) = (layer(&targets.depth, 0), layer(&targets.normal, 0));
-        let surfaces = [&depth, &normal, &targets.albedo];
+        record(targets.placing.inner(), &mut encoder, clock)?;
+        let [depth, normal, albedo] = targets.geometry.each_ref().map(all_layers);
+        let surfaces = [&depth, &normal, &albedo, &targets.place];
         let uniforms = Some(&passes.uniforms[0]);
-        passes.cover(&mut encoder, &passes.shading, (uniforms, &surfaces), &targets.shaded, clock.span()?);
-        if with_sraa {
-            match clock.timer() {
-                Some(timer) => targets.sraa.inner().encode_timed(&mut encoder, timer)?,
-                None => targets.sraa.encode(&mut encoder),
-            }
+        let shaded = targets.shaded.each_ref();
+        passes.cover(&mut encoder, &passes.shading, (uniforms, &surfaces), &shaded, clock.span()?);
+        if parts.sraa {
+            record(targets.sraa.inner(), &mut encoder, clock)?;
         }
-        let shown = if with_sraa { &targets.resolved } else { &targets.shaded };
-        passes.cover(&mut encoder, &passes.present, (None, &[shown]), target, clock.span()?);
-        clock.resolve(&mut encoder, with_sraa.then_some(SAMPLES.len() + 1))?;
+        let shown = if parts.sraa { &targets.resolved } else { shaded[0] };
+        passes.cover(&mut encoder, &passes.present, (None, &[shown]), &[target], clock.span()?);
+        clock.resolve(&mut encoder, if parts.sraa { &OF_SRAA } else { &[] })?;
         queue.submit([encoder.finish()]);
         clock.add(begun.elapsed())?;
         Ok(())
     }
+}
+
+/// Records a kernel, timed if frames are.
+fn record(kernel: &Bound, encoder: &mut wgpu::CommandEncoder, clock: &mut Clock) -> Result<(), Failure> {
+    match clock.timer() {
+        Some(timer) => kernel.encode_timed(encoder, timer)?,
+        None => kernel.encode(encoder),
+    }
+    Ok(())
 }
 
 impl Passes {
@@ -147,15 +174,16 @@ impl Passes {
         sample: u32,
         span: Option<Span<'_>>,
     ) {
-        let (depth, normal) = (layer(&targets.depth, sample), layer(&targets.normal, sample));
-        let cleared = |view, r, b| attachment(view, wgpu::LoadOp::Clear(wgpu::Color { r, g: 0.0, b, a: 0.0 }));
+        let [depth, normal, albedo] = targets.geometry.each_ref().map(|texture| layer(texture, sample));
+        let cleared = |view, [r, g, b]: [f64; 3]| attachment(view, wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 0.0 }));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("geometry"),
             color_attachments: &[
-                cleared(&depth, SKY, 0.0),
+                cleared(&depth, [SKY, 0.0, 0.0]),
                 // Any unit vector, the same everywhere.
-                cleared(&normal, 0.0, 1.0),
-                cleared(&targets.albedo, 0.0, 0.0),
+                cleared(&normal, [0.0, 0.0, 1.0]),
+                // All of the sky's colour is borrowed.
+                cleared(&albedo, [1.0; 3]),
             ],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.z_buffer,
@@ -171,18 +199,20 @@ impl Passes {
         pass.draw(0..self.count, 0..1);
     }
 
-    /// Draws one triangle over all of `target`.
+    /// Draws one triangle over all of `targets`.
     fn cover(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::RenderPipeline,
         (uniforms, inputs): (Option<&wgpu::Buffer>, &[&wgpu::TextureView]),
-        target: &wgpu::TextureView,
+        targets: &[&wgpu::TextureView],
         span: Option<Span<'_>>,
     ) {
+        let attachments = targets.iter().map(|target| attachment(target, wgpu::LoadOp::Clear(wgpu::Color::BLACK)));
+        let attachments: Vec<_> = attachments.collect();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("cover"),
-            color_attachments: &[attachment(target, wgpu::LoadOp::Clear(wgpu::Color::BLACK))],
+            color_attachments: &attachments,
             timestamp_writes: span.as_ref().map(Span::render_writes),
             ..Default::default()
         });
@@ -231,7 +261,7 @@ fn view(size: Size, time: f32, distance: f32, sample: Vec2) -> Vec<u8> {
 }
 
 impl Targets {
-    fn new(device: &wgpu::Device, size: Size, sraa: &sraa::Pass) -> Result<Self, Failure> {
+    fn new(device: &wgpu::Device, size: Size, kernels: &Kernels) -> Result<Self, Failure> {
         let texture = |format, layers, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
@@ -247,16 +277,20 @@ impl Targets {
         let drawn = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         let stored = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
         let samples = SAMPLES.len() as u32;
-        let (depth, normal) = (texture(DEPTH, samples, drawn), texture(NORMAL, samples, drawn));
-        let [shaded, resolved] = [drawn, stored].map(|usage| layer(&texture(COLOR, 1, usage), 0));
-        let inputs = sraa::Inputs { color: &shaded, depth: &all_layers(&depth), normal: &all_layers(&normal) };
+        let geometry = [DEPTH, NORMAL, ALBEDO].map(|format| texture(format, samples, drawn));
+        let one = |format, usage| layer(&texture(format, 1, usage), 0);
+        let (place, resolved) = (one(PLACE, stored), one(COLOR, stored));
+        let shaded = [one(COLOR, drawn), one(COLOR, drawn)];
+        let [depth, normal, albedo] = &geometry.each_ref().map(all_layers);
+        let seen = sraa_place::Inputs { depth, normal };
+        let inputs = sraa::Inputs { depth, normal, albedo, place: &place, color: &shaded[0], rest: &shaded[1] };
         Ok(Targets {
             size,
-            sraa: sraa.bind(&inputs, &sraa::Parameters::default(), &resolved)?,
-            depth,
-            normal,
-            albedo: layer(&texture(ALBEDO, 1, drawn), 0),
-            z_buffer: layer(&texture(Z_BUFFER, 1, TextureUsages::RENDER_ATTACHMENT), 0),
+            placing: kernels.place.bind(&seen, &sraa_place::Parameters::default(), &place)?,
+            sraa: kernels.sraa.bind(&inputs, &sraa::Parameters::default(), &resolved)?,
+            geometry,
+            z_buffer: one(Z_BUFFER, TextureUsages::RENDER_ATTACHMENT),
+            place,
             shaded,
             resolved,
         })

@@ -45,32 +45,43 @@ fn cover(@builtin(vertex_index) k: u32) -> @builtin(position) vec4f {
     return vec4f(select(-1.0, 3.0, k == 1u), select(-1.0, 3.0, k == 2u), 0.0, 1.0);
 }
 
-// Shading, once a pixel, at the first sample.
+// Shading, once a pixel: at the sample that the place map names, or at the centre.
 
-@group(0) @binding(1) var depth_map: texture_2d<f32>;
-@group(0) @binding(2) var normal_map: texture_2d<f32>;
-@group(0) @binding(3) var albedo_map: texture_2d<f32>;
+@group(0) @binding(1) var depth_map: texture_2d_array<f32>;
+@group(0) @binding(2) var normal_map: texture_2d_array<f32>;
+@group(0) @binding(3) var albedo_map: texture_2d_array<f32>;
+@group(0) @binding(4) var place_map: texture_2d<u32>;
+
+struct Shaded {
+    @location(0) color: vec4f,
+    // What of it does not follow the albedo.
+    @location(1) rest: vec4f,
+}
 
 const SUN = vec3f(0.48, 0.64, 0.60);
 
 @fragment
-fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {
+fn shade(@builtin(position) at: vec4f) -> Shaded {
     let pixel = vec2i(at.xy);
+    let layer = textureLoad(place_map, pixel, 0).x;
+    // The ray through the pixel's centre, wherever in it the surface is seen: in half a pixel it hardly turns.
     let size = vec2f(textureDimensions(depth_map));
     let place = vec2f(at.x / size.x, 1.0 - at.y / size.y) * 2.0 - 1.0;
     let forward = normalize(cross(view.up.xyz, view.right.xyz));
     let ray = normalize(forward + place.x * view.right.xyz + place.y * view.up.xyz);
-    let normal = textureLoad(normal_map, pixel, 0).xyz;
-    let albedo = textureLoad(albedo_map, pixel, 0).rgb;
-    if textureLoad(depth_map, pixel, 0).x >= 1.0e6 {
+    let normal = textureLoad(normal_map, pixel, layer, 0).xyz;
+    let albedo = textureLoad(albedo_map, pixel, layer, 0).rgb;
+    if textureLoad(depth_map, pixel, layer, 0).x >= 1.0e6 {
         let height = clamp(0.5 + 1.2 * ray.y, 0.0, 1.0);
-        return vec4f(mix(vec3f(0.50, 0.53, 0.56), vec3f(0.10, 0.16, 0.28), height), 1.0);
+        let sky = mix(vec3f(0.50, 0.53, 0.56), vec3f(0.10, 0.16, 0.28), height);
+        return Shaded(vec4f(sky, 1.0), vec4f(0.0));
     }
     let facing = max(dot(normal, SUN), 0.0);
     let ambient = mix(vec3f(0.10, 0.09, 0.08), vec3f(0.22, 0.27, 0.34), 0.5 + 0.5 * normal.y);
     let gloss = pow(max(dot(reflect(ray, normal), SUN), 0.0), 40.0);
     let sun = vec3f(1.3, 1.15, 0.95);
-    return vec4f(albedo * (ambient + sun * facing) + 0.5 * sun * gloss, 1.0);
+    let highlight = 0.5 * sun * gloss;
+    return Shaded(vec4f(albedo * (ambient + sun * facing) + highlight, 1.0), vec4f(highlight, 0.0));
 }
 
 // To the screen.

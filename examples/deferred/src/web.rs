@@ -27,14 +27,15 @@ pub fn start() {
     });
 }
 
-/// The frame at `time` seconds: four bytes a pixel, sRGB, rows from the top. Not what a canvas shows, which no script can read
+/// The frame that an address asks for: four bytes a pixel, sRGB, rows from the top. Not what a canvas shows, which no script can read
 /// reliably, but what the same renderer draws to a texture.
 #[wasm_bindgen]
-pub async fn picture(width: u32, height: u32, time: f32, sraa: bool) -> Result<Vec<u8>, JsError> {
+pub async fn picture(address: &str) -> Result<Vec<u8>, JsError> {
     let drawn = async {
+        let Options { size, time, parts, .. } = Options::of_address(address)?;
         let gpu = Gpu::headless(false).await?;
-        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [width, height], picture::FORMAT)?;
-        picture::draw(&gpu, &mut renderer, [width, height], time, sraa).await
+        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, size, picture::FORMAT)?;
+        picture::draw(&gpu, &mut renderer, size, time.unwrap_or(2.0), parts).await
     };
     drawn.await.map_err(|failure: Failure| JsError::new(&failure.to_string()))
 }
@@ -86,7 +87,7 @@ impl Screen {
             ..Default::default()
         });
         let time = self.options.time.unwrap_or(self.started.elapsed().as_secs_f32());
-        self.renderer.draw(time, self.options.sraa, &view)?;
+        self.renderer.draw(time, self.options.parts, &view)?;
         self.under_way.fetch_add(1, Ordering::Relaxed);
         let under_way = Arc::clone(&self.under_way);
         self.gpu.queue.on_submitted_work_done(move || {
@@ -106,13 +107,9 @@ impl Screen {
         {
             self.counted = (Instant::now(), 0);
             let each = elapsed.as_secs_f64() * 1e3 / f64::from(frames);
-            say(&format!("{}: {each:.1} ms a frame, {}; {costs}", self.state(), self.gpu.clock()));
+            say(&format!("{}: {each:.1} ms a frame, {}; {costs}", self.options.parts, self.gpu.clock()));
         }
         Ok(())
-    }
-
-    fn state(&self) -> String {
-        format!("SRAA {} (Space)", if self.options.sraa { "on" } else { "off" })
     }
 }
 
@@ -120,20 +117,21 @@ async fn run() -> Result<(), Failure> {
     let options = Options::of_address(&window().location().search().unwrap_or_default())?;
     let canvas = element("canvas").and_then(|element| element.dyn_into().ok());
     let screen = Screen::new(canvas.ok_or("the page has no <canvas>")?, options).await?;
-    say(&screen.state());
+    say(&screen.options.parts.to_string());
     let screen = Rc::new(RefCell::new(screen));
-    toggle_by_space(Rc::clone(&screen));
+    toggle_by_keys(Rc::clone(&screen));
     draw_every_frame(screen);
     Ok(())
 }
 
-fn toggle_by_space(screen: Rc<RefCell<Screen>>) {
+fn toggle_by_keys(screen: Rc<RefCell<Screen>>) {
     let pressed = Closure::<dyn FnMut(_)>::new(move |event: KeyboardEvent| {
-        if event.code() == "Space" && !event.repeat() {
+        let with_others = event.ctrl_key() || event.alt_key() || event.meta_key();
+        let key = if event.key() == " " { "Space".to_owned() } else { event.key() };
+        let mut screen = screen.borrow_mut();
+        if !event.repeat() && !with_others && screen.options.parts.press(&key) {
             event.prevent_default();
-            let mut screen = screen.borrow_mut();
-            screen.options.sraa = !screen.options.sraa;
-            say(&screen.state());
+            say(&screen.options.parts.to_string());
         }
     });
     window().set_onkeydown(Some(pressed.as_ref().unchecked_ref()));

@@ -1,7 +1,7 @@
 //! Frames in a window.
 
 use crate::gpu::Gpu;
-use crate::options::Options;
+use crate::options::{Options, Parts};
 use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         size: options.size,
         time: options.time,
         timestamps: options.timestamps,
-        sraa: options.sraa,
+        parts: options.parts,
         started: Instant::now(),
         screen: None,
         counted: (Instant::now(), 0),
@@ -37,7 +37,7 @@ struct Application {
     /// Where it stands still.
     time: Option<f32>,
     timestamps: bool,
-    sraa: bool,
+    parts: Parts,
     started: Instant,
     /// From the first moment that there can be one.
     screen: Option<Screen>,
@@ -83,7 +83,7 @@ impl Screen {
         }
     }
 
-    fn draw(&mut self, time: f32, sraa: bool) -> Result<(), Failure> {
+    fn draw(&mut self, time: f32, parts: Parts) -> Result<(), Failure> {
         let frame = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
             CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
@@ -97,7 +97,7 @@ impl Screen {
             format: Some(self.config.format.add_srgb_suffix()),
             ..Default::default()
         });
-        self.renderer.draw(time, sraa, &view)?;
+        self.renderer.draw(time, parts, &view)?;
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
         Ok(())
@@ -121,19 +121,22 @@ impl ApplicationHandler for Application {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => screen.resize(size),
             WindowEvent::KeyboardInput {
-                event: KeyEvent { logical_key: Key::Named(key), state: ElementState::Pressed, repeat: false, .. },
+                event: KeyEvent { logical_key, state: ElementState::Pressed, repeat: false, .. },
                 ..
-            } => match key {
-                NamedKey::Space => {
-                    self.sraa = !self.sraa;
+            } => {
+                let key = match &logical_key {
+                    Key::Named(NamedKey::Escape) => return events.exit(),
+                    Key::Named(NamedKey::Space) => "Space",
+                    Key::Character(key) => key,
+                    _ => return,
+                };
+                if self.parts.press(key) {
                     self.show_state("");
                 }
-                NamedKey::Escape => events.exit(),
-                _ => {}
-            },
+            }
             WindowEvent::RedrawRequested => {
                 let time = self.time.unwrap_or(self.started.elapsed().as_secs_f32());
-                if let Err(failure) = screen.draw(time, self.sraa).and_then(|()| self.count()) {
+                if let Err(failure) = screen.draw(time, self.parts).and_then(|()| self.count()) {
                     self.fail(events, failure);
                 }
             }
@@ -151,8 +154,7 @@ impl ApplicationHandler for Application {
 impl Application {
     fn show_state(&self, frames: &str) {
         if let Some(screen) = &self.screen {
-            let state = if self.sraa { "on" } else { "off" };
-            screen.window.set_title(&format!("SRAA {state} (Space){frames}"));
+            screen.window.set_title(&format!("{}{frames}", self.parts));
         }
     }
 

@@ -64,6 +64,8 @@ test("the canvas is drawn, and the page says what a frame costs", async () => {
 
   await page.keyboard.press("Space");
   await says(page, /SRAA off .* ms to record/);
+  await page.keyboard.press("d");
+  await says(page, /placing on .* demodulating off .* ms to record/);
   assert.deepEqual(page.problems, []);
   await page.close();
 });
@@ -80,12 +82,12 @@ test("timestamps come without waiting", async () => {
 });
 
 /** Mean and maximum of the differences of colours, in 8 bits, and the share of pixels that differ by more than 2. */
-async function compared(page, sraa, file) {
+async function compared(page, without, file) {
   const png = (await readFile(file)).toString("base64");
   return page.evaluate(
-    async (size, sraa, png) => {
+    async (size, without, png) => {
       const { picture } = await import("./deferred.js");
-      const drawn = await picture(...size, 2, sraa);
+      const drawn = await picture(`?size=${size.join("x")}&time=2${without}`);
       const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${png}`)).blob());
       const canvas = new OffscreenCanvas(...size);
       const context = canvas.getContext("2d");
@@ -110,22 +112,25 @@ async function compared(page, sraa, file) {
       return { mean: sum / (3 * pixels), most, beyond: beyond / pixels, colours: colours.size, same: drawn.length === native.length, bytes };
     },
     SIZE,
-    sraa,
+    without,
     png,
   );
 }
+
+/** SRAA without what helps it. */
+const ALONE = "&without-placing&without-searching&without-demodulating";
 
 test("the browser's picture is the native one", async () => {
   const page = await open(`size=${SIZE.join("x")}&time=2`);
   await says(page, /SRAA on/);
   for (const [driver, mean, share] of [["swiftshader", 0.01, 0], ["native", 0.5, 0.02]]) {
-    for (const [name, sraa] of [["", true], ["-without", false]]) {
+    for (const [name, without] of [["", ""], ["-alone", ALONE], ["-without", "&without-sraa"]]) {
       const file = join(pictures, `${driver}${name}.png`);
       if (!existsSync(file)) {
         console.log(`  no ${driver}${name}.png: this machine's Chromium has no SwiftShader that the native example can load`);
         continue;
       }
-      const { bytes, ...found } = await compared(page, sraa, file);
+      const { bytes, ...found } = await compared(page, without, file);
       await writeFile(join(pictures, `browser${name}.png`), Buffer.from(bytes));
       console.log(`  to ${driver}${name}.png: mean ${found.mean.toFixed(4)}, at most ${found.most}, ${(100 * found.beyond).toFixed(3)} % beyond 2`);
       assert.ok(found.same && found.colours > 300, `a picture: ${JSON.stringify(found)}`);

@@ -27,6 +27,8 @@ pub struct Colors {
     /// Of demodulate=albedo-shadow: what the direct light adds to each pixel's colour where no shadow falls, in red, green and
     /// blue: the colour is some rest and the share of the direct light that arrives times this.
     pub direct: Frame<Vec4>,
+    /// Of demodulate with rest=true: what of each pixel's colour does not follow the albedo, in red, green and blue.
+    pub rest: Frame<Vec4>,
 }
 
 impl Colors {
@@ -42,6 +44,7 @@ impl Colors {
             albedo_samples: Multisampled::new(vec![Texture::new(UVec2::ONE, vec![Vec4::ZERO]); 2]),
             centre_albedo: frame(),
             direct: frame(),
+            rest: frame(),
         }
     }
 }

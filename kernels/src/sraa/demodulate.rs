@@ -4,11 +4,13 @@
 //! A colour is taken to be a(ρ + vδ): the albedo a, the share v of the direct light that no shadow keeps away, and light ρ and δ
 //! that varies little from pixel to pixel. A shading sample t gives aₜδₜ as the direct light; a geometry sample s takes from it
 //! aₛ(ρₜ + vₛδₜ), which is aₛ/aₜ (color + (vₛ - vₜ) direct). Nothing is divided by v, so that what is in shadow keeps its rest.
+//! What does not follow the albedo, highlights and haze, is taken for light too, unless it is known apart: then it is borrowed as
+//! it is.
 
 use super::Inputs;
 use super::colors::{color_at, is_kept};
 use super::gbuffer::Layout;
-use super::options::{Guards, Mask, Sraa};
+use super::options::{Guards, Mask, Normalisation, Resolve, Search, Sraa};
 use super::pattern::Place;
 use super::placed::shaded_place;
 use crate::prelude::*;
@@ -99,50 +101,86 @@ fn direct(inputs: &Inputs, tap: Place) -> Vec4 {
     inputs.colors.direct.load(inputs.pixel + tap.pixel).xyz().extend(0.0)
 }
 
-/// Whether a tap's colour, and the direct light in it, may count.
+/// What of a tap's colour does not follow the albedo.
+fn rest(inputs: &Inputs, tap: Place) -> Vec4 {
+    inputs.colors.rest.load(inputs.pixel + tap.pixel).xyz().extend(0.0)
+}
+
+/// Whether a tap's colour, and what is known of it, may count.
 pub(super) fn may_count(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4) -> bool {
-    match cfg.demodulate {
+    let kept = match cfg.demodulate {
         Demodulate::None | Demodulate::Albedo => is_kept(cfg, shaded),
         Demodulate::AlbedoShadow => is_kept(cfg, shaded) && is_kept(cfg, direct(inputs, tap)),
+    };
+    if cfg.rest && cfg.demodulate != Demodulate::None {
+        kept && is_kept(cfg, rest(inputs, tap))
+    } else {
+        kept
     }
 }
 
 /// A tap's colour by its weight in the pixel. `reflected` is the weight times the albedo of the samples that it counts for, and
 /// `lit` of these what is lit.
-pub(super) fn weighed(
+pub(super) fn weighed(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4, weight: f32, sums: (Vec3, Vec3)) -> Vec4 {
+    match cfg.demodulate {
+        Demodulate::None => weight * shaded,
+        _ => {
+            let from = paint(cfg, inputs, shaded_place(cfg, inputs, tap));
+            taken(cfg, inputs, tap, &from, shaded, weight, sums)
+        }
+    }
+}
+
+/// The same of a tap whose paint is known.
+fn taken(
     cfg: &Sraa,
     inputs: &Inputs,
     tap: Place,
+    from: &Paint,
     shaded: Vec4,
     weight: f32,
     (reflected, lit): (Vec3, Vec3),
 ) -> Vec4 {
-    let at = shaded_place(cfg, inputs, tap);
-    match cfg.demodulate {
-        Demodulate::None => weight * shaded,
-        Demodulate::Albedo => {
-            let own = paint(cfg, inputs, at);
-            (reflected / own.albedo * shaded.xyz()).extend(weight * shaded.w)
-        }
-        Demodulate::AlbedoShadow => {
-            let own = paint(cfg, inputs, at);
-            let (all, direct) = (reflected / own.albedo, direct(inputs, tap).xyz());
-            let brighter = lit / own.albedo - own.lit * all;
-            (all * shaded.xyz() + brighter * direct).extend(weight * shaded.w)
-        }
+    let all = reflected / from.albedo;
+    let brighter = match cfg.demodulate {
+        Demodulate::None | Demodulate::Albedo => Vec3::ZERO,
+        Demodulate::AlbedoShadow => (lit / from.albedo - from.lit * all) * direct(inputs, tap).xyz(),
+    };
+    if cfg.rest {
+        let rest = rest(inputs, tap).xyz();
+        (all * (shaded.xyz() - rest) + brighter + weight * rest).extend(weight * shaded.w)
+    } else {
+        (all * shaded.xyz() + brighter).extend(weight * shaded.w)
     }
 }
 
-/// The colour that a sample with a paint of its own takes from the only shading sample of a tap's pixel.
-pub(super) fn repainted(cfg: &Sraa, inputs: &Inputs, tap: Place, own: &Paint) -> Vec4 {
+/// The colour that a sample with a paint of its own takes from the only shading sample of a tap's pixel, whose surface is the
+/// sample's own or, if not `seen`, may be any.
+pub(super) fn repainted(cfg: &Sraa, inputs: &Inputs, tap: Place, own: &Paint, seen: bool) -> Vec4 {
     let shaded = color_at(inputs, tap);
     match cfg.demodulate {
         Demodulate::None => shaded,
-        _ => weighed(cfg, inputs, tap, shaded, 1.0, (own.albedo, own.lit * own.albedo)),
+        _ => {
+            let mut from = paint(cfg, inputs, shaded_place(cfg, inputs, tap));
+            if !seen {
+                from.albedo = from.albedo.max(Vec3::splat(cfg.unseen_floor));
+            }
+            taken(cfg, inputs, tap, &from, shaded, 1.0, (own.albedo, own.lit * own.albedo))
+        }
     }
 }
 
 impl Sraa {
+    /// Whether samples whose surface no tap shows are reconstructed apart from all others.
+    pub(super) fn sets_apart(&self) -> bool {
+        let can_be = self.resolve == Resolve::Box
+            && self.normalisation == Normalisation::Shifted
+            && self.shading_samples() == 1
+            && self.samples() <= 32;
+        self.search != Search::None
+            || (self.demodulate != Demodulate::None && can_be && self.unseen_floor > self.albedo_floor)
+    }
+
     /// Refuses what light cannot be taken apart for.
     pub(super) fn check_demodulate(&self) {
         if self.demodulate != Demodulate::None {
@@ -155,6 +193,11 @@ impl Sraa {
                 self.demodulate == Demodulate::Albedo || self.shading_samples() == 1,
                 "demodulate=albedo-shadow reads the direct light of one shading sample a pixel: use demodulate=albedo, or shade \
                  once a pixel"
+            );
+            assert!(
+                !self.rest || self.shading_samples() == 1,
+                "rest=true reads what does not follow the albedo of one shading sample a pixel: use rest=false, or shade once a \
+                 pixel"
             );
         }
     }

@@ -159,7 +159,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                 Normalisation::Paper | Normalisation::Shifted => share / sum,
                 Normalisation::Epsilon => share / sum.max(EPSILON),
             };
-            if cfg.search != Search::None && nearest > cfg.search_threshold {
+            if cfg.sets_apart() && nearest > cfg.search_threshold {
                 unseen |= 1u32 << sample;
                 scale = 0.0;
             }

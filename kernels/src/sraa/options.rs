@@ -47,7 +47,7 @@ options! {
         pub resolve_radius: f32 [0.5..=1.5] = 1.0,
         /// How far the surface of a sample that no tap shows is searched for.
         pub search: Search = Search::None,
-        /// Of search: the largest difference of what shows a sample's surface.
+        /// Of search and demodulate: the largest difference of what shows a sample's surface.
         pub search_threshold: f32 [0.0..=16.0] = 0.05,
         /// Of the kernel `sraa_place`: the largest difference of what shows a sample's surface.
         pub unseen: f32 [0.0..=16.0] = 0.01,
@@ -56,6 +56,13 @@ options! {
         /// Of demodulate: the least albedo that colours are divided by, a channel. What is darker shows mostly what it mirrors, of
         /// which the albedo says nothing.
         pub albedo_floor: f32 [0.001..=1.0] = 0.04,
+        /// Of demodulate: the same of taps for a sample whose surface none of them shows, where what a dark one mirrors would shine many
+        /// times as bright. With resolve=box, normalisation=shifted, one shading sample a pixel and up to 32 geometry samples. No more
+        /// than albedo-floor, it leaves out the branch that such samples take.
+        pub unseen_floor: f32 [0.001..=1.0] = 0.25,
+        /// Of demodulate: whether the image `rest` holds what of each pixel's colour does not follow the albedo: highlights, mirror
+        /// images, haze. That is borrowed as it is.
+        pub rest: bool = false,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,
         /// Of mask: the largest difference that is no variation.

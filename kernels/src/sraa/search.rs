@@ -1,4 +1,4 @@
-//! Where no tap shows a sample's surface: a search farther away.
+//! Where no tap shows a sample's surface: a search farther away, and less light from dark surfaces.
 
 use super::colors::is_kept;
 use super::demodulate::{Paint, paint, repainted};
@@ -53,17 +53,15 @@ pub(super) fn searched(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
         color: Vec4::ZERO,
         share: 0.0,
     };
-    match cfg.search {
-        Search::None => nothing,
-        Search::Five | Search::Seven =>
-        {
-            #[cfg_attr(false, branch)]
-            if unseen != 0 {
-                each(cfg, inputs, unseen)
-            } else {
-                nothing
-            }
+    if cfg.sets_apart() {
+        #[cfg_attr(false, branch)]
+        if unseen != 0 {
+            each(cfg, inputs, unseen)
+        } else {
+            nothing
         }
+    } else {
+        nothing
     }
 }
 
@@ -79,7 +77,10 @@ fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
             let own = paint(cfg, inputs, place);
-            let mut sum = farther(cfg, inputs, place, &centre, &own);
+            let mut sum = match cfg.search {
+                Search::None => Sum::NOTHING,
+                Search::Five | Search::Seven => farther(cfg, inputs, place, &centre, &own),
+            };
             if sum.weight == 0.0 {
                 sum = nearby(cfg, inputs, place, &centre, &own);
             }
@@ -102,31 +103,32 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pai
     for tap in 0..side * side {
         let at = cfg.tap(tap, side);
         if difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
-            sum.add(cfg, repainted(cfg, inputs, at, own), spread(place, at));
+            sum.add(cfg, repainted(cfg, inputs, at, own, true), spread(place, at));
         }
     }
     sum
 }
 
-/// What the sample would be without a search.
+/// What the sample would be without a search, but that dark surfaces give less light.
 fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Sum {
+    let side = cfg.side();
     let mut nearest = FAR;
-    for tap in 0..9 {
-        let at = cfg.tap(tap, 3);
+    for tap in 0..side * side {
+        let at = cfg.tap(tap, side);
         if falloff(cfg, place, at) > least(cfg) {
             nearest = nearest.min(difference(cfg, inputs, place, centre, at));
         }
     }
     let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
     let mut sum = Sum::NOTHING;
-    for tap in 0..9 {
-        let at = cfg.tap(tap, 3);
+    for tap in 0..side * side {
+        let at = cfg.tap(tap, side);
         let near = falloff(cfg, place, at);
         if near > least(cfg) {
             let d = difference(cfg, inputs, place, centre, at);
             sum.add(
                 cfg,
-                repainted(cfg, inputs, at, own),
+                repainted(cfg, inputs, at, own, false),
                 near * (steepness * (nearest - d)).exp2(),
             );
         }

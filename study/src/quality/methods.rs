@@ -317,8 +317,14 @@ fn beyond() -> Vec<Method> {
             sraa("searched", &[SEARCHED]),
             sraa("placed", &[PLACED]),
             sraa("placed and searched", &[PLACED, SEARCHED]).main(),
+            sraa("demodulated by albedo", &[("demodulate", "albedo")]),
             sraa("demodulated", &[DEMODULATED]).pictured(),
             sraa("placed, searched and demodulated", &[PLACED, SEARCHED, DEMODULATED]).pictured(),
+            sraa(
+                "placed, searched, demodulated and rest apart",
+                &[PLACED, SEARCHED, DEMODULATED, ("rest", "true")],
+            )
+            .pictured(),
         ]);
     }
     all

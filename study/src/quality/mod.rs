@@ -87,6 +87,8 @@ pub struct Setup {
     pub rounds: u32,
     /// Fewer methods.
     pub quick: bool,
+    /// Only these of the methods, by their names; all of them if none is named.
+    pub only: Vec<String>,
     /// Methods of the user's, compared beside the others.
     pub own: Vec<Method>,
     /// Frames of the pan; 0 for none.
@@ -140,7 +142,11 @@ fn all(
     progress: &mut dyn Progress,
     outcome: &mut Outcome,
 ) -> Result<(), QualityError> {
-    let mut listed = [methods(setup.quick), setup.own.clone()].concat();
+    let mut listed = methods(setup.quick && setup.only.is_empty());
+    if !setup.only.is_empty() {
+        listed.retain(|method| setup.only.contains(&method.name));
+    }
+    listed.extend(setup.own.iter().cloned());
     if setup.post_processed {
         listed.extend(post::the_other_order());
     }

@@ -76,6 +76,7 @@ mod tests {
             normal: None,
             albedo: None,
             direct: None,
+            rest: None,
             reference: None,
         }
     }

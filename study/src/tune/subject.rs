@@ -144,6 +144,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         normal,
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
     }
 }
@@ -177,6 +178,7 @@ mod tests {
             normal: Some(FrameLayers::new(normal.collect())),
             albedo: None,
             direct: None,
+            rest: None,
             reference: None,
             samples,
         }

@@ -29,6 +29,7 @@ const NORMAL: &str = "normal.exr";
 const PLACE: &str = "place.exr";
 const ALBEDO: &str = "albedo.exr";
 const DIRECT: &str = "direct.exr";
+const REST: &str = "rest.exr";
 const REFERENCE: &str = "reference.exr";
 
 /// The layer of `place.exr`, and its channel.
@@ -36,7 +37,17 @@ const PLACE_LAYER: &str = "place";
 const PLACE_CHANNEL: &str = "Y";
 
 /// Every file that a capture may hold.
-const FILES: [&str; 8] = [DESCRIPTION, COLOR, PLACE, DEPTH, NORMAL, ALBEDO, DIRECT, REFERENCE];
+const FILES: [&str; 9] = [
+    DESCRIPTION,
+    COLOR,
+    PLACE,
+    DEPTH,
+    NORMAL,
+    ALBEDO,
+    DIRECT,
+    REST,
+    REFERENCE,
+];
 
 /// A rendered picture with subpixel geometry. All images have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +78,8 @@ pub struct Capture {
     pub albedo: Option<FrameLayers<Vec4>>,
     /// Linear RGB that the direct light adds to `color` where no shadow falls. Only of one shading sample a pixel.
     pub direct: Option<Frame<Vec4>>,
+    /// Linear RGB of `color` that does not follow the albedo: highlights, mirror images, haze. Only of one shading sample a pixel.
+    pub rest: Option<Frame<Vec4>>,
     /// Linear colour that a perfect filter would give.
     pub reference: Option<Frame<Vec4>>,
 }

@@ -3,7 +3,7 @@
 use super::description::{Description, STATED_BY};
 use super::{
     ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
-    REFERENCE, ShadingSample, layer_count, layer_name, mean,
+    REFERENCE, REST, ShadingSample, layer_count, layer_name, mean,
 };
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
@@ -45,7 +45,14 @@ impl Capture {
             None => None,
         };
         let albedo = layout.optional(ALBEDO).map(|_| layout.albedo()).transpose()?;
-        let direct = layout.optional(DIRECT).map(|path| layout.direct(&path)).transpose()?;
+        let once = |file: &str, what: &str| {
+            layout
+                .optional(file)
+                .map(|path| layout.once(&path, file, what))
+                .transpose()
+        };
+        let direct = once(DIRECT, "direct light")?;
+        let rest = once(REST, "what does not follow the albedo")?;
         let reference = match layout.optional(REFERENCE) {
             Some(path) => {
                 let reference = layout.color(REFERENCE, "the reference")?;
@@ -66,6 +73,7 @@ impl Capture {
             normal,
             albedo,
             direct,
+            rest,
             reference,
             camera: description.camera,
         })
@@ -117,16 +125,17 @@ pub(super) fn check_place(path: &Path, samples: usize, place: &Frame<u32>) -> Re
     .into())
 }
 
-/// Refuses direct light of several shading samples a pixel.
-pub(super) fn check_direct(path: &Path, shading: &ShadingSample) -> Result<(), CaptureError> {
+/// Refuses `what` of several shading samples a pixel.
+pub(super) fn check_once(path: &Path, what: &str, shading: &ShadingSample) -> Result<(), CaptureError> {
     let ShadingSample::Samples(_) = shading else {
         return Ok(());
     };
-    let problem = "the capture is shaded several times a pixel, and direct light is kept apart of one shading sample alone: leave \
-                   the file out";
+    let problem = format!(
+        "the capture is shaded several times a pixel, and {what} is kept apart of one shading sample alone: leave the file out"
+    );
     Err(PictureError::Unusable {
         path: path.to_owned(),
-        problem: problem.to_owned(),
+        problem,
     }
     .into())
 }
@@ -198,10 +207,10 @@ impl Layout<'_> {
         Ok(FrameLayers::new(layers))
     }
 
-    /// What the direct light adds to the colour of each pixel's only shading sample.
-    fn direct(&self, path: &Path) -> Result<Frame<Vec4>, CaptureError> {
-        check_direct(path, &self.description.shading())?;
-        self.color(DIRECT, "the direct light")
+    /// A part of the colour of each pixel's only shading sample.
+    fn once(&self, path: &Path, file: &str, what: &str) -> Result<Frame<Vec4>, CaptureError> {
+        check_once(path, what, &self.description.shading())?;
+        self.color(file, what)
     }
 
     /// The layers of a file by their names, each a colour; alpha is 1 where there is none.

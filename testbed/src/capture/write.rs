@@ -4,7 +4,7 @@ use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
 use super::{
     ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, FILES, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
-    REFERENCE, ShadingSample, layer_name,
+    REFERENCE, REST, ShadingSample, layer_name,
 };
 use crate::picture::exr::{self, Layer};
 use crate::picture::{self, PictureError};
@@ -81,7 +81,11 @@ impl Capture {
         }
         if let Some(direct) = &self.direct {
             self.check_size(dir, DIRECT, "its colour", direct.size())?;
-            super::read::check_direct(&dir.join(DIRECT), &self.shading)?;
+            super::read::check_once(&dir.join(DIRECT), "direct light", &self.shading)?;
+        }
+        if let Some(rest) = &self.rest {
+            self.check_size(dir, REST, "its colour", rest.size())?;
+            super::read::check_once(&dir.join(REST), "what does not follow the albedo", &self.shading)?;
         }
         if let Some(reference) = &self.reference {
             self.check_size(dir, REFERENCE, "its colour", reference.size())?;
@@ -158,6 +162,9 @@ impl Capture {
         }
         if let Some(direct) = &self.direct {
             picture::write_exr(&dir.join(DIRECT), direct)?;
+        }
+        if let Some(rest) = &self.rest {
+            picture::write_exr(&dir.join(REST), rest)?;
         }
         if let Some(reference) = &self.reference {
             picture::write_exr(&dir.join(REFERENCE), reference)?;

@@ -118,6 +118,10 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             needed_of(&capture.direct, "direct light (direct.exr)", demodulate)?,
         );
     }
+    if demodulate != "none" && option(options, "rest", "false") == "true" {
+        let rest = needed_of(&capture.rest, "what does not follow the albedo (rest.exr)", demodulate)?;
+        inputs = inputs.image("rest", rest);
+    }
     if !capture.colors.is_empty() {
         inputs = inputs.layers("colors", capture.colors.clone());
     }

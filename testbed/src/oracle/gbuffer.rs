@@ -54,6 +54,7 @@ pub struct GBuffer<'a> {
     place: Option<&'a Frame<UVec4>>,
     albedo: Option<Stored<'a>>,
     direct: Option<&'a Frame<Vec4>>,
+    rest: Option<&'a Frame<Vec4>>,
     depth: Option<Stored<'a>>,
     normal: Option<Stored<'a>>,
     rays: Option<[[f64; 3]; 3]>,
@@ -93,6 +94,10 @@ impl<'a> GBuffer<'a> {
             Demodulate::AlbedoShadow => Some(&images(inputs, "direct", 1)?[0]),
             Demodulate::None | Demodulate::Albedo => None,
         };
+        let rest = match params.demodulate {
+            Demodulate::Albedo | Demodulate::AlbedoShadow if params.rest => Some(&images(inputs, "rest", 1)?[0]),
+            _ => None,
+        };
         let place = match params.shading {
             Shading::Placed => Some(integers(inputs, "place")?),
             Shading::Sample0 | Shading::Centre | Shading::Listed => None,
@@ -120,6 +125,7 @@ impl<'a> GBuffer<'a> {
             place,
             albedo,
             direct,
+            rest,
             depth,
             normal,
             rays,
@@ -149,7 +155,16 @@ impl<'a> GBuffer<'a> {
 
     /// What the direct light adds to a pixel's colour out of shadow, or to that of the nearest pixel inside; 0 if that is not known.
     pub fn direct(&self, pixel: [i32; 2]) -> [f64; 3] {
-        let light = self.direct.map(|direct| numbers(texel(direct, self.inside(pixel))));
+        self.part(self.direct, pixel)
+    }
+
+    /// What of a pixel's colour does not follow the albedo, or of that of the nearest pixel inside; 0 if that is not known.
+    pub fn rest(&self, pixel: [i32; 2]) -> [f64; 3] {
+        self.part(self.rest, pixel)
+    }
+
+    fn part(&self, of: Option<&Frame<Vec4>>, pixel: [i32; 2]) -> [f64; 3] {
+        let light = of.map(|frame| numbers(texel(frame, self.inside(pixel))));
         light.map_or([0.0; 3], |[red, green, blue, _]| [red, green, blue])
     }
 

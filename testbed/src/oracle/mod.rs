@@ -12,7 +12,8 @@
 //!
 //! Where shading is placed, the surface of a tap is that at the sample which an image names, and its distance on the screen
 //! that of its pixel's centre. Where albedo is known at samples, colour(t) is light times the albedo at t, and what s takes of it the
-//! same light times the albedo at s; where shadow is too, of the direct light the share at s instead of that at t. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
+//! same light times the albedo at s; where shadow is too, of the direct light the share at s instead of that at t. What of the colour does
+//! not follow the albedo, if that is known, is taken as it is. The albedo at t is higher where it may be that of another surface. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
 //! mean of those shading samples of a larger square that do not, weighed by a Gaussian with a standard deviation of a pixel; if
 //! there are any.
 
@@ -254,7 +255,7 @@ impl<'a> Definition<'a> {
                             at: tap,
                             falloff,
                             difference,
-                            color: self.repainted(pixel, at, tap, self.gbuffer.color(there, k)),
+                            color: self.repainted(pixel, at, tap, self.gbuffer.color(there, k), true),
                         });
                     }
                 }
@@ -264,8 +265,16 @@ impl<'a> Definition<'a> {
     }
 
     /// The colour of a tap with the light that falls on it, on the surface at a geometry sample: of its direct light the share that
-    /// arrives there, and of both what that surface reflects.
-    fn repainted(&self, pixel: [i32; 2], at: ([i32; 2], usize), tap: ([i32; 2], usize), color: [f64; 4]) -> [f64; 4] {
+    /// arrives there, and of both what that surface reflects; and what is no such light. If the tap's surface may be another
+    /// than the sample's, its light is that of a lighter one.
+    fn repainted(
+        &self,
+        pixel: [i32; 2],
+        at: ([i32; 2], usize),
+        tap: ([i32; 2], usize),
+        color: [f64; 4],
+        is_own: bool,
+    ) -> [f64; 4] {
         let there = |(away, sample): ([i32; 2], usize)| ([pixel[0] + away[0], pixel[1] + away[1]], sample);
         let paint = |at| {
             let (pixel, sample) = there(at);
@@ -274,15 +283,19 @@ impl<'a> Definition<'a> {
         let (Some((onto, arrives)), Some((from, arrived))) = (paint(at), paint(tap)) else {
             return color;
         };
-        let direct = self.gbuffer.direct(there(tap).0);
-        let light =
-            |axis: usize| (color[axis] - arrived * direct[axis]) / from[axis] + arrives * direct[axis] / from[axis];
-        [onto[0] * light(0), onto[1] * light(1), onto[2] * light(2), color[3]]
+        let from = match is_own {
+            true => from,
+            false => from.map(|channel| channel.max(self.params.unseen_floor)),
+        };
+        let (direct, rest) = (self.gbuffer.direct(there(tap).0), self.gbuffer.rest(there(tap).0));
+        let light = |axis: usize| (color[axis] - rest[axis] + (arrives - arrived) * direct[axis]) / from[axis];
+        let onto = |axis: usize| onto[axis] * light(axis) + rest[axis];
+        [onto(0), onto(1), onto(2), color[3]]
     }
 
     /// Those that a geometry sample takes its colour from: `near`, or what a search finds; and whether 32 bits decide so too.
     fn searched(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
-        if self.params.search == Search::None {
+        if self.params.search == Search::None && !self.takes_less_from_others() {
             return (near, true);
         }
         let most = self.params.search_threshold;
@@ -291,15 +304,37 @@ impl<'a> Definition<'a> {
         if nearest <= most {
             return (near, decided(nearest));
         }
-        let mut around = self.taps_around(pixel, at);
+        let mut around = match self.params.search {
+            Search::None => Vec::new(),
+            Search::Five | Search::Seven => self.taps_around(pixel, at),
+        };
         let is_decided = decided(nearest) && around.iter().all(|tap| decided(tap.difference));
         around.retain(|tap| tap.difference <= most);
         // They count alike.
         around.iter_mut().for_each(|tap| tap.difference = 0.0);
         match around.is_empty() {
-            true => (near, is_decided),
+            true => (self.from_others(pixel, at, near), is_decided),
             false => (around, is_decided),
         }
+    }
+
+    /// Whether the filter knows which samples no tap shows.
+    fn takes_less_from_others(&self) -> bool {
+        let params = self.params;
+        params.demodulate != Demodulate::None
+            && params.resolve == Resolve::Box
+            && params.normalisation == Normalisation::Shifted
+            && self.shaded.len() == 1
+            && self.samples.len() <= 32
+    }
+
+    /// Taps of a geometry sample whose surface none of them shows.
+    fn from_others(&self, pixel: [i32; 2], at: ([i32; 2], usize), mut near: Vec<Tap>) -> Vec<Tap> {
+        for tap in &mut near {
+            let color = self.gbuffer.color([0, 1].map(|axis| pixel[axis] + tap.at.0[axis]), 0);
+            tap.color = self.repainted(pixel, at, tap.at, color, false);
+        }
+        near
     }
 
     fn point(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Point {

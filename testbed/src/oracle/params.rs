@@ -272,6 +272,10 @@ pub struct SraaParams {
     pub demodulate: Demodulate,
     /// The least albedo, a channel.
     pub albedo_floor: f64,
+    /// The same of taps on other surfaces than the sample's own.
+    pub unseen_floor: f64,
+    /// Whether what does not follow the albedo is known.
+    pub rest: bool,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
     /// The largest difference that is no variation.
@@ -314,6 +318,8 @@ impl Default for SraaParams {
             unseen: 0.01,
             demodulate: Demodulate::None,
             albedo_floor: 0.04,
+            unseen_floor: 0.25,
+            rest: false,
             mask: Mask::None,
             mask_threshold: 0.01,
             non_finite: NonFinite::Skip,
@@ -399,6 +405,8 @@ impl SraaParams {
             "unseen" => self.unseen = number(option, value)?,
             "demodulate" => self.demodulate = choice(option, value, Demodulate::ALL, Demodulate::name)?,
             "albedo-floor" => self.albedo_floor = number(option, value)?,
+            "unseen-floor" => self.unseen_floor = number(option, value)?,
+            "rest" => self.rest = value == "true",
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,

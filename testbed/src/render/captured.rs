@@ -68,6 +68,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         normal: Some(normal),
         albedo: None,
         direct: None,
+        rest: None,
         reference: None,
     })
 }

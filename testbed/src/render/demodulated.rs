@@ -6,7 +6,7 @@ use glam::{UVec2, Vec2, Vec4, uvec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 /// Gives a capture of what `renderer` draws the albedo of every layer of its geometry, with the sun's share in alpha, and, if it is shaded
-/// once a pixel, the direct light there.
+/// once a pixel, the direct light there and what does not follow the albedo.
 ///
 /// # Errors
 ///
@@ -18,18 +18,26 @@ pub fn add_albedo(capture: &mut Capture, renderer: &dyn Renderer) -> Result<(), 
     }
     let layers: Result<Vec<_>, _> = places.iter().map(|place| renderer.albedo(*place)).collect();
     capture.albedo = Some(FrameLayers::new(layers?));
-    capture.direct = match (&capture.shading, &capture.place) {
-        (ShadingSample::Samples(_), _) => None,
-        (ShadingSample::Sample(sample), _) => Some(renderer.sunlight(places[*sample])?),
-        (ShadingSample::Placed, Some(chosen)) => {
-            let centred = renderer.sunlight(Vec2::ZERO)?;
-            Some(placed::gathered(&places, chosen, centred, |place| {
-                renderer.sunlight(place)
-            })?)
-        }
-        (ShadingSample::Centre | ShadingSample::Placed, _) => Some(renderer.sunlight(Vec2::ZERO)?),
-    };
+    capture.direct = once_a_pixel(capture, &places, |place| renderer.sunlight(place))?;
+    capture.rest = once_a_pixel(capture, &places, |place| renderer.unpainted(place))?;
     Ok(())
+}
+
+/// What is drawn where each pixel is shaded, if that is once.
+fn once_a_pixel(
+    capture: &Capture,
+    places: &[Vec2],
+    drawn: impl Fn(Vec2) -> Result<Frame<Vec4>, RenderError>,
+) -> Result<Option<Frame<Vec4>>, RenderError> {
+    match (&capture.shading, &capture.place) {
+        (ShadingSample::Samples(_), _) => Ok(None),
+        (ShadingSample::Sample(sample), _) => drawn(places[*sample]).map(Some),
+        (ShadingSample::Placed, Some(chosen)) => {
+            let centred = drawn(Vec2::ZERO)?;
+            placed::gathered(places, chosen, centred, drawn).map(Some)
+        }
+        (ShadingSample::Centre | ShadingSample::Placed, _) => drawn(Vec2::ZERO).map(Some),
+    }
 }
 
 /// What `of` makes of each pixel's surface, seen `offset` from its centre.

@@ -18,7 +18,7 @@ mod shade;
 #[cfg(test)]
 mod tests;
 
-use crate::scene::Camera;
+use crate::scene::{Camera, SKY_DEPTH};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 
@@ -96,6 +96,30 @@ pub trait Renderer {
     /// As [`geometry`](Self::geometry).
     fn sunlight(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
         demodulated::frame(self, offset, |surface, place| self.direct(surface, place).extend(0.0))
+    }
+
+    /// Linear RGB of [`shade`](Self::shade) that does not follow the albedo: highlights and haze. Of the sky 0, whose albedo is 1.
+    fn rest(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        match surface.depth >= SKY_DEPTH {
+            true => Vec3::ZERO,
+            // Black paint has nothing else.
+            false => self.shade(
+                &Surface {
+                    color: Vec3::ZERO,
+                    ..*surface
+                },
+                place,
+            ),
+        }
+    }
+
+    /// What of [`shaded`](Self::shaded) at `offset` does not follow the albedo: linear RGB, alpha 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn unpainted(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::frame(self, offset, |surface, place| self.rest(surface, place).extend(0.0))
     }
 
     /// Mean of the pictures shaded at each of `offsets`.

@@ -80,6 +80,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "beyond" => Ok(quality::beyond(&QualityRecord::read(first).map_err(why)?)),
+        "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
@@ -112,7 +113,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, goals, hard, fast, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, gaps, goals, hard, fast, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

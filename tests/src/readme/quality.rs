@@ -248,6 +248,42 @@ const BEYOND: [&str; 10] = [
     "16x",
 ];
 
+/// Where edges are those of paint and shadow: what is borrowed apart from them, between SRAA and supersampling.
+const DEMODULATED: [&str; 7] = [
+    "SRAA N, relative depth",
+    "SRAA N, demodulated by albedo",
+    "SRAA N, demodulated",
+    "SRAA N, placed and searched",
+    "SRAA N, placed, searched and demodulated",
+    "SRAA N, placed, searched, demodulated and rest apart",
+    "Nx",
+];
+
+/// Every scene by the number of samples: PSNR and FLIP of what takes light apart.
+pub fn demodulated(record: &QualityRecord) -> String {
+    let head = [
+        "scene",
+        "samples",
+        "SRAA",
+        "`albedo`",
+        "`albedo-shadow`",
+        "placed, searched",
+        "and `albedo-shadow`",
+        "and `rest=true`",
+        "supersampling",
+    ];
+    let rows = record.scenes.iter().flat_map(|scene| {
+        ["4", "16"].map(|samples| {
+            let cells = DEMODULATED.map(|name| cell(scene, &name.replace('N', samples)));
+            [scene.scene.clone(), samples.to_owned()]
+                .into_iter()
+                .chain(cells)
+                .collect()
+        })
+    });
+    markdown(&head, rows.collect())
+}
+
 /// Every scene: PSNR and FLIP of the main methods.
 pub fn scenes(record: &QualityRecord) -> String {
     of_scenes(record, &MAIN)
@@ -262,15 +298,18 @@ fn of_scenes(record: &QualityRecord, methods: &[&str]) -> String {
     let mut head = vec!["scene"];
     head.extend(methods);
     let row = |scene: &SceneErrors| {
-        let cell = |name: &&str| match found(scene, name) {
-            Some(method) => format!("{:.2}, {:.4}", method.psnr, method.flip),
-            None => "–".to_owned(),
-        };
         std::iter::once(scene.scene.clone())
-            .chain(methods.iter().map(cell))
+            .chain(methods.iter().map(|name| cell(scene, name)))
             .collect()
     };
     markdown(&head, record.scenes.iter().map(row).collect())
+}
+
+fn cell(scene: &SceneErrors, name: &str) -> String {
+    match found(scene, name) {
+        Some(method) => format!("{:.2}, {:.4}", method.psnr, method.flip),
+        None => "–".to_owned(),
+    }
 }
 
 /// What one method gave on some scenes.

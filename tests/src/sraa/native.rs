@@ -83,6 +83,8 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
                 one_of!(value, Demodulate: "none" => None, "albedo" => Albedo, "albedo-shadow" => AlbedoShadow);
         }
         "albedo-floor" => cfg.albedo_floor = number(value),
+        "unseen-floor" => cfg.unseen_floor = number(value),
+        "rest" => cfg.rest = value == "true",
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),
         "turn" => cfg.turn = one_of!(value, Turn: "cosine" => Cosine, "chord" => Chord),
@@ -154,6 +156,7 @@ fn colors(inputs: &Inputs) -> Colors {
             "albedo_samples" => colors.albedo_samples = Multisampled::new(images.iter().map(texture).collect()),
             "centre_albedo" => colors.centre_albedo = first.clone(),
             "direct" => colors.direct = first.clone(),
+            "rest" => colors.rest = first.clone(),
             _ => {}
         }
     }

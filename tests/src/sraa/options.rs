@@ -113,6 +113,9 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     if is("demodulate", "albedo-shadow") && is("shading", "listed") {
         return Some("direct light is that of one shading sample");
     }
+    if value(options, "demodulate", "none") != "none" && is("rest", "true") && is("shading", "listed") {
+        return Some("what does not follow the albedo is that of one shading sample");
+    }
     if value(options, "search", "none") != "none" && refuses.iter().any(|(name, value)| is(name, value)) {
         return Some(SEARCH_REFUSED);
     }

@@ -20,6 +20,7 @@ const QUICK_FRAMES: u32 = 4;
 /// Compares, writes the record and prints it.
 pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let own = own(args)?;
+    check_names(&args.only)?;
     let sources = sources(args)?;
     let gpu = Gpu::require(&common.adapter)?;
     let setup = Setup {
@@ -35,6 +36,7 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
         post_processed: args.post,
         pan_scenes: if common.quick { 1 } else { usize::MAX },
         pictures: true,
+        only: args.only.clone(),
         own,
     };
     let mut circumstances = circumstances(common, &gpu);
@@ -57,6 +59,24 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
     files::write_all(&common.out, &set).map_err(Failure::of)?;
     print(&record, &common.out);
     Ok(())
+}
+
+/// Refuses names that no method has.
+fn check_names(names: &[String]) -> Result<(), Failure> {
+    let known = quality::methods(false);
+    match names
+        .iter()
+        .find(|name| !known.iter().any(|method| method.name == **name))
+    {
+        Some(name) => Err(Failure::Usage(unknown(name, &known))),
+        None => Ok(()),
+    }
+}
+
+/// What is said of a name that no method has.
+pub fn unknown(name: &str, known: &[Method]) -> String {
+    let names: Vec<&str> = known.iter().map(|method| method.name.as_str()).collect();
+    format!("there is no method `{name}`; there are: {}", names.join("; "))
 }
 
 /// Methods of the user's, each with a name that no other has.

@@ -1,6 +1,6 @@
 //! `study film`: frames of a pan, methods side by side.
 
-use super::error::{failure, method};
+use super::error::{failure, method, unknown};
 use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, FilmArgs};
 use crate::failure::Failure;
@@ -89,10 +89,9 @@ fn methods(args: &FilmArgs) -> Result<Vec<Method>, Failure> {
             (Some(known), _) => known.clone(),
             (None, true) => method(text)?,
             (None, false) => {
-                let names: Vec<&str> = known.iter().map(|method| method.name.as_str()).collect();
+                let there_are = unknown(text, &known);
                 return Err(Failure::Usage(format!(
-                    "there is no method `{text}`; there are: {}; one of your own is NAME=KERNEL[,OPTION=VALUE]...",
-                    names.join("; ")
+                    "{there_are}; one of your own is NAME=KERNEL[,OPTION=VALUE]..."
                 )));
             }
         };
