@@ -56,6 +56,8 @@ options! {
         /// Of demodulate: the least albedo that colours are divided by, a channel. What is darker shows mostly what it mirrors, of
         /// which the albedo says nothing.
         pub albedo_floor: f32 [0.001..=1.0] = 0.04,
+        /// How many earlier frames give shading samples too.
+        pub history: i32 [0..=4] = 0,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,
         /// Of mask: the largest difference that is no variation.

@@ -272,6 +272,8 @@ pub struct SraaParams {
     pub demodulate: Demodulate,
     /// The least albedo, a channel.
     pub albedo_floor: f64,
+    /// How many earlier frames give shading samples too.
+    pub history: usize,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
     /// The largest difference that is no variation.
@@ -314,6 +316,7 @@ impl Default for SraaParams {
             unseen: 0.01,
             demodulate: Demodulate::None,
             albedo_floor: 0.04,
+            history: 0,
             mask: Mask::None,
             mask_threshold: 0.01,
             non_finite: NonFinite::Skip,
@@ -399,6 +402,7 @@ impl SraaParams {
             "unseen" => self.unseen = number(option, value)?,
             "demodulate" => self.demodulate = choice(option, value, Demodulate::ALL, Demodulate::name)?,
             "albedo-floor" => self.albedo_floor = number(option, value)?,
+            "history" => self.history = number(option, value)? as usize,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
