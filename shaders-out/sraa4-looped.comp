@@ -22,7 +22,7 @@ void main() {
     if (any(greaterThanEqual(pixel, frame))) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:234)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:268)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
@@ -45,10 +45,11 @@ void main() {
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // kernels/src/sraa/mod.rs:265
+            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:67)
             ivec2 tap_pixel = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), tap_pixel))))) {
                     d = 0.0;
@@ -60,7 +61,7 @@ void main() {
                     ).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:269
+                        // kernels/src/sraa/mod.rs:303
                         shaded_depth = depth_3;
                     }
                     vec3 n_2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(at, 4), 0).xyz;
@@ -70,7 +71,7 @@ void main() {
                         // kernels/src/sraa/metric.rs:101
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:270
+                    // kernels/src/sraa/mod.rs:304
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
@@ -108,7 +109,7 @@ void main() {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:209)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:233)
             result += w * shaded;
         }
         sum += w;

@@ -15,7 +15,6 @@ use super::search::Sum;
 use super::{Inputs, falloff, steepness};
 use crate::prelude::*;
 
-
 /// Frames gone by, of as many layers as the option `history` says, in any order. Where nothing is known, as outside the picture, a
 /// layer's motion may be not a number: then nothing is taken of it.
 pub struct History {
@@ -65,13 +64,13 @@ pub(super) fn shift(cfg: &Sraa, nearest: f32) -> f32 {
 
 /// Where tap `tap` of this frame is shaded, of a square of `side` × `side` pixels.
 pub(super) fn own_tap(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Place {
-    let place = cfg.tap(tap, side);
+    let tap = cfg.tap(tap, side);
     if cfg.history == 0 {
-        place
+        tap
     } else {
         Place {
-            at: place.at + inputs.history.jitter,
-            ..place
+            at: tap.at + inputs.history.jitter,
+            ..tap
         }
     }
 }

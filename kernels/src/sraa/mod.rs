@@ -46,14 +46,7 @@ struct Inputs<'a> {
 
 /// Antialiased colour of `pixel`: each geometry sample takes its colour from the shading samples around it,
 /// weighted by how close their surfaces are.
-pub fn sraa(
-    cfg: &Sraa,
-    gbuffer: &GBuffer,
-    view: &View,
-    colors: &Colors,
-    history: &History,
-    pixel: IVec2,
-) -> Vec4 {
+pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, history: &History, pixel: IVec2) -> Vec4 {
     cfg.check();
     let inputs = Inputs {
         gbuffer,
@@ -147,7 +140,10 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                 if reaches(cfg, place, cfg.tap(tap, SIDE)) {
                     let d = difference(cfg, inputs, place, &centre, own_tap(cfg, inputs, tap, SIDE));
                     distances[tap] = d;
-                    nearest = nearest.min(d);
+                    // Where it lies is a runtime value: it may be out of reach all the same.
+                    if cfg.history == 0 || falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE)) > 0.0 {
+                        nearest = nearest.min(d);
+                    }
                 }
             }
             let mut tap_weights = [0.0; TAPS];
@@ -160,8 +156,11 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                             Normalisation::Shifted => shift(cfg, nearest) - distances[tap],
                         };
                     let w = match cfg.falloff {
-                        // Where a tap lies is a runtime value: its falloff may be 0, which has no logarithm.
-                        _ if cfg.history > 0 => exponent.exp2() * falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE)),
+                        // Where a tap lies is a runtime value: its falloff may be 0, which has no logarithm, and it may then be nearer
+                        // than the nearest in reach.
+                        _ if cfg.history > 0 => {
+                            exponent.min(0.0).exp2() * falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE))
+                        }
                         Falloff::None => exponent.exp2(),
                         // The falloff as an exponent: it is added, not multiplied with.
                         _ => (exponent + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2(),

@@ -86,7 +86,9 @@ impl Definition<'_> {
                     let seen = Point {
                         depth: if depth.abs() < DEEPEST { depth } else { DEEPEST },
                         normal: self.gbuffer.compared([nx, ny, nz]),
-                        ray: self.gbuffer.ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis])),
+                        ray: self
+                            .gbuffer
+                            .ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis])),
                     };
                     taps.push(Tap {
                         at: ([column - pixel[0], row - pixel[1]], usize::MAX),

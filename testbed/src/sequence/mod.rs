@@ -115,32 +115,30 @@ impl Moment {
 ///
 /// What the renderer refuses.
 pub fn motion(now: &Moment, then: &Moment) -> Result<Frame<Vec4>, RenderError> {
-    // Vertices' colours are carried across a triangle as their places are: those of then, in shares of a box around them.
-    let places = || then.scene.vertices.iter().map(|vertex| Vec3::from(vertex.position));
-    let least = places().fold(Vec3::INFINITY, Vec3::min);
-    let extent = (places().fold(Vec3::NEG_INFINITY, Vec3::max) - least).max(Vec3::splat(f32::MIN_POSITIVE));
+    // Colours of vertices are carried across a triangle as their places are: here the way back to where they were.
     let mut carried = now.scene.clone();
-    for (vertex, place) in carried.vertices.iter_mut().zip(places()) {
-        vertex.color = ((place - least) / extent).into();
+    for (vertex, then) in carried.vertices.iter_mut().zip(&then.scene.vertices) {
+        vertex.color = (Vec3::from(then.position) - Vec3::from(vertex.position)).into();
         vertex.texture = 0;
     }
     let size = now.renderer.size();
     let surfaces = CpuRenderer::new(&carried, size)?.surfaces(now.jitter)?;
     let to_world = Mat3::from_mat4(now.scene.camera.view()).transpose();
-    let (view, projection) = (then.scene.camera.view(), then.scene.camera.projection(size, then.jitter));
+    let to_view = Mat3::from_mat4(then.scene.camera.view());
+    let back = Vec3::from(now.scene.camera.position) - Vec3::from(then.scene.camera.position);
+    let projection = then.scene.camera.projection(size, then.jitter);
     let half = now.scene.camera.half_extent(size);
     let texels = surfaces.par_iter().enumerate().map(|(k, surface)| {
         let pixel = uvec2(k as u32 % size.x, k as u32 / size.x).as_vec2() + 0.5;
         let is_sky = surface.depth >= SKY_DEPTH;
-        let seen_then = match is_sky {
+        let at = (pixel + now.jitter) / size.as_vec2() * 2.0 - 1.0;
+        let towards = to_world * vec3(at.x * half.x, -at.y * half.y, -1.0);
+        let from_camera = match is_sky {
             // Infinitely far away: only where the camera looks counts.
-            true => {
-                let at = (pixel + now.jitter) / size.as_vec2() * 2.0 - 1.0;
-                view.transform_vector3(to_world * vec3(at.x * half.x, -at.y * half.y, -1.0))
-            }
-            false => view.transform_point3(least + surface.color * extent),
+            true => towards,
+            false => towards * surface.depth + surface.color + back,
         };
-        let clip = projection * seen_then.extend(1.0);
+        let clip = projection * (to_view * from_camera).extend(1.0);
         if clip.w <= 0.0 {
             return Vec4::splat(f32::NAN);
         }

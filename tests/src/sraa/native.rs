@@ -4,8 +4,8 @@ use super::options::Options;
 use glam::{UVec2, Vec3, ivec2, vec2};
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
-    Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite, Normalisation,
-    Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
+    Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite,
+    Normalisation, Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
 };
 use straightline_testbed::execute::Inputs;
 

@@ -110,7 +110,12 @@ fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
         };
         seen.push(Frame::new(size, pixels().map(texel).collect()));
         let mut own = |_| match random.unit() < 0.2 {
-            true => vec4(moved.x + 3.0 * random.unit(), moved.y - 9.0 * random.unit(), deeper, 0.0),
+            true => vec4(
+                moved.x + 3.0 * random.unit(),
+                moved.y - 9.0 * random.unit(),
+                deeper,
+                0.0,
+            ),
             false => vec4(moved.x, moved.y, deeper, 0.0),
         };
         motion.push(Frame::new(size, pixels().map(&mut own).collect()));
