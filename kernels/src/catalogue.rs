@@ -53,6 +53,7 @@ const SRAA: &[SourceFile] = &[
     source!("sraa/options.rs"),
     source!("sraa/colors.rs"),
     source!("sraa/demodulate.rs"),
+    source!("sraa/history.rs"),
     source!("sraa/pattern.rs"),
     source!("sraa/gbuffer.rs"),
     source!("sraa/view.rs"),

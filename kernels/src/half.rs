@@ -26,7 +26,9 @@ pub(crate) fn sraa(option: &OptionValue<'_>) -> HalfPrecision {
         }
         Some("normals") if option("normalisation").is_none_or(|how| how == "shifted") => {
             // What is kept of weights says nothing of light that is divided by an albedo.
-            return match option("demodulate").is_none_or(|how| how == "none") {
+            // Nor of a frame's place among others.
+            let is_plain = option("demodulate").is_none_or(|how| how == "none");
+            return match is_plain && option("history").is_none_or(|frames| frames == "0") {
                 true => HalfPrecision::Kept,
                 false => HalfPrecision::Unstudied,
             };

@@ -12,3 +12,4 @@ pub mod oracle;
 pub mod picture;
 pub mod render;
 pub mod scene;
+pub mod sequence;

@@ -90,7 +90,7 @@ pub struct Surface {
 }
 
 /// More than any depth, and finite: the sky's infinite depth less itself is not a number.
-const DEEPEST: f32 = 1.0e30;
+pub(super) const DEEPEST: f32 = 1.0e30;
 
 /// Less than any stored depth but 0.
 const SHORTEST: f32 = 1.0e-30;

@@ -7,6 +7,7 @@
 mod colors;
 mod demodulate;
 mod gbuffer;
+mod history;
 mod metric;
 mod options;
 mod pattern;
@@ -18,14 +19,16 @@ use crate::prelude::*;
 use colors::{color, is_kept, own_color};
 use demodulate::{may_count, paint, weighed};
 use gbuffer::surface;
+use history::{own_tap, remembered, shift};
 use metric::{FAR, Sample, distance};
 use pattern::{Place, tent};
 use placed::shaded_place;
-use search::{Searched, searched};
+use search::{Searched, Sum, searched};
 
 pub use colors::Colors;
 pub use demodulate::Demodulate;
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
+pub use history::History;
 pub use metric::{Difference, Metric, Plane};
 pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn};
 pub use pattern::{Pattern, Shading};
@@ -37,17 +40,19 @@ struct Inputs<'a> {
     gbuffer: &'a GBuffer,
     view: &'a View,
     colors: &'a Colors,
+    history: &'a History,
     pixel: IVec2,
 }
 
 /// Antialiased colour of `pixel`: each geometry sample takes its colour from the shading samples around it,
 /// weighted by how close their surfaces are.
-pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, pixel: IVec2) -> Vec4 {
+pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, history: &History, pixel: IVec2) -> Vec4 {
     cfg.check();
     let inputs = Inputs {
         gbuffer,
         view,
         colors,
+        history,
         pixel,
     };
     match (cfg.side(), cfg.shading_samples()) {
@@ -115,13 +120,14 @@ fn again<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> V
 
 /// The mean of the geometry samples, each with its colour from the taps around it.
 fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
-    let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
+    let steepness = steepness(cfg);
     let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
     // The same times what reflects light at the samples that a tap counts for, and times what reflects direct light.
     let mut reflected = [Vec3::ZERO; TAPS];
     let mut lit = [Vec3::ZERO; TAPS];
     let mut unseen = 0;
+    let mut past = Sum::NOTHING;
     for sample in 0..cfg.reconstructed() {
         if cfg.share(sample) != 0.0 {
             let share = cfg.share(sample) / total;
@@ -131,22 +137,30 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             let mut distances = [0.0; TAPS];
             let mut nearest = FAR;
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
-                    let d = difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE));
+                if reaches(cfg, place, cfg.tap(tap, SIDE)) {
+                    let d = difference(cfg, inputs, place, &centre, own_tap(cfg, inputs, tap, SIDE));
                     distances[tap] = d;
-                    nearest = nearest.min(d);
+                    // Where it lies is a runtime value: it may be out of reach all the same.
+                    if cfg.history == 0 || falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE)) > 0.0 {
+                        nearest = nearest.min(d);
+                    }
                 }
             }
             let mut tap_weights = [0.0; TAPS];
             let mut sum = 0.0;
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
+                if reaches(cfg, place, cfg.tap(tap, SIDE)) {
                     let exponent = steepness
                         * match cfg.normalisation {
                             Normalisation::Paper | Normalisation::Epsilon => -distances[tap],
-                            Normalisation::Shifted => nearest - distances[tap],
+                            Normalisation::Shifted => shift(cfg, nearest) - distances[tap],
                         };
                     let w = match cfg.falloff {
+                        // Where a tap lies is a runtime value: its falloff may be 0, which has no logarithm, and it may then be nearer
+                        // than the nearest in reach.
+                        _ if cfg.history > 0 => {
+                            exponent.min(0.0).exp2() * falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE))
+                        }
                         Falloff::None => exponent.exp2(),
                         // The falloff as an exponent: it is added, not multiplied with.
                         _ => (exponent + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2(),
@@ -154,6 +168,12 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                     tap_weights[tap] = w;
                     sum += w;
                 }
+            }
+            if cfg.history > 0 {
+                let earlier = remembered(cfg, inputs, place, &centre);
+                sum += earlier.weight;
+                past.color += share / sum * earlier.color;
+                past.kept += share / sum * earlier.kept;
             }
             let mut scale = match cfg.normalisation {
                 Normalisation::Paper | Normalisation::Shifted => share / sum,
@@ -164,7 +184,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                 scale = 0.0;
             }
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
+                if reaches(cfg, place, cfg.tap(tap, SIDE)) {
                     weights[tap] += tap_weights[tap] * scale;
                     if cfg.demodulate != Demodulate::None {
                         reflected[tap] += tap_weights[tap] * scale * own.albedo;
@@ -176,7 +196,11 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             }
         }
     }
-    let apart = searched(cfg, inputs, unseen);
+    let apart = if cfg.history > 0 {
+        past.apart()
+    } else {
+        searched(cfg, inputs, unseen)
+    };
     // Read by what demodulates alone.
     let paints = (&reflected, &lit);
     match cfg.guards {
@@ -225,6 +249,16 @@ fn mean_of_kept<const TAPS: usize>(
 /// What a sum is of which a component is infinite, or none at all is if one is not a number; and, rarely, one of large colours, which
 /// are then filtered again for nothing.
 const TOO_LARGE: f32 = 1.0e38;
+
+/// Whether a tap may have weight for a sample: of a place that is a runtime value, whatever its distance.
+fn reaches(cfg: &Sraa, sample: Place, tap: Place) -> bool {
+    cfg.history > 0 || falloff(cfg, sample, tap) > least(cfg)
+}
+
+/// How sharply weights fall, as a power of two.
+fn steepness(cfg: &Sraa) -> f32 {
+    (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST)
+}
 
 /// Less than any sum of weights that counts.
 const EPSILON: f32 = 1.0e-30;

@@ -63,6 +63,8 @@ options! {
         /// Of demodulate: whether the image `rest` holds what of each pixel's colour does not follow the albedo: highlights, mirror
         /// images, haze. That is borrowed as it is.
         pub rest: bool = false,
+        /// How many earlier frames give shading samples too.
+        pub history: i32 [0..=4] = 0,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,
         /// Of mask: the largest difference that is no variation.

@@ -174,6 +174,7 @@ impl Sraa {
             );
         }
         self.check_demodulate();
+        self.check_history();
         assert!(
             self.normals != Normals::Packed
                 || self.metric == Metric::PlanesNormals

@@ -5,7 +5,7 @@ use super::demodulate::{Paint, paint, repainted};
 use super::metric::{FAR, Sample};
 use super::options::{NonFinite, Search, Sraa};
 use super::pattern::Place;
-use super::{Inputs, STEEPEST, difference, falloff, geometry_sample, least};
+use super::{Inputs, difference, falloff, geometry_sample, least, steepness};
 use crate::prelude::*;
 
 /// What unseen samples add to the pixel.
@@ -19,20 +19,28 @@ pub(super) struct Searched {
 
 /// Colours that are added up.
 #[derive(Clone, Copy, Debug)]
-struct Sum {
-    color: Vec4,
+pub(super) struct Sum {
+    pub(super) color: Vec4,
     /// Of the colours that count.
-    kept: f32,
+    pub(super) kept: f32,
     /// Of all.
-    weight: f32,
+    pub(super) weight: f32,
 }
 
 impl Sum {
-    const NOTHING: Sum = Sum {
+    pub(super) const NOTHING: Sum = Sum {
         color: Vec4::ZERO,
         kept: 0.0,
         weight: 0.0,
     };
+
+    /// What a sum of shares in the pixel adds to it.
+    pub(super) fn apart(self) -> Searched {
+        Searched {
+            color: self.color,
+            share: self.kept,
+        }
+    }
 
     fn add(&mut self, cfg: &Sraa, shaded: Vec4, weight: f32) {
         let counts = match cfg.non_finite {
@@ -119,7 +127,7 @@ fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pain
             nearest = nearest.min(difference(cfg, inputs, place, centre, at));
         }
     }
-    let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
+    let steepness = steepness(cfg);
     let mut sum = Sum::NOTHING;
     for tap in 0..side * side {
         let at = cfg.tap(tap, side);

@@ -17,12 +17,12 @@ use straightline_codegen::Precision;
 ///
 /// # Errors
 ///
-/// [`HardError::NotStudied`] for a kernel that has no hard cases, and for demodulated colours, which none has; others if it does not compile.
+/// [`HardError::NotStudied`] for a kernel that has no hard cases, and for demodulated colours and earlier frames, which none has; others if it does not compile.
 pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
     if let Some((name, value)) = options
         .iter()
-        .find(|(name, value)| name == "demodulate" && value != "none")
+        .find(|(name, value)| (name == "demodulate" && value != "none") || (name == "history" && value != "0"))
     {
         return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
     }

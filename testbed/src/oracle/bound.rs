@@ -165,8 +165,16 @@ pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
 ///
 /// # Errors
 ///
-/// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit.
+/// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit; [`OracleError::BadValue`] with
+/// earlier frames.
 pub fn sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> Result<Vec<f64>, OracleError> {
+    if params.history > 0 {
+        return Err(OracleError::BadValue {
+            option: "history".to_owned(),
+            value: params.history.to_string(),
+            expected: "0, as no error analysis covers earlier frames".to_owned(),
+        });
+    }
     let definition = Definition::new(inputs, params)?;
     let (width, height) = (inputs.size.x as i32, inputs.size.y as i32);
     let pixels = (0..height).into_par_iter();

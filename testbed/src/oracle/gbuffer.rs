@@ -189,11 +189,24 @@ impl<'a> GBuffer<'a> {
         let normal = self.normal.as_ref().map_or([0.0, 0.0, 1.0], |stored| {
             self.decoded(self.texel(stored, pixel, sample))
         });
-        let ray = self.rays.map_or([0.0; 3], |[corner, right, down]| {
-            let at = [0, 1].map(|axis| ray_at[axis] + self.origin[axis]);
-            [0, 1, 2].map(|axis| corner[axis] + at[0] * right[axis] + at[1] * down[axis])
-        });
+        let ray = self.ray(ray_at);
         Point { depth, normal, ray }
+    }
+
+    /// From the eye to depth 1 through a place of these inputs, in pixels from their corner; 0 where no metric asks.
+    pub(super) fn ray(&self, place: [f64; 2]) -> [f64; 3] {
+        self.rays.map_or([0.0; 3], |[corner, right, down]| {
+            let at = [0, 1].map(|axis| place[axis] + self.origin[axis]);
+            [0, 1, 2].map(|axis| corner[axis] + at[0] * right[axis] + at[1] * down[axis])
+        })
+    }
+
+    /// A unit vector as normals are compared that are not read from the G-buffer; any where the metric compares none.
+    pub(super) fn compared(&self, normal: [f64; 3]) -> [f64; 3] {
+        match self.normal {
+            Some(_) => normal,
+            None => [0.0, 0.0, 1.0],
+        }
     }
 
     fn stored_depth(&self, texel: [f64; 4]) -> f64 {

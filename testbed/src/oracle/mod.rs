@@ -15,11 +15,13 @@
 //! same light times the albedo at s; where shadow is too, of the direct light the share at s instead of that at t. What of the colour does
 //! not follow the albedo, if that is known, is taken as it is. The albedo at t is higher where it may be that of another surface. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
 //! mean of those shading samples of a larger square that do not, weighed by a Gaussian with a standard deviation of a pixel; if
-//! there are any.
+//! there are any. With earlier frames, C(s) is the mean over the shading samples of all of them, each where it has moved to; of this
+//! frame's the nearest weighs 2⁻⁴⁰ at least.
 
 pub mod bound;
 pub mod edge;
 mod gbuffer;
+mod history;
 mod params;
 mod pattern;
 mod place;
@@ -27,6 +29,7 @@ pub mod quads;
 
 use crate::execute::Inputs;
 use gbuffer::{DEEPEST, GBuffer, Point};
+use history::History;
 use rayon::prelude::*;
 
 pub use params::{
@@ -82,11 +85,14 @@ struct Tap {
     /// Difference of the two surfaces, 0 or more.
     difference: f64,
     color: [f64; 4],
+    /// Whether it was shaded in an earlier frame.
+    is_earlier: bool,
 }
 
 struct Definition<'a> {
     params: &'a SraaParams,
     gbuffer: GBuffer<'a>,
+    history: History<'a>,
     samples: Vec<[f64; 2]>,
     shaded: Vec<usize>,
 }
@@ -96,6 +102,7 @@ impl<'a> Definition<'a> {
         Ok(Definition {
             params,
             gbuffer: GBuffer::new(inputs, params)?,
+            history: History::new(inputs, params)?,
             samples: params.samples(),
             shaded: params.shaded_samples(),
         })
@@ -179,18 +186,26 @@ impl<'a> Definition<'a> {
 
     /// From the centre of the pixel that is filtered, in pixels.
     fn place(&self, (pixel, sample): ([i32; 2], usize)) -> [f64; 2] {
-        let offset = self.samples.get(sample).copied().unwrap_or([0.0; 2]);
+        let offset = self.samples.get(sample).copied().unwrap_or(self.history.jitter);
         [0, 1].map(|axis| f64::from(pixel[axis]) + offset[axis])
     }
 
     /// Weight of each tap by screen and surface.
     fn weights(&self, taps: &[Tap]) -> Vec<f64> {
-        let nearest = taps.iter().map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
+        let own = taps.iter().filter(|tap| !tap.is_earlier);
+        let nearest = own.map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
         let origin = match self.params.normalisation {
+            Normalisation::Shifted if self.params.history > 0 => {
+                let faintest = 40.0 * std::f64::consts::LN_2 / self.params.steepness();
+                (nearest - faintest).max(0.0)
+            }
             Normalisation::Shifted => nearest,
             Normalisation::Paper | Normalisation::Epsilon => 0.0,
         };
-        let weight = |tap: &Tap| tap.falloff * (-self.params.steepness() * (tap.difference - origin)).exp();
+        let weight = |tap: &Tap| {
+            let origin = if tap.is_earlier { 0.0 } else { origin };
+            tap.falloff * (-self.params.steepness() * (tap.difference - origin)).exp()
+        };
         taps.iter().map(weight).collect()
     }
 
@@ -221,7 +236,9 @@ impl<'a> Definition<'a> {
 
     /// The shading samples within reach of a geometry sample.
     fn taps(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
-        self.taps_within(pixel, at, 3, |away| self.falloff(away))
+        let mut taps = self.taps_within(pixel, at, 3, |away| self.falloff(away));
+        taps.extend(self.earlier_taps(pixel, at));
+        taps
     }
 
     /// The shading samples that a search looks at.
@@ -256,6 +273,7 @@ impl<'a> Definition<'a> {
                             falloff,
                             difference,
                             color: self.repainted(pixel, at, tap, self.gbuffer.color(there, k), true),
+                            is_earlier: false,
                         });
                     }
                 }
@@ -361,7 +379,7 @@ impl<'a> Definition<'a> {
         match self.params.falloff {
             Falloff::None => 1.0,
             Falloff::Tent => Some(tent(away[0] / radius) * tent(away[1] / radius))
-                .filter(|weight| *weight > LEAST)
+                .filter(|weight| *weight > LEAST || self.params.history > 0)
                 .unwrap_or(0.0),
             Falloff::Gaussian => {
                 let square: f64 = away.iter().map(|axis| axis * axis).sum();
@@ -417,7 +435,7 @@ fn bounded(difference: f64) -> f64 {
     if difference < FAR { difference } else { FAR }
 }
 
-/// What a tent gives no more than counts as nothing.
+/// What a tent gives no more than counts as nothing, where it is known beforehand.
 const LEAST: f64 = 1.0e-6;
 
 fn mitchell(x: f64) -> f64 {

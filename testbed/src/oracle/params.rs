@@ -276,6 +276,8 @@ pub struct SraaParams {
     pub unseen_floor: f64,
     /// Whether what does not follow the albedo is known.
     pub rest: bool,
+    /// How many earlier frames give shading samples too.
+    pub history: usize,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
     /// The largest difference that is no variation.
@@ -320,6 +322,7 @@ impl Default for SraaParams {
             albedo_floor: 0.04,
             unseen_floor: 0.25,
             rest: false,
+            history: 0,
             mask: Mask::None,
             mask_threshold: 0.01,
             non_finite: NonFinite::Skip,
@@ -407,6 +410,7 @@ impl SraaParams {
             "albedo-floor" => self.albedo_floor = number(option, value)?,
             "unseen-floor" => self.unseen_floor = number(option, value)?,
             "rest" => self.rest = value == "true",
+            "history" => self.history = number(option, value)? as usize,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,

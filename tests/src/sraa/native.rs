@@ -1,21 +1,22 @@
 //! The kernel as rustc compiles it.
 
 use super::options::Options;
-use glam::{UVec2, Vec3, ivec2};
+use glam::{UVec2, Vec3, ivec2, vec2};
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
-    Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation,
-    Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
+    Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite,
+    Normalisation, Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
 };
 use straightline_testbed::execute::Inputs;
 
 /// Every pixel, by the native kernel.
 pub fn run(options: &Options, inputs: &Inputs) -> Vec<[f32; 4]> {
     let (cfg, gbuffer, view, colors) = (config(options), gbuffer(inputs), view(inputs), colors(inputs));
+    let history = history(inputs);
     let size = inputs.size.as_ivec2();
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| ivec2(x, y)));
     pixels
-        .map(|pixel| sraa(&cfg, &gbuffer, &view, &colors, pixel).to_array())
+        .map(|pixel| sraa(&cfg, &gbuffer, &view, &colors, &history, pixel).to_array())
         .collect()
 }
 
@@ -82,6 +83,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
             cfg.demodulate =
                 one_of!(value, Demodulate: "none" => None, "albedo" => Albedo, "albedo-shadow" => AlbedoShadow);
         }
+        "history" => cfg.history = value.parse().expect("a number"),
         "albedo-floor" => cfg.albedo_floor = number(value),
         "unseen-floor" => cfg.unseen_floor = number(value),
         "rest" => cfg.rest = value == "true",
@@ -161,6 +163,24 @@ fn colors(inputs: &Inputs) -> Colors {
         }
     }
     colors
+}
+
+/// Earlier frames, if there are any.
+fn history(inputs: &Inputs) -> History {
+    let mut history = History::unread();
+    for (name, images) in &inputs.images {
+        let layers = FrameLayers::new(images.clone());
+        match name.as_str() {
+            "history_color" => history.history_color = layers,
+            "history_surface" => history.history_surface = layers,
+            "history_motion" => history.history_motion = layers,
+            _ => {}
+        }
+    }
+    if let Some((_, lanes)) = inputs.uniforms.iter().find(|(known, _)| known == "jitter") {
+        history.jitter = vec2(lanes[0] as f32, lanes[1] as f32);
+    }
+    history
 }
 
 /// Where each pixel is shaded; of what is shaded elsewhere, a texel that is not read.

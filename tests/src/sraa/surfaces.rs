@@ -86,7 +86,46 @@ pub fn inputs(options: &Options, size: UVec2, seed: u64) -> Inputs {
     let compiled = compiled(options, Unroll::Full).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));
     let inputs = gbuffer::inputs(&capture, &compiled.options).unwrap_or_else(|error| panic!("{options:?}: {error}"));
     let mut random = Random(seed ^ 0x5eed);
-    inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect())
+    let inputs = inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect());
+    match value(options, "history", "0") {
+        "0" => inputs,
+        _ => with_history(inputs, size, seed),
+    }
+}
+
+/// With four earlier frames of the same surfaces, each moved by some pixels on the whole, and by as much more here and there as to show
+/// another surface; one of them by whole pixels. This frame is shaded a little aside.
+fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
+    let edges = edges(&mut Random(seed), size);
+    let mut random = Random(seed ^ 0x0b501e7e);
+    let (mut color, mut seen, mut motion) = (Vec::new(), Vec::new(), Vec::new());
+    let pixels = || (0..size.y).flat_map(|y| (0..size.x).map(move |x| uvec2(x, y)));
+    for frame in 0..4 {
+        let moved = vec2(4.0 * random.unit() - 2.0, 4.0 * random.unit() - 2.0);
+        let moved = if frame == 1 { moved.round() } else { moved };
+        let deeper = 0.02 * random.unit();
+        color.push(colors(&mut random, size));
+        let texel = |pixel: UVec2| {
+            let (depth, normal) = surface(&edges, pixel.as_vec2() + 0.5 - moved);
+            normal.extend(if depth < SKY_DEPTH { depth + deeper } else { depth })
+        };
+        seen.push(Frame::new(size, pixels().map(texel).collect()));
+        let mut own = |_| match random.unit() < 0.2 {
+            true => vec4(
+                moved.x + 3.0 * random.unit(),
+                moved.y - 9.0 * random.unit(),
+                deeper,
+                0.0,
+            ),
+            false => vec4(moved.x, moved.y, deeper, 0.0),
+        };
+        motion.push(Frame::new(size, pixels().map(&mut own).collect()));
+    }
+    inputs
+        .layers("history_color", color)
+        .layers("history_surface", seen)
+        .layers("history_motion", motion)
+        .uniform("jitter", &[-0.125, 0.3125])
 }
 
 fn colors(random: &mut Random, size: UVec2) -> Frame<Vec4> {

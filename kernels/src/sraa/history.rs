@@ -1,0 +1,172 @@
+//! Shading samples of earlier frames as further taps: weighed by surface and by distance as those of this frame are.
+//!
+//! An image of motion says where in an earlier frame the surface of a pixel was. The shading samples around that place come along with
+//! it: each is a tap at a place of its own near the pixel, with the surface that was seen there and its colour. If frames are shaded
+//! at different places of their pixels, together they have seen what supersampling would. A tap whose surface is not the sample's weighs
+//! nothing, so that what was hidden, or has moved away, leaves no trace.
+
+use super::colors::is_kept;
+use super::demodulate::Demodulate;
+use super::gbuffer::{DEEPEST, Normals, Surface};
+use super::metric::{Metric, Sample, distance};
+use super::options::{Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa};
+use super::pattern::{Place, Shading};
+use super::search::Sum;
+use super::{Inputs, falloff, steepness};
+use crate::prelude::*;
+
+/// Frames gone by, of as many layers as the option `history` says, in any order. Where nothing is known, as outside the picture, a
+/// layer's motion may be not a number: then nothing is taken of it.
+pub struct History {
+    /// Colours of the shading samples of each frame, one a pixel, as `color` has them.
+    pub history_color: FrameLayers<Vec4>,
+    /// What was seen where each was shaded: the unit normal, and in the fourth component linear depth, infinite where there is no
+    /// geometry.
+    pub history_surface: FrameLayers<Vec4>,
+    /// Where what a pixel shows at its shading sample lay in the raster of the earlier frame, in which pixels have their centres where
+    /// they were shaded, less where it lies now, in the raster without `jitter`: in pixels, y down. In the third component by how
+    /// much linear depth was more than now. Of a camera that stands still, the `jitter` of the earlier frame with the opposite sign.
+    pub history_motion: FrameLayers<Vec4>,
+    /// Where in its pixel this frame is shaded, from the centre, in pixels, y down; each axis in -0.5..=0.5. Its geometry there is that
+    /// of the centre.
+    pub jitter: Vec2,
+}
+
+impl History {
+    /// No frames: single texels of zero, to be replaced by what the option needs.
+    pub fn unread() -> History {
+        let layers = || FrameLayers::new(vec![Frame::new(UVec2::ONE, vec![Vec4::ZERO])]);
+        History {
+            history_color: layers(),
+            history_surface: layers(),
+            history_motion: layers(),
+            jitter: Vec2::ZERO,
+        }
+    }
+}
+
+/// What this frame's most similar tap weighs at least, as a binary logarithm: less than any tap of the sample's own surface, and more
+/// than any of another's.
+const FAINTEST: f32 = -40.0;
+
+/// No surface moves farther between frames, in pixels.
+const FARTHEST: f32 = 16384.0;
+
+/// How much the differences of this frame's taps are shifted by before they are weighed, of which `nearest` is the smallest: with
+/// earlier frames only so far that some tap counts where nobody has seen the surface.
+pub(super) fn shift(cfg: &Sraa, nearest: f32) -> f32 {
+    if cfg.history == 0 {
+        nearest
+    } else {
+        (nearest + FAINTEST / steepness(cfg).max(1.0e-3)).max(0.0)
+    }
+}
+
+/// Where tap `tap` of this frame is shaded, of a square of `side` × `side` pixels.
+pub(super) fn own_tap(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Place {
+    let tap = cfg.tap(tap, side);
+    if cfg.history == 0 {
+        tap
+    } else {
+        Place {
+            at: tap.at + inputs.history.jitter,
+            ..tap
+        }
+    }
+}
+
+/// The sum of the colours of earlier frames for a geometry sample.
+pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
+    let mut sum = Sum::NOTHING;
+    for frame in 0..cfg.history as usize {
+        let moved = inputs.history.history_motion.load(inputs.pixel, frame);
+        let known = moved.x.abs() < FARTHEST && moved.y.abs() < FARTHEST;
+        let motion = if known { moved.xy() } else { Vec2::ZERO };
+        // The shading sample to the upper left of where the surface was.
+        let first = motion.floor();
+        for k in 0..SIDE * SIDE {
+            let step = ivec2((k % SIDE) as i32, (k / SIDE) as i32);
+            let there = inputs.pixel + first.as_ivec2() + step;
+            let at = first - motion + step.as_vec2();
+            let inside = is_inside(there, inputs.history.history_color.size().as_ivec2());
+            let shaded = inputs.history.history_color.load(there, frame);
+            let seen = seen(cfg, inputs.history.history_surface.load(there, frame), moved.z);
+            let tap = Place { at, ..place };
+            // Normals that are not of length 1 may be nearer than the same: nothing weighs more than 1.
+            let apart = distance(cfg, centre, &seen, at).max(0.0);
+            let w = falloff(cfg, place, tap) * (-steepness(cfg) * apart).exp2();
+            let w = if known && inside { w } else { 0.0 };
+            add(cfg, &mut sum, shaded, w);
+        }
+    }
+    sum
+}
+
+/// Shading samples of a frame on each axis: those around the pixel.
+const SIDE: usize = 2;
+
+fn is_inside(pixel: IVec2, size: IVec2) -> bool {
+    pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y
+}
+
+/// The surface in a texel of an earlier frame, as it is compared with those of this one; `deeper` is by how much it was deeper then.
+fn seen(cfg: &Sraa, texel: Vec4, deeper: f32) -> Surface {
+    let depth = texel.w - deeper;
+    Surface {
+        depth: match cfg.guards {
+            Guards::Fallback | Guards::None => depth.min(DEEPEST),
+            Guards::Inline => {
+                if depth.abs() < DEEPEST {
+                    depth
+                } else {
+                    DEEPEST
+                }
+            }
+        },
+        normal: match (cfg.normals, cfg.metric) {
+            (Normals::Unorm, Metric::DepthNormals | Metric::Normals) if !cfg.renormalise => 0.5 * texel.xyz() + 0.5,
+            _ => texel.xyz(),
+        },
+    }
+}
+
+fn add(cfg: &Sraa, sum: &mut Sum, shaded: Vec4, weight: f32) {
+    match cfg.guards {
+        Guards::Inline => {
+            let counts = match cfg.non_finite {
+                NonFinite::Skip => is_kept(cfg, shaded),
+                NonFinite::Spread => weight != 0.0,
+            };
+            if counts {
+                sum.color += weight * shaded;
+                sum.kept += weight;
+            }
+        }
+        Guards::Fallback | Guards::None => {
+            sum.color += weight * shaded;
+            sum.kept += weight;
+        }
+    }
+    sum.weight += weight;
+}
+
+impl Sraa {
+    /// Refuses what earlier frames have no part in.
+    pub(super) fn check_history(&self) {
+        if self.history != 0 {
+            assert!(
+                self.shading == Shading::Centre,
+                "history takes frames that are shaded at one place of every pixel, which the uniform `jitter` says: set \
+                 shading=centre"
+            );
+            assert!(
+                self.normalisation == Normalisation::Shifted && self.resolve == Resolve::Box,
+                "history needs normalisation=shifted and resolve=box"
+            );
+            assert!(
+                self.search == Search::None && self.demodulate == Demodulate::None && self.mask == Mask::None,
+                "history adds taps to the filter alone: set search=none, demodulate=none and mask=none"
+            );
+        }
+    }
+}
