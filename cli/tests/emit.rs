@@ -182,7 +182,10 @@ fn workgroups_share_texels_where_they_are_asked_to() {
     let of_loops = of_loops.as_array().expect("a list of loops");
     assert!(!of_loops.is_empty(), "{json}");
     for of_loop in of_loops {
-        assert!(of_loop["unroll"] == "full" && of_loop["line"].as_u64() > Some(0), "{of_loop}");
+        assert!(
+            of_loop["unroll"] == "full" && of_loop["line"].as_u64() > Some(0),
+            "{of_loop}"
+        );
     }
     fails(
         &["explain", "sraa", "--share", "quad"],

@@ -23,7 +23,7 @@ pub struct Tuned {
     /// What it was timed on.
     pub adapter: String,
     /// Speedup over the most general variant: the middle of all rounds.
-    pub times_as_fast: f64,
+    pub speedup: f64,
     /// What the most general variant has and this one has not.
     pub left_out: Vec<LeftOut>,
 }
@@ -64,7 +64,7 @@ mod tests {
             error: 41.25,
             general: 41.375,
             adapter: "some adapter".to_owned(),
-            times_as_fast: 2.5,
+            speedup: 2.5,
             left_out: vec![LeftOut {
                 term: "normals".to_owned(),
                 cost: 0.125,

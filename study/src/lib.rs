@@ -7,7 +7,7 @@
 pub mod hard;
 pub mod isa;
 pub mod loops;
-pub mod peers;
+pub mod baselines;
 pub mod progress;
 pub mod quads;
 pub mod quality;

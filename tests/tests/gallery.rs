@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::emit::{EmitError, Target};
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::peers;
+use straightline_study::baselines;
 use straightline_testbed::execute::Inputs;
 use straightline_tests::compilers;
 
@@ -441,7 +441,7 @@ fn smaa() {
     blend.example.check(&blend.inputs, 5.0e-3, 0.0, native);
 
     let bench = common::bench();
-    let mut reference = peers::Smaa::new(&bench, size, peers::Transfer::Linear).unwrap_or_else(|e| panic!("{e}"));
+    let mut reference = baselines::Smaa::new(&bench, size, baselines::Transfer::Linear).unwrap_or_else(|e| panic!("{e}"));
     let reference = reference.run(&color).unwrap_or_else(|e| panic!("{e}"));
     let mut chain = smaa::Chain::new(&bench, &color);
     for (unroll, branches) in [(Unroll::None, Branches::AsLoops), (Unroll::Full, Branches::AsLoops)] {

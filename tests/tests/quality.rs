@@ -1,4 +1,4 @@
-//! `study error`: peers and methods on a GPU driver, on small pictures.
+//! `study error`: baselines and methods on a GPU driver, on small pictures.
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::bench;
 use std::path::Path;
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
-use straightline_study::peers::{Smaa, Transfer, fxaa, mlaa};
+use straightline_study::baselines::{Smaa, Transfer, fxaa, mlaa};
 use straightline_study::progress::Silent;
 use straightline_study::quality::{Method, Outcome, QualityError, Setup, Source, losses, study};
 use straightline_study::record::Family;

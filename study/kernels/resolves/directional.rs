@@ -1,5 +1,5 @@
 //! The directionally adaptive filter (Iourcha, Yang and Pomianowski 2009): its line of thought is told where it is defined in
-//! f64, `study/src/peers/directional.rs`.
+//! f64, `study/src/baselines/directional.rs`.
 
 use straightline_kernels::prelude::*;
 

@@ -218,7 +218,7 @@ fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered:
             .zip(&rounds_ms)
             .map(|(base, own)| base / own)
             .collect();
-        let Some(times_as_fast) = median_of(&ratios, CONFIDENCE) else {
+        let Some(speedup) = median_of(&ratios, CONFIDENCE) else {
             continue;
         };
         let forward = subject.family.from == Source::Triangles;
@@ -235,7 +235,7 @@ fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered:
             statements: subject.counts.statements,
             median_ms: median(&rounds_ms),
             rounds_ms,
-            times_as_fast,
+            speedup,
             mean_difference,
             largest_difference,
         });

@@ -2,7 +2,7 @@
 
 use super::classes::seen_around;
 use super::surfaces::{Point, Surfaces};
-use crate::peers::directional;
+use crate::baselines::directional;
 use glam::{UVec2, Vec2, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;

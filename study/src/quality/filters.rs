@@ -4,7 +4,7 @@ use super::methods::{Kind, Method};
 use super::resolves;
 use super::shot::Shot;
 use super::{QualityError, check};
-use crate::peers::{Smaa, Transfer, fxaa, mlaa};
+use crate::baselines::{Smaa, Transfer, fxaa, mlaa};
 use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::{Duration, Instant};

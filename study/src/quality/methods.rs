@@ -1,6 +1,6 @@
 //! The methods that are compared.
 
-use crate::peers::Transfer;
+use crate::baselines::Transfer;
 use crate::record::Family;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;

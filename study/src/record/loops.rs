@@ -149,9 +149,9 @@ impl Record for LoopsRecord {
             "median_ms",
             "min_ms",
             "max_ms",
-            "times_as_fast",
-            "times_as_fast_low",
-            "times_as_fast_high",
+            "speedup",
+            "speedup_low",
+            "speedup_high",
             "off_f64_999",
             "off_f64_largest",
         ];

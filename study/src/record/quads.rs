@@ -47,7 +47,7 @@ pub struct QuadWay {
     pub rounds_ms: Vec<f64>,
     /// Speedup over the filter's first way, round by round: the median, and the interval in which it lies
     /// with a probability of 95 %.
-    pub times_as_fast: Interval,
+    pub speedup: Interval,
     /// The mean over all pixels of the largest difference of a colour's components to the filter's first way. In shadow filters,
     /// over all pixels that triangles cover.
     pub mean_difference: f64,
@@ -68,9 +68,9 @@ impl Record for QuadsRecord {
             "messages",
             "statements",
             "median_ms",
-            "times_as_fast",
-            "times_as_fast_low",
-            "times_as_fast_high",
+            "speedup",
+            "speedup_low",
+            "speedup_high",
             "mean_difference",
             "largest_difference",
         ];
@@ -84,9 +84,9 @@ impl Record for QuadsRecord {
                 way.messages.to_string(),
                 way.statements.to_string(),
                 way.median_ms.to_string(),
-                way.times_as_fast.median.to_string(),
-                way.times_as_fast.low.to_string(),
-                way.times_as_fast.high.to_string(),
+                way.speedup.median.to_string(),
+                way.speedup.low.to_string(),
+                way.speedup.high.to_string(),
                 way.mean_difference.to_string(),
                 way.largest_difference.to_string(),
             ]

@@ -38,7 +38,7 @@ pub struct Measured {
     pub median_ms: f64,
     /// Speedup over the baseline in the same round: median of the rounds, and in which interval it lies
     /// with 95 %. `None` where there is no baseline.
-    pub times_as_fast: Option<Interval>,
+    pub speedup: Option<Interval>,
     /// Largest difference of a component to the same kernel in `f64`.
     pub difference: f64,
     /// The same over all but the thousandth of the pixels that differ most.
@@ -104,9 +104,9 @@ impl Record for SweepRecord {
             "round",
             "ms",
             "median_ms",
-            "times_as_fast",
-            "times_as_fast_low",
-            "times_as_fast_high",
+            "speedup",
+            "speedup_low",
+            "speedup_high",
             "loops",
             "statements",
             "reads",
@@ -147,7 +147,7 @@ impl SweepRecord {
             return vec![begin];
         };
         let count = |count: Option<u32>| count.map_or(String::new(), |count| count.to_string());
-        let ratio = measured.times_as_fast;
+        let ratio = measured.speedup;
         let of = |get: fn(&Interval) -> f64| {
             ratio
                 .as_ref()

@@ -180,7 +180,7 @@ impl Record for TuneRecord {
             "predicted",
             "median_ms",
             "cycles",
-            "times_as_fast",
+            "speedup",
             "front",
             "chosen",
         ];

@@ -266,7 +266,7 @@ fn figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Measured {
         spirv_bytes: spirv.filter(|_| emitted).map(Vec::len),
         rounds_ms: rounds.to_vec(),
         median_ms: bootstrap::median_of(rounds, CONFIDENCE).map_or(0.0, |of| of.median),
-        times_as_fast: base.and_then(|base| bootstrap::median_of(&ratios(rounds, base), CONFIDENCE)),
+        speedup: base.and_then(|base| bootstrap::median_of(&ratios(rounds, base), CONFIDENCE)),
         difference: ready.difference,
         difference_999: ready.difference_999,
     }

@@ -128,7 +128,7 @@ pub struct Compared {
     /// The file, if it is a rival.
     pub rival: Option<String>,
     /// Speedups of the two over their baselines.
-    pub times_as_fast: [f64; 2],
+    pub speedup: [f64; 2],
     /// The second's by the first's, and in which interval that lies.
     pub quotient: Interval,
     /// Whether the interval is beyond the tolerance.
@@ -168,7 +168,7 @@ pub fn compared(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Re
         Some(Compared {
             settings: variant.settings.clone(),
             rival: variant.rival.clone(),
-            times_as_fast: [median(&one)?, median(&other)?],
+            speedup: [median(&one)?, median(&other)?],
             quotient,
             differs: quotient.low > 1.0 + tolerance || quotient.high < 1.0 - tolerance,
         })

@@ -288,7 +288,7 @@ impl Search {
                     Some(gpu) => format!("{gpu}, by its compiler's cycles, not run"),
                     None => record.circumstances.adapter.clone(),
                 },
-                times_as_fast: entry.ratio.map_or(1.0, |ratio| ratio.median),
+                speedup: entry.ratio.map_or(1.0, |ratio| ratio.median),
                 left_out: left_out.collect(),
             },
         })

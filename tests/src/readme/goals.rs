@@ -211,7 +211,7 @@ fn over_rivals(record: &SweepRecord) -> Result<Vec<f64>, String> {
             .iter()
             .find(is)
             .and_then(|swept| swept.measured.as_ref());
-        let ratio = measured.and_then(|measured| measured.times_as_fast.as_ref());
+        let ratio = measured.and_then(|measured| measured.speedup.as_ref());
         ratio
             .map(|ratio| 1.0 / ratio.median)
             .ok_or_else(|| format!("nothing is measured of {pattern}"))

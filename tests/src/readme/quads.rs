@@ -33,7 +33,7 @@ pub fn ways(record: &QuadsRecord) -> String {
             };
             let mut found = of_row().filter(|way| way.transport == is && way.stage == stage);
             found.next().map_or_else(String::new, |way| {
-                format!("{:.0} ms ({:.1}×)", way.median_ms, way.times_as_fast.median)
+                format!("{:.0} ms ({:.1}×)", way.median_ms, way.speedup.median)
             })
         };
         let difference = of_row().next().map_or(0.0, |way| way.mean_difference);

@@ -26,7 +26,7 @@ pub fn factors(record: &SweepRecord) -> Result<String, String> {
     let cell = |variant: &&Swept| match &variant.measured {
         None => "–".to_owned(),
         Some(measured) if record.is_baseline(variant) => format!("{:.1} ms", measured.median_ms),
-        Some(measured) => match &measured.times_as_fast {
+        Some(measured) => match &measured.speedup {
             Some(ratio) => format!("{:.2} ({:.2} to {:.2})", ratio.median, ratio.low, ratio.high),
             None => format!("{:.1} ms", measured.median_ms),
         },

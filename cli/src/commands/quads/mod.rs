@@ -66,7 +66,7 @@ fn print(args: &QuadsArgs, record: &QuadsRecord) -> Result<(), Failure> {
         record.quads
     );
     let cells = |way: &QuadWay| {
-        let fast = &way.times_as_fast;
+        let fast = &way.speedup;
         vec![
             way.filter.clone(),
             way.way.clone(),

@@ -54,7 +54,7 @@ pub fn record(record: &SweepRecord) {
             format!("{:.3}", measured.median_ms),
             match record.is_baseline(variant) {
                 true => "baseline".to_owned(),
-                false => measured.times_as_fast.as_ref().map_or(String::new(), interval),
+                false => measured.speedup.as_ref().map_or(String::new(), interval),
             },
             number(measured.loops),
             number(measured.statements),
@@ -95,7 +95,7 @@ pub fn compared(record: &SweepRecord, compared: &[Compared]) {
     let row = |of: &Compared| {
         let mut row = settings(&axes, &of.settings);
         row.push(of.rival.clone().unwrap_or_default());
-        row.extend(of.times_as_fast.map(|ratio| format!("{ratio:.3}")));
+        row.extend(of.speedup.map(|ratio| format!("{ratio:.3}")));
         row.push(interval(&of.quotient));
         row.push(if of.differs { "differs" } else { "" }.to_owned());
         row
