@@ -73,7 +73,7 @@ fn whole() -> Graph {
     let chosen = add(&mut b, Op::Result(0), &[branch], Type::F32); // 14
     let array = Type::Array {
         scalar: Scalar::F32,
-        lanes: 1,
+        components: 1,
         len: 2,
     };
     let table = add(&mut b, Op::MakeArray, &[chosen, sum], array); // 15

@@ -4,10 +4,10 @@
 //!
 //! What runs kernels, and what judges them, is `straightline-testbed`.
 
+pub mod baselines;
 pub mod hard;
 pub mod isa;
 pub mod loops;
-pub mod baselines;
 pub mod progress;
 pub mod quads;
 pub mod quality;

@@ -441,7 +441,8 @@ fn smaa() {
     blend.example.check(&blend.inputs, 5.0e-3, 0.0, native);
 
     let bench = common::bench();
-    let mut reference = baselines::Smaa::new(&bench, size, baselines::Transfer::Linear).unwrap_or_else(|e| panic!("{e}"));
+    let mut reference =
+        baselines::Smaa::new(&bench, size, baselines::Transfer::Linear).unwrap_or_else(|e| panic!("{e}"));
     let reference = reference.run(&color).unwrap_or_else(|e| panic!("{e}"));
     let mut chain = smaa::Chain::new(&bench, &color);
     for (unroll, branches) in [(Unroll::None, Branches::AsLoops), (Unroll::Full, Branches::AsLoops)] {

@@ -4,7 +4,7 @@
 //! variables names, and [`super::print`] writes it. No stage asks a text what it means.
 
 use std::ops::Deref;
-use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Lanes, Memory, Origin, Scalar, Type};
+use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Bits, Memory, Origin, Scalar, Type};
 
 /// Type of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -186,7 +186,7 @@ impl Expr {
     }
 
     /// A constant from its bits.
-    pub fn constant(ty: impl Into<Ty>, bits: Lanes) -> Expr {
+    pub fn constant(ty: impl Into<Ty>, bits: Bits) -> Expr {
         Expr::new(Op::Ir(ir::Op::Const(bits)), Vec::new(), ty)
     }
 
@@ -231,7 +231,7 @@ impl Expr {
     }
 
     /// The bits of a constant.
-    pub fn as_constant(&self) -> Option<&Lanes> {
+    pub fn as_constant(&self) -> Option<&Bits> {
         match &self.op {
             Op::Ir(ir::Op::Const(bits)) => Some(bits),
             _ => None,

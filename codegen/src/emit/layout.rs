@@ -51,11 +51,13 @@ pub fn value_type(ty: Type) -> ValueType {
         Some(ir::Scalar::F32) | None => Scalar::F32,
     };
     match ty {
-        Type::Array { lanes, len, .. } => ValueType::Array {
+        Type::Array {
+            components: lanes, len, ..
+        } => ValueType::Array {
             of,
             components: lanes,
             count: len,
         },
-        Type::Value { .. } | Type::Results => ValueType::of(of, ty.lanes()),
+        Type::Value { .. } | Type::Results => ValueType::of(of, ty.components()),
     }
 }

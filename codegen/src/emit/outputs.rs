@@ -41,7 +41,7 @@ fn format(ty: Type, colour: Format) -> Format {
         Some(Scalar::U32) => Component::Uint,
         _ => Component::Float,
     };
-    let components = widened(ty).lanes();
+    let components = widened(ty).components();
     match (component, components) {
         (Component::Float, 4) => colour,
         _ => {
@@ -56,7 +56,7 @@ fn format(ty: Type, colour: Format) -> Format {
 /// Texels have 1, 2 or 4 components.
 fn widened(ty: Type) -> Type {
     match ty {
-        Type::Value { scalar, lanes: 3 } => Type::value(scalar, 4),
+        Type::Value { scalar, components: 3 } => Type::value(scalar, 4),
         other => other,
     }
 }

@@ -120,7 +120,7 @@ impl Evaluator<'_> {
                     Value::Node(id) => self.ty(*id),
                     _ => Type::I32,
                 };
-                let help = match (found.lanes(), stated.lanes()) {
+                let help = match (found.components(), stated.components()) {
                     (1, 1) => format!("convert it with `as {name}`"),
                     (a, b) if a == b => format!("convert it with `.as_{}()`", name.to_lowercase()),
                     (1, _) => format!("write `{name}::splat(...)`"),

@@ -72,8 +72,8 @@ impl Evaluator<'_> {
                 Ok(Value::Array(elements))
             }
             // A vector is an array of its components meanwhile.
-            (Value::Node(id), Step::Index(_)) if !self.ty(id).is_array() && self.ty(id).lanes() > 1 => {
-                let (kind, lanes) = (self.ty(id).kind().unwrap_or(Scalar::F32), self.ty(id).lanes());
+            (Value::Node(id), Step::Index(_)) if !self.ty(id).is_array() && self.ty(id).components() > 1 => {
+                let (kind, lanes) = (self.ty(id).kind().unwrap_or(Scalar::F32), self.ty(id).components());
                 let parts = self.lanes(id).into_iter().map(Value::Node).collect();
                 let parts = self.replace(Value::array(parts), path, new, span)?;
                 let parts = self.elements(&parts, usize::from(lanes), span)?;
@@ -102,7 +102,7 @@ impl Evaluator<'_> {
     fn set_lane(&mut self, vector: NodeId, name: &str, new: &Value, span: Span) -> Eval {
         let ty = self.ty(vector);
         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
-        let Some(changed) = lane(name).filter(|k| *k < ty.lanes() && ty.lanes() > 1) else {
+        let Some(changed) = lane(name).filter(|k| *k < ty.components() && ty.components() > 1) else {
             return Err(
                 Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
                     .label("not there")
@@ -111,7 +111,7 @@ impl Evaluator<'_> {
             );
         };
         let mut lanes = Vec::new();
-        for k in 0..ty.lanes() {
+        for k in 0..ty.components() {
             let old = self.builder.add(Op::Extract(k), [vector], part);
             lanes.push(if k == changed {
                 self.same_type(new, &Value::Node(old), span)?.0

@@ -81,7 +81,7 @@ impl Evaluator<'_> {
             }
             return Ok(Element::Struct(Structure::new(of.clone(), fields)));
         }
-        match value_named(of).filter(|ty| ty.lanes() != 3) {
+        match value_named(of).filter(|ty| ty.components() != 3) {
             Some(ty) => Ok(Element::Value(ty)),
             None => Err(refused()),
         }
@@ -140,11 +140,22 @@ impl Evaluator<'_> {
                     }
                     return Ok(());
                 }
-                let Some(Type::Value { scalar, lanes }) = value_named(type_name) else {
+                let Some(Type::Value {
+                    scalar,
+                    components: lanes,
+                }) = value_named(type_name)
+                else {
                     return Err(refused());
                 };
                 let len = self.known_length(len)?;
-                fields.push((name.to_owned(), Type::Array { scalar, lanes, len }));
+                fields.push((
+                    name.to_owned(),
+                    Type::Array {
+                        scalar,
+                        components: lanes,
+                        len,
+                    },
+                ));
             }
             _ => return Err(refused()),
         }

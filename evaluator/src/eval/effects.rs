@@ -149,7 +149,7 @@ impl Evaluator<'_> {
         let mut given = vec![at];
         if let Some(value) = args.get(1) {
             let value = match element {
-                Type::Value { scalar, lanes: 1 } => self.int_or_node(value, scalar, span)?,
+                Type::Value { scalar, components: 1 } => self.int_or_node(value, scalar, span)?,
                 _ => self.node(value, span)?,
             };
             if self.ty(value) != element {

@@ -258,14 +258,14 @@ impl Evaluator<'_> {
             Value::Node(id) => {
                 let ty = self.ty(*id);
                 match lane(name) {
-                    Some(k) if ty.lanes() > 1 && k < ty.lanes() && !ty.is_array() => {
+                    Some(k) if ty.components() > 1 && k < ty.components() && !ty.is_array() => {
                         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
                         Ok(Value::Node(self.builder.add(Op::Extract(k), [*id], part)))
                     }
                     _ => Err(
                         Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
                             .label("not there")
-                            .help(match ty.lanes() {
+                            .help(match ty.components() {
                                 1 => "a number has no fields".to_owned(),
                                 n => format!("it has {}", ["x", "y", "z", "w"][..n as usize].join(", ")),
                             })
@@ -310,7 +310,7 @@ impl Evaluator<'_> {
             };
         }
         if let Value::Node(id) = base
-            && matches!(self.ty(*id), Type::Value { lanes: 2.., .. })
+            && matches!(self.ty(*id), Type::Value { components: 2.., .. })
         {
             let lanes = self.lanes(*id).into_iter().map(Value::Node).collect();
             return self.element(&Value::array(lanes), index, span);

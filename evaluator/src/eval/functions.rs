@@ -65,7 +65,7 @@ impl Evaluator<'_> {
             Some(Scalar::I32) => a as i32 <= b as i32,
             _ => a <= b,
         };
-        let lanes = usize::from(ty.lanes());
+        let lanes = usize::from(ty.components());
         if least.into_iter().zip(most).take(lanes).all(ordered) {
             return Ok(());
         }

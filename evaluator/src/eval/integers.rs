@@ -39,7 +39,7 @@ impl Evaluator<'_> {
                         let one = self
                             .builder
                             .constant(Type::scalar(ty.kind().unwrap_or(Scalar::I32)), [1, 0, 0, 0]);
-                        let one = self.splat(one, ty.lanes());
+                        let one = self.splat(one, ty.components());
                         let times = |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), [power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
                     return Err(Diagnostic::at(span, "`rem_euclid` needs a known divisor above 0").into());
                 };
                 let n = self.int_node(n, ty.kind().unwrap_or(Scalar::I32), span)?;
-                let n = self.splat(n, ty.lanes());
+                let n = self.splat(n, ty.components());
                 let rest = self.builder.add(Op::Binary(BinaryOp::Rem), [x, n], ty);
                 let up = self.builder.add(Op::Binary(BinaryOp::Add), [rest, n], ty);
                 return Ok(Some(self.builder.add(Op::Binary(BinaryOp::Rem), [up, n], ty)));

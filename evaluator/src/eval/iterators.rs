@@ -230,7 +230,7 @@ impl Evaluator<'_> {
             };
             let unit = self.builder.constant(
                 ty,
-                std::array::from_fn(|k| if k < ty.lanes() as usize { unit } else { 0 }),
+                std::array::from_fn(|k| if k < ty.components() as usize { unit } else { 0 }),
             );
             terms.push(Value::Node(self.builder.add(Op::Select, [is_some, value, unit], ty)));
         }
@@ -258,7 +258,7 @@ impl Evaluator<'_> {
         if let Value::Node(id) = &all
             && name == "sum"
             && self.ty(*id).is_float()
-            && self.ty(*id).lanes() > 1
+            && self.ty(*id).components() > 1
         {
             let zero = self.builder.f32(0.0);
             let zero = self.builder.add(Op::Splat, [zero], self.ty(*id));

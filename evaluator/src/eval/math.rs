@@ -77,16 +77,16 @@ impl Evaluator<'_> {
             return Ok(fits.then(|| self.builder.add(Op::Unary(op), [x], ty)));
         }
         if let Some((kind, lanes)) = conversion(name) {
-            return Ok((ty.lanes() == lanes).then(|| self.convert(x, kind)));
+            return Ok((ty.components() == lanes).then(|| self.convert(x, kind)));
         }
         if let Some(swizzled) = self.swizzle(x, name) {
             return Ok(Some(swizzled));
         }
-        let vector = ty.is_float() && ty.lanes() > 1;
+        let vector = ty.is_float() && ty.components() > 1;
         Ok(match name {
             "recip" if ty.is_float() => {
                 let one = self.builder.f32(1.0);
-                let one = self.splat(one, ty.lanes());
+                let one = self.splat(one, ty.components());
                 Some(self.builder.add(Op::Binary(BinaryOp::Div), [one, x], ty))
             }
             "wrapping_neg" if ty.kind() == Some(Scalar::I32) => {
@@ -127,10 +127,10 @@ impl Evaluator<'_> {
                 let length = self.length(x);
                 let one = self.builder.f32(1.0);
                 let scale = self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32);
-                let scale = self.splat(scale, ty.lanes());
+                let scale = self.splat(scale, ty.components());
                 Some(self.builder.add(Op::Binary(BinaryOp::Mul), [x, scale], ty))
             }
-            "min_element" | "max_element" | "element_sum" | "element_product" if ty.lanes() > 1 => {
+            "min_element" | "max_element" | "element_sum" | "element_product" if ty.components() > 1 => {
                 let op = match name {
                     "min_element" => BinaryOp::Min,
                     "max_element" => BinaryOp::Max,
@@ -142,15 +142,15 @@ impl Evaluator<'_> {
                 let fold = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), [a, *b], part);
                 Some(lanes[1..].iter().fold(lanes[0], fold))
             }
-            "any" | "all" if ty.kind() == Some(Scalar::Bool) && ty.lanes() > 1 => {
+            "any" | "all" if ty.kind() == Some(Scalar::Bool) && ty.components() > 1 => {
                 let op = if name == "any" { BinaryOp::Or } else { BinaryOp::And };
                 let lanes = self.lanes(x);
                 let join = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), [a, *b], Type::BOOL);
                 Some(lanes[1..].iter().fold(lanes[0], join))
             }
-            "truncate" if ty.lanes() > 2 => {
+            "truncate" if ty.components() > 2 => {
                 let lanes = self.lanes(x);
-                let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() - 1);
+                let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.components() - 1);
                 Some(self.builder.add(Op::Compose, &lanes[..lanes.len() - 1], shorter))
             }
             "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), [x], ty)),
@@ -160,9 +160,9 @@ impl Evaluator<'_> {
 
     fn math_two(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<Option<NodeId>> {
         let ty = self.ty(x);
-        let float_vector = ty.is_float() && ty.lanes() > 1;
+        let float_vector = ty.is_float() && ty.components() > 1;
         Ok(match name {
-            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" if ty.lanes() > 1 => {
+            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" if ty.components() > 1 => {
                 let op = match name {
                     "cmplt" => BinaryOp::Lt,
                     "cmple" => BinaryOp::Le,
@@ -172,10 +172,10 @@ impl Evaluator<'_> {
                     _ => BinaryOp::Ne,
                 };
                 let (x, y) = self.same_type(receiver, a, span)?;
-                let mask = Type::value(Scalar::Bool, ty.lanes());
+                let mask = Type::value(Scalar::Bool, ty.components());
                 Some(self.builder.add(Op::Binary(op), [x, y], mask))
             }
-            "test" if ty.kind() == Some(Scalar::Bool) && ty.lanes() > 1 => {
+            "test" if ty.kind() == Some(Scalar::Bool) && ty.components() > 1 => {
                 let component = self.element(&Value::Node(x), a, span)?;
                 Some(self.node(&component, span)?)
             }
@@ -198,7 +198,7 @@ impl Evaluator<'_> {
                 let dot = self.dot(v, n);
                 let two = self.builder.f32(2.0);
                 let twice = self.builder.add(Op::Binary(BinaryOp::Mul), [two, dot], Type::F32);
-                let twice = self.splat(twice, ty.lanes());
+                let twice = self.splat(twice, ty.components());
                 let away = self.builder.add(Op::Binary(BinaryOp::Mul), [twice, n], ty);
                 Some(self.builder.add(Op::Binary(BinaryOp::Sub), [v, away], ty))
             }
@@ -236,11 +236,11 @@ impl Evaluator<'_> {
                     self.dot(between, between)
                 })
             }
-            "extend" if (2..4).contains(&ty.lanes()) => {
+            "extend" if (2..4).contains(&ty.components()) => {
                 let mut lanes = self.lanes(x);
                 let first = Value::Node(lanes[0]);
                 lanes.push(self.same_type(a, &first, span)?.0);
-                let longer = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() + 1);
+                let longer = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.components() + 1);
                 Some(self.builder.add(Op::Compose, lanes, longer))
             }
             _ => None,
@@ -272,10 +272,10 @@ impl Evaluator<'_> {
 
     /// Bits of the largest component, its sign left out.
     fn largest_magnitude(&mut self, x: NodeId) -> NodeId {
-        let bits_type = Type::value(Scalar::U32, self.ty(x).lanes());
+        let bits_type = Type::value(Scalar::U32, self.ty(x).components());
         let bits = self.builder.add(Op::Bitcast, [x], bits_type);
         let without_sign = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
-        let mask = self.splat(without_sign, bits_type.lanes());
+        let mask = self.splat(without_sign, bits_type.components());
         let sizes = self.builder.add(Op::Binary(BinaryOp::And), [bits, mask], bits_type);
         let lanes = self.lanes(sizes);
         let (first, rest) = (lanes[0], &lanes[1..]);
@@ -296,7 +296,7 @@ impl Evaluator<'_> {
             return vec![x];
         }
         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
-        (0..ty.lanes())
+        (0..ty.components())
             .map(|k| self.builder.add(Op::Extract(k), [x], part))
             .collect()
     }
@@ -309,8 +309,8 @@ impl Evaluator<'_> {
             .filter(|c| !c.is_empty())
             .map(super::expr::lane)
             .collect();
-        let lanes =
-            lanes.filter(|l| (2..=4).contains(&l.len()) && ty.lanes() > 1 && l.iter().all(|k| *k < ty.lanes()))?;
+        let lanes = lanes
+            .filter(|l| (2..=4).contains(&l.len()) && ty.components() > 1 && l.iter().all(|k| *k < ty.components()))?;
         let part = Type::value(ty.kind()?, 1);
         let parts: Vec<_> = lanes
             .iter()

@@ -204,7 +204,7 @@ impl Evaluator<'_> {
     fn scaled(&mut self, column: NodeId, vector: NodeId, lane: u8) -> NodeId {
         let ty = self.ty(column);
         let lane = self.builder.add(Op::Extract(lane), [vector], Type::F32);
-        let lane = self.splat(lane, ty.lanes());
+        let lane = self.splat(lane, ty.components());
         self.builder.add(Op::Binary(BinaryOp::Mul), [column, lane], ty)
     }
 

@@ -109,7 +109,7 @@ impl<'a> Evaluator<'a> {
                 }
             }
             Value::Poison => Err(Exit::Noted),
-            Value::Node(id) if name == "to_array" && args.is_empty() && self.ty(*id).lanes() > 1 => {
+            Value::Node(id) if name == "to_array" && args.is_empty() && self.ty(*id).components() > 1 => {
                 let lanes = self.lanes(*id);
                 Ok(Value::array(lanes.into_iter().map(Value::Node).collect()))
             }

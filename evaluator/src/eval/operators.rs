@@ -100,7 +100,7 @@ impl Evaluator<'_> {
 
     /// Rust compares vectors as wholes.
     fn comparison(&mut self, op: BinaryOp, a: NodeId, b: NodeId) -> Eval {
-        let lanes = self.ty(a).lanes();
+        let lanes = self.ty(a).components();
         let each = self
             .builder
             .add(Op::Binary(op), [a, b], Type::value(Scalar::Bool, lanes));
@@ -125,7 +125,7 @@ impl Evaluator<'_> {
         let ty = self.ty(value);
         let count = self.node(right, span)?;
         let count = self.convert(count, ty.kind().unwrap_or(Scalar::I32));
-        Ok(self.splat(count, ty.lanes()))
+        Ok(self.splat(count, ty.components()))
     }
 
     /// An operation on known values of `usize`, which has 64 bits while it is known.
@@ -192,10 +192,10 @@ impl Evaluator<'_> {
             return Ok((a, b));
         }
         if ta.kind() == tb.kind() && ta.is_scalar() && !tb.is_array() {
-            return Ok((self.splat(a, tb.lanes()), b));
+            return Ok((self.splat(a, tb.components()), b));
         }
         if ta.kind() == tb.kind() && tb.is_scalar() && !ta.is_array() {
-            return Ok((a, self.splat(b, ta.lanes())));
+            return Ok((a, self.splat(b, ta.components())));
         }
         Err(Diagnostic::at(
             span,
@@ -208,7 +208,7 @@ impl Evaluator<'_> {
 
     /// A scalar in each of `lanes` components.
     pub fn splat(&mut self, id: NodeId, lanes: u8) -> NodeId {
-        if lanes == 1 || self.ty(id).lanes() > 1 {
+        if lanes == 1 || self.ty(id).components() > 1 {
             return id;
         }
         let ty = Type::value(self.ty(id).kind().unwrap_or(Scalar::F32), lanes);

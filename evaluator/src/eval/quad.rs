@@ -170,7 +170,7 @@ impl Evaluator<'_> {
     /// own and below together are sent to beside.
     fn gather(&mut self, x: NodeId, name: &str, span: Span) -> Eval {
         let own = Value::Node(x);
-        let (Some(scalar), lanes @ (1 | 2)) = (self.ty(x).kind(), self.ty(x).lanes()) else {
+        let (Some(scalar), lanes @ (1 | 2)) = (self.ty(x).kind(), self.ty(x).components()) else {
             let mut all = vec![own];
             for direction in Direction::ALL {
                 all.push(self.message(direction, x, name, span)?);

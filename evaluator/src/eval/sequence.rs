@@ -172,7 +172,11 @@ impl Evaluator<'_> {
         if nodes.iter().all(|id| *id == nodes[0]) {
             return Ok(Column::Same(nodes[0]));
         }
-        let Type::Value { scalar, lanes } = ty else {
+        let Type::Value {
+            scalar,
+            components: lanes,
+        } = ty
+        else {
             return Err(Diagnostic::at(span, "its elements are arrays").into());
         };
         if nodes.iter().any(|id| self.ty(*id) != ty) {
@@ -198,7 +202,11 @@ impl Evaluator<'_> {
             }
         }
         let len = nodes.len() as u32;
-        let table = Type::Array { scalar, lanes, len };
+        let table = Type::Array {
+            scalar,
+            components: lanes,
+            len,
+        };
         let array = self.builder.add(Op::MakeArray, nodes, table);
         Ok(Column::Of(array, Even { first: 0, step: 1 }))
     }
@@ -277,12 +285,20 @@ impl Evaluator<'_> {
                 }
             }
         }
-        let Type::Value { scalar, lanes } = self.ty(nodes[0]) else {
+        let Type::Value {
+            scalar,
+            components: lanes,
+        } = self.ty(nodes[0])
+        else {
             return None;
         };
         let len = nodes.len() as u32;
         let alike = nodes.iter().all(|id| self.ty(*id) == self.ty(nodes[0]));
-        let ty = Type::Array { scalar, lanes, len };
+        let ty = Type::Array {
+            scalar,
+            components: lanes,
+            len,
+        };
         alike.then(|| self.builder.add(Op::MakeArray, nodes, ty))
     }
 

@@ -115,10 +115,13 @@ impl Evaluator<'_> {
         }
         let element = self.ty(nodes[0]);
         match element {
-            Type::Value { scalar, lanes } if nodes.iter().all(|n| self.ty(*n) == element) => {
+            Type::Value {
+                scalar,
+                components: lanes,
+            } if nodes.iter().all(|n| self.ty(*n) == element) => {
                 let ty = Type::Array {
                     scalar,
-                    lanes,
+                    components: lanes,
                     len: nodes.len() as u32,
                 };
                 Ok(self.builder.add(Op::MakeArray, nodes, ty))

@@ -241,7 +241,7 @@ impl Evaluator<'_> {
             return Ok(id);
         }
         let found = self.ty(id).in_rust();
-        let help = match (texture.kind.is_cube(), wanted.lanes()) {
+        let help = match (texture.kind.is_cube(), wanted.components()) {
             (true, _) => "it is a direction, of any length but 0",
             (_, 2) => "(0, 0) is the upper left corner and (1, 1) the lower right: `(pixel.as_vec2() + 0.5) / size`",
             _ => "(0, 0, 0) and (1, 1, 1) are opposite corners: `(coord.as_vec3() + 0.5) / size`",
@@ -306,7 +306,7 @@ impl Evaluator<'_> {
 }
 
 fn ones(ty: Type) -> [u32; 4] {
-    [0, 1, 2, 3].map(|k| u32::from(k < ty.lanes()))
+    [0, 1, 2, 3].map(|k| u32::from(k < ty.components()))
 }
 
 fn texel_named(name: &str) -> Option<(Scalar, u8)> {

@@ -113,7 +113,9 @@ impl Evaluator<'_> {
             return Err(refused(format!("`{name}` is no array of a length")));
         };
         let element = match &**element {
-            SourceType::Name(of, _) => value_named(of).filter(|ty| ty.lanes() != 3 && ty.kind() != Some(Scalar::Bool)),
+            SourceType::Name(of, _) => {
+                value_named(of).filter(|ty| ty.components() != 3 && ty.kind() != Some(Scalar::Bool))
+            }
             _ => None,
         };
         let element = element.filter(|ty| !atomic || matches!(*ty, Type::I32 | Type::U32));
@@ -122,7 +124,7 @@ impl Evaluator<'_> {
         };
         let count = self.expr(len)?;
         let count = self.known_int(&count).unwrap_or(0);
-        let bytes = |len: i64| (len as u64).saturating_mul(4 * u64::from(element.lanes()));
+        let bytes = |len: i64| (len as u64).saturating_mul(4 * u64::from(element.components()));
         if count < 1 {
             return Err(refused(format!("`{name}` is an array without elements")));
         }

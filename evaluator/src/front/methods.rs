@@ -74,7 +74,7 @@ const INTEGERS: &[&str] = &[
 
 /// The methods of a type by their names.
 fn lists(ty: Type) -> &'static [&'static [&'static str]] {
-    match (ty.kind(), ty.lanes()) {
+    match (ty.kind(), ty.components()) {
         (Some(Scalar::F32), 1) => &[FLOATS],
         (Some(Scalar::F32), _) => &[FLOATS, VECTORS],
         (Some(Scalar::Bool), _) => &[MASKS],

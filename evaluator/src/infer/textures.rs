@@ -54,5 +54,5 @@ impl<'l> Checker<'l> {
 
 /// A vector of the graph as inference has it.
 fn vector(ty: Type) -> Ty {
-    Ty::Vector(ty.kind().unwrap_or(Scalar::F32), ty.lanes())
+    Ty::Vector(ty.kind().unwrap_or(Scalar::F32), ty.components())
 }

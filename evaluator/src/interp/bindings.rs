@@ -1,6 +1,6 @@
 //! What a graph is run on.
 
-use crate::ir::{Graph, Lanes, Scalar, Texture, TextureKind, Type};
+use crate::ir::{Bits, Graph, Scalar, Texture, TextureKind, Type};
 use crate::passes::{Schedule, layers_read};
 use std::fmt;
 
@@ -17,7 +17,7 @@ pub trait Texels: Sync {
     /// Width and height of a level in texels, and number of its layers, slices or faces, or of samples a texel.
     fn extent(&self, level: u32) -> [u32; 3];
     /// The bits of the texel at a coordinate inside the level's extent; components that the image lacks are 0.
-    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> Lanes;
+    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> Bits;
 }
 
 /// An image in memory.
@@ -31,7 +31,7 @@ pub struct Image {
 #[derive(Clone, Debug, PartialEq)]
 struct Level {
     size: [u32; 2],
-    layers: Vec<Vec<Lanes>>,
+    layers: Vec<Vec<Bits>>,
 }
 
 impl Image {
@@ -48,7 +48,7 @@ impl Image {
     }
 
     /// An image of integers, by their bits; else as [`new`](Self::new).
-    pub fn of_integers(scalar: Scalar, size: [u32; 2], layers: Vec<Vec<Lanes>>) -> Option<Image> {
+    pub fn of_integers(scalar: Scalar, size: [u32; 2], layers: Vec<Vec<Bits>>) -> Option<Image> {
         let levels = vec![Level::new(size, layers)?];
         Some(Image { scalar, levels })
     }
@@ -61,7 +61,7 @@ impl Image {
 }
 
 impl Level {
-    fn new(size: [u32; 2], layers: Vec<Vec<Lanes>>) -> Option<Level> {
+    fn new(size: [u32; 2], layers: Vec<Vec<Bits>>) -> Option<Level> {
         let texels = size[0] as usize * size[1] as usize;
         let whole = texels > 0 && !layers.is_empty() && layers.iter().all(|layer| layer.len() == texels);
         whole.then_some(Level { size, layers })
@@ -82,7 +82,7 @@ impl Texels for Image {
         [level.size[0], level.size[1], level.layers.len() as u32]
     }
 
-    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> Lanes {
+    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> Bits {
         let level = &self.levels[level as usize];
         let layer = (layer as usize).min(level.layers.len() - 1);
         level.layers[layer][(y * level.size[0] + x) as usize]
@@ -190,7 +190,7 @@ pub(super) fn find<'b, T>(entries: &'b [(String, T)], name: &str) -> Option<&'b 
 pub(super) fn bits(ty: Type, lanes: &[f64]) -> [u32; 4] {
     let lane = |k: usize| lanes.get(k).or(lanes.first()).copied().unwrap_or(0.0);
     let mut out = [0; 4];
-    for (k, slot) in out.iter_mut().enumerate().take(ty.lanes() as usize) {
+    for (k, slot) in out.iter_mut().enumerate().take(ty.components() as usize) {
         *slot = match ty.kind() {
             Some(Scalar::F32) => (lane(k) as f32).to_bits(),
             Some(Scalar::U32) => lane(k) as u32,

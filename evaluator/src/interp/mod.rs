@@ -187,7 +187,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         self.given(0, scratch)
             .map(|(ty, cells)| match ty.is_float() {
                 true => {
-                    let lane = |k: usize| match k < ty.lanes() as usize {
+                    let lane = |k: usize| match k < ty.components() as usize {
                         true => R::from_bits(cells[k]),
                         false => R::from_f64(f64::from(u8::from(k == 3))),
                     };
@@ -222,7 +222,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
     /// What a buffer that is written holds now, by its index in [`Graph::buffers`]: each element in as many lanes as it has.
     pub fn buffer(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
         let ty = self.graph.buffers[index].value();
-        let lanes = ty.lanes() as usize;
+        let lanes = ty.components() as usize;
         let elements = scratch.memory.buffer(index).iter().map(|cells| {
             let all = texel::<R>(ty, *cells);
             std::array::from_fn(|k| if k < lanes { all[k] } else { 0.0 })
@@ -404,7 +404,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
     fn look(&self, id: NodeId, s: &mut Scratch) {
         let finite = |id: NodeId| {
             let ty = self.graph.ty(id);
-            let lanes = &s.values[id.0 as usize][..ty.lanes() as usize];
+            let lanes = &s.values[id.0 as usize][..ty.components() as usize];
             ty.kind() != Some(Scalar::F32)
                 || ty.is_array()
                 || lanes.iter().all(|c| R::from_bits(*c).to_f64().is_finite())
@@ -412,7 +412,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         if finite(id) || !self.graph.node(id).args.iter().all(|a| finite(*a)) {
             return;
         }
-        let lanes = &s.values[id.0 as usize][..self.graph.ty(id).lanes() as usize];
+        let lanes = &s.values[id.0 as usize][..self.graph.ty(id).components() as usize];
         let kept = s.loops.iter().map(|(param, value)| Counter {
             name: self.graph.origin(*param).map_or("k", |o| &*o.name).into(),
             value: *value,
@@ -441,7 +441,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
 /// A value as a texel holds it.
 fn texel<R: Real>(ty: Type, cells: Cells) -> [f64; 4] {
     std::array::from_fn(|k| match ty.kind() {
-        _ if k >= ty.lanes() as usize => f64::from(u8::from(k == 3)),
+        _ if k >= ty.components() as usize => f64::from(u8::from(k == 3)),
         Some(Scalar::F32) => R::from_bits(cells[k]).to_f64(),
         Some(Scalar::I32) => f64::from(cells[k] as u32 as i32),
         _ => f64::from(cells[k] as u32),

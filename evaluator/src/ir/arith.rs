@@ -1,12 +1,12 @@
 //! What operations do: the one place, used to fold constants and to interpret, in any precision.
 
-use super::{AtomicOp, BinaryOp, Lanes, Op, Real, Scalar, Type, UnaryOp};
+use super::{AtomicOp, BinaryOp, Bits, Op, Real, Scalar, Type, UnaryOp};
 
 /// A scalar or up to four lanes of a vector, each the bits of an integer or of an `R`; unused lanes are 0.
 pub type Cells = [u64; 4];
 
 /// The bits of what a host gives as cells of an `R`.
-pub fn cells<R: Real>(ty: Type, bits: &Lanes) -> Cells {
+pub fn cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
     bits.map(|bits| match ty.kind() {
         Some(Scalar::F32) => R::from_f64(f64::from(f32::from_bits(bits))).to_bits(),
         _ => u64::from(bits),
@@ -14,7 +14,7 @@ pub fn cells<R: Real>(ty: Type, bits: &Lanes) -> Cells {
 }
 
 /// The bits of a constant as cells of an `R`.
-pub fn constant<R: Real>(ty: Type, bits: &Lanes) -> Cells {
+pub fn constant<R: Real>(ty: Type, bits: &Bits) -> Cells {
     bits.map(|bits| match ty.kind() {
         Some(Scalar::F32) => R::made(f32::from_bits(bits).into()).to_bits(),
         _ => u64::from(bits),
@@ -25,7 +25,7 @@ pub fn constant<R: Real>(ty: Type, bits: &Lanes) -> Cells {
 pub const MOST_OPERANDS: usize = 4;
 
 /// The result of a value operation on constants in `f32`, as the graph holds it.
-pub fn fold(op: &Op, operand: Type, args: &[Lanes], ty: Type) -> Option<Lanes> {
+pub fn fold(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
     let mut cells = [[0; 4]; MOST_OPERANDS];
     let cells = cells.get_mut(..args.len())?;
     for (cells, lanes) in cells.iter_mut().zip(args) {
@@ -37,7 +37,7 @@ pub fn fold(op: &Op, operand: Type, args: &[Lanes], ty: Type) -> Option<Lanes> {
 /// The result of a value operation (not a read, nor anything of arrays and regions) on arguments of type `operand`;
 /// `None` for operations that are not decided by their arguments alone.
 pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Option<Cells> {
-    let lanes = ty.lanes() as usize;
+    let lanes = ty.components() as usize;
     let real = |cell: u64| R::from_bits(cell);
     Some(match op {
         Op::Const(bits) => constant::<R>(ty, bits),
@@ -45,7 +45,7 @@ pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Optio
         Op::Binary(op) => each(lanes, |k| component::<R>(*op, operand, args[0][k], args[1][k]))?,
         Op::Dot => {
             let product = |k: usize| real(args[0][k]) * real(args[1][k]);
-            let sum = (1..operand.lanes() as usize).fold(product(0), |sum, k| sum + product(k));
+            let sum = (1..operand.components() as usize).fold(product(0), |sum, k| sum + product(k));
             [sum.to_bits(), 0, 0, 0]
         }
         Op::Cross => {

@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Buffer, Lanes, Memory, Op, Origin, Scalar, Shared, Texture, Type};
+use super::{Bits, Buffer, Memory, Op, Origin, Scalar, Shared, Texture, Type};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -277,7 +277,7 @@ impl Graph {
     }
 
     /// The bits of a constant.
-    pub fn constant(&self, id: NodeId) -> Option<Lanes> {
+    pub fn constant(&self, id: NodeId) -> Option<Bits> {
         match self.node(id).op {
             Op::Const(bits) => Some(bits),
             _ => None,
@@ -434,7 +434,7 @@ impl<'r> Builder<'r> {
     }
 
     /// A constant.
-    pub fn constant(&mut self, ty: Type, bits: Lanes) -> NodeId {
+    pub fn constant(&mut self, ty: Type, bits: Bits) -> NodeId {
         self.intern(Op::Const(bits), Vec::new(), ty)
     }
 

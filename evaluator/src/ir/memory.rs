@@ -34,7 +34,7 @@ pub struct Shared {
 impl Shared {
     /// Bytes that it takes in a workgroup's memory: as WGSL lays it out, a vector of three lies as one of four does.
     pub fn bytes(&self) -> u64 {
-        let lanes = match self.element.lanes() {
+        let lanes = match self.element.components() {
             3 => 4,
             lanes => u64::from(lanes),
         };

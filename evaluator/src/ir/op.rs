@@ -1,12 +1,12 @@
 //! Operations.
 
-use super::{Lanes, Memory, RegionId};
+use super::{Bits, Memory, RegionId};
 
 /// What a node does with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
     /// A known value, by its bits.
-    Const(Lanes),
+    Const(Bits),
     /// Any value: nobody looks at it.
     Unused,
     /// Coordinate of the output pixel, `vec2<i32>`, inside the frame.

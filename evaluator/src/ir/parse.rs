@@ -366,8 +366,8 @@ impl Reader {
         Ok(match name {
             "const" => {
                 let mut bits = [0; 4];
-                if words.len() != ty.lanes() as usize {
-                    return Err(format!("a constant {ty} has {} lanes", ty.lanes()));
+                if words.len() != ty.components() as usize {
+                    return Err(format!("a constant {ty} has {} lanes", ty.components()));
                 }
                 for (slot, word) in bits.iter_mut().zip(words) {
                     *slot = lane(ty, word)?;
@@ -527,11 +527,19 @@ fn ty(text: &str) -> Parsed<Type> {
     }
     if let Some(inner) = text.strip_prefix("array<").and_then(|t| t.strip_suffix('>')) {
         let (element, len) = inner.rsplit_once(", ").ok_or("an array is `array<TYPE, LENGTH>`")?;
-        let Type::Value { scalar, lanes } = ty(element)? else {
+        let Type::Value {
+            scalar,
+            components: lanes,
+        } = ty(element)?
+        else {
             return Err("an array holds scalars or vectors".to_owned());
         };
         let len = number(len)?;
-        return Ok(Type::Array { scalar, lanes, len });
+        return Ok(Type::Array {
+            scalar,
+            components: lanes,
+            len,
+        });
     }
     if let Some(inner) = text.strip_prefix("vec").and_then(|t| t.strip_suffix('>')) {
         let (lanes, kind) = inner.split_once('<').ok_or("a vector is `vecN<TYPE>`")?;

@@ -169,7 +169,7 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
     };
     match op {
         Op::Const(bits) => {
-            let lanes = bits[..ty.lanes() as usize].iter().map(|b| lane(ty, *b));
+            let lanes = bits[..ty.components() as usize].iter().map(|b| lane(ty, *b));
             format!("const {}", lanes.collect::<Vec<_>>().join(" "))
         }
         Op::Uniform(k) => format!("uniform {}", graph.uniforms[*k as usize].name),

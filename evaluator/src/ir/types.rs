@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// The bits of a scalar or of up to four lanes of a vector; unused lanes are 0.
-pub type Lanes = [u32; 4];
+/// The bits of a scalar or of up to four components of a vector; unused components are 0.
+pub type Bits = [u32; 4];
 
 /// Kind of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -21,19 +21,19 @@ pub enum Scalar {
 /// Type of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Type {
-    /// A scalar (`lanes` 1) or a vector of 2 to 4.
+    /// A scalar (`components` 1) or a vector of 2 to 4.
     Value {
         /// Kind of each lane.
         scalar: Scalar,
         /// 1 to 4.
-        lanes: u8,
+        components: u8,
     },
     /// A fixed number of scalars or vectors.
     Array {
         /// Kind of each lane of an element.
         scalar: Scalar,
-        /// Lanes of an element, 1 to 4.
-        lanes: u8,
+        /// Bits of an element, 1 to 4.
+        components: u8,
         /// Number of elements, at least 1.
         len: u32,
     },
@@ -53,15 +53,15 @@ impl Type {
 
     /// A scalar.
     pub const fn scalar(scalar: Scalar) -> Type {
-        Type::Value { scalar, lanes: 1 }
+        Type::Value { scalar, components: 1 }
     }
 
     /// A scalar or vector.
-    pub const fn value(scalar: Scalar, lanes: u8) -> Type {
-        Type::Value { scalar, lanes }
+    pub const fn value(scalar: Scalar, components: u8) -> Type {
+        Type::Value { scalar, components }
     }
 
-    /// Kind of the lanes; `None` for `Results`.
+    /// Kind of the components; `None` for `Results`.
     pub fn kind(self) -> Option<Scalar> {
         match self {
             Type::Value { scalar, .. } | Type::Array { scalar, .. } => Some(scalar),
@@ -69,19 +69,23 @@ impl Type {
         }
     }
 
-    /// Lanes of a value or of an array's element; 0 for `Results`.
-    pub fn lanes(self) -> u8 {
+    /// Bits of a value or of an array's element; 0 for `Results`.
+    pub fn components(self) -> u8 {
         match self {
-            Type::Value { lanes, .. } | Type::Array { lanes, .. } => lanes,
+            Type::Value { components, .. } | Type::Array { components, .. } => components,
             Type::Results => 0,
         }
     }
 
-    /// The same shape with lanes of another kind.
+    /// The same shape with components of another kind.
     pub fn with_scalar(self, scalar: Scalar) -> Type {
         match self {
-            Type::Value { lanes, .. } => Type::Value { scalar, lanes },
-            Type::Array { lanes, len, .. } => Type::Array { scalar, lanes, len },
+            Type::Value { components, .. } => Type::Value { scalar, components },
+            Type::Array { components, len, .. } => Type::Array {
+                scalar,
+                components,
+                len,
+            },
             Type::Results => Type::Results,
         }
     }
@@ -89,7 +93,7 @@ impl Type {
     /// The element of an array; a value is its own element.
     pub fn element(self) -> Type {
         match self {
-            Type::Array { scalar, lanes, .. } => Type::Value { scalar, lanes },
+            Type::Array { scalar, components, .. } => Type::Value { scalar, components },
             other => other,
         }
     }
@@ -104,7 +108,7 @@ impl Type {
 
     /// Alignment and size in bytes as WGSL and GLSL's std430 have them in memory.
     pub fn layout(self) -> (u32, u32) {
-        let (alignment, size) = match self.lanes() {
+        let (alignment, size) = match self.components() {
             1 => (4, 4),
             2 => (8, 8),
             3 => (16, 12),
@@ -123,15 +127,15 @@ impl Type {
 
     /// Whether this is a single lane.
     pub fn is_scalar(self) -> bool {
-        matches!(self, Type::Value { lanes: 1, .. })
+        matches!(self, Type::Value { components: 1, .. })
     }
 
-    /// Whether the lanes are integers.
+    /// Whether the components are integers.
     pub fn is_integer(self) -> bool {
         matches!(self.kind(), Some(Scalar::I32 | Scalar::U32))
     }
 
-    /// Whether the lanes are floats.
+    /// Whether the components are floats.
     pub fn is_float(self) -> bool {
         self.kind() == Some(Scalar::F32)
     }
@@ -141,15 +145,15 @@ impl Type {
     /// The type as glam and Rust call it: `f32`, `IVec2`, `[Vec4; 9]`.
     pub fn in_rust(self) -> String {
         match self {
-            Type::Value { scalar, lanes: 1 } => scalar.to_string(),
-            Type::Value { scalar, lanes } => {
+            Type::Value { scalar, components: 1 } => scalar.to_string(),
+            Type::Value { scalar, components } => {
                 let prefix = match scalar {
                     Scalar::F32 => "",
                     Scalar::I32 => "I",
                     Scalar::U32 => "U",
                     Scalar::Bool => "B",
                 };
-                format!("{prefix}Vec{lanes}")
+                format!("{prefix}Vec{components}")
             }
             Type::Array { len, .. } => format!("[{}; {len}]", self.element().in_rust()),
             Type::Results => "nothing".to_owned(),
@@ -171,8 +175,8 @@ impl fmt::Display for Scalar {
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Type::Value { scalar, lanes: 1 } => write!(f, "{scalar}"),
-            Type::Value { scalar, lanes } => write!(f, "vec{lanes}<{scalar}>"),
+            Type::Value { scalar, components: 1 } => write!(f, "{scalar}"),
+            Type::Value { scalar, components } => write!(f, "vec{components}<{scalar}>"),
             Type::Array { len, .. } => write!(f, "array<{}, {len}>", self.element()),
             Type::Results => f.write_str("results"),
         }
@@ -181,14 +185,14 @@ impl fmt::Display for Type {
 
 /// The vector that glam calls so, `Vec3` or `IVec2` say: the kind and the number of its components.
 pub fn vector_named(name: &str) -> Option<(Scalar, u8)> {
-    let (kind, lanes) = match name.strip_prefix("Vec") {
-        Some(lanes) => (Scalar::F32, lanes),
+    let (kind, components) = match name.strip_prefix("Vec") {
+        Some(components) => (Scalar::F32, components),
         None => match name.strip_prefix("IVec") {
-            Some(lanes) => (Scalar::I32, lanes),
+            Some(components) => (Scalar::I32, components),
             None => (Scalar::U32, name.strip_prefix("UVec")?),
         },
     };
-    match lanes {
+    match components {
         "2" => Some((kind, 2)),
         "3" => Some((kind, 3)),
         "4" => Some((kind, 4)),

@@ -10,7 +10,7 @@
 //! 4. A parameter is only used inside its region.
 //! 5. The kernel has a result for each target of each pixel of its invocation, of the target's type: a float, an integer or a
 //!    vector of them. No two targets have one name.
-//! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
+//! 6. Bits, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
 //! 7. What is of workgroups is of kernels whose invocations are theirs; what they share are arrays of at least one number or vector, of atomics of integers.
 //! 8. Every effect that something depends on is one of one region, on whose evaluation it happens, and each loop or branch with effects is one of the region
 //!    that it was written in; a region has them in the order in which they were made. Only there their values are used. What is
@@ -43,8 +43,7 @@ fn results(graph: &Graph) -> Result<(), String> {
     let outputs = &graph.regions.first().ok_or("no body")?.results;
     let [width, height] = graph.invocation.pixels();
     for (k, target) in graph.pictures().enumerate() {
-        let numbers =
-            matches!(target.ty, Type::Value { scalar, lanes } if scalar != Scalar::Bool && (1..=4).contains(&lanes));
+        let numbers = matches!(target.ty, Type::Value { scalar, components: lanes } if scalar != Scalar::Bool && (1..=4).contains(&lanes));
         if !numbers || graph.pictures().take(k).any(|other| other.name == target.name) {
             return Err(format!(
                 "the target {} is of no numbers, or there are two of it",
@@ -194,8 +193,10 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
     let expect = |holds: bool, what: &str| expect(holds, what, types);
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
     let shaped = match node.ty {
-        Type::Value { lanes, .. } => (1..=4).contains(&lanes),
-        Type::Array { lanes, len, .. } => (1..=4).contains(&lanes) && len >= 1,
+        Type::Value { components: lanes, .. } => (1..=4).contains(&lanes),
+        Type::Array {
+            components: lanes, len, ..
+        } => (1..=4).contains(&lanes) && len >= 1,
         Type::Results => matches!(node.op, Op::Loop(_) | Op::If(..) | Op::Store(_) | Op::Barrier { .. }),
     };
     expect(shaped, "a type that no value has")?;
@@ -341,7 +342,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
             )
         }
         Op::Compose => {
-            count(node.ty.lanes() as usize)?;
+            count(node.ty.components() as usize)?;
             expect(value && !node.ty.is_scalar(), "a vector")?;
             expect(
                 types.iter().all(|t| t.is_scalar() && t.kind() == node.ty.kind()),
@@ -351,7 +352,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         Op::Extract(lane) => {
             count(1)?;
             expect(
-                *lane < types[0].lanes()
+                *lane < types[0].components()
                     && !types[0].is_array()
                     && !types[0].is_scalar()
                     && node.ty.is_scalar()
@@ -361,13 +362,13 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         }
         Op::Convert => {
             count(1)?;
-            let alike = types[0].lanes() == node.ty.lanes() && !types[0].is_array() && value;
+            let alike = types[0].components() == node.ty.components() && !types[0].is_array() && value;
             expect(alike, "as many lanes as before")
         }
         Op::Bitcast => {
             count(1)?;
             let number = |t: Type| t.kind() != Some(Scalar::Bool);
-            let alike = types[0].lanes() == node.ty.lanes() && number(types[0]) && number(node.ty);
+            let alike = types[0].components() == node.ty.components() && number(types[0]) && number(node.ty);
             expect(alike && !types[0].is_array() && value, "numbers of as many lanes")
         }
 

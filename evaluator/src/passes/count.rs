@@ -311,8 +311,13 @@ fn width(graph: &Graph, id: NodeId) -> u32 {
     let node = graph.node(id);
     match (&node.op, node.ty) {
         (Op::Const(_), _) => 0,
-        (_, crate::ir::Type::Array { lanes, len, .. }) => u32::from(lanes) * len,
+        (
+            _,
+            crate::ir::Type::Array {
+                components: lanes, len, ..
+            },
+        ) => u32::from(lanes) * len,
         (_, ty) if ty.kind() == Some(Scalar::Bool) => 1,
-        (_, ty) => u32::from(ty.lanes()),
+        (_, ty) => u32::from(ty.components()),
     }
 }

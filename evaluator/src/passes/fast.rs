@@ -5,7 +5,7 @@
 
 use super::fold::Exact;
 use crate::ir::{
-    BinaryOp, Builder, Graph, Lanes, NodeId, Op, Rebuild, Replace, Scalar, Type, UnaryOp, rebuild_replacing,
+    BinaryOp, Bits, Builder, Graph, NodeId, Op, Rebuild, Replace, Scalar, Type, UnaryOp, rebuild_replacing,
 };
 use std::collections::HashMap;
 
@@ -57,14 +57,14 @@ impl<'g> Fast<'g> {
     }
 
     fn constant(&self, id: NodeId) -> Option<Factor> {
-        let bits: Lanes = self.old.constant(id)?;
+        let bits: Bits = self.old.constant(id)?;
         (self.old.ty(id).kind() == Some(Scalar::F32)).then(|| bits.map(f32::from_bits))
     }
 
     /// A product's or a quotient's other side and the constant that it is multiplied by.
     fn factor(&self, id: NodeId) -> Option<(NodeId, Factor)> {
         let node = self.old.node(id);
-        let lanes = usize::from(node.ty.lanes());
+        let lanes = usize::from(node.ty.components());
         let inverse = |divisor: Factor| {
             let inverse = divisor.map(|x| 1.0 / x);
             is_held(&inverse[..lanes]).then_some(inverse)
@@ -99,7 +99,7 @@ impl<'g> Fast<'g> {
     /// A value of the old graph, times a constant.
     fn scaled(&self, b: &mut Builder<'_>, id: NodeId, by: Factor, new: &[Option<NodeId>]) -> NodeId {
         let node = self.old.node(id);
-        let lanes = usize::from(node.ty.lanes());
+        let lanes = usize::from(node.ty.components());
         let times = |other: Factor| {
             let product: Factor = std::array::from_fn(|k| by[k] * other[k]);
             is_held(&product[..lanes]).then_some(product)
@@ -180,7 +180,7 @@ impl Replace for Fast<'_> {
 }
 
 fn lanes(ty: Type) -> usize {
-    usize::from(ty.lanes())
+    usize::from(ty.components())
 }
 
 /// What a node divides by, if it is one number and no constant, and how many quotients that makes.
@@ -195,7 +195,7 @@ fn divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
         _ if node.ty.is_scalar() => *below,
         _ => return None,
     };
-    (is_float && g.constant(of).is_none()).then_some((of, u32::from(node.ty.lanes())))
+    (is_float && g.constant(of).is_none()).then_some((of, u32::from(node.ty.components())))
 }
 
 /// Whether constants are 0 or lie where half precision has numbers of all its bits too: then no product of one of them is lost, or

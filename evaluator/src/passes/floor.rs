@@ -214,7 +214,7 @@ impl Floor<'_> {
 
     /// A pair with as many components as `ty` has, the third of them `last`.
     fn extended(&mut self, pair: NodeId, last: NodeId, ty: Type) -> NodeId {
-        if ty.lanes() == 2 {
+        if ty.components() == 2 {
             return pair;
         }
         let part = Type::scalar(ty.kind().unwrap_or(Scalar::F32));
@@ -291,7 +291,7 @@ impl Floor<'_> {
         for read in reads {
             let Some(new) = self.ids[read.0 as usize] else { continue };
             let floats = self.as_floats(new);
-            let slot = usize::from(self.builder.graph().ty(floats).lanes()) - 1;
+            let slot = usize::from(self.builder.graph().ty(floats).components()) - 1;
             sums[slot] = Some(match sums[slot] {
                 Some(sum) => self.binary(BinaryOp::Add, sum, floats),
                 None => floats,
@@ -311,7 +311,7 @@ impl Floor<'_> {
 
     /// A colour's first components as a result of another type.
     fn shaped(&mut self, colour: NodeId, ty: Type) -> NodeId {
-        let lanes = ty.lanes();
+        let lanes = ty.components();
         let floats = Type::value(Scalar::F32, lanes);
         let mut value = colour;
         if lanes < 4 {

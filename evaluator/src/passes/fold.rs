@@ -337,7 +337,7 @@ fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
         _ => return None,
     };
     let mut sum = [0; 4];
-    for (k, slot) in sum.iter_mut().enumerate().take(ty.lanes() as usize) {
+    for (k, slot) in sum.iter_mut().enumerate().take(ty.components() as usize) {
         *slot = first[k].wrapping_add(second[k]);
     }
     let sum = b.constant(ty, sum);
@@ -351,7 +351,7 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     let node = b.graph().node(y).clone();
     match node.op {
         Op::Const(mut bits) => {
-            let lanes = &mut bits[..ty.lanes() as usize];
+            let lanes = &mut bits[..ty.components() as usize];
             if !lanes.contains(&0) {
                 return None;
             }
@@ -379,7 +379,7 @@ fn boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         BinaryOp::Eq | BinaryOp::Ne | BinaryOp::Xor if x == y => {
             let ty = g.ty(x);
             let same = u32::from(op == BinaryOp::Eq);
-            let lane = |k| if k < ty.lanes() as usize { same } else { 0 };
+            let lane = |k| if k < ty.components() as usize { same } else { 0 };
             Some(b.constant(ty, std::array::from_fn(lane)))
         }
         BinaryOp::Eq | BinaryOp::Ne => {
@@ -412,7 +412,7 @@ fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
 
 /// Whether `id` is a constant with `bits` in every lane.
 fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
-    let lanes = g.ty(id).lanes() as usize;
+    let lanes = g.ty(id).components() as usize;
     g.constant(id)
         .is_some_and(|c| c[..lanes].iter().all(|lane| *lane == bits))
 }

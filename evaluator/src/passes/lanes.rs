@@ -30,7 +30,7 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
             name: varying.name,
             kind: TextureKind::Flat,
             scalar: Scalar::F32,
-            components: varying.ty.lanes(),
+            components: varying.ty.components(),
             framed: true,
         });
     }
@@ -310,7 +310,7 @@ fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
         b.set_origin(towards, &origin);
     }
     let mut sign = b.add(Op::Extract(axis as u8), [towards], Type::F32);
-    if ty.lanes() > 1 {
+    if ty.components() > 1 {
         sign = b.add(Op::Splat, [sign], ty);
     }
     let slope = b.add(Op::Derivative(axis), [value], ty);

@@ -49,7 +49,7 @@ pub fn offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
 
 /// A component of a node's value.
 fn place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Option<Place> {
-    if component >= usize::from(node.ty.lanes()) {
+    if component >= usize::from(node.ty.components()) {
         return None;
     }
     let whole = |id: NodeId, component: usize| places[id.0 as usize].get(component).copied().flatten();

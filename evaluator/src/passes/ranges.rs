@@ -20,7 +20,7 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
     let node = g.node(id);
     let known = |k: usize| at_depth(g, node.args[k], depth - 1);
     match &node.op {
-        Op::Const(bits) => bits[..node.ty.lanes() as usize].iter().all(|lane| {
+        Op::Const(bits) => bits[..node.ty.components() as usize].iter().all(|lane| {
             let x = f32::from_bits(*lane);
             x.is_nan() || x.is_sign_positive()
         }),
@@ -255,7 +255,7 @@ pub fn within(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
         let ((low, high), (_, least), (most, _)) = (bounds(0)?, bounds(1)?, bounds(2)?);
         Some(low >= least && high <= most)
     };
-    let all = (0..ty.lanes()).all(|component| inside(component) == Some(true));
+    let all = (0..ty.components()).all(|component| inside(component) == Some(true));
     all.then_some(args[0])
 }
 
@@ -272,7 +272,7 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
     let range = |id, component| component_bounds(g, id, component).unwrap_or(whole(ty));
     // Whether the first is smaller than the second in every component, or the other way.
     let all = |less: fn(i64, i64) -> bool, first, second| {
-        (0..ty.lanes()).all(|component| less(range(first, component).1, range(second, component).0))
+        (0..ty.components()).all(|component| less(range(first, component).1, range(second, component).0))
     };
     let below = |first, second| all(|a, b| a < b, first, second);
     let not_above = |first, second| all(|a, b| a <= b, first, second);

@@ -86,7 +86,7 @@ type Value = Option<Vec<f64>>;
 
 /// That of a node, from those of the nodes before it.
 fn value(node: &Node, values: &[Value]) -> Value {
-    let lanes = usize::from(node.ty.lanes());
+    let lanes = usize::from(node.ty.components());
     let scalar = node.ty.kind()?;
     let args: Vec<&Vec<f64>> = node
         .args

@@ -62,7 +62,7 @@ fn out(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
             let buffer = written().find(|buffer| buffer.name == name);
             let what = match (target, buffer) {
                 (Some(target), _) => What::Target(target),
-                (None, Some(buffer)) => What::Buffer(name.to_owned(), buffer.value().lanes() as usize),
+                (None, Some(buffer)) => What::Buffer(name.to_owned(), buffer.value().components() as usize),
                 (None, None) => {
                     let names = graph.pictures().map(|target| target.name.as_str());
                     let names: Vec<&str> = names.chain(written().map(|buffer| buffer.name.as_str())).collect();

@@ -7,7 +7,7 @@ use straightline_codegen::shorten;
 /// The components of a uniform: as many numbers as it has, or one for all of them.
 pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
     let numbers = numbers(name, ty, text)?;
-    let components = ty.lanes() as usize;
+    let components = ty.components() as usize;
     if numbers.len() == components || numbers.len() == 1 {
         return Ok(numbers);
     }
@@ -25,7 +25,7 @@ pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
 /// The elements of a buffer; of structures all their numbers in order, those of vectors and arrays too.
 pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
     let types = element.values();
-    let components = types.iter().map(|ty| ty.lanes() as usize).sum::<usize>();
+    let components = types.iter().map(|ty| ty.components() as usize).sum::<usize>();
     let texts = texts(name, text)?;
     if !texts.len().is_multiple_of(components) {
         let held = match element {
@@ -43,7 +43,7 @@ pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>
     while rest.len() > 0 {
         let ty = types.next().unwrap_or(Type::F32);
         let mut value = [0.0; 4];
-        for (slot, text) in value.iter_mut().zip(rest.by_ref().take(ty.lanes() as usize)) {
+        for (slot, text) in value.iter_mut().zip(rest.by_ref().take(ty.components() as usize)) {
             *slot = number(name, ty, text)?;
         }
         values.push(value);

@@ -56,7 +56,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
             if mixes && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2])) && ty.kind() != Some(Scalar::Bool) =>
         {
             let [condition, yes, no] = take(expr.args);
-            let condition = match ty.lanes() {
+            let condition = match ty.components() {
                 1 => condition,
                 _ => Expr::new(Op::Construct, vec![condition], ty.of(Scalar::Bool)),
             };
@@ -83,7 +83,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
 fn unary(op: UnaryOp, mut expr: Expr) -> Expr {
     let ty = expr.ty;
     match op {
-        UnaryOp::Not if ty.lanes() > 1 => {
+        UnaryOp::Not if ty.components() > 1 => {
             expr.op = Op::Call("not");
             expr
         }
@@ -102,7 +102,7 @@ fn unary(op: UnaryOp, mut expr: Expr) -> Expr {
 fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
     use BinaryOp::{And, Eq, Ge, Gt, Le, Lt, Ne, Or, Rem, Shl, Shr, Xor};
     let ty = expr.ty;
-    let vector = ty.lanes() > 1;
+    let vector = ty.components() > 1;
     let bools = ty.kind() == Some(Scalar::Bool);
     if vector {
         let function = match op {

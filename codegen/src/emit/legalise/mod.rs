@@ -63,14 +63,14 @@ fn is_leaf(expr: &Expr) -> bool {
 /// Whether a component of a constant is an infinity or a NaN.
 fn is_non_finite(expr: &Expr) -> bool {
     let float = |bits: &u32| !f32::from_bits(*bits).is_finite();
-    let lanes = expr.ty.lanes() as usize;
+    let lanes = expr.ty.components() as usize;
     expr.ty.is_float() && expr.as_constant().is_some_and(|bits| bits[..lanes].iter().any(float))
 }
 
 /// A constant vector that is not finite, component by component.
 fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
     let bits = *expr.as_constant().expect("only constants are not finite");
-    let lanes = &bits[..expr.ty.lanes() as usize];
+    let lanes = &bits[..expr.ty.components() as usize];
     let ty = Ty {
         shape: Type::F32,
         ..expr.ty
@@ -310,7 +310,7 @@ fn componentwise(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
             });
             Expr::new(function.clone(), parts.collect(), ty.element_of())
         };
-        let all = Expr::new(Op::Construct, (0..ty.lanes()).map(component).collect(), ty);
+        let all = Expr::new(Op::Construct, (0..ty.components()).map(component).collect(), ty);
         Function {
             comment: scalar.comment.clone(),
             name: name.clone(),

@@ -2,11 +2,11 @@
 
 use super::{Lowering, Stale};
 use crate::emit::ast::{Expr, StmtKind, VarId};
-use straightline_evaluator::ir::{self, Graph, Lanes, NodeId, Region};
+use straightline_evaluator::ir::{self, Bits, Graph, NodeId, Region};
 use straightline_evaluator::passes::Block;
 
 /// Bits of the end of a loop that only its stop ends.
-const ENDLESS: Lanes = [Graph::ENDLESS as u32, 0, 0, 0];
+const ENDLESS: Bits = [Graph::ENDLESS as u32, 0, 0, 0];
 
 impl<'g> Lowering<'g> {
     pub(super) fn looped(&mut self, node: NodeId, body: &'g Block) {

@@ -8,7 +8,7 @@ use straightline_evaluator::passes::{bounds, component_bounds, float_bounds};
 pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     let ty = graph.ty(x);
     let signed = ty.kind() == Some(Scalar::I32);
-    let bounds = |id: NodeId| (0..ty.lanes()).map(move |k| component_bounds(graph, id, k));
+    let bounds = |id: NodeId| (0..ty.components()).map(move |k| component_bounds(graph, id, k));
     let defined = bounds(x).zip(bounds(y)).all(|(x, y)| {
         let Some((low, high)) = y else { return false };
         let zero = low <= 0 && high >= 0;
@@ -35,7 +35,7 @@ pub fn converts(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
 /// Whether no component of an integer is negative, or over the largest signed one.
 fn has_no_sign(graph: &Graph, id: NodeId) -> bool {
     let fits = |k| component_bounds(graph, id, k).is_some_and(|(low, high)| low >= 0 && high <= i64::from(i32::MAX));
-    (0..graph.ty(id).lanes()).all(fits)
+    (0..graph.ty(id).components()).all(fits)
 }
 
 /// Whether every float that a value can be has an integer of the type `to` where it is cut off. In half precision the largest
@@ -49,7 +49,7 @@ fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
         (false, _) => (-0.5, 4.2e9),
     };
     let fits = |(low, high): (f32, f32)| low >= smallest && high <= largest;
-    (0..to.lanes()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
+    (0..to.components()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
 }
 
 /// Whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
@@ -75,6 +75,6 @@ pub fn is_table(graph: &Graph, elements: &[NodeId]) -> bool {
         let finite = |bits: &u32| !ty.is_float() || f32::from_bits(*bits).is_finite();
         graph
             .constant(*id)
-            .is_some_and(|bits| bits[..ty.lanes() as usize].iter().all(finite))
+            .is_some_and(|bits| bits[..ty.components() as usize].iter().all(finite))
     })
 }

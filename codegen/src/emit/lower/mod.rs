@@ -276,12 +276,12 @@ impl<'g> Lowering<'g> {
             ir::Op::Tally(_) => return args.swap_remove(0),
             // Texels have four components, of which the kernel takes some.
             ir::Op::Load { texture, .. } | ir::Op::Sample { texture, .. }
-                if !graph.textures[*texture as usize].kind.is_depth() && node.ty.lanes() < 4 =>
+                if !graph.textures[*texture as usize].kind.is_depth() && node.ty.components() < 4 =>
             {
                 let whole = Type::value(graph.textures[*texture as usize].scalar, 4);
                 let texel = Expr::new(Op::Ir(node.op.clone()), args, whole);
                 args = vec![texel];
-                Op::Swizzle((0..node.ty.lanes()).collect())
+                Op::Swizzle((0..node.ty.components()).collect())
             }
             op => Op::Ir(op.clone()),
         };
@@ -303,8 +303,8 @@ fn is_atom(expr: &Expr) -> bool {
 }
 
 /// Whether a constant is a vector of three or four finite floats that are not all the same.
-fn is_long(ty: Type, bits: &ir::Lanes) -> bool {
-    let lanes = &bits[..usize::from(ty.lanes())];
+fn is_long(ty: Type, bits: &ir::Bits) -> bool {
+    let lanes = &bits[..usize::from(ty.components())];
     let finite = |lane: &u32| f32::from_bits(*lane).is_finite();
     ty.is_float() && lanes.len() >= 3 && lanes.iter().all(finite) && lanes.iter().any(|lane| *lane != lanes[0])
 }

@@ -3,7 +3,7 @@
 use super::Language;
 use crate::emit::ast::{Expr, Op, Ty};
 use crate::emit::text::{Binds, Text};
-use straightline_evaluator::ir::{self, BinaryOp, Lanes, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Bits, Scalar, Type, UnaryOp};
 
 /// An expression whose arguments have been printed.
 pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
@@ -25,7 +25,7 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
         Op::Any => Text::call("any", &all),
         Op::All => Text::call("all", &all),
         Op::Choose => l.choose(&args[0], &args[1], &args[2]),
-        Op::Hex(bits) => match expr.ty.lanes() {
+        Op::Hex(bits) => match expr.ty.components() {
             1 => Text::name(l.hex(*bits)),
             _ => Text::call(&l.ty(expr.ty), &[&Text::name(l.hex(*bits))]),
         },
@@ -87,9 +87,9 @@ pub fn operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, 
 }
 
 /// A constant scalar or vector of finite numbers: a component that is the same in all is written once.
-fn constant(l: &dyn Language, ty: Ty, bits: &Lanes) -> Text {
+fn constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
     let kind = ty.kind().unwrap_or(Scalar::F32);
-    let lanes = &bits[..ty.lanes() as usize];
+    let lanes = &bits[..ty.components() as usize];
     let parts: Vec<Text> = lanes.iter().map(|bits| l.scalar(kind, ty.half, *bits)).collect();
     match &parts[..] {
         [one] => one.clone(),

@@ -118,7 +118,7 @@ impl<'a> Glsl<'a> {
         let kind = self.resources.texture(texture).kind;
         let layers = usize::from(kind.has_layers());
         let parts = 1 + layers + usize::from(compares);
-        let components = usize::from(kind.place().lanes()) + parts - 1;
+        let components = usize::from(kind.place().components()) + parts - 1;
         if parts == 1 {
             return (args[0].clone(), components);
         }
@@ -336,7 +336,7 @@ impl Language for Glsl<'_> {
                     return Text::call("textureLod", &[&through, &place, &Text::name("0.0")]);
                 }
                 // No `textureLod` takes these; steps of no length are those of the finest level.
-                let step = Text::name(match self.resources.texture(*texture).kind.place().lanes() {
+                let step = Text::name(match self.resources.texture(*texture).kind.place().components() {
                     2 => "vec2(0.0)",
                     _ => "vec3(0.0)",
                 });

@@ -272,7 +272,7 @@ impl Language for Hlsl<'_> {
                 let part = super::part(&element, &buffer.element, *field, args.get(1));
                 match (buffer.element.field(*field), args.len()) {
                     // Its elements take the room of four.
-                    (Some(ty), 2) if ty.lanes() == 3 => Text::member(&part, "xyz"),
+                    (Some(ty), 2) if ty.components() == 3 => Text::member(&part, "xyz"),
                     _ => part,
                 }
             }
@@ -304,13 +304,13 @@ impl Language for Hlsl<'_> {
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
         match parts {
             // One number for all components is a cast.
-            [one] if ty.lanes() > 1 && !ty.is_array() => Text::prefix(&format!("({})", type_name(ty)), one),
+            [one] if ty.components() > 1 && !ty.is_array() => Text::prefix(&format!("({})", type_name(ty)), one),
             _ => Text::call(&type_name(ty), parts),
         }
     }
 
     fn splat(&self, ty: Ty, component: &Text) -> Text {
-        Text::call(&type_name(ty), &vec![component; ty.lanes() as usize])
+        Text::call(&type_name(ty), &vec![component; ty.components() as usize])
     }
 
     fn elements(&self, _: Ty, parts: &[&Text]) -> Text {

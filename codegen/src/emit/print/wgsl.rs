@@ -422,7 +422,7 @@ pub(super) fn four(language: &dyn Language, output: &BoundOutput, value: &Text) 
     let kind = texel.kind().unwrap_or(Scalar::F32);
     let whole = language.ty(Type::value(kind, 4).into());
     let [zero, one] = [0, one(Some(kind))].map(|bits| language.scalar(kind, false, bits));
-    match texel.lanes() {
+    match texel.components() {
         1 => Text::call(&whole, &[value, &zero, &zero, &one]),
         2 => Text::call(&whole, &[value, &zero, &one]),
         _ => value.clone(),
@@ -456,7 +456,10 @@ pub fn type_name(ty: Ty) -> String {
         Type::Array { len, .. } => {
             format!("array<{}, {len}>", type_name(ty.element_ty()))
         }
-        Type::Value { scalar, lanes } => {
+        Type::Value {
+            scalar,
+            components: lanes,
+        } => {
             let scalar = match scalar {
                 Scalar::F32 if ty.half => "h16".to_owned(),
                 other => other.to_string(),

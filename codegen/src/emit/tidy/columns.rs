@@ -83,8 +83,8 @@ impl Columns<'_> {
         }
     }
 
-    fn constant(&self, ty: Ty, bits: &ir::Lanes) -> usize {
-        let lanes = &bits[..ty.lanes() as usize];
+    fn constant(&self, ty: Ty, bits: &ir::Bits) -> usize {
+        let lanes = &bits[..ty.components() as usize];
         let number = |bits: &u32| columns_of_number(ty, *bits);
         match lanes {
             [one] => number(one),

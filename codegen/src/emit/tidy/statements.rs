@@ -36,7 +36,7 @@ fn one_component(place: &mut Expr, value: &mut Expr) {
     let mut first = 0;
     let mut changed = Vec::new();
     for (k, part) in value.args.iter().enumerate() {
-        let lanes = part.ty.lanes();
+        let lanes = part.ty.components();
         let kept = matches!(&part.op, Op::Swizzle(from) if from.iter().copied().eq(first..first + lanes))
             && part.args[0] == *place;
         if !kept {
@@ -44,7 +44,7 @@ fn one_component(place: &mut Expr, value: &mut Expr) {
         }
         first += lanes;
     }
-    if first == place.ty.lanes()
+    if first == place.ty.components()
         && let [(k, component, 1)] = changed[..]
     {
         let part = value.args.swap_remove(k);

@@ -2,7 +2,7 @@
 
 use super::{Candidate, Tile};
 use crate::ir::{
-    BinaryOp, Builder, Graph, Invocation, Lanes, Memory, Naming, NodeId, Op, Origin, Replace, Scalar, Shared, Type,
+    BinaryOp, Bits, Builder, Graph, Invocation, Memory, Naming, NodeId, Op, Origin, Replace, Scalar, Shared, Type,
 };
 use std::collections::{BTreeMap, HashMap};
 
@@ -13,7 +13,7 @@ struct Place {
     first: [i32; 2],
     size: [u32; 2],
     texture: u32,
-    layer: Option<(Type, Lanes)>,
+    layer: Option<(Type, Bits)>,
     components: Vec<u8>,
     shared: Shared,
 }
@@ -21,7 +21,7 @@ struct Place {
 impl Place {
     /// Whether an element is a texel as reads give it.
     fn is_whole(&self, texel: Type) -> bool {
-        self.shared.element == texel && self.components.len() == usize::from(texel.lanes())
+        self.shared.element == texel && self.components.len() == usize::from(texel.components())
     }
 }
 
@@ -127,7 +127,9 @@ impl<'g> Tiling<'g> {
                         false => b.add(Op::Extract(*component), [read], scalar),
                     });
                     let mut used: Vec<NodeId> = used.collect();
-                    used.resize_with(usize::from(tile.shared.element.lanes()), || b.constant(scalar, [0; 4]));
+                    used.resize_with(usize::from(tile.shared.element.components()), || {
+                        b.constant(scalar, [0; 4])
+                    });
                     match used[..] {
                         [one] => one,
                         _ => b.add(Op::Compose, used, tile.shared.element),
@@ -164,7 +166,7 @@ impl<'g> Tiling<'g> {
                 None => b.constant(scalar, [0; 4]),
             }
         };
-        let parts: Vec<NodeId> = (0..ty.lanes()).map(|component| part(b, component)).collect();
+        let parts: Vec<NodeId> = (0..ty.components()).map(|component| part(b, component)).collect();
         Some(b.add(Op::Compose, parts, ty))
     }
 }

@@ -10,7 +10,7 @@ mod fill;
 use super::fold::Exact;
 use super::offsets::offsets;
 use super::schedule::schedule;
-use crate::ir::{Graph, Invocation, Lanes, MOST_SHARED_BYTES, NodeId, Op, Rebuild, Shared, Type, rebuild_replacing};
+use crate::ir::{Bits, Graph, Invocation, MOST_SHARED_BYTES, NodeId, Op, Rebuild, Shared, Type, rebuild_replacing};
 use crate::policy::ReadOrder;
 use fill::Tiling;
 use std::collections::BTreeSet;
@@ -129,7 +129,7 @@ struct Candidate {
     tile: Tile,
     texture: u32,
     /// The layer or sample, as reads have it.
-    layer: Option<(Type, Lanes)>,
+    layer: Option<(Type, Bits)>,
     /// Components that some pixel uses, in order.
     components: Vec<u8>,
     /// Each read with its offset.
@@ -187,7 +187,7 @@ fn candidates(graph: &Graph) -> (Vec<Candidate>, Vec<Apart>) {
 }
 
 impl Candidate {
-    fn new(graph: &Graph, texture: u32, layer: Option<(Type, Lanes)>) -> Candidate {
+    fn new(graph: &Graph, texture: u32, layer: Option<(Type, Bits)>) -> Candidate {
         Candidate {
             tile: Tile {
                 name: String::new(),
@@ -301,7 +301,7 @@ fn merged(apart: Vec<Apart>) -> Vec<Apart> {
 /// Components of each read that are used, by node.
 fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
     let mut used = vec![BTreeSet::new(); graph.nodes.len()];
-    let mut whole = |id: NodeId| used[id.0 as usize].extend(0..graph.ty(id).lanes());
+    let mut whole = |id: NodeId| used[id.0 as usize].extend(0..graph.ty(id).components());
     graph.outputs().iter().for_each(|id| whole(*id));
     for region in &graph.regions {
         region.leaving().for_each(&mut whole);
@@ -312,7 +312,7 @@ fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
             Op::Extract(component) => _ = used[node.args[0].0 as usize].insert(component),
             _ => {
                 for arg in &node.args {
-                    used[arg.0 as usize].extend(0..graph.ty(*arg).lanes());
+                    used[arg.0 as usize].extend(0..graph.ty(*arg).components());
                 }
             }
         }

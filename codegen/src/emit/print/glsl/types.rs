@@ -68,14 +68,17 @@ pub fn texture_type(texture: &Texture) -> String {
 /// A type as GLSL spells it.
 pub fn type_name(ty: Ty) -> String {
     match ty.shape {
-        Type::Value { scalar, lanes: 1 } => match scalar {
+        Type::Value { scalar, components: 1 } => match scalar {
             Scalar::F32 => "float",
             Scalar::I32 => "int",
             Scalar::U32 => "uint",
             Scalar::Bool => "bool",
         }
         .to_owned(),
-        Type::Value { scalar, lanes } => {
+        Type::Value {
+            scalar,
+            components: lanes,
+        } => {
             let kind = match scalar {
                 Scalar::F32 => "",
                 Scalar::I32 => "i",

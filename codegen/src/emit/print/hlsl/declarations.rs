@@ -50,7 +50,15 @@ pub fn structures(resources: &Resources) -> String {
         for field in &structure.fields {
             pad(&mut out, &mut at, field.offset);
             let ty = match field.ty {
-                Type::Array { scalar, lanes: 3, len } => Type::Array { scalar, lanes: 4, len },
+                Type::Array {
+                    scalar,
+                    components: 3,
+                    len,
+                } => Type::Array {
+                    scalar,
+                    components: 4,
+                    len,
+                },
                 other => other,
             };
             out += &format!("    {};\n", declared(&field.name, ty.into()));
@@ -112,7 +120,7 @@ pub fn type_name(ty: Ty) -> String {
         Some(Scalar::Bool) => "bool",
         None => return "void".to_owned(),
     };
-    match ty.lanes() {
+    match ty.components() {
         1 => scalar.to_owned(),
         lanes => format!("{scalar}{lanes}"),
     }
