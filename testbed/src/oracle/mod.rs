@@ -313,7 +313,7 @@ impl<'a> Definition<'a> {
 
     /// Those that a geometry sample takes its colour from: `near`, or what a search finds; and whether 32 bits decide so too.
     fn searched(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
-        if self.params.search == Search::None && !self.takes_less_from_others() {
+        if self.params.search == Search::None && !self.takes_less_by_other_surfaces() {
             return (near, true);
         }
         let most = self.params.search_threshold;
@@ -331,13 +331,13 @@ impl<'a> Definition<'a> {
         // They count alike.
         around.iter_mut().for_each(|tap| tap.difference = 0.0);
         match around.is_empty() {
-            true => (self.from_others(pixel, at, near), is_decided),
+            true => (self.by_other_surfaces(pixel, at, near), is_decided),
             false => (around, is_decided),
         }
     }
 
     /// Whether the filter knows which samples no tap shows.
-    fn takes_less_from_others(&self) -> bool {
+    fn takes_less_by_other_surfaces(&self) -> bool {
         let params = self.params;
         params.demodulate != Demodulate::None
             && params.resolve == Resolve::Box
@@ -347,7 +347,7 @@ impl<'a> Definition<'a> {
     }
 
     /// Taps of a geometry sample whose surface none of them shows.
-    fn from_others(&self, pixel: [i32; 2], at: ([i32; 2], usize), mut near: Vec<Tap>) -> Vec<Tap> {
+    fn by_other_surfaces(&self, pixel: [i32; 2], at: ([i32; 2], usize), mut near: Vec<Tap>) -> Vec<Tap> {
         for tap in &mut near {
             let color = self.gbuffer.color([0, 1].map(|axis| pixel[axis] + tap.at.0[axis]), 0);
             tap.color = self.repainted(pixel, at, tap.at, color, false);

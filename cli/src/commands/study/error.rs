@@ -75,9 +75,20 @@ fn check_names(names: &[String]) -> Result<(), Failure> {
 
 /// What is said of a name that no method has.
 pub fn unknown(name: &str, known: &[Method]) -> String {
-    let names: Vec<&str> = known.iter().map(|method| method.name.as_str()).collect();
-    format!("there is no method `{name}`; there are: {}", names.join("; "))
+    let mut said = format!("there is no method `{name}`; there are:");
+    let mut width = usize::MAX;
+    for method in known {
+        // Names have commas.
+        let (own, fits) = (method.name.as_str(), width < WIDTH);
+        said += if fits { "; " } else { "\n  " };
+        said += own;
+        width = if fits { width } else { 0 } + own.len() + 2;
+    }
+    said
 }
+
+/// Characters of a line of names, but for the last of them.
+const WIDTH: usize = 80;
 
 /// Methods of the user's, each with a name that no other has.
 fn own(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {

@@ -89,9 +89,9 @@ fn methods(args: &FilmArgs) -> Result<Vec<Method>, Failure> {
             (Some(known), _) => known.clone(),
             (None, true) => method(text)?,
             (None, false) => {
-                let there_are = unknown(text, &known);
                 return Err(Failure::Usage(format!(
-                    "{there_are}; one of your own is NAME=KERNEL[,OPTION=VALUE]..."
+                    "{}\none of your own is NAME=KERNEL[,OPTION=VALUE]...",
+                    unknown(text, &known)
                 )));
             }
         };
