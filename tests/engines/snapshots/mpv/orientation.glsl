@@ -27,10 +27,10 @@ vec4 orientation(vec2 position) {
     // a mixture of the pixel (tests/engines/kernels/orientation.rs:15)
     ivec2 last = frame - 1;
     vec3 here = load_color(pixel).xyz;
-    vec3 right = load_color(min(pixel + ivec2(1, 0), last)).xyz;
-    float product = load_color(min(pixel + ivec2(0, 2), last)).z * below;
-    vec4 result = vec4(here.x * 0.5 + right.y * 0.25, right.y, product + here.z * 0.25, 1.0);
-    return result;
+    vec3 right = load_color(ivec2(min(pixel.x + 1, last.x), pixel.y)).xyz;
+    vec3 below_2 = load_color(ivec2(pixel.x, min(pixel.y + 2, last.y))).xyz;
+    float sum = below_2.z * below + here.z * 0.25;
+    return vec4(here.x * 0.5 + right.y * 0.25, right.y, sum, 1.0);
 }
 
 vec4 hook() {

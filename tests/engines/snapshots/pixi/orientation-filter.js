@@ -31,10 +31,10 @@ vec4 orientation(vec2 position, float below) {
     // a mixture of the pixel (tests/engines/kernels/orientation.rs:15)
     ivec2 last = frame - 1;
     vec3 here = load_color(pixel).xyz;
-    vec3 right = load_color(min(pixel + ivec2(1, 0), last)).xyz;
-    float product = load_color(min(pixel + ivec2(0, 2), last)).z * below;
-    vec4 result = vec4(here.x * 0.5 + right.y * 0.25, right.y, product + here.z * 0.25, 1.0);
-    return result;
+    vec3 right = load_color(ivec2(min(pixel.x + 1, last.x), pixel.y)).xyz;
+    vec3 below_2 = load_color(ivec2(pixel.x, min(pixel.y + 2, last.y))).xyz;
+    float sum = below_2.z * below + here.z * 0.25;
+    return vec4(here.x * 0.5 + right.y * 0.25, right.y, sum, 1.0);
 }
 
 void main() {
@@ -90,10 +90,10 @@ fn orientation(position: vec2f, below: f32) -> vec4f {
     // a mixture of the pixel (tests/engines/kernels/orientation.rs:15)
     let last = frame - 1;
     let here = load_color(pixel).xyz;
-    let right = load_color(min(pixel + vec2i(1, 0), last)).xyz;
-    let product = load_color(min(pixel + vec2i(0, 2), last)).z * below;
-    let result = vec4f(here.x * 0.5 + right.y * 0.25, right.y, product + here.z * 0.25, 1.0);
-    return result;
+    let right = load_color(vec2i(min(pixel.x + 1, last.x), pixel.y)).xyz;
+    let below_2 = load_color(vec2i(pixel.x, min(pixel.y + 2, last.y))).xyz;
+    let sum = below_2.z * below + here.z * 0.25;
+    return vec4f(here.x * 0.5 + right.y * 0.25, right.y, sum, 1.0);
 }
 
 @fragment

@@ -33,10 +33,10 @@ float4 orientation(float2 position) {
     // a mixture of the pixel (tests/engines/kernels/orientation.rs:15)
     int2 last = frame - 1;
     float3 here = load_color(pixel).xyz;
-    float3 right = load_color(min(pixel + int2(1, 0), last)).xyz;
-    float product = load_color(min(pixel + int2(0, 2), last)).z * below;
-    float4 result = float4(here.x * 0.5 + right.y * 0.25, right.y, product + here.z * 0.25, 1.0);
-    return result;
+    float3 right = load_color(int2(min(pixel.x + 1, last.x), pixel.y)).xyz;
+    float3 below_2 = load_color(int2(pixel.x, min(pixel.y + 2, last.y))).xyz;
+    float sum = below_2.z * below + here.z * 0.25;
+    return float4(here.x * 0.5 + right.y * 0.25, right.y, sum, 1.0);
 }
 
 float4 OrientationPS(float4 place : SV_Position, float2 uv : TEXCOORD) : SV_Target

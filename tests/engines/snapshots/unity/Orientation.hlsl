@@ -16,8 +16,8 @@ float4 orientation(Texture2D<float4> color, float2 position, float below) {
     // a mixture of the pixel (tests/engines/kernels/orientation.rs:15)
     int2 last = frame - 1;
     float3 here = color.Load(int3(pixel, 0)).xyz;
-    float3 right = color.Load(int3(min(pixel + int2(1, 0), last), 0)).xyz;
-    float product = color.Load(int3(min(pixel + int2(0, 2), last), 0)).z * below;
-    float4 result = float4(here.x * 0.5 + right.y * 0.25, right.y, product + here.z * 0.25, 1.0);
-    return result;
+    float3 right = color.Load(int3(int2(min(pixel.x + 1, last.x), pixel.y), 0)).xyz;
+    float3 below_2 = color.Load(int3(int2(pixel.x, min(pixel.y + 2, last.y)), 0)).xyz;
+    float sum = below_2.z * below + here.z * 0.25;
+    return float4(here.x * 0.5 + right.y * 0.25, right.y, sum, 1.0);
 }

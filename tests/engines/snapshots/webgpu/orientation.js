@@ -29,10 +29,10 @@ fn orientation(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // a mixture of the pixel (tests/engines/kernels/orientation.rs:15)
     let last = frame - 1;
     let here = textureLoad(color, pixel, 0).xyz;
-    let right = textureLoad(color, min(pixel + vec2i(1, 0), last), 0).xyz;
-    let product = textureLoad(color, min(pixel + vec2i(0, 2), last), 0).z * parameters.below;
-    let result = vec4f(here.x * 0.5 + right.y * 0.25, right.y, product + here.z * 0.25, 1.0);
-    return result;
+    let right = textureLoad(color, vec2i(min(pixel.x + 1, last.x), pixel.y), 0).xyz;
+    let below = textureLoad(color, vec2i(pixel.x, min(pixel.y + 2, last.y)), 0).xyz;
+    let sum = below.z * parameters.below + here.z * 0.25;
+    return vec4f(here.x * 0.5 + right.y * 0.25, right.y, sum, 1.0);
 }
 `;
 
