@@ -164,7 +164,11 @@ fn fast_mathematics_changes_roundings_and_no_more() {
     for (name, kernel, set) in [
         ("sraa", sraa(), options(&[])),
         ("sraa 16", sraa(), options(&[("pattern", "latin16")])),
-        ("sraa planes", sraa(), options(&[("metric", "planes-normals"), ("difference", "relative")])),
+        (
+            "sraa planes",
+            sraa(),
+            options(&[("metric", "planes-normals"), ("difference", "relative")]),
+        ),
         ("bilateral", filter("bilateral"), Options::new()),
         ("kuwahara", filter("kuwahara"), Options::new()),
         ("sobel", filter("sobel"), Options::new()),
@@ -175,7 +179,9 @@ fn fast_mathematics_changes_roundings_and_no_more() {
                 math,
                 ..Settings::default()
             };
-            kernel.compile(&settings).unwrap_or_else(|errors| panic!("{name}: {errors}"))
+            kernel
+                .compile(&settings)
+                .unwrap_or_else(|errors| panic!("{name}: {errors}"))
         };
         let (exact, fast) = (with(Math::Exact), with(Math::Fast));
         assert_ne!(print(&exact.graph), print(&fast.graph), "{name}: nothing was done");
