@@ -84,9 +84,9 @@ fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &
             "{what} at {at:?}: {expected:?}"
         );
         assert!(found.iter().all(|axis| axis.is_finite()), "{what} at {at:?}: {found:?}");
-        for (a, b) in found.into_iter().zip(expected.color) {
-            largest = largest.max((a - b).abs());
-        }
+        let pairs = found.into_iter().zip(expected.color);
+        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        largest = largest.max(apart);
     }
     largest
 }
@@ -151,6 +151,10 @@ fn hard(inputs: Inputs) -> Inputs {
                     // Of colours only what is not finite is bad; the largest would be right to show.
                     match name.as_str() {
                         "history_color" if texel.abs().max_element() > 1.0e3 => Vec4::splat(f32::NAN),
+                        // A plane with a normal of that length is where rounding puts it.
+                        "history_surface" if texel.truncate().is_finite() && texel.truncate().length() > 1.5 => {
+                            Vec3::NAN.extend(texel.w)
+                        }
                         _ => texel,
                     }
                 });
@@ -177,15 +181,16 @@ fn what_earlier_frames_cannot_be_spoils_nothing() {
         let expected = defined(&set, &inputs);
         let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
         largest = largest.max(off(single.targets[0].texels.iter().copied(), &expected, &what));
+        assert!(largest < 1.0e-4, "{what}: {largest}");
         if samples_needed(&set) <= 4 {
             let picture = bench.run(&compiled, Stage::Compute, &inputs);
             let picture = picture.unwrap_or_else(|e| panic!("{what}: {e}"));
             let texels = picture.texels().iter().map(|texel| texel.to_array().map(f64::from));
             largest = largest.max(off(texels, &expected, &what));
+            assert!(largest < 1.0e-4, "{what} on a device: {largest}");
         }
     }
     println!("off the definition: {largest:.1e}");
-    assert!(largest < 1.0e-4, "{largest}");
 }
 
 /// naga validates each text on the way, and two other compilers read the GLSL and SPIR-V.
@@ -261,9 +266,9 @@ fn what_earlier_frames_have_no_part_in_is_refused_with_the_reason() {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Motion {
     Still,
-    /// The camera, sideways: by 0.7 pixels at its target.
+    /// The camera, sideways: by 0.7 pixels at its target, and upwards by 0.2.
     Pan,
-    /// The camera, about itself: by 0.7 pixels.
+    /// The camera, about itself: by 0.45 pixels, and upwards by 0.3.
     Turn,
     /// A board before all else, by 3.3 pixels.
     Board,
@@ -282,7 +287,10 @@ fn scene(name: &str, motion: Motion, frame: usize) -> Scene {
     let to_world = Mat3::from_mat4(camera.view()).transpose();
     let pixel = 2.0 * camera.half_extent(PICTURE).y / PICTURE.y as f32;
     let step = pixel * frame as f32;
-    let aside = to_world * Vec3::new(0.7, 0.2, 0.0) * step;
+    let aside = match motion {
+        Motion::Turn => to_world * Vec3::new(0.45, 0.3, 0.0) * step,
+        _ => to_world * Vec3::new(0.7, 0.2, 0.0) * step,
+    };
     match motion {
         Motion::Still => {}
         Motion::Pan => {
@@ -429,10 +437,16 @@ fn close_to_supersampling(name: &str) {
             let [supersampled, plain, _, history] = scores;
             let row = scores.map(|score| format!("{:.2}, {:.4}", score.psnr, score.flicker));
             println!("| {name} | {motion:?} | {pattern} | {} |", row.join(" | "));
-            if pattern == "latin4" {
-                assert!(history.psnr > supersampled.psnr - 0.5, "{name} {motion:?}: {scores:?}");
+            if pattern == "latin4" && motion == Motion::Still {
+                assert!(history.psnr > supersampled.psnr - 0.1, "{name} {motion:?}: {scores:?}");
             }
             assert!(history.psnr > plain.psnr + 1.0, "{name} {motion:?}: {scores:?}");
+            let most = if motion == Motion::Still {
+                0.01
+            } else {
+                0.9 * plain.flicker
+            };
+            assert!(history.flicker < most, "{name} {motion:?}: {scores:?}");
         }
     }
 }

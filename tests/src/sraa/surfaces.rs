@@ -103,7 +103,8 @@ fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
     for frame in 0..4 {
         let moved = vec2(4.0 * random.unit() - 2.0, 4.0 * random.unit() - 2.0);
         let moved = if frame == 1 { moved.round() } else { moved };
-        let deeper = 0.02 * random.unit();
+        // A share of the sky's depth that 32 bits hold.
+        let deeper = random.choose(&[0.0, 0.0625, 0.125]);
         color.push(colors(&mut random, size));
         let texel = |pixel: UVec2| {
             let (depth, normal) = surface(&edges, pixel.as_vec2() + 0.5 - moved);
