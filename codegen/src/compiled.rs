@@ -1,6 +1,5 @@
 //! A kernel with everything decided: what the interpreter computes and emission writes.
 
-use crate::emit;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -44,11 +43,6 @@ pub struct Compiled {
 }
 
 impl Compiled {
-    /// Statements of the kernel's body, the same in every language and stage.
-    pub fn statements(&self) -> u32 {
-        emit::statements(self)
-    }
-
     /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;

@@ -76,11 +76,6 @@ impl Emitted {
     }
 }
 
-/// Statements of a kernel's body, the same in every language and stage.
-pub fn statements(compiled: &Compiled) -> u32 {
-    count(&kernel(compiled, Precision::F32))
-}
-
 fn count(kernel: &ast::Module<'_>) -> u32 {
     // Results are no statements: how they are written is the entry point's affair.
     let results = kernel
@@ -149,7 +144,7 @@ fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> (ast::M
     let mut module = kernel(compiled, resources.options.precision);
     let statements = match resources.options.precision {
         Precision::F32 => count(&module),
-        Precision::F16 => statements(compiled),
+        Precision::F16 => compiled.statements(),
     };
     let body = std::mem::take(&mut module.body);
     module.body = comments::comment_groups(body, &compiled.graph);
@@ -158,6 +153,11 @@ fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> (ast::M
 }
 
 impl Compiled {
+    /// Statements of the kernel's body, the same in every language and stage.
+    pub fn statements(&self) -> u32 {
+        count(&kernel(self, Precision::F32))
+    }
+
     /// The kernel as a shader, in every language asked for.
     ///
     /// # Errors

@@ -23,23 +23,30 @@ fn in_a_still_what_is_seen_lay_where_the_earlier_frame_was_not_jittered() {
     }
 }
 
-/// The surface is there: at the nearest shading sample of then it has the depth that is foretold, but at edges.
+/// A frame of then that is shaded just there shows the surface, at the depth that is foretold, but where it was hidden.
 #[test]
 fn motion_leads_to_the_same_surface_in_the_earlier_frame() {
+    let moves = vec3(0.11, 0.03, -0.08);
     let then = draw(moved(Vec3::ZERO), PLACES[0]);
-    let now = draw(moved(vec3(0.11, 0.03, -0.08)), PLACES[3]);
-    let (motion, mut found, mut inside) = (motion(&now, &then).expect("motion"), 0, 0);
-    let mut farthest = 0.0f32;
-    for (k, texel) in motion.texels().iter().enumerate() {
+    let now = draw(moved(moves), PLACES[3]);
+    let motion = motion(&now, &then).expect("motion");
+    let (mut farthest, mut inside, mut found) = (0.0f32, 0, 0);
+    for k in (0..motion.texels().len()).step_by(61) {
+        let texel = motion.texels()[k];
+        let way = vec2(texel.x, texel.y);
         let pixel = uvec2(k as u32 % SIZE.x, k as u32 / SIZE.x).as_vec2() + 0.5;
-        let there = (pixel + now.jitter + vec2(texel.x, texel.y)).floor().as_ivec2();
-        if there.cmpge(glam::IVec2::ZERO).all() && there.cmplt(SIZE.as_ivec2()).all() {
-            let depth = now.depth.texels()[k];
-            inside += 1;
-            farthest = farthest.max(vec2(texel.x, texel.y).length());
-            found += u32::from((then.depth.load(there) - depth - texel.z).abs() <= 0.05 * depth);
+        // In the raster that is not jittered.
+        let place = pixel + now.jitter + way + then.jitter;
+        let there = place.floor();
+        if there.cmplt(Vec2::ZERO).any() || there.cmpge(SIZE.as_vec2()).any() {
+            continue;
         }
+        let shaded_there = draw(moved(Vec3::ZERO), place - there - 0.5);
+        let foretold = now.depth.texels()[k] + texel.z;
+        inside += 1;
+        farthest = farthest.max(way.length());
+        found += u32::from((shaded_there.depth.load(there.as_ivec2()) - foretold).abs() <= 0.001 * foretold);
     }
     assert!(farthest > 1.0, "nothing moved by more than {farthest} pixels");
-    assert!(inside > 4500 && found * 10 > inside * 9, "{found} of {inside} pixels");
+    assert!(inside > 70 && found * 100 > inside * 90, "{found} of {inside} pixels");
 }
