@@ -34,6 +34,7 @@ const KERNELS: &[(&str, Native, &[&str])] = &[
     ("unsigned", kernels::unsigned, &["none"; 2]),
     ("left", kernels::left, &["none", "none", CULPRIT]),
     ("culprit", kernels::culprit, &[CULPRIT, "none", "none", "none"]),
+    ("called_culprit", kernels::called_culprit, &["none", CULPRIT]),
     (
         "outer_culprit",
         kernels::outer_culprit,

@@ -7,13 +7,13 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use crate::front::{children, mentioned_in};
 use crate::ir::{NodeId, Op, RegionId};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 /// Loops that are left in the shader although they could be unrolled.
 #[derive(Default)]
 pub struct Kept {
-    /// By what they have become.
-    loops: HashMap<RegionId, Span>,
+    /// With what they have become, in order.
+    loops: Vec<(RegionId, Span)>,
     /// Those of which the trip count is known, or may be.
     avoidable: HashSet<Span>,
 }
@@ -21,7 +21,17 @@ pub struct Kept {
 impl Kept {
     /// A loop has become a region.
     pub fn region(&mut self, region: RegionId, span: Span) {
-        self.loops.insert(region, span);
+        self.loops.push((region, span));
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.loops.len()
+    }
+
+    /// Forgets those that came later.
+    pub fn truncate(&mut self, len: usize) {
+        self.loops.truncate(len);
     }
 
     /// A loop is left in the shader only because that is asked for.
@@ -32,8 +42,9 @@ impl Kept {
 
 impl Evaluator<'_> {
     /// Notes with an error of an expression the loops that what it looks at depends on: what it points at, else what decides,
-    /// else the integers and booleans that the expression mentions, which are what has to be known, else all.
-    pub fn blame(&self, error: &mut Diagnostic, expr: &Expr) {
+    /// else the integers and booleans that the expression mentions, which are what has to be known, else all. If it mentions nothing
+    /// that does, loops in functions that it calls are to blame: there were `before` when it began.
+    pub fn blame(&self, error: &mut Diagnostic, expr: &Expr, before: usize) {
         let too_large = self.steps > MAX_STEPS || self.builder.graph().nodes.len() > MAX_NODES;
         if !error.loops.is_empty() || self.kept.avoidable.is_empty() || too_large {
             return;
@@ -52,6 +63,11 @@ impl Evaluator<'_> {
                 }
             }
         }
+        let inside = self.kept.loops.get(before..).unwrap_or_default().iter();
+        let inside = inside
+            .map(|(_, span)| *span)
+            .filter(|span| self.kept.avoidable.contains(span));
+        error.loops = inside.collect::<BTreeSet<Span>>().into_iter().collect();
     }
 
     fn loops_behind(&self, expr: &Expr, floats: bool) -> Vec<Span> {
@@ -118,7 +134,8 @@ impl Walk {
 
     /// What a loop carries at a position.
     fn enter(&mut self, e: &Evaluator<'_>, region: RegionId, k: usize) {
-        let span = e.kept.loops.get(&region);
+        let of = e.kept.loops.iter().find(|(known, _)| *known == region);
+        let span = of.map(|(_, span)| *span);
         self.found.extend(span.filter(|span| e.kept.avoidable.contains(span)));
         let region = e.builder.graph().region(region);
         self.pending

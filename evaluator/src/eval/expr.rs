@@ -24,10 +24,11 @@ impl Evaluator<'_> {
             return Err(error.help("the command line goes deeper than a browser can").into());
         }
         self.depth += 1;
+        let before = self.kept.len();
         let mut value = self.evaluated(expr);
         self.depth -= 1;
         if let Err(Exit::Error(error)) = &mut value {
-            self.blame(error, expr);
+            self.blame(error, expr, before);
         }
         value
     }

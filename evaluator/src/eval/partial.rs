@@ -22,6 +22,8 @@ pub struct Checkpoint {
     loops: super::budget::Loops,
     departed: Vec<Departure>,
     kept_loops: u32,
+    /// Loops that are left in the shader.
+    kept: usize,
     /// Of each region that is open.
     effects: Vec<usize>,
 }
@@ -57,6 +59,7 @@ impl Evaluator<'_> {
             loops: self.loops.clone(),
             departed: self.departed.clone(),
             kept_loops: self.kept_loops,
+            kept: self.kept.len(),
             effects: self.builder.effects(),
         }
     }
@@ -67,6 +70,7 @@ impl Evaluator<'_> {
         self.counters = before.counters;
         self.departed = before.departed;
         self.kept_loops = before.kept_loops;
+        self.kept.truncate(before.kept);
         self.builder.take_back(&before.effects);
         self.loops.return_to(before.loops);
         let noted = self.errors.get(before.errors).cloned();

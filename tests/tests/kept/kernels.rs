@@ -203,6 +203,23 @@ fn raised(x: f32, power: i32) -> f32 {
     sum
 }
 
+/// What has to be known comes from a loop in a function, and is in no variable.
+pub fn called_culprit(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
+    let mut s = n as f32;
+    for j in 0..4 {
+        s = s * 0.5 + color.load(pixel + ivec2(j, 0)).x;
+    }
+    vec4((0.25 * s).powi(power_of([1, 0, 2])), s, 0.0, 1.0)
+}
+
+fn power_of(list: [i32; 3]) -> i32 {
+    let mut power = 0;
+    for k in 0..3 {
+        power += list[k];
+    }
+    power
+}
+
 /// The loop inside looks at the counter of the loop outside, through a closure and a condition.
 pub fn outer_culprit(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     let mut s = color.load(pixel).y + n as f32;
