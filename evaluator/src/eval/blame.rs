@@ -34,6 +34,15 @@ impl Kept {
         self.loops.truncate(len);
     }
 
+    /// Those that came later and could be unrolled.
+    fn since(&self, before: usize) -> Vec<Span> {
+        let later = self.loops.get(before..).unwrap_or_default().iter();
+        let later = later
+            .map(|(_, span)| *span)
+            .filter(|span| self.avoidable.contains(span));
+        later.collect::<BTreeSet<Span>>().into_iter().collect()
+    }
+
     /// A loop is left in the shader only because that is asked for.
     pub fn avoidable(&mut self, span: Span) {
         self.avoidable.insert(span);
@@ -41,9 +50,9 @@ impl Kept {
 }
 
 impl Evaluator<'_> {
-    /// Notes with an error of an expression the loops that what it looks at depends on: what it points at, else what decides,
-    /// else the integers and booleans that the expression mentions, which are what has to be known, else all. If it mentions nothing
-    /// that does, loops in functions that it calls are to blame: there were `before` when it began.
+    /// Notes with an error of an expression the loops that what it looks at depends on: what decides, else the integers and booleans
+    /// of what it points at, else all that the expression mentions, as they are what has to be known; else loops in functions that
+    /// it calls, of which there were `before` when it began; else what its floats depend on.
     pub fn blame(&self, error: &mut Diagnostic, expr: &Expr, before: usize) {
         let too_large = self.steps > MAX_STEPS || self.builder.graph().nodes.len() > MAX_NODES;
         if !error.loops.is_empty() || self.kept.avoidable.is_empty() || too_large {
@@ -55,19 +64,17 @@ impl Evaluator<'_> {
             ExprKind::If(..) | ExprKind::Match(..) => parts.first(),
             _ => None,
         };
-        for part in [pointed.copied(), decides.copied(), Some(expr)].into_iter().flatten() {
-            for floats in [false, true] {
-                error.loops = self.loops_behind(part, floats);
-                if !error.loops.is_empty() {
-                    return;
-                }
-            }
-        }
-        let inside = self.kept.loops.get(before..).unwrap_or_default().iter();
-        let inside = inside
-            .map(|(_, span)| *span)
-            .filter(|span| self.kept.avoidable.contains(span));
-        error.loops = inside.collect::<BTreeSet<Span>>().into_iter().collect();
+        let behind = |part: Option<&&Expr>, floats| part.map_or(Vec::new(), |part| self.loops_behind(part, floats));
+        let found: [&dyn Fn() -> Vec<Span>; 6] = [
+            &|| behind(decides, false),
+            &|| behind(decides, true),
+            &|| behind(pointed, false),
+            &|| self.loops_behind(expr, false),
+            &|| self.kept.since(before),
+            &|| self.loops_behind(expr, true),
+        ];
+        let mut found = found.iter().map(|loops| loops());
+        error.loops = found.find(|loops| !loops.is_empty()).unwrap_or_default();
     }
 
     fn loops_behind(&self, expr: &Expr, floats: bool) -> Vec<Span> {
