@@ -26,6 +26,7 @@ pub struct Kernel {
     files: Arc<Vec<File>>,
     /// What the files define, read once for all variants.
     library: OnceLock<Arc<Library>>,
+    described: OnceLock<Arc<[OptionInfo]>>,
 }
 
 /// How a kernel is to be evaluated.
@@ -157,6 +158,7 @@ impl Kernel {
             summary: entry.summary.to_owned(),
             files: Arc::new(files.collect()),
             library: OnceLock::new(),
+            described: OnceLock::new(),
         })
     }
 
@@ -172,6 +174,7 @@ impl Kernel {
             summary: String::new(),
             files: Arc::new(vec![file]),
             library: OnceLock::new(),
+            described: OnceLock::new(),
         }
     }
 
@@ -224,10 +227,15 @@ impl Kernel {
 
     /// The kernel's options in order of declaration.
     pub fn options(&self) -> Result<Vec<OptionInfo>, Errors> {
-        deep(|| {
-            let library = self.library()?;
-            eval::describe(&library, &self.files, &self.name)
-        })
+        deep(|| self.described(&*self.library()?).map(|infos| infos.to_vec()))
+    }
+
+    fn described(&self, library: &Library) -> Result<&[OptionInfo], Errors> {
+        if let Some(infos) = self.described.get() {
+            return Ok(infos);
+        }
+        let infos = eval::describe(library, &self.files, &self.name)?.into();
+        Ok(self.described.get_or_init(|| infos))
     }
 
     /// The tree of all of the kernel's files as its `Debug` form: for tests that ask which constructs a text has.
@@ -266,7 +274,7 @@ impl Kernel {
         if settings.options.is_empty() {
             return Ok(Vec::new());
         }
-        let known = eval::describe(library, &self.files, &self.name)?;
+        let known = self.described(library)?;
         let differs = |option: &OptionInfo| {
             option.uniform || values.get(&option.name).is_none_or(|value| *value != option.default)
         };

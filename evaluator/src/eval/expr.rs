@@ -130,7 +130,11 @@ impl Evaluator<'_> {
 
     /// Values of several expressions.
     pub fn all(&mut self, exprs: &[Expr]) -> Eval<Vec<Value>> {
-        exprs.iter().map(|e| self.expr(e)).collect()
+        let mut values = Vec::with_capacity(exprs.len());
+        for e in exprs {
+            values.push(self.expr(e)?);
+        }
+        Ok(values)
     }
 
     fn repeat(&mut self, value: &Expr, len: &Expr) -> Eval {

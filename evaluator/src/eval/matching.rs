@@ -32,7 +32,7 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval {
         let value = self.expr(subject)?;
-        let mut cases = Vec::new();
+        let mut cases = Vec::with_capacity(arms.len());
         for arm in arms {
             if !binds_in_or(&arm.pattern) {
                 let pattern = Cow::Borrowed(&arm.pattern);

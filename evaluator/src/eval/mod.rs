@@ -326,7 +326,10 @@ impl Evaluator<'_> {
             }
         }
         let origin = Origin {
-            name: called.to_string().into(),
+            name: match called {
+                Called::Whole(name) => (*name).into(),
+                parts => parts.to_string().into(),
+            },
             naming,
             file: span.file,
             line: span.line,

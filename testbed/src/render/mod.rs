@@ -44,7 +44,7 @@ pub trait Renderer {
     fn camera(&self) -> Camera;
 
     /// Geometry seen `offset` from each pixel's centre: linear depth along the view direction in scene units, and
-    /// the unit normal in view space, on the side that is seen. The sky is at [`SKY_DEPTH`](crate::scene::SKY_DEPTH)
+    /// the unit normal in view space, on the side that is seen. The sky is at [`SKY_DEPTH`]
     /// and has the normal (0, 0, 1).
     ///
     /// # Errors
