@@ -8,7 +8,7 @@ options! {
     pub struct Bounce {
         /// What comes out.
         pub gives: Gives = Gives::Picture,
-        /// Taps that each lane takes; a pixel hears of four times as many.
+        /// Taps that each lane takes; a pixel has the sum of four times as many.
         pub taps: i32 [1..=16] = 4,
         /// How far light comes from, in the unit of depth.
         pub radius: f32 [1.0e-3..=1.0e4] = 1.0,

@@ -332,6 +332,13 @@ impl<'r> Builder<'r> {
         }
     }
 
+    /// Makes room for so many nodes.
+    pub fn reserve(&mut self, nodes: usize) {
+        self.graph.nodes.reserve(nodes);
+        self.graph.origins.reserve(nodes);
+        self.known.reserve(nodes);
+    }
+
     /// What is built so far.
     pub fn graph(&self) -> &Graph {
         &self.graph

@@ -41,6 +41,7 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
 pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Replace) -> Graph {
     let live = Liveness::of(old);
     let mut builder = Builder::new(pass.rules);
+    builder.reserve(old.nodes.len());
     copy_tables(old, builder.graph_mut());
     for (texture, components) in builder.graph_mut().textures.iter_mut().zip(components_read(old, &live)) {
         texture.components = components.min(texture.components);

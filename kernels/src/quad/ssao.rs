@@ -40,7 +40,7 @@ const TURN: f32 = 2.399_963_2;
 /// How much light comes to each pixel of a quad from around, 0 to 1, in every component.
 ///
 /// Tap `k` of all lies on a spiral around the pixel; lane `l` takes those with `k % 4 == l`. What a lane finds is told to
-/// the others, which take it at the weight of a Gaussian of their distance in depth: no lane hears of another surface.
+/// the others, which take it at the weight of a Gaussian of their distance in depth: nothing goes from one surface to another.
 ///
 /// `depth` is along the view; `normal` is of unit length in the view's frame: x right, y down, z away.
 pub fn quad_ssao(

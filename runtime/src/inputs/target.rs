@@ -65,7 +65,7 @@ fn check(plan: &Plan, format: TextureFormat, abilities: &Abilities, target: &Tex
             }
         }
         StagePlan::Fragment => {
-            // A view may differ from its texture in the sRGB suffix alone; the rehearsal has wgpu look at it.
+            // A view may differ from its texture in the sRGB suffix alone; validating the recording has wgpu look at it.
             if found.remove_srgb_suffix() != format.remove_srgb_suffix() {
                 let remedy = match plan.outputs.len() {
                     1 => "name the target's format with `PassOptions::target_format`",

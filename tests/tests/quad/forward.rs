@@ -116,7 +116,7 @@ fn helper_lanes_answer_at_the_edges_of_triangles() {
                             // Of 4096 to the pixel, a sixteenth of one.
                             assert!(
                                 (a - b).abs() < 256.0,
-                                "{transport}, {size}, discard {discard:?}: {x}, {y} hears {a} for {b} by message {m}"
+                                "{transport}, {size}, discard {discard:?}: {x}, {y} receives {a} for {b} by message {m}"
                             );
                         }
                         let neighbour = ivec2(x + i, y + j);

@@ -4,7 +4,7 @@ use super::*;
 use straightline_codegen::ir::F16;
 
 const HEARD: &str = "
-/// What a lane has, and what it hears from the three others.
+/// What a lane has, and what it receives from the three others.
 pub fn heard(value: &Frame<f32>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let [own, beside, below, across] = value.load(pixel).gather();
     Quad::from_xy(own, beside).extend(below).extend(across)
@@ -120,7 +120,7 @@ fn quad_operations_move_bits_and_derivatives_err_as_predicted() {
             }
             if lane < 2 {
                 println!(
-                    "{name}, lane {lane} hears {there:e} | {:e} | {:e} | {:e}",
+                    "{name}, lane {lane} receives {there:e} | {:e} | {:e} | {:e}",
                     exact.load(at.as_ivec2()).y,
                     found[1],
                     predicted[1]
@@ -161,7 +161,7 @@ fn the_error_of_a_derivative_is_bounded() {
         let heard = a + (b - a);
         let larger = a.abs().max(b.abs());
         let ulp = f32::from_bits(larger.to_bits() + 1) - larger;
-        assert!((heard - b).abs() <= ulp, "{a} hears {b} as {heard}");
+        assert!((heard - b).abs() <= ulp, "{a} receives {b} as {heard}");
         if a * b > 0.0 && a.abs() <= 2.0 * b.abs() && b.abs() <= 2.0 * a.abs() {
             assert_eq!(heard, b, "{a} and {b} are near each other");
         }

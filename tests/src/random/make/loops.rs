@@ -304,7 +304,7 @@ impl Maker {
         let head = if endless {
             "loop".to_owned()
         } else if self.chance(Feature::RuntimeLeaving, 3) {
-            // How often it goes round is a runtime value.
+            // The trip count is a runtime value.
             let want = self.wish(1);
             ends = true;
             let condition = self.condition(want);
