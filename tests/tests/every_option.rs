@@ -3,9 +3,8 @@
 
 mod common;
 
-use common::other_compilers;
+use common::Shaders;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Stage, Unroll};
 use straightline_tests::sraa::compiled;
@@ -13,10 +12,8 @@ use straightline_tests::sraa::options::{one_at_a_time, random, refusal};
 
 #[test]
 fn all_options_emit_in_all_languages() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("every-option");
-    std::fs::create_dir_all(&folder).expect("a folder for shaders");
+    let mut shaders = Shaders::new("every-option");
     let targets: BTreeSet<Target> = Target::MODERN.into();
-    let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
     let sets = one_at_a_time().into_iter().chain(random(24, 3));
     let mut emitted_sets = 0;
     for (k, options) in sets.filter(|options| refusal(options).is_none()).enumerate() {
@@ -29,20 +26,11 @@ fn all_options_emit_in_all_languages() {
                     .unwrap_or_else(|e| panic!("{options:?} {unroll}: {e}"));
                 assert_eq!(emitted.files.len(), targets.len());
                 let stem = format!("{k}-{}-{}", unroll, stage.name());
-                for (name, contents) in emitted.named(&stem) {
-                    let path = folder.join(&name);
-                    if name.ends_with(".comp") || name.ends_with(".frag") {
-                        glsl.push(path.clone());
-                    } else if name.ends_with(".spv") {
-                        spirv.push(path.clone());
-                    } else {
-                        continue;
-                    }
-                    std::fs::write(&path, contents).expect("a shader is written");
-                }
+                shaders.write(&emitted, &stem);
             }
         }
     }
-    assert_eq!((glsl.len(), spirv.len()), (4 * emitted_sets, 4 * emitted_sets));
-    other_compilers(&glsl, &spirv);
+    let (glsl, spirv) = (shaders.glsl.len(), shaders.spirv.len());
+    assert_eq!((glsl, spirv), (4 * emitted_sets, 4 * emitted_sets));
+    shaders.read();
 }

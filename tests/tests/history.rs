@@ -3,10 +3,9 @@
 
 mod common;
 
-use common::{bench, other_compilers};
+use common::{Shaders, bench};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
@@ -196,30 +195,19 @@ fn what_earlier_frames_cannot_be_spoils_nothing() {
 /// naga validates each text on the way, and two other compilers read the GLSL and SPIR-V.
 #[test]
 fn all_languages_have_it() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("history");
-    std::fs::create_dir_all(&folder).expect("a folder for shaders");
+    let mut shaders = Shaders::new("history");
     let targets: BTreeSet<Target> = Target::MODERN.into();
-    let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
     for (k, set) in sets().iter().enumerate() {
         for (unroll, stage) in [(Unroll::Full, Stage::Compute), (Unroll::None, Stage::Fragment)] {
             let emitted = made(set, unroll).emit(&EmitOptions::new().stage(stage).targets(targets.clone()));
             let emitted = emitted.unwrap_or_else(|e| panic!("{set:?} {unroll}: {e}"));
             assert_eq!(emitted.files.len(), targets.len());
-            for (name, contents) in emitted.named(&format!("{k}-{}", stage.name())) {
-                let path = folder.join(&name);
-                if name.ends_with(".comp") || name.ends_with(".frag") {
-                    glsl.push(path.clone());
-                } else if name.ends_with(".spv") {
-                    spirv.push(path.clone());
-                } else {
-                    continue;
-                }
-                std::fs::write(&path, contents).expect("a shader is written");
-            }
+            shaders.write(&emitted, &format!("{k}-{}", stage.name()));
         }
     }
-    assert_eq!((glsl.len(), spirv.len()), (2 * sets().len(), 2 * sets().len()));
-    other_compilers(&glsl, &spirv);
+    let (glsl, spirv) = (shaders.glsl.len(), shaders.spirv.len());
+    assert_eq!((glsl, spirv), (2 * sets().len(), 2 * sets().len()));
+    shaders.read();
 }
 
 #[test]

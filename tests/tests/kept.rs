@@ -6,9 +6,8 @@ mod common;
 #[allow(clippy::needless_range_loop, clippy::manual_swap)] // kernels as people write them
 mod kernels;
 
-use common::{bench, other_compilers, same_bits};
+use common::{Shaders, bench, same_bits};
 use glam::{IVec2, Vec4, ivec2, uvec2};
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
@@ -131,24 +130,14 @@ fn every_form_computes_what_rust_does() {
 
 #[test]
 fn every_form_is_emitted_and_is_the_same_picture_on_a_gpu() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("kept");
-    std::fs::create_dir_all(&folder).expect("a folder for shaders");
-    let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
+    let mut shaders = Shaders::new("kept");
     let (bench, inputs) = (bench(), inputs());
     for (name, ..) in KERNELS {
         for (k, form) in FORMS.into_iter().enumerate() {
             let compiled = compiled(name, form);
             let emitted = compiled.emit(&EmitOptions::new().targets(Target::MODERN));
             let emitted = emitted.unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
-            for (name, contents) in emitted.named(&format!("{name}-{k}")) {
-                let path = folder.join(&name);
-                std::fs::write(&path, contents).expect("a shader is written");
-                match name.rsplit('.').next() {
-                    Some("comp" | "frag") => glsl.push(path),
-                    Some("spv") => spirv.push(path),
-                    _ => {}
-                }
-            }
+            shaders.write(&emitted, &format!("{name}-{k}"));
             let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
             let found = bench.run(&compiled, Stage::Compute, &inputs);
             let found = found.unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
@@ -158,8 +147,8 @@ fn every_form_is_emitted_and_is_the_same_picture_on_a_gpu() {
             }
         }
     }
-    assert!(glsl.len() >= 60 && spirv.len() >= 60);
-    other_compilers(&glsl, &spirv);
+    assert!(shaders.glsl.len() >= 60 && shaders.spirv.len() >= 60);
+    shaders.read();
 }
 
 /// The first error of a kernel with one loop in the middle.

@@ -6,6 +6,7 @@ pub mod forms;
 
 use std::path::PathBuf;
 use std::process::Command;
+use straightline_codegen::emit::Emitted;
 use straightline_kernels::prelude::{IVec2, IVec3, IVec4, UVec2, UVec3, UVec4, Vec2, Vec3, Vec4};
 use straightline_testbed::execute;
 #[allow(unused_imports)] // each test uses a part
@@ -93,6 +94,45 @@ macro_rules! texel_of {
 }
 
 texel_of!(f32, i32, u32; Vec2, Vec3, Vec4, IVec2, IVec3, IVec4, UVec2, UVec3, UVec4);
+
+/// Shaders in files, for compilers that share nothing with naga.
+pub struct Shaders {
+    folder: PathBuf,
+    pub glsl: Vec<PathBuf>,
+    pub spirv: Vec<PathBuf>,
+}
+
+impl Shaders {
+    /// None yet, in a folder of this name.
+    pub fn new(folder: &str) -> Shaders {
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(folder);
+        std::fs::create_dir_all(&folder).expect("a folder for shaders");
+        Shaders {
+            folder,
+            glsl: Vec::new(),
+            spirv: Vec::new(),
+        }
+    }
+
+    /// Writes the GLSL and the SPIR-V.
+    pub fn write(&mut self, emitted: &Emitted, stem: &str) {
+        for (name, contents) in emitted.named(stem) {
+            let path = self.folder.join(&name);
+            let files = match name.rsplit('.').next() {
+                Some("comp" | "frag") => &mut self.glsl,
+                Some("spv") => &mut self.spirv,
+                _ => continue,
+            };
+            std::fs::write(&path, contents).expect("a shader is written");
+            files.push(path);
+        }
+    }
+
+    /// Has two compilers read them.
+    pub fn read(&self) {
+        other_compilers(&self.glsl, &self.spirv);
+    }
+}
 
 /// Has two compilers that share nothing with naga read GLSL and SPIR-V files.
 pub fn other_compilers(glsl: &[PathBuf], spirv: &[PathBuf]) {
