@@ -11,7 +11,7 @@ use std::rc::Rc;
 
 pub use crate::front::tree::vector_named as vector_type;
 
-impl Evaluator<'_> {
+impl<'a> Evaluator<'a> {
     pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let constants = self.generic_constants(path, constants)?;
         let values = self.all(args)?;
@@ -179,7 +179,7 @@ impl Evaluator<'_> {
     /// Evaluates a function's body with its parameters bound.
     pub fn inline(&mut self, name: &str, constants: &[Value], args: Vec<Value>, span: Span) -> Eval {
         let library = self.library;
-        let Some(function) = library.functions.get(name) else {
+        let Some((name, function)) = library.functions.get_key_value(name) else {
             return Err(Diagnostic::at(span, format!("there is no function `{name}`")).into());
         };
         match name == Self::PHASE && function.span.file == crate::front::std::FILE {
@@ -191,7 +191,7 @@ impl Evaluator<'_> {
     /// The same of a function that is known to be there, and is no phase of a workgroup.
     pub(super) fn inlined(
         &mut self,
-        name: &str,
+        name: &'a str,
         function: &Function,
         constants: &[Value],
         args: Vec<Value>,
@@ -242,12 +242,12 @@ impl Evaluator<'_> {
                     });
                 }
             };
-            if !of_library {
+            if !of_library && !self.was_named(&value, &param.name) {
                 self.name_as(&value, &param.name, Naming::Parameter, span);
             }
             self.scope.bind(&param.name, value);
         }
-        self.calls.push(name.to_owned());
+        self.calls.push(name.into());
         let unroll = self.policy.unroll;
         self.policy.unroll = function.unroll.unwrap_or(unroll);
         let result = self.called_by_others(|e| {

@@ -48,7 +48,7 @@ impl Evaluator<'_> {
         Ok(Value::Closure(Rc::new(Closed {
             code: Arc::clone(code),
             captured,
-            function: self.calls.last().cloned().unwrap_or_default(),
+            function: self.calls.last().cloned().unwrap_or_default().into_owned(),
         })))
     }
 
@@ -83,7 +83,7 @@ impl Evaluator<'_> {
             );
         }
         let outer = self.scope.enter_function();
-        self.calls.push(closed.function.clone());
+        self.calls.push(closed.function.clone().into());
         let result = self.called_by_others(|e| e.closed_body(&closed, args, outer.1, span));
         self.calls.pop();
         self.scope.leave_function(outer);

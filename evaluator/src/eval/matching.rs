@@ -32,6 +32,21 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval {
         let value = self.expr(subject)?;
+        let mut arms = arms;
+        // Most arms take a value for certain, or for certain not.
+        while let Some((arm, rest)) = arms.split_first()
+            && arm.guard.is_none()
+            && !binds_in_or(&arm.pattern)
+        {
+            let takes = self.test(&arm.pattern, &value, span)?;
+            match self.known_bool(takes) {
+                Some(true) => {
+                    return self.with_bound(&arm.pattern, &value, span, |e| e.expr_in(&arm.body, tail));
+                }
+                Some(false) => arms = rest,
+                None => break,
+            }
+        }
         let mut cases = Vec::with_capacity(arms.len());
         for arm in arms {
             if !binds_in_or(&arm.pattern) {

@@ -39,7 +39,7 @@ impl<'a> Evaluator<'a> {
                 _ => value,
             };
             let all = std::iter::once(receiver).chain(args).collect();
-            return self.inline(&method, &[], all, span);
+            return self.inline(method, &[], all, span);
         }
         let args = args
             .into_iter()
@@ -119,18 +119,18 @@ impl<'a> Evaluator<'a> {
 
     /// The function of the library that a method of a value stands for: inference has written its path, or it is one of a
     /// type of the kernel's own. In a generic function only the value tells.
-    fn own_method(&self, value: &Value, name: &str) -> Option<(String, &'a Function)> {
+    fn own_method(&self, value: &Value, name: &str) -> Option<(&'a str, &'a Function)> {
         let library = self.library;
         let method = match value {
             _ if name.contains("::") => name.to_owned(),
-            Value::Struct { ty, .. } => format!("{ty}::{name}"),
-            Value::Enum(choice) => format!("{}::{name}", choice.ty),
+            Value::Struct { ty, .. } => [ty, "::", name].concat(),
+            Value::Enum(choice) => [&choice.ty, "::", name].concat(),
             Value::Node(id) if !crate::front::methods::has(self.ty(*id), name) => {
-                format!("{}::{name}", self.ty(*id).in_rust())
+                [&self.ty(*id).in_rust(), "::", name].concat()
             }
             _ => return None,
         };
-        let function = library.functions.get(&method)?;
+        let (method, function) = library.functions.get_key_value(&method)?;
         Some((method, function))
     }
 

@@ -49,11 +49,14 @@ mod workgroups;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
+use crate::front::name::Name;
 use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type};
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
-use std::collections::{BTreeMap, HashMap};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::rc::Rc;
 use std::sync::Arc;
 use value::{Eval, Exit, Value};
 
@@ -147,6 +150,9 @@ const MAX_NODES: usize = 400_000;
 /// Parts of one value after which it is taken to be a mistake.
 const MAX_PARTS: usize = 1 << 18;
 
+/// Structures of which it is remembered that their parts have names.
+const NAMED_STRUCTURES: usize = 4;
+
 /// Elements of an array beyond which they are not named one by one.
 const MAX_NAMED: usize = 1024;
 
@@ -173,8 +179,10 @@ struct Evaluator<'a> {
     /// Counters of the unrolled loops around, outermost first.
     counters: Arc<[Counter]>,
     /// Functions being evaluated, innermost last.
-    calls: Vec<String>,
+    calls: Vec<Cow<'a, str>>,
     errors: Vec<Diagnostic>,
+    /// Structures whose parts were named last, and after what: most are given on from function to function.
+    named: VecDeque<(Name, Rc<Vec<(Name, Value)>>)>,
     /// Constants evaluated so far.
     consts: HashMap<String, Value>,
     /// Reads made so far.
@@ -214,6 +222,7 @@ impl<'a> Evaluator<'a> {
             counters: Arc::default(),
             calls: Vec::new(),
             errors: Vec::new(),
+            named: VecDeque::new(),
             consts: HashMap::new(),
             sites: 0,
             in_phase: false,
@@ -257,6 +266,22 @@ impl Evaluator<'_> {
             }
             other => other,
         }
+    }
+
+    /// Whether the parts of a structure were named after a parameter not long ago, after which naming them again would change nothing.
+    fn was_named(&mut self, value: &Value, parameter: &Name) -> bool {
+        let Value::Struct { fields, .. } = value else {
+            return false;
+        };
+        let is_it = |(name, named): &(Name, Rc<_>)| name == parameter && Rc::ptr_eq(named, fields);
+        if self.named.iter().any(is_it) {
+            return true;
+        }
+        if self.named.len() == NAMED_STRUCTURES {
+            self.named.pop_front();
+        }
+        self.named.push_back((parameter.clone(), Rc::clone(fields)));
+        false
     }
 
     /// Gives nodes the name of the variable that they are assigned to.

@@ -95,7 +95,7 @@ impl Evaluator<'_> {
             return Ok(Some(value.clone()));
         }
         let library = self.library;
-        let Some(constant) = library.consts.get(name) else {
+        let Some((name, constant)) = library.consts.get_key_value(name) else {
             return Ok(None);
         };
         if self.calls.len() >= MAX_CALLS {
@@ -105,7 +105,7 @@ impl Evaluator<'_> {
                 .into());
         }
         let outer = self.scope.enter_function();
-        self.calls.push(name.to_owned());
+        self.calls.push(name.into());
         let value = self.expr(&constant.value);
         self.calls.pop();
         self.scope.leave_function(outer);

@@ -186,7 +186,7 @@ impl<'a> Evaluator<'a> {
         name: &str,
         args: &[Value],
         span: Span,
-    ) -> Eval<Option<(String, &'a Function)>> {
+    ) -> Eval<Option<(&'a str, &'a Function)>> {
         // What numbers have themselves goes before what a trait gives them.
         if matches!(value, Value::Node(id) if crate::front::methods::has(self.ty(*id), name)) {
             return Ok(None);
@@ -201,7 +201,7 @@ impl<'a> Evaluator<'a> {
         let Some(keys) = keys else { return Ok(None) };
         let values: Vec<Value> = std::iter::once(value.clone()).chain(args.iter().cloned()).collect();
         match self.taking(&keys, &values, span)? {
-            Some(key) => Ok(Some((key.to_owned(), &library.functions[key]))),
+            Some(key) => Ok(Some((key, &library.functions[key]))),
             None => Err(Diagnostic::at(span, format!("no `{name}` takes these values"))
                 .label("called here")
                 .into()),
@@ -230,7 +230,7 @@ impl<'a> Evaluator<'a> {
         };
         let first = self.loaded(first.clone(), span)?;
         let found = self.method_of_trait(&first, name, &values[1..], span)?;
-        Ok(found.map(|(key, _)| vec![key]))
+        Ok(found.map(|(key, _)| vec![key.to_owned()]))
     }
 
     /// The types of type parameters: those given, or those of the values that are given for parameters of these types.
