@@ -9,7 +9,7 @@ use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Origin, Precision, ReadOrder, Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_manifest::{BindingKind, SampleType, SamplerType};
-use straightline_runtime::{Region, wgpu};
+use straightline_runtime::{Error, Region, Resource, wgpu};
 use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_tests::random::forms::same as same_texel;
 use straightline_tests::random::make::{Features, make};
@@ -336,4 +336,48 @@ fn what_cannot_be_gathered_is_refused() {
     let error = text(AROUND, "around").compile(ReadOrder::Gather, [1, 1]).emit(&half);
     let error = error.expect_err("half precision is refused").to_string();
     assert!(error.contains("half precision does not hold where they lie"), "{error}");
+}
+
+/// A sampler that weighs texels would need a format that can be filtered.
+#[test]
+fn a_sampler_that_filters_is_refused() {
+    let bench = plain_bench();
+    let compiled = text(AROUND, "around").compile(ReadOrder::Gather, [1, 1]);
+    let options = bench.options(Stage::Compute);
+    let (pass, _) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+    let view = |format, usage| {
+        let size = wgpu::Extent3d {
+            width: 4,
+            height: 4,
+            depth_or_array_layers: 1,
+        };
+        let texture = bench.device().create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        });
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    };
+    let height = view(wgpu::TextureFormat::R32Float, wgpu::TextureUsages::TEXTURE_BINDING);
+    let target = view(pass.target_format(), wgpu::TextureUsages::STORAGE_BINDING);
+    let bound = |filter| {
+        let sampler = bench.device().create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: filter,
+            ..Default::default()
+        });
+        let inputs = [("height", Resource::from(&height)), ("texels", (&sampler).into())];
+        pass.bind(&inputs, &target).map(|_| ())
+    };
+    bound(wgpu::FilterMode::Nearest).unwrap_or_else(|e| panic!("{e}"));
+    let error = bound(wgpu::FilterMode::Linear).expect_err("it filters");
+    assert!(
+        matches!(&error, Error::InputSampler { name, .. } if name == "texels"),
+        "{error}"
+    );
+    assert!(error.to_string().contains("takes the nearest texel"), "{error}");
 }
