@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::Graph;
-use straightline_evaluator::passes::{self, Schedule, Sharing};
+use straightline_evaluator::passes::{self, Gathered, Schedule, Sharing};
 use straightline_evaluator::policy::{Policy, Transport};
 use straightline_kernels::{Entry, HalfPrecision, PaperCounts};
 use straightline_manifest::Counts;
@@ -38,6 +38,8 @@ pub struct Compiled {
     pub transport: Option<Transport>,
     /// What has become of reads whose texels a workgroup was asked to share.
     pub sharing: Option<Arc<Sharing>>,
+    /// Reads that became gathers, where that was asked for.
+    pub gathered: Arc<[Gathered]>,
     /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,
 }

@@ -115,7 +115,8 @@ impl KernelConfig {
         self
     }
 
-    /// In which order the kernel reads texels; by default as its source does. The picture is the same, bit for bit.
+    /// In which order the kernel reads texels, or whether four at once; by default as its source does. The picture is the same, bit
+    /// for bit.
     pub fn reads(mut self, reads: ReadOrder) -> Self {
         self.settings.reads = reads;
         self

@@ -40,7 +40,7 @@ pub struct Settings {
     pub loops: Vec<LoopPolicy>,
     /// What becomes of branches on runtime values.
     pub branches: Branches,
-    /// In which order blocks read.
+    /// How blocks read: in which order, or four texels at once.
     pub reads: ReadOrder,
     /// Statements that the kernel may have.
     pub budget: u32,
@@ -396,6 +396,17 @@ impl Kernel {
             graph = stage("share-by-workgroup", passes::clean(&tiled))?;
             sharing = Some(Arc::new(found));
         }
+        let mut gathered = Arc::default();
+        if settings.reads == ReadOrder::Gather {
+            let (graph_of, found) = passes::gathers(&graph).map_err(|why| {
+                refused(
+                    format!("the reads of `{}` cannot be gathered: {why}", self.name),
+                    "leave `reads` out, or let one invocation compute whole pixels",
+                )
+            })?;
+            graph = stage("gathers", passes::clean(&graph_of))?;
+            gathered = found.into();
+        }
         let graph = stage("coordinates", passes::clean(&passes::by_component(&graph)))?;
         let schedule = passes::schedule(&graph, settings.reads);
         let within_budget = |statements: u32| {
@@ -432,6 +443,7 @@ impl Kernel {
             counts,
             transport,
             sharing,
+            gathered,
             quad,
         };
         if emit::statements_at_most(&compiled.graph) > settings.budget {

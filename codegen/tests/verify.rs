@@ -32,6 +32,7 @@ fn whole() -> Graph {
     let sampler = |name: &str, comparison| Sampler {
         name: name.to_owned(),
         comparison,
+        filters: !comparison,
     };
     let graph = b.graph_mut();
     graph.textures = vec![texture("a", TextureKind::Flat, 2), texture("d", TextureKind::Depth, 1)];

@@ -75,7 +75,7 @@ pub struct SamplerContext {
     pub name: String,
     /// Number in WGSL.
     pub binding: u32,
-    /// `filtering` or `comparison`.
+    /// `filtering`, `non-filtering` or `comparison`.
     #[serde(rename = "type")]
     pub ty: &'static str,
 }
@@ -238,6 +238,7 @@ pub fn samplers(manifest: &Manifest) -> Vec<SamplerContext> {
             binding: binding.binding,
             ty: match sampler {
                 SamplerType::Filtering => "filtering",
+                SamplerType::NonFiltering => "non-filtering",
                 SamplerType::Comparison => "comparison",
             },
         }),
@@ -305,15 +306,14 @@ pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> Shader
     let combined = bindings.iter().filter(|b| b.kind == LanguageKind::CombinedSampler);
     let combined = combined.map(|b| {
         let texture = b.texture.clone().unwrap_or_default();
-        let compares = b.sampler.as_ref().is_some_and(|sampler| {
-            let kind = manifest.binding(sampler).map(|binding| &binding.kind);
-            matches!(
-                kind,
-                Some(BindingKind::Sampler {
-                    sampler: SamplerType::Comparison
-                })
-            )
-        });
+        let sampler = b
+            .sampler
+            .as_ref()
+            .and_then(|sampler| match &manifest.binding(sampler)?.kind {
+                BindingKind::Sampler { sampler } => Some(*sampler),
+                _ => None,
+            });
+        let compares = sampler == Some(SamplerType::Comparison);
         let glsl = match manifest.binding(&texture).map(|binding| &binding.kind) {
             Some(BindingKind::Texture {
                 dimension, sample_type, ..
@@ -322,10 +322,10 @@ pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> Shader
         };
         CombinedContext {
             name: b.name.clone(),
-            filter: match (&b.sampler, compares) {
-                (_, true) => "comparison",
-                (Some(_), false) => "linear",
-                (None, false) => "nearest",
+            filter: match sampler {
+                Some(SamplerType::Comparison) => "comparison",
+                Some(SamplerType::Filtering) => "linear",
+                Some(SamplerType::NonFiltering) | None => "nearest",
             },
             texture,
             sampler: b.sampler.clone(),

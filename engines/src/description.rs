@@ -171,7 +171,7 @@ pub struct Limits {
     /// What textures hold: `float`, `depth`, `sint`, `uint`.
     #[serde(default)]
     pub holds: Option<Vec<String>>,
-    /// Samplers: `filtering`, `comparison`.
+    /// Samplers: `filtering`, `non-filtering`, `comparison`.
     #[serde(default)]
     pub samplers: Option<Vec<String>>,
     /// At most so many uniforms.

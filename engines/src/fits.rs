@@ -46,6 +46,7 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
             BindingKind::Sampler { sampler } => {
                 let what = match sampler {
                     SamplerType::Filtering => "filtering",
+                    SamplerType::NonFiltering => "non-filtering",
                     SamplerType::Comparison => "comparison",
                 };
                 if limits.samplers.as_ref().is_some_and(|known| !holds(known, what)) {

@@ -84,8 +84,8 @@ impl FromStr for Branches {
     }
 }
 
-/// In which order a block reads texels and elements of buffers. The picture is the same, bit for bit; caches, and compilers that keep
-/// the order of the text, may like one more than the other.
+/// How a block reads texels and elements of buffers. The picture is the same, bit for bit; caches, and compilers that keep the order of
+/// the text, may like one more than the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ReadOrder {
     /// Where the source reads them first.
@@ -93,11 +93,14 @@ pub enum ReadOrder {
     Source,
     /// All whose places depend on nothing that is read come first, row by row of each layer of each texture.
     Rows,
+    /// As `Source`, but where several of four texels in a square are wanted, and one component of them, all four are read at once by a
+    /// sampler that clamps.
+    Gather,
 }
 
 impl ReadOrder {
     /// Every order.
-    pub const ALL: [ReadOrder; 2] = [ReadOrder::Source, ReadOrder::Rows];
+    pub const ALL: [ReadOrder; 3] = [ReadOrder::Source, ReadOrder::Rows, ReadOrder::Gather];
 }
 
 impl fmt::Display for ReadOrder {
@@ -105,6 +108,7 @@ impl fmt::Display for ReadOrder {
         f.write_str(match self {
             ReadOrder::Source => "source",
             ReadOrder::Rows => "rows",
+            ReadOrder::Gather => "gather",
         })
     }
 }
@@ -114,7 +118,7 @@ impl FromStr for ReadOrder {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let known = ReadOrder::ALL.into_iter().find(|order| order.to_string() == text);
-        known.ok_or_else(|| format!("unknown order of reads `{text}`: source or rows"))
+        known.ok_or_else(|| format!("unknown order of reads `{text}`: source, rows or gather"))
     }
 }
 

@@ -216,6 +216,8 @@ pub enum SampleType {
 pub enum SamplerType {
     /// To filter.
     Filtering,
+    /// To gather texels as they are: give it one that takes the nearest texel and clamps to the edge.
+    NonFiltering,
     /// To compare with a reference depth.
     Comparison,
 }

@@ -29,7 +29,8 @@ impl Pass {
     ///   depth where texels are read one by one, float or normalised where they are filtered, depth where depths are
     ///   compared. (Of a combined depth-stencil texture, give a view of the depth aspect.) It has one sample a texel,
     ///   or, where the kernel reads samples, at least as many as the manifest says.
-    /// - A sampler has a comparison function exactly if the kernel compares with it.
+    /// - A sampler has a comparison function exactly if the kernel compares with it. One that gathers texels takes the nearest and
+    ///   clamps to the edge, as wgpu's default does.
     /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for one element at least. All of it is
     ///   bound, so that its size says how many elements there are. One that the kernel writes keeps what is not written, and is
     ///   none that it reads. A kernel that only writes buffers is given no targets, `&[]`, and runs over its inputs.

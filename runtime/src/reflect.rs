@@ -187,7 +187,7 @@ fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
         }
         InputKind::Sampler(sampler) => {
             let (comparison, text) = match sampler {
-                SamplerType::Filtering => (false, "sampler"),
+                SamplerType::Filtering | SamplerType::NonFiltering => (false, "sampler"),
                 SamplerType::Comparison => (true, "sampler_comparison"),
             };
             (*found == TypeInner::Sampler { comparison }, text.to_owned())

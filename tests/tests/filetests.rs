@@ -72,6 +72,7 @@ fn now(text: &str, template: &Compiled) -> Result<String, String> {
         "share-loads" => passes::share_loads(&graph),
         "coordinates" => passes::clean(&passes::by_component(&graph)),
         "fast" => passes::clean(&passes::fast(&graph)),
+        "gathers" => passes::clean(&passes::gathers(&graph)?.0),
         "share-by-workgroup" => passes::clean(&passes::by_workgroup(&graph, [4, 4])?.0),
         other => return Err(format!("there is no pass `{other}`")),
     };

@@ -44,7 +44,8 @@ pub struct OptionArgs {
     /// loops are left in the shader
     #[arg(help_heading = "Kernel options", long, value_name = "POLICY", default_value = "as-loops", value_parser = |s: &str| s.parse::<Branches>())]
     pub branches: Branches,
-    /// In which order texels are read: `source` as the kernel's text does, `rows` all at first, row by row. The picture is the same
+    /// How texels are read: `source` as the kernel's text does, `rows` all at first, row by row, `gather` four at once, of one
+    /// component, where several of them are wanted. The picture is the same
     #[arg(help_heading = "Kernel options", long, value_name = "ORDER", default_value = "source", value_parser = |s: &str| s.parse::<ReadOrder>())]
     pub reads: ReadOrder,
     /// Most statements that the kernel may have

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
 use straightline_codegen::emit::Target;
-use straightline_codegen::passes::Sharing;
-use straightline_codegen::{Compiled, EmitOptions};
+use straightline_codegen::passes::{Gathered, Sharing};
+use straightline_codegen::{Compiled, EmitOptions, ReadOrder};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
@@ -103,6 +103,9 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
     if let Some(sharing) = &compiled.sharing {
         out.insert("sharing".into(), sharing_json(sharing));
     }
+    if compiled.policy.reads == ReadOrder::Gather {
+        out.insert("gathered".into(), compiled.gathered.iter().map(gathered_json).collect());
+    }
     let loops = compiled.loops.iter().map(|report| {
         json!({
             "loop": report.path(),
@@ -121,6 +124,16 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
         out.insert("paper_texture_reads".into(), json!(paper.texture_reads));
     }
     out
+}
+
+fn gathered_json(gathered: &Gathered) -> Value {
+    json!({
+        "texture": gathered.texture,
+        "layer": gathered.layer,
+        "component": gathered.component,
+        "reads": gathered.reads,
+        "gathers": gathered.gathers,
+    })
 }
 
 /// What a workgroup shares, and which reads stay as they are and why.
@@ -207,6 +220,9 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     if let Some(sharing) = &compiled.sharing {
         print_sharing(sharing);
     }
+    if compiled.policy.reads == ReadOrder::Gather {
+        print_gathered(&compiled.gathered);
+    }
     print_loops(compiled);
 }
 
@@ -233,6 +249,22 @@ fn print_sharing(sharing: &Sharing) {
         let noun = if reads == 1 { "read" } else { "reads" };
         outln!("{reads} {noun} of `{of}` not shared: {}", apart.why);
     }
+}
+
+/// Which reads became gathers.
+fn print_gathered(gathered: &[Gathered]) {
+    outln!();
+    if gathered.is_empty() {
+        outln!(
+            "no reads gathered: no two of one component lie in a square of 2x2 texels at constant offsets from the pixel"
+        );
+        return;
+    }
+    let rows = gathered
+        .iter()
+        .map(|g| vec![g.of(), g.reads.to_string(), g.gathers.to_string()]);
+    let rows: Vec<Vec<String>> = rows.collect();
+    out!("{}", table::render(&["Gathered", "reads", "gathers"], &rows));
 }
 
 /// What became of each loop, and why it was unrolled where it was asked to be left in the shader.

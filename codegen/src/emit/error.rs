@@ -145,6 +145,14 @@ pub enum EmitError {
         /// The kernel.
         kernel: String,
     },
+    /// Texels gathered at places that half precision cannot tell apart.
+    #[error(
+        "`{kernel}` gathers texels, and half precision does not hold where they lie: leave `reads` or the precision out"
+    )]
+    HalfGathers {
+        /// The kernel.
+        kernel: String,
+    },
     /// A workgroup that no device runs.
     #[error(
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"

@@ -55,11 +55,13 @@ impl Resources {
             add(*binding, &buffer.name, kind);
         }
         for (index, binding) in &self.used_samplers {
-            let sampler = match self.sampler(*index).comparison {
-                true => SamplerType::Comparison,
-                false => SamplerType::Filtering,
+            let bound = self.sampler(*index);
+            let sampler = match (bound.comparison, bound.filters) {
+                (true, _) => SamplerType::Comparison,
+                (false, true) => SamplerType::Filtering,
+                (false, false) => SamplerType::NonFiltering,
             };
-            add(*binding, &self.sampler(*index).name, BindingKind::Sampler { sampler });
+            add(*binding, &bound.name, BindingKind::Sampler { sampler });
         }
         if let Some(binding) = self.uniform_binding() {
             bindings.push(Binding {

@@ -184,6 +184,11 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
             reason,
         });
     }
+    if options.precision == Precision::F16 && !compiled.gathered.is_empty() {
+        return Err(EmitError::HalfGathers {
+            kernel: compiled.kernel.clone(),
+        });
+    }
     let mut options = options.clone();
     if options.is_function() {
         options.stage = Stage::Fragment;

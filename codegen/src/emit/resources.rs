@@ -171,9 +171,12 @@ impl Resources {
                 compared: ops.iter().any(
                     |op| matches!(op, Op::Compare { texture, .. } | Op::GatherCompare { texture, .. } if *texture == index),
                 ),
-                filtered: ops.iter().any(
-                    |op| matches!(op, Op::Sample { texture, .. } | Op::Gather { texture, .. } if *texture == index),
-                ),
+                filtered: ops.iter().any(|op| match op {
+                    Op::Sample { texture, sampler, .. } | Op::Gather { texture, sampler, .. } => {
+                        *texture == index && graph.samplers[*sampler as usize].filters
+                    }
+                    _ => false,
+                }),
             });
         }
         // Texels and sizes are to be had of a texture whatever sampler it is read by, unless that compares.

@@ -19,6 +19,7 @@ impl Evaluator<'_> {
                 samplers.push(Sampler {
                     name: name.to_owned(),
                     comparison: type_name == "ComparisonSampler",
+                    filters: type_name == "Sampler",
                 });
                 Ok(Some(Value::Sampler(samplers.len() as u32 - 1)))
             }

@@ -125,6 +125,16 @@ pub struct SamplerState {
     pub comparison: Comparison,
 }
 
+impl SamplerState {
+    /// The nearest texel of the nearest level, clamped to the edge.
+    pub const NEAREST: SamplerState = SamplerState {
+        linear: false,
+        address: Address::Clamp,
+        linear_mip: false,
+        comparison: Comparison::LessEqual,
+    };
+}
+
 impl Default for SamplerState {
     fn default() -> Self {
         SamplerState {

@@ -60,8 +60,10 @@ pub enum Event {
 pub struct Sampler {
     /// Its name in the kernel.
     pub name: String,
-    /// Whether it compares with a reference; else it filters.
+    /// Whether it compares with a reference.
     pub comparison: bool,
+    /// Whether it may weigh texels. One that neither does nor compares gathers them as they are, from inside the texture.
+    pub filters: bool,
 }
 
 /// One of the values that a kernel gives for a pixel.

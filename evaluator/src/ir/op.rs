@@ -83,8 +83,8 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
-    /// One component of the four texels around a coordinate (`vec2<f32>`), `vec4<f32>`: lower left, lower right, upper
-    /// right, upper left.
+    /// One component of the four texels around a coordinate (`vec2<f32>`), and in a layer (`i32`) where there are several,
+    /// `vec4<f32>`: lower left, lower right, upper right, upper left.
     Gather {
         /// Index into `Graph::textures`.
         texture: u32,

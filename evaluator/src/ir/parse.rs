@@ -186,12 +186,17 @@ impl Reader {
 
     fn sampler(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
-        let comparison = match rest {
-            "comparison" => true,
-            "filtering" => false,
-            _ => return Err("a sampler is filtering or comparison".to_owned()),
+        let (comparison, filters) = match rest {
+            "comparison" => (true, false),
+            "filtering" => (false, true),
+            "nearest" => (false, false),
+            _ => return Err("a sampler is filtering, comparison or nearest".to_owned()),
         };
-        self.graph.samplers.push(Sampler { name, comparison });
+        self.graph.samplers.push(Sampler {
+            name,
+            comparison,
+            filters,
+        });
         Ok(())
     }
 

@@ -83,7 +83,11 @@ fn tables(graph: &Graph) -> String {
         let _ = writeln!(text, "shared {}: {} {}{how}", s.name, s.element, s.len);
     }
     for s in &graph.samplers {
-        let kind = if s.comparison { "comparison" } else { "filtering" };
+        let kind = match (s.comparison, s.filters) {
+            (true, _) => "comparison",
+            (false, true) => "filtering",
+            (false, false) => "nearest",
+        };
         let _ = writeln!(text, "sampler {}: {kind}", s.name);
     }
     for u in &graph.uniforms {

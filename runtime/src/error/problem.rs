@@ -241,6 +241,9 @@ fn sampler_type_advice(needed: SamplerType) -> &'static str {
         SamplerType::Filtering => {
             "needs a filtering sampler, but was given a comparison sampler: leave `SamplerDescriptor::compare` at `None`"
         }
+        SamplerType::NonFiltering => {
+            "needs a sampler that takes the nearest texel: leave `SamplerDescriptor::compare` at `None` and its filters at `FilterMode::Nearest`"
+        }
         SamplerType::Comparison => {
             "needs a comparison sampler, but was given a filtering sampler: set `SamplerDescriptor::compare`"
         }

@@ -87,10 +87,11 @@ fn view_problem(texture: &TexturePlan, description: String, fits: impl Fn(Bindin
 /// `fits` tells whether the sampler can be bound as a type.
 fn sampler_problem(needed: SamplerType, description: String, fits: impl Fn(BindingType) -> bool) -> SamplerProblem {
     let other = match needed {
-        SamplerType::Filtering => SamplerType::Comparison,
-        SamplerType::Comparison => SamplerType::Filtering,
+        SamplerType::Filtering => [SamplerType::Comparison; 2],
+        SamplerType::NonFiltering => [SamplerType::Filtering, SamplerType::Comparison],
+        SamplerType::Comparison => [SamplerType::Filtering; 2],
     };
-    if fits(sampler_type(other)) {
+    if other.into_iter().any(|other| fits(sampler_type(other))) {
         SamplerProblem::Type { needed }
     } else {
         SamplerProblem::Refused { description }

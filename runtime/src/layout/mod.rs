@@ -233,6 +233,7 @@ fn texture_type(texture: &TexturePlan) -> BindingType {
 fn sampler_type(sampler: SamplerType) -> BindingType {
     BindingType::Sampler(match sampler {
         SamplerType::Filtering => wgpu::SamplerBindingType::Filtering,
+        SamplerType::NonFiltering => wgpu::SamplerBindingType::NonFiltering,
         SamplerType::Comparison => wgpu::SamplerBindingType::Comparison,
     })
 }

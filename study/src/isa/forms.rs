@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::{Invocation, print};
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Math, Settings, Share, Stage, Unroll};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Math, ReadOrder, Settings, Share, Stage, Unroll};
 
 /// A form by one way to SPIR-V.
 pub struct Spirv {
@@ -119,6 +119,14 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
             };
             let fast = compile(&subject.kernel, &fast)?;
             Ok((print(&fast.graph) != print(&exact.graph)).then_some(fast))
+        }
+        (IsaForm::Gather, _) => {
+            let gather = Settings {
+                reads: ReadOrder::Gather,
+                ..settings(Unroll::Full, &subject.options)
+            };
+            let gather = subject.kernel.compile(&gather).ok();
+            Ok(gather.filter(|compiled| !compiled.gathered.is_empty()))
         }
         (IsaForm::Tile, _) => {
             let tile = Settings {

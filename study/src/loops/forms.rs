@@ -8,7 +8,9 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::print;
-use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Math, Precision, Settings, Share, Stage, Unroll};
+use straightline_codegen::{
+    Compiled, EmitOptions, Format, Kernel, Math, Precision, ReadOrder, Settings, Share, Stage, Unroll,
+};
 use straightline_runtime::{Pass, PassOptions};
 use straightline_testbed::execute::{Bench, Inputs, Uploaded, Uploads};
 
@@ -89,6 +91,17 @@ impl Forms {
                         ..settings(Unroll::Full)
                     };
                     subject.kernel.compile(&settings).map_err(reason)
+                }
+                FormKind::FullGather => {
+                    let settings = Settings {
+                        reads: ReadOrder::Gather,
+                        ..settings(Unroll::Full)
+                    };
+                    let gathered = subject.kernel.compile(&settings).map_err(reason);
+                    gathered.and_then(|compiled| match compiled.gathered.is_empty() {
+                        true => Err("no four texels of one component are read together".to_owned()),
+                        false => Ok(compiled),
+                    })
                 }
                 FormKind::FullFast => {
                     let settings = Settings {

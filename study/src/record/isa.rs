@@ -19,6 +19,8 @@ pub enum IsaForm {
     Block,
     /// One straight line, the pixels of a workgroup sharing what they read through its memory.
     Tile,
+    /// One straight line, four texels read at once where several of them are wanted.
+    Gather,
     /// One straight line, with algebra that may change roundings.
     Fast,
     /// One straight line that Slang's compiler made of the same work.
@@ -27,12 +29,13 @@ pub enum IsaForm {
 
 impl IsaForm {
     /// Every form.
-    pub const ALL: [IsaForm; 7] = [
+    pub const ALL: [IsaForm; 8] = [
         IsaForm::Unrolled,
         IsaForm::Looped,
         IsaForm::ByHand,
         IsaForm::Block,
         IsaForm::Tile,
+        IsaForm::Gather,
         IsaForm::Fast,
         IsaForm::Slang,
     ];
@@ -45,6 +48,7 @@ impl IsaForm {
             IsaForm::ByHand => "looped, hand-optimised",
             IsaForm::Block => "unrolled, 2x2 pixels",
             IsaForm::Tile => "unrolled, shared by workgroups",
+            IsaForm::Gather => "unrolled, gathered",
             IsaForm::Fast => "unrolled, fast mathematics",
             IsaForm::Slang => "unrolled, by Slang",
         }

@@ -28,6 +28,8 @@ pub enum FormKind {
     FullBlock,
     /// As `Full`, the pixels of a workgroup sharing what they read through its memory.
     FullTile,
+    /// As `Full`, four texels read at once where several of them are wanted.
+    FullGather,
     /// As `Full`, with algebra that may change roundings.
     FullFast,
     /// As `Full`, computed in half precision.
@@ -38,7 +40,7 @@ pub enum FormKind {
 
 impl FormKind {
     /// Every form, in the order of tables.
-    pub const ALL: [FormKind; 13] = [
+    pub const ALL: [FormKind; 14] = [
         FormKind::Looped,
         FormKind::LoopedUnchecked,
         FormKind::LoopedByHand,
@@ -49,6 +51,7 @@ impl FormKind {
         FormKind::Full,
         FormKind::FullBlock,
         FormKind::FullTile,
+        FormKind::FullGather,
         FormKind::FullFast,
         FormKind::FullHalf,
         FormKind::Floor,
@@ -67,6 +70,7 @@ impl FormKind {
             FormKind::Full => "unrolled",
             FormKind::FullBlock => "unrolled, 2×2 pixels",
             FormKind::FullTile => "unrolled, shared by workgroups",
+            FormKind::FullGather => "unrolled, gathered",
             FormKind::FullFast => "unrolled, fast mathematics",
             FormKind::FullHalf => "unrolled, f16",
             FormKind::Floor => "floor",

@@ -54,7 +54,7 @@ fn color(kind: FormKind) -> usize {
         FormKind::Looped | FormKind::Floor => 7,
         FormKind::FullHalf => 8,
         FormKind::Partial2 => 9,
-        FormKind::FullTile | FormKind::FullFast => 10,
+        FormKind::FullTile | FormKind::FullGather | FormKind::FullFast => 10,
     }
 }
 

@@ -7,7 +7,7 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, BufferType, Element, Manifest, REGION, UniformField};
+use straightline_manifest::{BindingKind, BufferType, Element, Manifest, REGION, SamplerType, UniformField};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,
@@ -223,13 +223,13 @@ impl Bench {
                 }
                 BindingKind::Sampler { .. } => {
                     let state = Inputs::find(&inputs.samplers, name).copied().unwrap_or_default();
-                    let compares = matches!(
-                        binding.kind,
-                        BindingKind::Sampler {
-                            sampler: straightline_manifest::SamplerType::Comparison
-                        }
-                    );
-                    Owned::Sampler(self.sampler(state, compares))
+                    let is = |of| matches!(&binding.kind, BindingKind::Sampler { sampler } if *sampler == of);
+                    // One that the generator made, which is not among a kernel's inputs.
+                    let state = match is(SamplerType::NonFiltering) {
+                        true => SamplerState::NEAREST,
+                        false => state,
+                    };
+                    Owned::Sampler(self.sampler(state, is(SamplerType::Comparison)))
                 }
                 BindingKind::Buffer {
                     element,
@@ -261,6 +261,14 @@ impl Bench {
         let mut resources = Vec::new();
         for binding in &manifest.bindings {
             if matches!(binding.kind, BindingKind::Uniform { .. }) {
+                continue;
+            }
+            if let BindingKind::Sampler {
+                sampler: SamplerType::NonFiltering,
+            } = binding.kind
+            {
+                let own = Owned::Sampler(self.sampler(SamplerState::NEAREST, false));
+                resources.push((binding.name.clone(), own));
                 continue;
             }
             let found = other.resources.iter().find(|(name, _)| *name == binding.name);

@@ -7,6 +7,7 @@ mod budget;
 mod crates;
 mod encode;
 mod fast;
+mod gathers;
 mod goals;
 mod hard;
 mod isa;
@@ -84,6 +85,11 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
+        "gathers" => gathers::gathers(&IsaRecord::read(first).map_err(why)?),
+        "gathers-times" => {
+            let records = files.iter().map(|file| LoopsRecord::read(file).map_err(why));
+            gathers::times(&records.collect::<Result<Vec<_>, _>>()?)
+        }
         "tiles" => tiles::cycles(&IsaRecord::read(first).map_err(why)?),
         "tiles-times" => Ok(tiles::times(&LoopsRecord::read(first).map_err(why)?)),
         "isa" => isa::cycles(&IsaRecord::read(first).map_err(why)?),
@@ -113,7 +119,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, gaps, goals, hard, fast, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, gaps, goals, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

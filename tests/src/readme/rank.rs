@@ -5,7 +5,7 @@ use straightline_isa::Family;
 use straightline_study::record::{FormKind, IsaForm, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
 
 /// A form that was timed, and the same as a compiler was asked about it.
-const SAME: [(FormKind, IsaForm, SpirvPath); 8] = [
+const SAME: [(FormKind, IsaForm, SpirvPath); 9] = [
     (FormKind::Looped, IsaForm::Looped, SpirvPath::NagaBounded),
     (FormKind::LoopedUnchecked, IsaForm::Looped, SpirvPath::Naga),
     (FormKind::LoopedByHand, IsaForm::ByHand, SpirvPath::NagaBounded),
@@ -13,6 +13,7 @@ const SAME: [(FormKind, IsaForm, SpirvPath); 8] = [
     (FormKind::Full, IsaForm::Unrolled, SpirvPath::Naga),
     (FormKind::FullBlock, IsaForm::Block, SpirvPath::Naga),
     (FormKind::FullTile, IsaForm::Tile, SpirvPath::Naga),
+    (FormKind::FullGather, IsaForm::Gather, SpirvPath::Naga),
     (FormKind::FullFast, IsaForm::Fast, SpirvPath::Naga),
 ];
 
@@ -48,7 +49,12 @@ pub fn correlations(cycles: &IsaRecord, times: &[LoopsRecord]) -> Result<String,
             .iter()
             .flat_map(|kernel| SAME.iter().filter_map(|same| shader(cycles, *family, kernel, same)))
             .collect();
-        let is_line = |s: &&Shader| matches!(s.kind, FormKind::Full | FormKind::FullBlock | FormKind::FullFast);
+        let is_line = |s: &&Shader| {
+            matches!(
+                s.kind,
+                FormKind::Full | FormKind::FullBlock | FormKind::FullGather | FormKind::FullFast
+            )
+        };
         let some: [(&str, Vec<&Shader>); 4] = [
             ("all", shaders.iter().collect()),
             ("without loops", shaders.iter().filter(is_line).collect()),

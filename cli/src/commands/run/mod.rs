@@ -60,6 +60,12 @@ pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Resul
             (targets.map_err(Failure::of)?, by)
         }
         Executor::Cpu => {
+            if args.precision == "f16" && !compiled.gathered.is_empty() {
+                return Err(Failure::Usage(
+                    "half precision does not hold where gathered texels lie: leave --reads or --precision out"
+                        .to_owned(),
+                ));
+            }
             let targets = match args.precision.as_str() {
                 "f16" => on_cpu::<F16>(args, compiled, &inputs)?,
                 "f64" => on_cpu::<f64>(args, compiled, &inputs)?,

@@ -48,6 +48,10 @@ impl Input {
             }
             BindingKind::Sampler { sampler } => match sampler {
                 SamplerType::Filtering => ("A sampler that may filter.".to_owned(), "Sampler"),
+                SamplerType::NonFiltering => (
+                    "A sampler that takes the nearest texel and clamps to the edge.".to_owned(),
+                    "Sampler",
+                ),
                 SamplerType::Comparison => ("A comparison sampler.".to_owned(), "Sampler"),
             },
             BindingKind::Buffer { element, stride, .. } => (

@@ -49,6 +49,9 @@ pub fn binding_entry(stage: Stage, binding: &Binding) -> TokenStream {
         }
         BindingKind::Sampler { sampler } => match sampler {
             SamplerType::Filtering => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Filtering) },
+            SamplerType::NonFiltering => {
+                quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::NonFiltering) }
+            }
             SamplerType::Comparison => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Comparison) },
         },
         BindingKind::Buffer {

@@ -327,7 +327,8 @@ impl Language for Glsl<'_> {
                 ..
             } => {
                 let through = self.through(*texture, *sampler);
-                Text::call(GATHER, &[&through, &args[0], &Text::name(component.to_string())])
+                let (place, _) = self.packed(*texture, args, false);
+                Text::call(GATHER, &[&through, &place, &Text::name(component.to_string())])
             }
             ir::Op::Compare { texture, sampler, .. } => {
                 let through = self.through(*texture, *sampler);

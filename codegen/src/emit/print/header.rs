@@ -78,6 +78,18 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
             tiles.join(", ")
         ));
     }
+    if !compiled.gathered.is_empty() {
+        let each = compiled.gathered.iter();
+        let each = each.map(|g| {
+            format!(
+                "{} of {} in place of {}",
+                many(g.gathers, "gather"),
+                g.of(),
+                many(g.reads, "read")
+            )
+        });
+        lines.push(format!("Four texels at once: {}.", each.collect::<Vec<_>>().join(", ")));
+    }
     lines.iter().map(|line| comment(line)).collect()
 }
 

@@ -255,7 +255,7 @@ impl Language for Hlsl<'_> {
                 ..
             } => {
                 let method = ["GatherRed", "GatherGreen", "GatherBlue", "GatherAlpha"][*component as usize & 3];
-                self.sampled(*texture, method, *sampler, &[&args[0]])
+                self.sampled(*texture, method, *sampler, &[&self.packed(*texture, args)])
             }
             ir::Op::Compare { texture, sampler, .. } => {
                 let place = self.packed(*texture, args);

@@ -127,7 +127,8 @@ impl Language for Wgsl<'_> {
             } => {
                 let [texture, sampler] = self.pair(*texture, *sampler);
                 let component = Text::name(component.to_string());
-                Text::call("textureGather", &[&component, &texture, &sampler, &args[0]])
+                let all: Vec<&Text> = [&component, &texture, &sampler].into_iter().chain(args).collect();
+                Text::call("textureGather", &all)
             }
             ir::Op::Compare { texture, sampler, .. } => {
                 let [texture, sampler] = self.pair(*texture, *sampler);

@@ -17,7 +17,7 @@ pub fn inline(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) -> bool 
     let mut body = std::mem::take(&mut module.body);
     let mut inliner = Inliner {
         uses,
-        keeps_reads: reads != ReadOrder::Source,
+        keeps_reads: reads == ReadOrder::Rows,
         columns: Columns { module, graph },
     };
     let inlined = inliner.block(&mut body, 1);

@@ -71,13 +71,19 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
         } => {
             let entry = textures(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
-            count(1)?;
+            let layers = usize::from(entry.kind.has_layers());
+            count(1 + layers)?;
             expect(
-                entry.kind == TextureKind::Flat && entry.scalar == Scalar::F32 && !through.comparison,
-                "a flat texture of floats and a filtering sampler",
+                matches!(entry.kind, TextureKind::Flat | TextureKind::Layers)
+                    && entry.scalar == Scalar::F32
+                    && !through.comparison,
+                "a flat texture of floats, or layers of them, and a sampler that does not compare",
             )?;
-            let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, 4);
-            expect(fits, "a vec2<f32> to a component of four texels")?;
+            let placed = types[0] == entry.kind.place() && types[1..].iter().all(|t| *t == Type::I32);
+            expect(
+                placed && node.ty == Type::value(Scalar::F32, 4),
+                "a vec2<f32> to a component of four texels",
+            )?;
             expect(
                 *component < entry.components,
                 "a component that the texture does not have",

@@ -299,7 +299,7 @@ fn merged(apart: Vec<Apart>) -> Vec<Apart> {
 }
 
 /// Components of each read that are used, by node.
-fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
+pub(super) fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
     let mut used = vec![BTreeSet::new(); graph.nodes.len()];
     let mut whole = |id: NodeId| used[id.0 as usize].extend(0..graph.ty(id).components());
     graph.outputs().iter().for_each(|id| whole(*id));
@@ -322,20 +322,30 @@ fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
 
 /// Gives tiles names that nothing else in the shader has.
 fn name(graph: &Graph, tiles: &mut [Tile]) {
-    let names = graph.textures.iter().map(|t| &t.name);
-    let names = names.chain(graph.buffers.iter().map(|b| &b.name));
-    let names = names.chain(graph.samplers.iter().map(|s| &s.name));
-    let names = names.chain(graph.uniforms.iter().map(|u| &u.name));
-    let names = names.chain(graph.pictures().map(|p| &p.name));
-    let mut taken: BTreeSet<String> = names.cloned().collect();
+    let mut taken = taken(graph);
     for tile in tiles {
         let base = match tile.layer {
             Some(layer) => format!("{}_{layer}_tile", tile.texture),
             None => format!("{}_tile", tile.texture),
         };
-        let names = (2..).map(|k| format!("{base}_{k}"));
-        let mut names = std::iter::once(base.clone()).chain(names);
-        tile.name = names.find(|name| !taken.contains(name)).unwrap_or(base);
+        tile.name = unused(&taken, base);
         taken.insert(tile.name.clone());
     }
+}
+
+/// Names of what a shader binds.
+pub(super) fn taken(graph: &Graph) -> BTreeSet<String> {
+    let names = graph.textures.iter().map(|t| &t.name);
+    let names = names.chain(graph.buffers.iter().map(|b| &b.name));
+    let names = names.chain(graph.samplers.iter().map(|s| &s.name));
+    let names = names.chain(graph.uniforms.iter().map(|u| &u.name));
+    let names = names.chain(graph.varyings.iter().map(|v| &v.name));
+    names.chain(graph.pictures().map(|p| &p.name)).cloned().collect()
+}
+
+/// A name that is not taken: this one, or with a number behind it.
+pub(super) fn unused(taken: &BTreeSet<String>, base: String) -> String {
+    let names = (2..).map(|k| format!("{base}_{k}"));
+    let mut names = std::iter::once(base.clone()).chain(names);
+    names.find(|name| !taken.contains(name)).unwrap_or(base)
 }
