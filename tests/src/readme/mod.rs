@@ -11,6 +11,7 @@ mod goals;
 mod hard;
 mod isa;
 mod loops;
+mod motion;
 mod quads;
 mod quality;
 mod rank;
@@ -20,7 +21,7 @@ mod tune;
 
 use std::path::Path;
 use straightline_study::record::{
-    IsaRecord, LoopsRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord,
+    IsaRecord, LoopsRecord, MotionRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord,
 };
 
 pub use quality::GEOMETRIC;
@@ -81,6 +82,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "beyond" => Ok(quality::beyond(&QualityRecord::read(first).map_err(why)?)),
         "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
+        "motion" => Ok(motion::methods(&MotionRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
@@ -113,7 +115,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, gaps, goals, hard, fast, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, motion, gaps, goals, hard, fast, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }
