@@ -381,7 +381,7 @@ impl Targets {
         Ok(Targets {
             size,
             placing: kernels.place.bind(&seen, &sraa_place::Parameters::default(), &place)?,
-            sraa: kernels.sraa.bind(&inputs, &sraa::Parameters::default(), &resolved)?,
+            sraa: kernels.sraa.bind(&inputs, &sraa::Parameters::new(0.05, 0.04, [0.0; 2]), &resolved)?,
             geometry,
             z_buffer: one(Z_BUFFER, TextureUsages::RENDER_ATTACHMENT),
             place,
