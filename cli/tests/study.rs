@@ -216,8 +216,9 @@ fn methods_are_compared_in_motion() {
     assert!(is_empty(&out));
 
     let own = "own=sraa,history=2,demodulate=albedo,rest=true,difference=relative,depth-scale=3";
+    let plain = "plain=sraa,difference=relative,depth-scale=3";
     let more = [
-        "--scene", "railings", "--frames", "2", "--method", "1x", "--method", own, "--method", "4x",
+        "--scene", "railings", "--frames", "2", "--method", plain, "--method", own, "--method", "4x",
     ];
     let printed = finishes(&of(&more));
     assert!(printed.contains("board") && printed.contains("own"), "{printed}");

@@ -142,7 +142,6 @@ impl Sequence {
     pub fn pictures(&mut self, bench: &Bench, method: &Method) -> Result<Vec<Frame<Vec4>>, QualityError> {
         let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
         let made: Result<Vec<Frame<Vec4>>, QualityError> = match method.kind {
-            Kind::Plain => self.renderers.iter().map(|r| Ok(r.shaded(Vec2::ZERO)?)).collect(),
             Kind::Supersampled(_) => {
                 let supersampled = |renderer: &CpuRenderer| {
                     let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.shaded(*at)).collect();
