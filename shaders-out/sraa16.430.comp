@@ -437,7 +437,7 @@ void main() {
     float w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.2120974);
     float w_s15_t4 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t4) - 1.6646097);
     float scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:224)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
     vec4 shaded_t0 = texelFetch(color, at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

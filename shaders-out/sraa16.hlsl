@@ -441,7 +441,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     float w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.2120974);
     float w_s15_t4 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t4) - 1.6646097);
     float scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:224)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
     float4 shaded_t0 = color.Load(int3(at_t0, 0));
     bool kept_t0 = all(
         (asuint(shaded_t0) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))

@@ -435,7 +435,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.2120974);
     let w_s15_t4 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t4) - 1.6646097);
     let scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:224)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
     let shaded_t0 = textureLoad(color, at_t0, 0);
     let kept_t0 = all((bitcast<vec4u>(shaded_t0) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let w_t0 = select(0.0, weights_s10_t0 + w_s15_t0 * scale_s15, kept_t0);

@@ -140,7 +140,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let w_s3_t7 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t7) - 1.6076826);
     let w_s3_t8 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t8) - 4.4150376);
     let scale_s3 = 0.25 / (w_s3_t4 + w_s3_t5 + w_s3_t7 + w_s3_t8);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:224)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
     let shaded_t0 = textureLoad(color, at_t0, 0);
     let kept_t0 = all((bitcast<vec4u>(shaded_t0) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let w_t0 = select(0.0, w_s0_t0 * scale_s0, kept_t0);

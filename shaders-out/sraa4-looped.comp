@@ -22,7 +22,7 @@ void main() {
     if (any(greaterThanEqual(pixel, frame))) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:272)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:277)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
@@ -46,7 +46,7 @@ void main() {
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:67)
+            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:71)
             ivec2 tap_pixel = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
@@ -62,7 +62,7 @@ void main() {
                     ).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:307
+                        // kernels/src/sraa/mod.rs:312
                         shaded_depth = depth_3;
                     }
                     vec3 n_2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(at, 4), 0).xyz;
@@ -72,7 +72,7 @@ void main() {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:308
+                    // kernels/src/sraa/mod.rs:313
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
@@ -91,7 +91,7 @@ void main() {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:178)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:179)
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -100,7 +100,7 @@ void main() {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:223)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:228)
     vec4 result = vec4(0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
@@ -113,12 +113,12 @@ void main() {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:233)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:207)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:212)
     vec4 mean_of_kept = vec4(0.0);
     if (sum > 1e-30) {
         mean_of_kept = result / sum;

@@ -18,7 +18,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:272)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:277)
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
@@ -40,7 +40,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:67)
+            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:71)
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
@@ -54,7 +54,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:307
+                        // kernels/src/sraa/mod.rs:312
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
@@ -64,7 +64,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:308
+                    // kernels/src/sraa/mod.rs:313
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
@@ -83,7 +83,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:178)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:179)
         let scale = share / sum;
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -92,7 +92,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:223)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:228)
     var result = vec4f(0.0);
     var sum = 0.0;
     for (var tap = 0; tap < 9; tap++) {
@@ -105,12 +105,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             w = weights[tap];
         }
         if kept {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:233)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:207)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:212)
     var mean_of_kept = vec4f(0.0);
     if sum > 1e-30 {
         mean_of_kept = result / sum;

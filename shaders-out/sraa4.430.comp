@@ -146,7 +146,7 @@ void main() {
     float w_s3_t7 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t7) - 1.6076826);
     float w_s3_t8 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t8) - 4.4150376);
     float scale_s3 = 0.25 / (w_s3_t4 + w_s3_t5 + w_s3_t7 + w_s3_t8);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:224)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
     vec4 shaded_t0 = texelFetch(color, at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

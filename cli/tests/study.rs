@@ -201,6 +201,37 @@ fn a_pan_is_filmed_by_methods_side_by_side() {
     );
 }
 
+#[test]
+fn methods_are_compared_in_motion() {
+    let out = scratch("motion").join("motion");
+    let motion = ["study", "motion", "--out", out.to_str().unwrap(), "--size", "48x27"];
+    let of = |more: &[&'static str]| [&motion[..], more].concat();
+    fails(&of(&["--method", "4y"]), 2, &["no method `4y`", "SRAA 4, history"]);
+    fails(&of(&["--method", "a=stalker"]), 1, &["`a` is not compared in motion"]);
+    fails(&of(&["--scene", "bridge"]), 2, &["bridge"]);
+    // A pan of one moment is none of earlier frames.
+    let film = ["study", "film", "--out", out.to_str().unwrap(), "--size", "48x27"];
+    let film = [&film[..], &["--method", "a=sraa,history=2"]].concat();
+    fails(&film, 1, &["no earlier frames", "history=2", "study motion"]);
+    assert!(is_empty(&out));
+
+    let own = "own=sraa,history=2,demodulate=albedo,rest=true,difference=relative,depth-scale=3";
+    let plain = "plain=sraa,difference=relative,depth-scale=3";
+    let more = [
+        "--scene", "railings", "--frames", "2", "--method", plain, "--method", own, "--method", "4x",
+    ];
+    let printed = finishes(&of(&more));
+    assert!(printed.contains("board") && printed.contains("own"), "{printed}");
+    let table = std::fs::read_to_string(out.join("motion.csv")).expect("a table");
+    let psnrs: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(3).unwrap().parse().unwrap())
+        .collect();
+    assert_eq!(psnrs.len(), 12, "{table}");
+    assert!(psnrs.chunks(3).all(|methods| methods[0] < methods[1]), "{table}");
+}
+
 /// The capture of `examples/captures/spheres`, to be broken.
 fn spheres(folder: &Path) -> PathBuf {
     let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/captures/spheres");

@@ -14,6 +14,7 @@ fn main() -> Result<(), straightline_codegen::config::Error> {
                 .set("demodulate", "albedo")
                 .set("albedo-floor", "uniform")
                 .set("rest", true)
+                .set("history", 3)
         })
         .compile()
 }

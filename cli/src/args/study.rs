@@ -58,6 +58,8 @@ pub enum Study {
     Error(ErrorArgs),
     /// Film a slow pan by several methods side by side, and tell how wrong what changes from frame to frame is
     Film(FilmArgs),
+    /// Compare SRAA with earlier frames and without, and supersampling, in a still, a pan and a turn, and where something moves
+    Motion(MotionArgs),
     /// Run numerically hard cases in every precision, by shader and interpreter
     Hard(HardArgs),
     /// Ask GPU compilers what they make of each kernel, without a GPU
@@ -141,6 +143,20 @@ pub struct FilmArgs {
     /// Pixels that the picture moves from a frame to the next, to the right and down
     #[arg(long, value_name = "X,Y", default_value = "0.125,0.0625", value_parser = step, allow_hyphen_values = true)]
     pub step: Vec2,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct MotionArgs {
+    /// A method to compare, by its name in this study's record or one of your own of `sraa`, as `study error --method` has it; may be
+    /// given several times. By default SRAA with 4 and 16 samples, placed and searched, with history, and with all, and supersampling
+    #[arg(long = "method", value_name = "NAME[=KERNEL[,OPTION=VALUE]...]")]
+    pub methods: Vec<String>,
+    /// A built-in scene (see `scenes`); may be given several times. By default railings and roof
+    #[arg(long, value_name = "NAME")]
+    pub scene: Vec<String>,
+    /// How many frames, after four that are only remembered
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    pub frames: u32,
 }
 
 /// Two finite numbers of pixels, each at most 64.

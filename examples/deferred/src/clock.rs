@@ -5,8 +5,8 @@ use std::fmt;
 use std::time::Duration;
 use straightline_runtime::{Error, Span, Timer, wgpu};
 
-/// Passes of a frame: five of geometry, placing, shading, SRAA, and to the screen.
-const PASSES: u32 = 9;
+/// Passes of a frame: five of geometry, placing, shading, motion, SRAA, one that keeps, and to the screen.
+const PASSES: u32 = 11;
 
 /// Frames whose timestamps are waited for at most; those beyond are not timed on the device.
 const UNDER_WAY: usize = 8;

@@ -1,6 +1,6 @@
 //! A small deferred renderer with Subpixel Reconstruction Antialiasing in it.
 //!
-//! `cargo run` opens a window: Space turns SRAA on and off, P, S and D what helps it, Escape closes the window. `cargo run -- --out
+//! `cargo run` opens a window: Space turns SRAA on and off, P, S, D and H what helps it, Escape closes the window. `cargo run -- --out
 //! picture.png` needs no window: `--size 1280x720`, `--time 2.5`, `--without-sraa` and `--without-placing` say what to draw,
 //! `--timestamps` to use those of software drivers too. `web/build` makes a page of it.
 //!

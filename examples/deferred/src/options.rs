@@ -24,18 +24,21 @@ pub struct Parts {
     pub searching: bool,
     /// Borrowing light, and not the paint that it falls on.
     pub demodulating: bool,
+    /// Shading each frame at another place of its pixels, and borrowing from earlier ones.
+    pub history: bool,
 }
 
 impl Parts {
-    pub const ALL: Parts = Parts { sraa: true, placing: true, searching: true, demodulating: true };
+    pub const ALL: Parts = Parts { sraa: true, placing: true, searching: true, demodulating: true, history: true };
 
     /// Each part with its name and its key.
-    fn each(&mut self) -> [(&mut bool, &'static str, &'static str); 4] {
+    fn each(&mut self) -> [(&mut bool, &'static str, &'static str); 5] {
         [
             (&mut self.sraa, "SRAA", "Space"),
             (&mut self.placing, "placing", "P"),
             (&mut self.searching, "searching", "S"),
             (&mut self.demodulating, "demodulating", "D"),
+            (&mut self.history, "history", "H"),
         ]
     }
 
@@ -76,7 +79,7 @@ impl Options {
                 "--timestamps" => options.timestamps = true,
                 _ if argument.strip_prefix("--without-").is_some_and(|part| options.parts.turn_off(part)) => {}
                 _ => {
-                    let there = "--out, --size, --time, --timestamps, and --without-sraa, -placing, -searching and -demodulating";
+                    let there = "--out, --size, --time, --timestamps, and --without-sraa, -placing, -searching, -demodulating and -history";
                     return Err(format!("no option {argument}: there are {there}").into());
                 }
             }
@@ -114,8 +117,8 @@ mod tests {
         assert_eq!((options.size, options.time, options.parts.sraa), ([320, 180], Some(2.5), false));
         let options = Options::of_address("").unwrap();
         assert_eq!((options.size, options.time, options.parts), ([960, 540], None, Parts::ALL));
-        let options = Options::of_address("?without-placing&without-searching&without-demodulating").unwrap();
-        let alone = Parts { sraa: true, placing: false, searching: false, demodulating: false };
+        let options = Options::of_address("?without-placing&without-searching&without-demodulating&without-history").unwrap();
+        let alone = Parts { sraa: true, placing: false, searching: false, demodulating: false, history: false };
         assert_eq!(options.parts, alone);
         for wrong in ["?size=0x4", "?size", "?colour=red", "?time=noon", "?without-shadows", "?without-"] {
             assert!(Options::of_address(wrong).is_err(), "{wrong}");
@@ -125,10 +128,10 @@ mod tests {
     #[test]
     fn each_part_has_a_key() {
         let mut parts = Parts::ALL;
-        for key in ["Space", "p", "S", "D"] {
+        for key in ["Space", "p", "S", "D", "h"] {
             assert!(parts.press(key), "{key}");
         }
-        assert_eq!(parts.to_string(), "SRAA off (Space), placing off (P), searching off (S), demodulating off (D)");
+        assert_eq!(parts.to_string(), "SRAA off (Space), placing off (P), searching off (S), demodulating off (D), history off (H)");
         assert!(!parts.press("x") && parts.press("d") && parts.demodulating);
     }
 }

@@ -1,5 +1,5 @@
-//! A frame in five steps: geometry, once for each of its four samples and the centre; where each pixel is shaded; shading, once a
-//! pixel; SRAA; and to the screen.
+//! A frame in seven steps: geometry, once for each of its four samples and where the frame is shaded; where each pixel is shaded;
+//! shading, once a pixel; where that was in earlier frames; SRAA; what later frames need; and to the screen.
 
 use crate::clock::Clock;
 use crate::options::Parts;
@@ -12,14 +12,23 @@ use straightline_runtime::{Bound, Span, wgpu};
 use web_time::Instant;
 use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
 
-/// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`, and the centre.
-const SAMPLES: [Vec2; 5] = [
+/// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`.
+const SAMPLES: [Vec2; 4] = [
     vec2(-0.125, -0.375),
     vec2(0.375, -0.125),
     vec2(-0.375, 0.125),
     vec2(0.125, 0.375),
-    Vec2::ZERO,
 ];
+
+/// The same, and where the frame is shaded.
+const LAYERS: usize = SAMPLES.len() + 1;
+
+/// Which of the samples a frame is shaded at, one frame after the other: with `EARLIER` others it has seen all. Without history, frames
+/// are shaded at the centre.
+const TURNS: [usize; 4] = [0, 3, 2, 1];
+
+/// Earlier frames that are kept: the kernel's `history`.
+pub const EARLIER: usize = 3;
 
 /// Linear depth, so that the kernel needs to know nothing of the projection.
 const DEPTH: TextureFormat = TextureFormat::R32Float;
@@ -27,6 +36,9 @@ const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
 const ALBEDO: TextureFormat = TextureFormat::Rgba8Unorm;
 const PLACE: TextureFormat = TextureFormat::R32Uint;
 const COLOR: TextureFormat = TextureFormat::Rgba16Float;
+/// A normal, and linear depth.
+const SURFACE: TextureFormat = TextureFormat::Rgba32Float;
+const MOTION: TextureFormat = TextureFormat::Rgba16Float;
 const Z_BUFFER: TextureFormat = TextureFormat::Depth32Float;
 
 /// Linear depth where there is nothing.
@@ -36,10 +48,10 @@ const SKY: f64 = 1.0e6;
 const NEVER: f32 = 16.0;
 
 /// Which of a frame's passes are SRAA's: placing and the filter.
-const OF_SRAA: [usize; 2] = [SAMPLES.len(), SAMPLES.len() + 2];
+const OF_SRAA: [usize; 2] = [LAYERS, LAYERS + 3];
 
 /// Bytes of the uniforms of `scene.wgsl`.
-const UNIFORMS: usize = 160;
+const UNIFORMS: usize = 192 + EARLIER * 80;
 
 /// Passes, and what lies between them.
 pub struct Renderer {
@@ -47,6 +59,7 @@ pub struct Renderer {
     passes: Passes,
     kernels: Kernels,
     targets: Targets,
+    past: Past,
     /// What the frames cost.
     pub clock: Clock,
 }
@@ -62,29 +75,46 @@ struct Passes {
     device: wgpu::Device,
     corners: wgpu::Buffer,
     count: u32,
-    /// One for each sample.
+    /// One for each layer.
     uniforms: Vec<wgpu::Buffer>,
     geometry: wgpu::RenderPipeline,
     shading: wgpu::RenderPipeline,
+    motion: wgpu::RenderPipeline,
+    keeping: wgpu::RenderPipeline,
     present: wgpu::RenderPipeline,
 }
 
 /// What does change with the size.
 struct Targets {
     size: Size,
-    /// Depth, normal and albedo: a layer for each sample.
+    /// Depth, normal and albedo: a layer for each sample, and one where the frame is shaded.
     geometry: [wgpu::Texture; 3],
     z_buffer: wgpu::TextureView,
     /// At which sample each pixel is shaded.
     place: wgpu::TextureView,
     /// Shaded once a pixel, and what of that does not follow the albedo.
     shaded: [wgpu::TextureView; 2],
+    /// Light, what does not follow the albedo, and surfaces: a layer for each earlier frame.
+    kept: [wgpu::Texture; 3],
+    /// Where what is seen was in each of them.
+    motion: wgpu::Texture,
     /// The same, antialiased.
     resolved: wgpu::TextureView,
     /// From geometry to `place`.
     placing: sraa_place::Bound,
     /// From these to `resolved`.
     sraa: sraa::Bound,
+}
+
+/// What is known of earlier frames.
+#[derive(Default)]
+struct Past {
+    /// How many there were.
+    frames: usize,
+    /// With which parts.
+    parts: Option<Parts>,
+    /// Those that are kept, layer by layer: what took model space to clip space, and where it was shaded.
+    layers: [Option<(Mat4, Vec2)>; EARLIER],
 }
 
 impl Renderer {
@@ -97,12 +127,13 @@ impl Renderer {
         let passes = Passes {
             corners: buffer(device, queue, wgpu::BufferUsages::VERTEX, &bytes(numbers)),
             count: corners.len() as u32,
-            uniforms: SAMPLES
-                .iter()
+            uniforms: (0..LAYERS)
                 .map(|_| buffer(device, queue, wgpu::BufferUsages::UNIFORM, &[0; UNIFORMS]))
                 .collect(),
             geometry: pipeline(device, &shader, ["corner", "surface"], &[DEPTH, NORMAL, ALBEDO], true),
             shading: pipeline(device, &shader, ["cover", "shade"], &[COLOR, COLOR], false),
+            motion: pipeline(device, &shader, ["cover", "motion"], &[MOTION; EARLIER], false),
+            keeping: pipeline(device, &shader, ["cover", "keep"], &[COLOR, COLOR, SURFACE], false),
             present: pipeline(device, &shader, ["cover", "present"], &[format], false),
             device: device.clone(),
         };
@@ -111,32 +142,41 @@ impl Renderer {
             passes,
             targets: Targets::new(device, size, &kernels)?,
             kernels,
+            past: Past::default(),
             clock: Clock::new(device, queue)?,
         })
     }
 
     /// Records and submits the frame at `time` seconds, with the parts that are on. Where the target has another size than
-    /// the last one, what lies between the passes is made anew, and SRAA bound to it.
+    /// the last one, what lies between the passes is made anew, and SRAA bound to it; then, and where parts are turned on or off, earlier
+    /// frames are forgotten.
     pub fn draw(&mut self, time: f32, parts: Parts, target: &wgpu::TextureView) -> Result<(), Failure> {
         let begun = Instant::now();
         let size = [target.texture().width(), target.texture().height()];
+        if size != self.targets.size || self.past.parts != Some(parts) {
+            self.past = Past { parts: Some(parts), ..Past::default() };
+        }
         if size != self.targets.size {
             self.targets = Targets::new(&self.passes.device, size, &self.kernels)?;
         }
-        let distance = 5.4 + 1.0 * (0.4 * time).sin();
-        let Renderer { queue, passes, targets, clock, .. } = self;
-        for (sample, uniforms) in SAMPLES.iter().zip(&passes.uniforms) {
-            queue.write_buffer(uniforms, 0, &view(size, time, distance, *sample));
+        let Renderer { queue, passes, targets, past, clock, .. } = self;
+        let remembers = parts.sraa && parts.history;
+        let jitter = if remembers { SAMPLES[TURNS[past.frames % TURNS.len()]] } else { Vec2::ZERO };
+        // All paint counts as white at least: of one colour.
+        let albedo_floor = if parts.demodulating { 0.04 } else { 1.0 };
+        let view = View::new(size, time);
+        for (sample, uniforms) in SAMPLES.iter().chain([&jitter]).zip(&passes.uniforms) {
+            queue.write_buffer(uniforms, 0, &view.uniforms(*sample, jitter, albedo_floor, &past.layers));
         }
         // Without SRAA nobody borrows, and each pixel needs the colour of its centre.
         targets.placing.set_unseen(queue, if parts.sraa && parts.placing { 0.01 } else { NEVER })?;
         targets.sraa.set_search_threshold(queue, if parts.searching { 0.05 } else { NEVER })?;
-        // All paint counts as white at least: of one colour.
-        targets.sraa.set_albedo_floor(queue, if parts.demodulating { 0.04 } else { 1.0 })?;
+        targets.sraa.set_albedo_floor(queue, albedo_floor)?;
+        targets.sraa.set_jitter(queue, jitter.to_array())?;
 
         let mut encoder = passes.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for sample in 0..SAMPLES.len() {
-            passes.draw_geometry(&mut encoder, targets, sample as u32, clock.span()?);
+        for layer in 0..LAYERS {
+            passes.draw_geometry(&mut encoder, targets, layer as u32, clock.span()?);
         }
         record(targets.placing.inner(), &mut encoder, clock)?;
         let [depth, normal, albedo] = targets.geometry.each_ref().map(all_layers);
@@ -145,7 +185,18 @@ impl Renderer {
         let shaded = targets.shaded.each_ref();
         passes.cover(&mut encoder, &passes.shading, (uniforms, &surfaces), &shaded, clock.span()?);
         if parts.sraa {
+            let motions: [_; EARLIER] = std::array::from_fn(|k| layer(&targets.motion, k as u32));
+            let seen = [&depth, &targets.place];
+            passes.cover(&mut encoder, &passes.motion, (uniforms, &seen), &motions.each_ref(), clock.span()?);
             record(targets.sraa.inner(), &mut encoder, clock)?;
+        }
+        if remembers {
+            let slot = past.frames % EARLIER;
+            let kept = targets.kept.each_ref().map(|texture| layer(texture, slot as u32));
+            let seen = [&surfaces[..], &shaded[..]].concat();
+            passes.cover(&mut encoder, &passes.keeping, (uniforms, &seen), &kept.each_ref(), clock.span()?);
+            past.layers[slot] = Some((view.to_clip(jitter), jitter));
+            past.frames += 1;
         }
         let shown = if parts.sraa { &targets.resolved } else { shaded[0] };
         passes.cover(&mut encoder, &passes.present, (None, &[shown]), &[target], clock.span()?);
@@ -242,22 +293,52 @@ impl Passes {
     }
 }
 
-/// The uniforms of `scene.wgsl` for one sample of a picture of `size`.
-fn view(size: Size, time: f32, distance: f32, sample: Vec2) -> Vec<u8> {
-    let size = Vec2::from(size.map(|side| side as f32));
-    let to_world = Mat4::from_rotation_y(0.5 * time);
-    let eye = vec3(0.0, 0.45, 1.0).normalize() * distance;
-    let to_view = look_at_mat4(eye, vec3(0.0, -0.4, 0.0), Vec3::Y);
-    // To sample right of the centre, everything moves left.
-    let shift = Mat4::from_translation((vec2(-sample.x, sample.y) * 2.0 / size).extend(0.0));
-    let fov: f32 = 0.75;
-    let to_clip = shift * perspective_infinite_reverse(fov, size.x / size.y, 0.1) * to_view * to_world;
-    let half = (0.5 * fov).tan() * vec2(size.x / size.y, 1.0);
-    // Rays of the shading pass: the camera's axes in the world, as far as its picture reaches.
-    let axes = to_view.transpose();
-    let matrices = [to_clip, to_world].into_iter().flat_map(|m| m.to_cols_array());
-    let camera = [axes.x_axis * half.x, axes.y_axis * half.y].into_iter().flat_map(|axis| axis.truncate().extend(0.0).to_array());
-    bytes(matrices.chain(camera))
+/// What is seen at a moment.
+struct View {
+    size: Vec2,
+    eye: Vec3,
+    to_world: Mat4,
+    to_view: Mat4,
+}
+
+/// The vertical field of view.
+const FOV: f32 = 0.75;
+
+impl View {
+    /// Of a picture of `size` at `time` seconds.
+    fn new(size: Size, time: f32) -> View {
+        let distance = 5.4 + 1.0 * (0.4 * time).sin();
+        let eye = vec3(0.0, 0.45, 1.0).normalize() * distance;
+        View {
+            size: Vec2::from(size.map(|side| side as f32)),
+            eye,
+            to_world: Mat4::from_rotation_y(0.5 * time),
+            to_view: look_at_mat4(eye, vec3(0.0, -0.4, 0.0), Vec3::Y),
+        }
+    }
+
+    /// From model space to clip space, for a sample of each pixel.
+    fn to_clip(&self, sample: Vec2) -> Mat4 {
+        // To sample right of the centre, everything moves left.
+        let shift = Mat4::from_translation((vec2(-sample.x, sample.y) * 2.0 / self.size).extend(0.0));
+        shift * perspective_infinite_reverse(FOV, self.size.x / self.size.y, 0.1) * self.to_view * self.to_world
+    }
+
+    /// The uniforms of `scene.wgsl` for a sample, of a frame that is shaded at `jitter`.
+    fn uniforms(&self, sample: Vec2, jitter: Vec2, albedo_floor: f32, earlier: &[Option<(Mat4, Vec2)>]) -> Vec<u8> {
+        let half = (0.5 * FOV).tan() * vec2(self.size.x / self.size.y, 1.0);
+        // Rays of the shading pass: the camera's axes in the world, as far as its picture reaches.
+        let axes = self.to_view.transpose();
+        let matrices = [self.to_clip(sample), self.to_world].into_iter().flat_map(|m| m.to_cols_array());
+        let camera = [axes.x_axis * half.x, axes.y_axis * half.y, self.eye.extend(0.0)];
+        let camera = camera.into_iter().flat_map(|axis| axis.truncate().extend(0.0).to_array());
+        let then = earlier.iter().flat_map(|frame| {
+            let (to_clip, jitter) = frame.unwrap_or_default();
+            let known = if frame.is_some() { 1.0 } else { 0.0 };
+            to_clip.to_cols_array().into_iter().chain([jitter.x, jitter.y, known, 0.0])
+        });
+        bytes(matrices.chain(camera).chain([jitter.x, jitter.y, albedo_floor, 0.0]).chain(then))
+    }
 }
 
 impl Targets {
@@ -276,22 +357,37 @@ impl Targets {
         };
         let drawn = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         let stored = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
-        let samples = SAMPLES.len() as u32;
-        let geometry = [DEPTH, NORMAL, ALBEDO].map(|format| texture(format, samples, drawn));
+        let geometry = [DEPTH, NORMAL, ALBEDO].map(|format| texture(format, LAYERS as u32, drawn));
+        let earlier = |format| texture(format, EARLIER as u32, drawn);
+        let (kept, motion) = ([COLOR, COLOR, SURFACE].map(earlier), earlier(MOTION));
         let one = |format, usage| layer(&texture(format, 1, usage), 0);
         let (place, resolved) = (one(PLACE, stored), one(COLOR, stored));
         let shaded = [one(COLOR, drawn), one(COLOR, drawn)];
         let [depth, normal, albedo] = &geometry.each_ref().map(all_layers);
         let seen = sraa_place::Inputs { depth, normal };
-        let inputs = sraa::Inputs { depth, normal, albedo, place: &place, color: &shaded[0], rest: &shaded[1] };
+        let [history_color, history_rest, history_surface] = &kept.each_ref().map(all_layers);
+        let inputs = sraa::Inputs {
+            depth,
+            normal,
+            albedo,
+            place: &place,
+            color: &shaded[0],
+            rest: &shaded[1],
+            history_color,
+            history_rest,
+            history_surface,
+            history_motion: &all_layers(&motion),
+        };
         Ok(Targets {
             size,
             placing: kernels.place.bind(&seen, &sraa_place::Parameters::default(), &place)?,
-            sraa: kernels.sraa.bind(&inputs, &sraa::Parameters::default(), &resolved)?,
+            sraa: kernels.sraa.bind(&inputs, &sraa::Parameters::new(0.05, 0.04, [0.0; 2]), &resolved)?,
             geometry,
             z_buffer: one(Z_BUFFER, TextureUsages::RENDER_ATTACHMENT),
             place,
             shaded,
+            kept,
+            motion,
             resolved,
         })
     }

@@ -118,7 +118,7 @@ async function compared(page, without, file) {
 }
 
 /** SRAA without what helps it. */
-const ALONE = "&without-placing&without-searching&without-demodulating";
+const ALONE = "&without-placing&without-searching&without-demodulating&without-history";
 
 test("the browser's picture is the native one", async () => {
   const page = await open(`size=${SIZE.join("x")}&time=2`);

@@ -6,10 +6,10 @@
 //! nothing, so that what was hidden, or has moved away, leaves no trace.
 
 use super::colors::is_kept;
-use super::demodulate::Demodulate;
+use super::demodulate::{Demodulate, Paint};
 use super::gbuffer::{DEEPEST, Normals, Surface};
-use super::metric::{Metric, Sample, distance};
-use super::options::{Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa};
+use super::metric::{FAR, Metric, Sample, distance};
+use super::options::{Guards, Mask, NonFinite, Normalisation, Resolve, Sraa};
 use super::pattern::{Place, Shading};
 use super::search::Sum;
 use super::{Inputs, falloff, steepness};
@@ -18,8 +18,11 @@ use crate::prelude::*;
 /// Frames gone by, of as many layers as the option `history` says, in any order. Where nothing is known, as outside the picture, a
 /// layer's motion may be not a number: then nothing is taken of it.
 pub struct History {
-    /// Colours of the shading samples of each frame, one a pixel, as `color` has them.
+    /// Colours of the shading samples of each frame, one a pixel, as `color` has them; of demodulate=albedo light: what is left of the
+    /// colour without `rest`, divided by an albedo of at least `albedo_floor`.
     pub history_color: FrameLayers<Vec4>,
+    /// Of demodulate with rest=true: `rest` of each frame.
+    pub history_rest: FrameLayers<Vec4>,
     /// What was seen where each was shaded: the unit normal, and in the fourth component linear depth, infinite where there is no
     /// geometry.
     pub history_surface: FrameLayers<Vec4>,
@@ -38,6 +41,7 @@ impl History {
         let layers = || FrameLayers::new(vec![Frame::new(UVec2::ONE, vec![Vec4::ZERO])]);
         History {
             history_color: layers(),
+            history_rest: layers(),
             history_surface: layers(),
             history_motion: layers(),
             jitter: Vec2::ZERO,
@@ -75,31 +79,85 @@ pub(super) fn own_tap(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> P
     }
 }
 
-/// The sum of the colours of earlier frames for a geometry sample.
-pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
-    let mut sum = Sum::NOTHING;
+/// What earlier frames give a geometry sample.
+pub(super) struct Past {
+    /// Of the colours of their shading samples.
+    pub(super) sum: Sum,
+    /// Difference of the most similar one within reach.
+    pub(super) nearest: f32,
+}
+
+/// The shading samples of earlier frames for a geometry sample with a paint of its `own`.
+pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Past {
+    let mut past = Past {
+        sum: Sum::NOTHING,
+        nearest: FAR,
+    };
     for frame in 0..cfg.history as usize {
-        let moved = inputs.history.history_motion.load(inputs.pixel, frame);
-        let known = moved.x.abs() < FARTHEST && moved.y.abs() < FARTHEST;
-        let motion = if known { moved.xy() } else { Vec2::ZERO };
-        // The shading sample to the upper left of where the surface was.
-        let first = motion.floor();
         for k in 0..SIDE * SIDE {
-            let step = ivec2((k % SIDE) as i32, (k / SIDE) as i32);
-            let there = inputs.pixel + first.as_ivec2() + step;
-            let at = first - motion + step.as_vec2();
-            let inside = is_inside(there, inputs.history.history_color.size().as_ivec2());
-            let shaded = inputs.history.history_color.load(there, frame);
-            let seen = seen(cfg, inputs.history.history_surface.load(there, frame), moved.z);
-            let tap = Place { at, ..place };
+            let tap = earlier_tap(cfg, inputs, place, frame, k, SIDE);
             // Normals that are not of length 1 may be nearer than the same: nothing weighs more than 1.
-            let apart = distance(cfg, centre, &seen, at).max(0.0);
-            let w = falloff(cfg, place, tap) * (-steepness(cfg) * apart).exp2();
-            let w = if known && inside { w } else { 0.0 };
-            add(cfg, &mut sum, shaded, w);
+            let apart = distance(cfg, centre, &tap.seen, tap.place.at).max(0.0);
+            let near = falloff(cfg, place, tap.place);
+            let w = near * (-steepness(cfg) * apart).exp2();
+            let w = if tap.is_there { w } else { 0.0 };
+            add(cfg, &mut past.sum, remembered_color(cfg, inputs, own, &tap, frame), w);
+            if tap.is_there && near > 0.0 {
+                past.nearest = past.nearest.min(apart);
+            }
         }
     }
-    sum
+    past
+}
+
+/// A shading sample of an earlier frame.
+pub(super) struct Earlier {
+    /// Its pixel then.
+    there: IVec2,
+    /// Where it is now.
+    pub(super) place: Place,
+    /// What it shows.
+    pub(super) seen: Surface,
+    /// Whether there is one.
+    pub(super) is_there: bool,
+}
+
+/// Shading sample `k` of the `side` × `side` ones around where the pixel's surface was in an earlier frame.
+pub(super) fn earlier_tap(cfg: &Sraa, inputs: &Inputs, place: Place, frame: usize, k: usize, side: usize) -> Earlier {
+    let moved = inputs.history.history_motion.load(inputs.pixel, frame);
+    let known = moved.x.abs() < FARTHEST && moved.y.abs() < FARTHEST;
+    let motion = if known { moved.xy() } else { Vec2::ZERO };
+    // The shading sample to the upper left of where the surface was, or as many farther as the square needs.
+    let first = motion.floor();
+    let aside = 1 - (side / 2) as i32;
+    let step = ivec2((k % side) as i32 + aside, (k / side) as i32 + aside);
+    let there = inputs.pixel + first.as_ivec2() + step;
+    let inside = is_inside(there, inputs.history.history_color.size().as_ivec2());
+    Earlier {
+        there,
+        place: Place {
+            at: first - motion + step.as_vec2(),
+            ..place
+        },
+        seen: seen(cfg, inputs.history.history_surface.load(there, frame), moved.z),
+        is_there: known && inside,
+    }
+}
+
+/// The colour of a shading sample of an earlier frame, on the paint of a geometry sample.
+pub(super) fn remembered_color(cfg: &Sraa, inputs: &Inputs, own: &Paint, tap: &Earlier, frame: usize) -> Vec4 {
+    let color = inputs.history.history_color.load(tap.there, frame);
+    match cfg.demodulate {
+        Demodulate::None => color,
+        Demodulate::Albedo | Demodulate::AlbedoShadow => {
+            let painted = own.albedo * color.xyz();
+            if cfg.rest {
+                (painted + inputs.history.history_rest.load(tap.there, frame).xyz()).extend(color.w)
+            } else {
+                painted.extend(color.w)
+            }
+        }
+    }
 }
 
 /// Shading samples of a frame on each axis: those around the pixel.
@@ -155,17 +213,26 @@ impl Sraa {
     pub(super) fn check_history(&self) {
         if self.history != 0 {
             assert!(
-                self.shading == Shading::Centre,
-                "history takes frames that are shaded at one place of every pixel, which the uniform `jitter` says: set \
-                 shading=centre"
+                self.shading == Shading::Centre || self.shading == Shading::Placed,
+                "history takes frames that are shaded once a pixel, at one place of every pixel, which the uniform `jitter` says, or \
+                 where `place` does: set shading=centre or shading=placed"
+            );
+            assert!(
+                self.shading == Shading::Centre || self.metric != Metric::PlanesNormals,
+                "where in its pixel an earlier frame was shaded that is placed, nothing says, and planes need it: set \
+                 metric=depth-normals or shading=centre"
             );
             assert!(
                 self.normalisation == Normalisation::Shifted && self.resolve == Resolve::Box,
                 "history needs normalisation=shifted and resolve=box"
             );
             assert!(
-                self.search == Search::None && self.demodulate == Demodulate::None && self.mask == Mask::None,
-                "history adds taps to the filter alone: set search=none, demodulate=none and mask=none"
+                self.demodulate != Demodulate::AlbedoShadow,
+                "history keeps no direct light of earlier frames apart: set demodulate=albedo or demodulate=none"
+            );
+            assert!(
+                self.mask == Mask::None,
+                "history adds taps to the filter, and mask leaves pixels out of it: set mask=none"
             );
         }
     }

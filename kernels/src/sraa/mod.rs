@@ -127,7 +127,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     let mut reflected = [Vec3::ZERO; TAPS];
     let mut lit = [Vec3::ZERO; TAPS];
     let mut unseen = 0;
-    let mut past = Sum::NOTHING;
+    let mut past = Searched::NOTHING;
     for sample in 0..cfg.reconstructed() {
         if cfg.share(sample) != 0.0 {
             let share = cfg.share(sample) / total;
@@ -169,11 +169,12 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                     sum += w;
                 }
             }
+            let mut earlier = Sum::NOTHING;
             if cfg.history > 0 {
-                let earlier = remembered(cfg, inputs, place, &centre);
+                let found = remembered(cfg, inputs, place, &centre, &own);
+                earlier = found.sum;
                 sum += earlier.weight;
-                past.color += share / sum * earlier.color;
-                past.kept += share / sum * earlier.kept;
+                nearest = nearest.min(found.nearest);
             }
             let mut scale = match cfg.normalisation {
                 Normalisation::Paper | Normalisation::Shifted => share / sum,
@@ -182,6 +183,10 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             if cfg.sets_apart() && nearest > cfg.search_threshold {
                 unseen |= 1u32 << sample;
                 scale = 0.0;
+            }
+            if cfg.history > 0 {
+                past.color += scale * earlier.color;
+                past.share += scale * earlier.kept;
             }
             for tap in 0..TAPS {
                 if reaches(cfg, place, cfg.tap(tap, SIDE)) {
@@ -196,11 +201,11 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             }
         }
     }
-    let apart = if cfg.history > 0 {
-        past.apart()
-    } else {
-        searched(cfg, inputs, unseen)
-    };
+    let mut apart = searched(cfg, inputs, unseen);
+    if cfg.history > 0 {
+        apart.color += past.color;
+        apart.share += past.share;
+    }
     // Read by what demodulates alone.
     let paints = (&reflected, &lit);
     match cfg.guards {
@@ -335,8 +340,8 @@ fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
 /// What weighs no more is not looked at. A tent ends where a tap may lie, and of that a rounding would make a weight.
 fn least(cfg: &Sraa) -> f32 {
     match cfg.falloff {
-        Falloff::Tent => 1.0e-6,
-        Falloff::None | Falloff::Gaussian => 0.0,
+        Falloff::Tent if cfg.history == 0 => 1.0e-6,
+        Falloff::None | Falloff::Tent | Falloff::Gaussian => 0.0,
     }
 }
 

@@ -88,7 +88,11 @@ pub(super) fn shaded_place(cfg: &Sraa, inputs: &Inputs, tap: Place) -> Place {
                 pixel: tap.pixel,
                 sample,
                 centre,
-                at: if centre { tap.at } else { tap.at + cfg.offset(sample) },
+                at: if centre {
+                    tap.at
+                } else {
+                    tap.pixel.as_vec2() + cfg.offset(sample)
+                },
             }
         }
     }

@@ -2,19 +2,27 @@
 
 use super::colors::is_kept;
 use super::demodulate::{Paint, paint, repainted};
-use super::metric::{FAR, Sample};
+use super::history::{earlier_tap, own_tap, remembered_color};
+use super::metric::{FAR, Sample, distance};
 use super::options::{NonFinite, Search, Sraa};
 use super::pattern::Place;
 use super::{Inputs, difference, falloff, geometry_sample, least, steepness};
 use crate::prelude::*;
 
-/// What unseen samples add to the pixel.
+/// What unseen samples, or earlier frames, add to the pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Searched {
     /// Sum of their colours, each by its share in the pixel.
     pub(super) color: Vec4,
     /// Sum of their shares.
     pub(super) share: f32,
+}
+
+impl Searched {
+    pub(super) const NOTHING: Searched = Searched {
+        color: Vec4::ZERO,
+        share: 0.0,
+    };
 }
 
 /// Colours that are added up.
@@ -34,14 +42,6 @@ impl Sum {
         weight: 0.0,
     };
 
-    /// What a sum of shares in the pixel adds to it.
-    pub(super) fn apart(self) -> Searched {
-        Searched {
-            color: self.color,
-            share: self.kept,
-        }
-    }
-
     fn add(&mut self, cfg: &Sraa, shaded: Vec4, weight: f32) {
         let counts = match cfg.non_finite {
             NonFinite::Skip => is_kept(cfg, shaded),
@@ -57,29 +57,22 @@ impl Sum {
 
 /// The colours of the samples whose bits are set in `unseen`.
 pub(super) fn searched(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
-    let nothing = Searched {
-        color: Vec4::ZERO,
-        share: 0.0,
-    };
     if cfg.sets_apart() {
         #[cfg_attr(false, branch)]
         if unseen != 0 {
             each(cfg, inputs, unseen)
         } else {
-            nothing
+            Searched::NOTHING
         }
     } else {
-        nothing
+        Searched::NOTHING
     }
 }
 
 /// Few pixels come here: its loops stay loops.
 #[cfg_attr(false, unroll(none))]
 fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
-    let mut all = Searched {
-        color: Vec4::ZERO,
-        share: 0.0,
-    };
+    let mut all = Searched::NOTHING;
     for sample in 0..cfg.samples() {
         if (unseen >> sample) & 1 != 0 {
             let place = cfg.place(sample);
@@ -109,20 +102,32 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pai
     };
     let mut sum = Sum::NOTHING;
     for tap in 0..side * side {
-        let at = cfg.tap(tap, side);
+        let at = own_tap(cfg, inputs, tap, side);
         if difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
             sum.add(cfg, repainted(cfg, inputs, at, own, true), spread(place, at));
+        }
+    }
+    // As far around where the pixel's surface was in earlier frames.
+    let side = side - 1;
+    for frame in 0..cfg.history as usize {
+        for k in 0..side * side {
+            let tap = earlier_tap(cfg, inputs, place, frame, k, side);
+            let apart = distance(cfg, centre, &tap.seen, tap.place.at);
+            if tap.is_there && apart <= cfg.search_threshold {
+                let shaded = remembered_color(cfg, inputs, own, &tap, frame);
+                sum.add(cfg, shaded, spread(place, tap.place));
+            }
         }
     }
     sum
 }
 
-/// What the sample would be without a search, but that dark surfaces give less light.
+/// What the sample would be without a search and without earlier frames, but that dark surfaces give less light.
 fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Sum {
     let side = cfg.side();
     let mut nearest = FAR;
     for tap in 0..side * side {
-        let at = cfg.tap(tap, side);
+        let at = own_tap(cfg, inputs, tap, side);
         if falloff(cfg, place, at) > least(cfg) {
             nearest = nearest.min(difference(cfg, inputs, place, centre, at));
         }
@@ -130,7 +135,7 @@ fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pain
     let steepness = steepness(cfg);
     let mut sum = Sum::NOTHING;
     for tap in 0..side * side {
-        let at = cfg.tap(tap, side);
+        let at = own_tap(cfg, inputs, tap, side);
         let near = falloff(cfg, place, at);
         if near > least(cfg) {
             let d = difference(cfg, inputs, place, centre, at);

@@ -19,6 +19,9 @@ pub enum QualityError {
     /// A method was run on a picture that was not drawn for it: a mistake in this program.
     #[error("nothing was drawn for {0}")]
     NotDrawn(String),
+    /// A method was asked for in motion that makes nothing of frames that follow on each other.
+    #[error("`{0}` is not compared in motion: SRAA is that shades once a pixel, and supersampling")]
+    NotInMotion(String),
     /// The scene could not be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),

@@ -62,7 +62,7 @@ pub struct Method {
 }
 
 impl Method {
-    fn new(name: &str, kind: Kind, options: &[(&str, &str)]) -> Method {
+    pub(super) fn new(name: &str, kind: Kind, options: &[(&str, &str)]) -> Method {
         let own = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
         Method {
             name: name.to_owned(),
@@ -330,8 +330,8 @@ fn beyond() -> Vec<Method> {
     all
 }
 
-const PLACED: (&str, &str) = ("shading", "placed");
-const SEARCHED: (&str, &str) = ("search", "five");
+pub(super) const PLACED: (&str, &str) = ("shading", "placed");
+pub(super) const SEARCHED: (&str, &str) = ("search", "five");
 const DEMODULATED: (&str, &str) = ("demodulate", "albedo-shadow");
 
 fn metrics() -> Vec<Method> {
@@ -349,7 +349,7 @@ fn metrics() -> Vec<Method> {
 }
 
 /// A step of a third of the depth, and more, is between unrelated surfaces.
-const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
+pub(super) const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
 
 /// Filters of the reconstructed samples.
 fn resolves() -> Vec<Method> {

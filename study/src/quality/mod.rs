@@ -12,6 +12,7 @@ mod film;
 mod filters;
 mod losses;
 mod methods;
+mod motion;
 mod pan;
 mod post;
 pub mod resolves;
@@ -42,6 +43,7 @@ pub use figures::{FIGURES, Figure, Made, Pane};
 pub use film::{Film, REFERENCE, Shooting, film};
 pub use losses::losses;
 pub use methods::{Kind, Method, OwnError, methods, methods_of};
+pub use motion::{BEFORE, Sequence, in_motion, methods_in_motion};
 pub use shot::Shot;
 pub use surfaces::{Point, Surfaces};
 

@@ -3,12 +3,12 @@
 use super::QualityError;
 use super::filters::Filters;
 use super::methods::Method;
-use super::shot::{Shifted, Shot, supersampled};
+use super::shot::{Shot, supersampled};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3, Vec4, vec2};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::picture;
-use straightline_testbed::render::Renderer;
+use straightline_testbed::render::{Renderer, Shifted};
 
 /// Pixels from frame to frame.
 const STEP: Vec2 = vec2(0.125, 0.0625);
@@ -80,7 +80,7 @@ pub(super) fn changes(
 }
 
 /// What is wrong in a picture.
-fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
+pub(super) fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
     let shown = |color: &Vec4| color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
     let pairs = picture.texels().iter().zip(reference.texels());
     let texels = pairs.map(|(a, b)| match a.truncate().is_finite() {
@@ -92,7 +92,7 @@ fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
 }
 
 /// Over red, green and blue.
-fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
+pub(super) fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
     let pairs = a.texels().iter().zip(b.texels());
     let sum: f64 = pairs.map(|(a, b)| (*a - *b).as_dvec4().length_squared()).sum();
     sum / (3 * a.texels().len()) as f64

@@ -3,13 +3,13 @@
 use super::methods::{Kind, Method};
 use super::{QualityError, check};
 use crate::progress::Progress;
-use glam::{DVec4, UVec2, Vec2, Vec3, Vec4};
+use glam::{DVec4, UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::{Capture, ShadingSample, mean};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Aggregated, Renderer, Surface};
+use straightline_testbed::render::{self, Aggregated, Renderer};
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
 pub struct Shot {
@@ -133,46 +133,4 @@ pub fn supersampled(
     let share = 1.0 / f64::from(side.max(1));
     let texels = sums.into_iter().map(|sum| (sum * share).as_vec4()).collect();
     Ok(Frame::new(size, texels))
-}
-
-/// Draws with the camera turned by some pixels.
-pub struct Shifted<'a> {
-    /// Who draws.
-    pub renderer: &'a dyn Renderer,
-    /// By how much, in pixels, y down.
-    pub by: Vec2,
-}
-
-impl Renderer for Shifted<'_> {
-    fn size(&self) -> UVec2 {
-        self.renderer.size()
-    }
-
-    fn camera(&self) -> straightline_testbed::scene::Camera {
-        self.renderer.camera()
-    }
-
-    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<glam::Vec3>), render::RenderError> {
-        self.renderer.geometry(offset + self.by)
-    }
-
-    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, render::RenderError> {
-        self.renderer.shaded(offset + self.by)
-    }
-
-    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, render::RenderError> {
-        self.renderer.surfaces(offset + self.by)
-    }
-
-    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        self.renderer.shade(surface, place + self.by)
-    }
-
-    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
-        self.renderer.paint(surface, place + self.by)
-    }
-
-    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        self.renderer.direct(surface, place + self.by)
-    }
 }

@@ -64,8 +64,17 @@ fn option<'a>(options: &'a BTreeMap<String, String>, name: &str, default: &'a st
 ///
 /// # Errors
 ///
-/// [`GBufferError`] if the capture lacks normals, a camera or samples that the options need.
+/// [`GBufferError`] if the capture lacks normals, a camera or samples that the options need, and for `history`, as no capture has
+/// earlier frames: [`sequence`](crate::sequence) has.
 pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
+    let history = option(options, "history", "0");
+    if history != "0" {
+        return Err(GBufferError::Missing {
+            what: "earlier frames",
+            option: format!("history={history}"),
+            help: "use history=0; `straightline study motion` has frames that follow on each other",
+        });
+    }
     let metric = option(options, "metric", "depth-normals");
     let layout = option(options, "layout", "layers");
     let needed = match option(options, "pattern", "latin4") {

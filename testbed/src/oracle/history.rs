@@ -1,7 +1,7 @@
 //! Shading samples of earlier frames, each where it has moved to.
 
 use super::gbuffer::{DEEPEST, Point};
-use super::{Definition, OracleError, SraaParams, Tap};
+use super::{Definition, Demodulate, OracleError, SraaParams, Tap};
 use crate::execute::Inputs;
 use straightline_kernels::prelude::{Frame, Vec4};
 
@@ -18,6 +18,8 @@ pub(super) struct History<'a> {
 /// One of them.
 struct Earlier<'a> {
     color: &'a Frame<Vec4>,
+    /// What of the colour does not follow the albedo, where that is known.
+    rest: Option<&'a Frame<Vec4>>,
     surface: &'a Frame<Vec4>,
     motion: &'a Frame<Vec4>,
 }
@@ -47,10 +49,15 @@ impl<'a> History<'a> {
             layers("history_surface")?,
             layers("history_motion")?,
         ];
+        let rest = match params.demodulate {
+            Demodulate::Albedo | Demodulate::AlbedoShadow if params.rest => Some(layers("history_rest")?),
+            _ => None,
+        };
         let jitter = inputs.uniforms.iter().rev().find(|(known, _)| known == "jitter");
         let jitter = jitter.and_then(|(_, numbers)| numbers.as_slice().try_into().ok());
         let frame = |k: usize| Earlier {
             color: &color[k],
+            rest: rest.map(|rest| &rest[k]),
             surface: &surface[k],
             motion: &motion[k],
         };
@@ -62,8 +69,15 @@ impl<'a> History<'a> {
 }
 
 impl Definition<'_> {
-    /// Shading samples of earlier frames that have come within a pixel of the one that is filtered, and within reach of its sample `at`.
-    pub(super) fn earlier_taps(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
+    /// Shading samples of earlier frames that have come within `reach` pixels of the one that is filtered, and near enough to its sample
+    /// `at` for a `falloff`.
+    pub(super) fn earlier_taps(
+        &self,
+        pixel: [i32; 2],
+        at: ([i32; 2], usize),
+        reach: f64,
+        falloff: impl Fn([f64; 2]) -> f64,
+    ) -> Vec<Tap> {
         let centre = self.point(pixel, at);
         let place = self.place(at);
         let mut taps = Vec::new();
@@ -77,8 +91,8 @@ impl Definition<'_> {
                 for column in 0..size.x {
                     // Where it is now, from the centre of the pixel.
                     let now = [f64::from(column - pixel[0]) - x, f64::from(row - pixel[1]) - y];
-                    let falloff = self.falloff([now[0] - place[0], now[1] - place[1]]);
-                    if !(now.iter().all(|axis| *axis > -1.0 && *axis <= 1.0) && falloff > 0.0) {
+                    let falloff = falloff([now[0] - place[0], now[1] - place[1]]);
+                    if !(now.iter().all(|axis| *axis > -reach && *axis <= reach) && falloff > 0.0) {
                         continue;
                     }
                     let [nx, ny, nz, depth] = texel(frame.surface, [column, row]);
@@ -94,13 +108,25 @@ impl Definition<'_> {
                         at: ([column - pixel[0], row - pixel[1]], usize::MAX),
                         falloff,
                         difference: self.difference(&centre, &seen).max(0.0),
-                        color: texel(frame.color, [column, row]),
+                        color: self.painted(frame, (pixel, at), [column, row]),
                         is_earlier: true,
                     });
                 }
             }
         }
         taps
+    }
+
+    /// The colour of an earlier frame's shading sample, which is light where paint is known, on the paint of the geometry sample `at`.
+    fn painted(&self, frame: &Earlier, (pixel, at): ([i32; 2], ([i32; 2], usize)), there: [i32; 2]) -> [f64; 4] {
+        let color = texel(frame.color, there);
+        let own = [pixel[0] + at.0[0], pixel[1] + at.0[1]];
+        let Some((albedo, _)) = self.gbuffer.paint(own, at.1) else {
+            return color;
+        };
+        let rest = frame.rest.map_or([0.0; 4], |rest| texel(rest, there));
+        let channel = |axis: usize| albedo[axis] * color[axis] + rest[axis];
+        [channel(0), channel(1), channel(2), color[3]]
     }
 }
 

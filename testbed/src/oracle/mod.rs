@@ -237,14 +237,17 @@ impl<'a> Definition<'a> {
     /// The shading samples within reach of a geometry sample.
     fn taps(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
         let mut taps = self.taps_within(pixel, at, 3, |away| self.falloff(away));
-        taps.extend(self.earlier_taps(pixel, at));
+        taps.extend(self.earlier_taps(pixel, at, 1.0, |away| self.falloff(away)));
         taps
     }
 
     /// The shading samples that a search looks at.
     fn taps_around(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
         let spread = |away: [f64; 2]| (-away.iter().map(|axis| axis * axis).sum::<f64>() / 2.0).exp();
-        self.taps_within(pixel, at, self.params.search_radius(), spread)
+        let radius = self.params.search_radius();
+        let mut taps = self.taps_within(pixel, at, radius, spread);
+        taps.extend(self.earlier_taps(pixel, at, f64::from(radius), spread));
+        taps
     }
 
     fn taps_within(
@@ -346,8 +349,9 @@ impl<'a> Definition<'a> {
             && self.samples.len() <= 32
     }
 
-    /// Taps of a geometry sample whose surface none of them shows.
+    /// Taps of a geometry sample whose surface none of them shows: those of this frame.
     fn by_other_surfaces(&self, pixel: [i32; 2], at: ([i32; 2], usize), mut near: Vec<Tap>) -> Vec<Tap> {
+        near.retain(|tap| !tap.is_earlier);
         for tap in &mut near {
             let color = self.gbuffer.color([0, 1].map(|axis| pixel[axis] + tap.at.0[axis]), 0);
             tap.color = self.repainted(pixel, at, tap.at, color, false);

@@ -15,6 +15,7 @@ mod paint;
 mod placed;
 mod reference;
 mod shade;
+mod shifted;
 #[cfg(test)]
 mod tests;
 
@@ -29,8 +30,10 @@ pub use demodulated::add_albedo;
 pub use error::RenderError;
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, MultisampledGeometry, Samples};
+pub(crate) use placed::gathered;
 pub use reference::{grid, reference};
 pub use shade::Surface;
+pub use shifted::Shifted;
 
 /// Draws one scene at one size, sampled anywhere in a pixel.
 ///

@@ -55,7 +55,7 @@ pub(super) fn choose(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameL
 
 /// The picture with each pixel drawn in the place of the layer that `chosen` names, of those at `places`; `centred` is drawn in the
 /// last place.
-pub(super) fn gathered(
+pub(crate) fn gathered(
     places: &[Vec2],
     chosen: &Frame<u32>,
     centred: Frame<Vec4>,

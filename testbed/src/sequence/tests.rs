@@ -11,7 +11,16 @@ fn moved(by: Vec3) -> Scene {
 }
 
 fn draw(scene: Scene, jitter: Vec2) -> Moment {
-    Moment::draw(scene, SIZE, jitter).expect("a picture")
+    draw_shaded(scene, jitter, ShadingSample::Centre)
+}
+
+fn draw_shaded(scene: Scene, jitter: Vec2, shading: ShadingSample) -> Moment {
+    Moment::draw(scene, SIZE, jitter, &PLACES, shading).expect("a picture")
+}
+
+/// Depths where the pixels' shading samples lie that are not moved.
+fn depths(moment: &Moment) -> &Frame<f32> {
+    &moment.capture.depth.layers()[PLACES.len()]
 }
 
 #[test]
@@ -42,11 +51,30 @@ fn motion_leads_to_the_same_surface_in_the_earlier_frame() {
             continue;
         }
         let shaded_there = draw(moved(Vec3::ZERO), place - there - 0.5);
-        let foretold = now.depth.texels()[k] + texel.z;
+        let foretold = depths(&now).texels()[k] + texel.z;
         inside += 1;
         farthest = farthest.max(way.length());
-        found += u32::from((shaded_there.depth.load(there.as_ivec2()) - foretold).abs() <= 0.001 * foretold);
+        found += u32::from((depths(&shaded_there).load(there.as_ivec2()) - foretold).abs() <= 0.001 * foretold);
     }
     assert!(farthest > 1.0, "nothing moved by more than {farthest} pixels");
     assert!(inside > 70 && found * 100 > inside * 90, "{found} of {inside} pixels");
+}
+
+#[test]
+fn a_pixel_that_is_shaded_elsewhere_has_the_motion_of_what_is_seen_there() {
+    let (before, after) = (moved(Vec3::ZERO), moved(vec3(0.11, 0.03, -0.08)));
+    let placed = draw_shaded(after.clone(), PLACES[3], ShadingSample::Placed);
+    let then = draw(before, PLACES[0]);
+    let found = motion(&placed, &then).expect("motion");
+    let mut elsewhere = 0;
+    for (layer, place) in PLACES.into_iter().chain([PLACES[3]]).enumerate() {
+        let there = motion(&draw(after.clone(), place), &then).expect("motion");
+        let shaded_there = draw(after.clone(), place);
+        for k in (0..found.texels().len()).filter(|k| placed.layer(*k) == layer) {
+            assert_eq!(found.texels()[k], there.texels()[k]);
+            assert_eq!(placed.capture.color.texels()[k], shaded_there.capture.color.texels()[k]);
+            elsewhere += usize::from(layer < PLACES.len());
+        }
+    }
+    assert!(elsewhere > 30, "{elsewhere} pixels are shaded elsewhere");
 }

@@ -12,6 +12,7 @@ mod goals;
 mod hard;
 mod isa;
 mod loops;
+mod motion;
 mod quads;
 mod quality;
 mod rank;
@@ -21,7 +22,7 @@ mod tune;
 
 use std::path::Path;
 use straightline_study::record::{
-    IsaRecord, LoopsRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord,
+    IsaRecord, LoopsRecord, MotionRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord,
 };
 
 pub use quality::GEOMETRIC;
@@ -82,6 +83,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "beyond" => Ok(quality::beyond(&QualityRecord::read(first).map_err(why)?)),
         "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
+        "motion" => Ok(motion::methods(&MotionRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
@@ -119,7 +121,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, gaps, goals, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, demodulated, motion, gaps, goals, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

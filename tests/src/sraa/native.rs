@@ -172,6 +172,7 @@ fn history(inputs: &Inputs) -> History {
         let layers = FrameLayers::new(images.clone());
         match name.as_str() {
             "history_color" => history.history_color = layers,
+            "history_rest" => history.history_rest = layers,
             "history_surface" => history.history_surface = layers,
             "history_motion" => history.history_motion = layers,
             _ => {}

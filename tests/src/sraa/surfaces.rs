@@ -84,7 +84,9 @@ fn places_of(random: &mut Random, size: UVec2, layers: usize) -> Frame<u32> {
 pub fn inputs(options: &Options, size: UVec2, seed: u64) -> Inputs {
     let capture = capture(options, size, seed);
     let compiled = compiled(options, Unroll::Full).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));
-    let inputs = gbuffer::inputs(&capture, &compiled.options).unwrap_or_else(|error| panic!("{options:?}: {error}"));
+    let mut alone = compiled.options;
+    alone.remove("history");
+    let inputs = gbuffer::inputs(&capture, &alone).unwrap_or_else(|error| panic!("{options:?}: {error}"));
     let mut random = Random(seed ^ 0x5eed);
     let inputs = inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect());
     match value(options, "history", "0") {
@@ -124,6 +126,7 @@ fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
     }
     inputs
         .layers("history_color", color)
+        .layers("history_rest", (0..4).map(|_| colors(&mut random, size)).collect())
         .layers("history_surface", seen)
         .layers("history_motion", motion)
         .uniform("jitter", &[-0.125, 0.3125])

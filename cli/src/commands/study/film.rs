@@ -29,7 +29,11 @@ const SHOWN: u16 = 50;
 
 /// Films, and writes frames, animation and record.
 pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let methods = methods(args)?;
+    let known = quality::methods(false);
+    let methods = match args.methods.is_empty() {
+        true => methods(&USUAL.map(str::to_owned), &known)?,
+        false => methods(&args.methods, &known)?,
+    };
     let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let name = args
         .mesh
@@ -74,24 +78,19 @@ pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) ->
     Ok(())
 }
 
-/// Those asked for, by the names of `study error` or of the user's own.
-fn methods(args: &FilmArgs) -> Result<Vec<Method>, Failure> {
-    let known = quality::methods(false);
-    let texts: Vec<&str> = match args.methods.is_empty() {
-        true => USUAL.to_vec(),
-        false => args.methods.iter().map(String::as_str).collect(),
-    };
+/// Those asked for, by their names among those `known` or of the user's own.
+pub fn methods(texts: &[String], known: &[Method]) -> Result<Vec<Method>, Failure> {
     let mut stems = BTreeSet::new();
     let mut methods = Vec::new();
     for text in texts {
-        let found = known.iter().find(|method| method.name == text);
+        let found = known.iter().find(|method| method.name == *text);
         let method = match (found, text.contains('=')) {
             (Some(known), _) => known.clone(),
             (None, true) => method(text)?,
             (None, false) => {
                 return Err(Failure::Usage(format!(
                     "{}\none of your own is NAME=KERNEL[,OPTION=VALUE]...",
-                    unknown(text, &known)
+                    unknown(text, known)
                 )));
             }
         };

@@ -5,6 +5,7 @@ mod film;
 mod hard;
 pub mod isa;
 mod loops;
+mod motion;
 mod progress;
 mod sweep;
 
@@ -39,6 +40,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
         Some(Study::Film(film)) => return film::run(common, film, &mut progress),
+        Some(Study::Motion(args)) => return motion::run(common, args, &mut progress),
         Some(Study::Hard(args)) if args.list => return hard::list(args),
         Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
         Some(Study::Isa(args)) => isa::run(common, args, &mut progress)?,

@@ -1,0 +1,76 @@
+//! `study motion`: methods in frames that follow on each other.
+
+use super::error::failure;
+use super::film::methods;
+use super::{ProgressBars, circumstances_of};
+use crate::args::{CommonArgs, MotionArgs};
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::scene;
+use crate::table;
+use glam::UVec2;
+use straightline_study::quality;
+use straightline_study::record::{Motion, MotionRecord, MovedScene, Record};
+
+/// What is drawn unless something else is asked for: thin things before others, and edges near and far.
+const USUAL: [&str; 2] = ["railings", "roof"];
+
+/// Width and height unless others are asked for: a software renderer draws it.
+const SIZE: UVec2 = UVec2::new(240, 135);
+
+/// Compares, writes the record and prints it.
+pub fn run(common: &CommonArgs, args: &MotionArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    let known = quality::methods_in_motion();
+    let methods = match args.methods.is_empty() {
+        true => known,
+        false => methods(&args.methods, &known)?,
+    };
+    let names: Vec<&str> = match args.scene.is_empty() {
+        true => USUAL.to_vec(),
+        false => args.scene.iter().map(String::as_str).collect(),
+    };
+    let scenes: Vec<_> = names
+        .iter()
+        .map(|name| scene::load(None, name))
+        .collect::<Result<_, _>>()?;
+    let gpu = Gpu::require(&common.adapter)?;
+    let size = common.size.unwrap_or(SIZE);
+    let mut record = MotionRecord {
+        circumstances: circumstances_of(&gpu, size, 0),
+        frames: args.frames,
+        scenes: Vec::new(),
+    };
+    for (name, world) in names.iter().zip(&scenes) {
+        for motion in Motion::ALL {
+            let filmed = (size, args.frames as usize);
+            let found = quality::in_motion(&gpu.bench(), (world, motion), &methods, filmed, progress);
+            record.scenes.push(MovedScene {
+                scene: (*name).to_owned(),
+                motion,
+                methods: found.map_err(failure)?,
+            });
+        }
+    }
+    record.write(&common.out).map_err(Failure::of)?;
+    let rows: Vec<Vec<String>> = record
+        .scenes
+        .iter()
+        .flat_map(|scene| {
+            scene.methods.iter().map(|found| {
+                let figures = [(found.psnr, 2), (found.flip, 4), (found.flicker, 4)];
+                let names = [scene.scene.as_str(), scene.motion.name(), &found.method].map(str::to_owned);
+                let figures = figures.map(|(figure, digits)| format!("{figure:.digits$}"));
+                names.into_iter().chain(figures).collect()
+            })
+        })
+        .collect();
+    let head = ["scene", "motion", "method", "PSNR", "FLIP", "flicker"];
+    outln!("{}", table::render(&head, &rows));
+    outln!(
+        "{} frames each, against 64 samples a pixel: mean PSNR in dB, mean FLIP, and the root of the mean squared error of what \
+         changes from a frame to the next. motion.json and motion.csv are in {}.",
+        record.frames,
+        common.out.display()
+    );
+    Ok(())
+}

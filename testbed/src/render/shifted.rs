@@ -1,0 +1,48 @@
+//! A picture that is moved by some pixels.
+
+use super::{RenderError, Renderer, Surface};
+use crate::scene::Camera;
+use glam::{UVec2, Vec2, Vec3, Vec4};
+use straightline_kernels::prelude::Frame;
+
+/// Draws with the camera turned by some pixels.
+pub struct Shifted<'a> {
+    /// Who draws.
+    pub renderer: &'a dyn Renderer,
+    /// By how much, in pixels, y down.
+    pub by: Vec2,
+}
+
+impl Renderer for Shifted<'_> {
+    fn size(&self) -> UVec2 {
+        self.renderer.size()
+    }
+
+    fn camera(&self) -> Camera {
+        self.renderer.camera()
+    }
+
+    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+        self.renderer.geometry(offset + self.by)
+    }
+
+    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        self.renderer.shaded(offset + self.by)
+    }
+
+    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
+        self.renderer.surfaces(offset + self.by)
+    }
+
+    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.shade(surface, place + self.by)
+    }
+
+    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        self.renderer.paint(surface, place + self.by)
+    }
+
+    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.direct(surface, place + self.by)
+    }
+}
