@@ -182,7 +182,7 @@ struct Evaluator<'a> {
     calls: Vec<Cow<'a, str>>,
     errors: Vec<Diagnostic>,
     /// Structures whose parts were named last, and after what: most are given on from function to function.
-    named: VecDeque<(Name, Rc<Vec<(Name, Value)>>)>,
+    named: VecDeque<Named>,
     /// Constants evaluated so far.
     consts: HashMap<String, Value>,
     /// Reads made so far.
@@ -203,6 +203,13 @@ struct Evaluator<'a> {
     /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
     /// selected, and of those who left before the branches and loops around.
     reach: Vec<(NodeId, bool)>,
+}
+
+/// A structure whose parts have been named.
+struct Named {
+    fields: Rc<Vec<(Name, Value)>>,
+    /// The parameter that they are named after.
+    after: Name,
 }
 
 impl<'a> Evaluator<'a> {
@@ -273,14 +280,17 @@ impl Evaluator<'_> {
         let Value::Struct { fields, .. } = value else {
             return false;
         };
-        let is_it = |(name, named): &(Name, Rc<_>)| name == parameter && Rc::ptr_eq(named, fields);
+        let is_it = |named: &Named| named.after == *parameter && Rc::ptr_eq(&named.fields, fields);
         if self.named.iter().any(is_it) {
             return true;
         }
         if self.named.len() == NAMED_STRUCTURES {
             self.named.pop_front();
         }
-        self.named.push_back((parameter.clone(), Rc::clone(fields)));
+        self.named.push_back(Named {
+            fields: Rc::clone(fields),
+            after: parameter.clone(),
+        });
         false
     }
 
