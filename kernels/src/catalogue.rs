@@ -47,12 +47,13 @@ macro_rules! source {
     };
 }
 
-/// What both kernels of SRAA are made of.
+/// What the kernels of SRAA are made of.
 const SRAA: &[SourceFile] = &[
     source!("sraa/mod.rs"),
     source!("sraa/options.rs"),
     source!("sraa/colors.rs"),
     source!("sraa/demodulate.rs"),
+    source!("sraa/extra.rs"),
     source!("sraa/history.rs"),
     source!("sraa/pattern.rs"),
     source!("sraa/gbuffer.rs"),
@@ -75,6 +76,13 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "sraa_place",
         summary: "Where sraa with shading=placed has each pixel shaded",
+        sources: SRAA,
+        paper: no_paper,
+        half: half::unstudied,
+    },
+    Entry {
+        name: "sraa_extra",
+        summary: "Which pixels sraa with extra=true has shaded at one more sample",
         sources: SRAA,
         paper: no_paper,
         half: half::unstudied,

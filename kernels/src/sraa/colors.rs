@@ -14,6 +14,11 @@ pub struct Colors {
     pub colors: FrameLayers<Vec4>,
     /// Of shading=placed: the geometry sample at which each pixel is shaded, or the number of samples for its centre.
     pub place: Frame<u32>,
+    /// Of extra=true: the geometry sample at which each pixel has a further shading sample, or the number of samples where it has
+    /// none.
+    pub extra: Frame<u32>,
+    /// Its colour, where it has one.
+    pub extra_color: Frame<Vec4>,
     /// Of demodulate with layout=layers and layout=split: in red, green and blue the share of light that the surface at each
     /// geometry sample reflects diffusely, linear; of demodulate=albedo-shadow in alpha the share of the direct light that
     /// reaches it, 0 in shadow and 1 out of it. Where nothing is reflected, as in the sky, 1.
@@ -27,8 +32,12 @@ pub struct Colors {
     /// Of demodulate=albedo-shadow: what the direct light adds to each pixel's colour where no shadow falls, in red, green and
     /// blue: the colour is some rest and the share of the direct light that arrives times this.
     pub direct: Frame<Vec4>,
+    /// The same of the further shading samples.
+    pub extra_direct: Frame<Vec4>,
     /// Of demodulate with rest=true: what of each pixel's colour does not follow the albedo, in red, green and blue.
     pub rest: Frame<Vec4>,
+    /// The same of the further shading samples.
+    pub extra_rest: Frame<Vec4>,
 }
 
 impl Colors {
@@ -39,12 +48,16 @@ impl Colors {
             color: frame(),
             colors: FrameLayers::new(vec![frame()]),
             place: Frame::new(UVec2::ONE, vec![0]),
+            extra: Frame::new(UVec2::ONE, vec![0]),
+            extra_color: frame(),
             albedo: FrameLayers::new(vec![frame()]),
             albedo_grid: Texture::new(UVec2::ONE, vec![Vec4::ZERO]),
             albedo_samples: Multisampled::new(vec![Texture::new(UVec2::ONE, vec![Vec4::ZERO]); 2]),
             centre_albedo: frame(),
             direct: frame(),
+            extra_direct: frame(),
             rest: frame(),
+            extra_rest: frame(),
         }
     }
 }
@@ -60,9 +73,14 @@ pub(super) fn color(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Vec
     }
 }
 
-/// Colour of a pixel's only shading sample.
+/// Colour of a pixel's only shading sample, or of its further one.
 pub(super) fn color_at(inputs: &Inputs, tap: Place) -> Vec4 {
-    inputs.colors.color.load(inputs.pixel + tap.pixel)
+    let at = inputs.pixel + tap.pixel;
+    if tap.extra {
+        inputs.colors.extra_color.load(at)
+    } else {
+        inputs.colors.color.load(at)
+    }
 }
 
 /// The pixel's own colour: the mean of its shading samples.

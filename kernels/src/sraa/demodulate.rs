@@ -98,12 +98,24 @@ fn share(cfg: &Sraa, lit: f32) -> f32 {
 
 /// What the direct light adds to a tap's colour out of shadow.
 fn direct(inputs: &Inputs, tap: Place) -> Vec4 {
-    inputs.colors.direct.load(inputs.pixel + tap.pixel).xyz().extend(0.0)
+    let at = inputs.pixel + tap.pixel;
+    let light = if tap.extra {
+        inputs.colors.extra_direct.load(at)
+    } else {
+        inputs.colors.direct.load(at)
+    };
+    light.xyz().extend(0.0)
 }
 
 /// What of a tap's colour does not follow the albedo.
 fn rest(inputs: &Inputs, tap: Place) -> Vec4 {
-    inputs.colors.rest.load(inputs.pixel + tap.pixel).xyz().extend(0.0)
+    let at = inputs.pixel + tap.pixel;
+    let light = if tap.extra {
+        inputs.colors.extra_rest.load(at)
+    } else {
+        inputs.colors.rest.load(at)
+    };
+    light.xyz().extend(0.0)
 }
 
 /// Whether a tap's colour, and what is known of it, may count.
@@ -125,7 +137,7 @@ pub(super) fn weighed(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4, wei
     match cfg.demodulate {
         Demodulate::None => weight * shaded,
         _ => {
-            let from = paint(cfg, inputs, shaded_place(cfg, inputs, tap));
+            let from = paint(cfg, inputs, shaded_place(cfg, &inputs.colors.place, inputs.pixel, tap));
             taken(cfg, inputs, tap, &from, shaded, weight, sums)
         }
     }
@@ -154,14 +166,14 @@ fn taken(
     }
 }
 
-/// The colour that a sample with a paint of its own takes from the only shading sample of a tap's pixel, whose surface is the
+/// The colour that a sample with a paint of its own takes from a tap that is its pixel's only shading sample, or a further one, whose surface is the
 /// sample's own or, if not `seen`, may be any.
 pub(super) fn repainted(cfg: &Sraa, inputs: &Inputs, tap: Place, own: &Paint, seen: bool) -> Vec4 {
     let shaded = color_at(inputs, tap);
     match cfg.demodulate {
         Demodulate::None => shaded,
         _ => {
-            let mut from = paint(cfg, inputs, shaded_place(cfg, inputs, tap));
+            let mut from = paint(cfg, inputs, shaded_place(cfg, &inputs.colors.place, inputs.pixel, tap));
             if !seen {
                 from.albedo = from.albedo.max(Vec3::splat(cfg.unseen_floor));
             }
@@ -178,6 +190,7 @@ impl Sraa {
             && self.shading_samples() == 1
             && self.samples() <= 32;
         self.search != Search::None
+            || self.extra
             || (self.demodulate != Demodulate::None && can_be && self.unseen_floor > self.albedo_floor)
     }
 

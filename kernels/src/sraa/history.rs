@@ -5,11 +5,10 @@
 //! at different places of their pixels, together they have seen what supersampling would. A tap whose surface is not the sample's weighs
 //! nothing, so that what was hidden, or has moved away, leaves no trace.
 
-use super::colors::is_kept;
 use super::demodulate::{Demodulate, Paint};
 use super::gbuffer::{DEEPEST, Normals, Surface};
 use super::metric::{FAR, Metric, Sample, distance};
-use super::options::{Guards, Mask, NonFinite, Normalisation, Resolve, Sraa};
+use super::options::{Guards, Mask, Normalisation, Resolve, Sraa};
 use super::pattern::{Place, Shading};
 use super::search::Sum;
 use super::{Inputs, falloff, steepness};
@@ -101,7 +100,7 @@ pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sam
             let near = falloff(cfg, place, tap.place);
             let w = near * (-steepness(cfg) * apart).exp2();
             let w = if tap.is_there { w } else { 0.0 };
-            add(cfg, &mut past.sum, remembered_color(cfg, inputs, own, &tap, frame), w);
+            past.sum.add(cfg, remembered_color(cfg, inputs, own, &tap, frame), w);
             if tap.is_there && near > 0.0 {
                 past.nearest = past.nearest.min(apart);
             }
@@ -186,26 +185,6 @@ fn seen(cfg: &Sraa, texel: Vec4, deeper: f32) -> Surface {
             _ => texel.xyz(),
         },
     }
-}
-
-fn add(cfg: &Sraa, sum: &mut Sum, shaded: Vec4, weight: f32) {
-    match cfg.guards {
-        Guards::Inline => {
-            let counts = match cfg.non_finite {
-                NonFinite::Skip => is_kept(cfg, shaded),
-                NonFinite::Spread => weight != 0.0,
-            };
-            if counts {
-                sum.color += weight * shaded;
-                sum.kept += weight;
-            }
-        }
-        Guards::Fallback | Guards::None => {
-            sum.color += weight * shaded;
-            sum.kept += weight;
-        }
-    }
-    sum.weight += weight;
 }
 
 impl Sraa {

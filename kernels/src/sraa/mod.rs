@@ -6,6 +6,7 @@
 
 mod colors;
 mod demodulate;
+mod extra;
 mod gbuffer;
 mod history;
 mod metric;
@@ -27,6 +28,7 @@ use search::{Searched, Sum, searched};
 
 pub use colors::Colors;
 pub use demodulate::Demodulate;
+pub use extra::sraa_extra;
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use history::History;
 pub use metric::{Difference, Metric, Plane};
@@ -305,7 +307,7 @@ fn geometry_sample(cfg: &Sraa, inputs: &Inputs, place: Place) -> Sample {
 
 /// How different the surface at a tap is from that at a geometry sample; of the sample itself, 0.
 fn difference(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, tap: Place) -> f32 {
-    let tap = shaded_place(cfg, inputs, tap);
+    let tap = shaded_place(cfg, &inputs.colors.place, inputs.pixel, tap);
     if place.sample == tap.sample && place.pixel == tap.pixel {
         0.0
     } else {

@@ -47,9 +47,11 @@ options! {
         pub resolve_radius: f32 [0.5..=1.5] = 1.0,
         /// How far the surface of a sample that no tap shows is searched for.
         pub search: Search = Search::None,
-        /// Of search and demodulate: the largest difference of what shows a sample's surface.
+        /// Whether some pixels have a further shading sample, where the image `extra` says: the kernel `sraa_extra` lists them.
+        pub extra: bool = false,
+        /// Of search, extra and demodulate: the largest difference of what shows a sample's surface.
         pub search_threshold: f32 [0.0..=16.0] = 0.05,
-        /// Of the kernel `sraa_place`: the largest difference of what shows a sample's surface.
+        /// Of the kernels `sraa_place` and `sraa_extra`: the largest difference of what shows a sample's surface.
         pub unseen: f32 [0.0..=16.0] = 0.01,
         /// What is known at every geometry sample and so not borrowed: edges of paint and of shadow are then mended too.
         pub demodulate: Demodulate = Demodulate::None,

@@ -47,6 +47,8 @@ pub(super) struct Place {
     pub(super) sample: usize,
     /// Whether it is the pixel's centre.
     pub(super) centre: bool,
+    /// Whether it is the pixel's further shading sample.
+    pub(super) extra: bool,
     /// From the centre of the pixel that is filtered, in pixels, y down.
     pub(super) at: Vec2,
 }
@@ -173,6 +175,7 @@ impl Sraa {
                 "search needs resolve=box, one shading sample a pixel and normalisation=shifted"
             );
         }
+        self.check_extra();
         self.check_demodulate();
         self.check_history();
         assert!(
@@ -255,6 +258,7 @@ impl Sraa {
             pixel,
             sample: self.samples(),
             centre: true,
+            extra: false,
             at: pixel.as_vec2(),
         }
     }
@@ -265,6 +269,7 @@ impl Sraa {
             pixel,
             sample,
             centre: false,
+            extra: false,
             at: pixel.as_vec2() + self.offset(sample),
         }
     }

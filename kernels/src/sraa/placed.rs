@@ -1,6 +1,5 @@
 //! Shading where geometry asks for it: one sample a pixel still, but not always at its centre.
 
-use super::Inputs;
 use super::gbuffer::{GBuffer, surface};
 use super::metric::{FAR, Sample, distance};
 use super::options::Sraa;
@@ -77,17 +76,17 @@ fn centre(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, at: IVec2) -
 
 /// Where the shading sample `tap` lies: where the image says, if it does. Its weight by distance is that of its pixel's centre
 /// all the same: those that are moved are to reach as far as the others.
-pub(super) fn shaded_place(cfg: &Sraa, inputs: &Inputs, tap: Place) -> Place {
+pub(super) fn shaded_place(cfg: &Sraa, place: &Frame<u32>, pixel: IVec2, tap: Place) -> Place {
     match cfg.shading {
-        Shading::Sample0 | Shading::Centre | Shading::Listed => tap,
-        Shading::Placed => {
+        Shading::Placed if !tap.extra => {
             let samples = cfg.samples();
-            let sample = (inputs.colors.place.load(inputs.pixel + tap.pixel) as usize).min(samples);
+            let sample = place.load(pixel + tap.pixel).min(samples as u32) as usize;
             let centre = sample == samples;
             Place {
                 pixel: tap.pixel,
                 sample,
                 centre,
+                extra: false,
                 at: if centre {
                     tap.at
                 } else {
@@ -95,5 +94,6 @@ pub(super) fn shaded_place(cfg: &Sraa, inputs: &Inputs, tap: Place) -> Place {
                 },
             }
         }
+        Shading::Sample0 | Shading::Centre | Shading::Listed | Shading::Placed => tap,
     }
 }

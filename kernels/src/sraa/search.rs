@@ -2,10 +2,11 @@
 
 use super::colors::is_kept;
 use super::demodulate::{Paint, paint, repainted};
+use super::extra::extra_tap;
 use super::history::{earlier_tap, own_tap, remembered_color};
 use super::metric::{FAR, Sample, distance};
-use super::options::{NonFinite, Search, Sraa};
-use super::pattern::Place;
+use super::options::{Guards, NonFinite, Search, Sraa};
+use super::pattern::{Place, neighbour};
 use super::{Inputs, difference, falloff, geometry_sample, least, steepness};
 use crate::prelude::*;
 
@@ -42,14 +43,22 @@ impl Sum {
         weight: 0.0,
     };
 
-    fn add(&mut self, cfg: &Sraa, shaded: Vec4, weight: f32) {
-        let counts = match cfg.non_finite {
-            NonFinite::Skip => is_kept(cfg, shaded),
-            NonFinite::Spread => weight != 0.0,
-        };
-        if counts {
-            self.color += weight * shaded;
-            self.kept += weight;
+    pub(super) fn add(&mut self, cfg: &Sraa, shaded: Vec4, weight: f32) {
+        match cfg.guards {
+            Guards::Inline => {
+                let counts = match cfg.non_finite {
+                    NonFinite::Skip => is_kept(cfg, shaded),
+                    NonFinite::Spread => weight != 0.0,
+                };
+                if counts {
+                    self.color += weight * shaded;
+                    self.kept += weight;
+                }
+            }
+            Guards::Fallback | Guards::None => {
+                self.color += weight * shaded;
+                self.kept += weight;
+            }
         }
         self.weight += weight;
     }
@@ -79,8 +88,8 @@ fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
             let centre = geometry_sample(cfg, inputs, place);
             let own = paint(cfg, inputs, place);
             let mut sum = match cfg.search {
-                Search::None => Sum::NOTHING,
-                Search::Five | Search::Seven => farther(cfg, inputs, place, &centre, &own),
+                Search::None if !cfg.extra => Sum::NOTHING,
+                Search::None | Search::Five | Search::Seven => farther(cfg, inputs, place, &centre, &own),
             };
             if sum.weight == 0.0 {
                 sum = nearby(cfg, inputs, place, &centre, &own);
@@ -102,13 +111,25 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pai
     };
     let mut sum = Sum::NOTHING;
     for tap in 0..side * side {
-        let at = own_tap(cfg, inputs, tap, side);
-        if difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
-            sum.add(cfg, repainted(cfg, inputs, at, own, true), spread(place, at));
+        if cfg.extra {
+            let further = extra_tap(cfg, inputs, neighbour(tap, side));
+            let at = further.place;
+            if further.is_there && difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
+                sum.add(cfg, repainted(cfg, inputs, at, own, true), spread(place, at));
+            }
+        }
+        if cfg.search != Search::None {
+            let at = own_tap(cfg, inputs, tap, side);
+            if difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
+                sum.add(cfg, repainted(cfg, inputs, at, own, true), spread(place, at));
+            }
         }
     }
     // As far around where the pixel's surface was in earlier frames.
-    let side = side - 1;
+    let side = match cfg.search {
+        Search::None => 0,
+        Search::Five | Search::Seven => side - 1,
+    };
     for frame in 0..cfg.history as usize {
         for k in 0..side * side {
             let tap = earlier_tap(cfg, inputs, place, frame, k, side);

@@ -98,6 +98,13 @@ impl Uploaded {
         resources.collect()
     }
 
+    /// The same with a buffer of the caller's for what is called `name`, to be used elsewhere too.
+    pub fn with_buffer(mut self, name: &str, buffer: &wgpu::Buffer) -> Uploaded {
+        self.resources.retain(|(known, _)| known != name);
+        self.resources.push((name.to_owned(), Owned::Buffer(buffer.clone())));
+        self
+    }
+
     /// Bytes of all textures and buffers, as they lie on the device.
     pub fn bytes(&self) -> u64 {
         let bytes = |owned: &Owned| match owned {

@@ -10,6 +10,7 @@ use glam::{UVec2, UVec4, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
+pub(crate) use pattern::pattern_of;
 pub use pattern::{PATTERNS, sampled_at, samples};
 pub use space::has_planes;
 
@@ -73,6 +74,13 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             what: "earlier frames",
             option: format!("history={history}"),
             help: "use history=0; `straightline study motion` has frames that follow on each other",
+        });
+    }
+    if option(options, "extra", "false") == "true" {
+        return Err(GBufferError::Missing {
+            what: "further shading samples",
+            option: "extra=true".to_owned(),
+            help: "use extra=false; `straightline study error` has renderers that shade some",
         });
     }
     let metric = option(options, "metric", "depth-normals");

@@ -7,21 +7,26 @@ use straightline_kernels::sraa::{Pattern, Sraa};
 /// Names of the patterns that have one.
 pub const PATTERNS: [&str; 6] = ["ordered4", "latin4", "standard8", "ordered16", "latin16", "standard16"];
 
-/// Offsets of the geometry samples of a pattern, in pixels from the pixel's centre, y down: of one of [`PATTERNS`], or of
-/// numbers separated by commas, x and y in turn. `None` for any other text, and for places outside the pixel.
-pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
-    let pattern = match pattern {
+/// The pattern of a name, one of [`PATTERNS`].
+fn named(name: &str) -> Option<Pattern> {
+    Some(match name {
         "ordered4" => Pattern::Ordered4,
         "latin4" => Pattern::Latin4,
         "standard8" => Pattern::Standard8,
         "ordered16" => Pattern::Ordered16,
         "latin16" => Pattern::Latin16,
         "standard16" => Pattern::Standard16,
-        listed => {
-            let numbers: Option<Vec<f32>> = listed.split(',').map(|part| part.trim().parse().ok()).collect();
-            let numbers = numbers.filter(|n| n.len() % 2 == 0 && n.iter().all(|axis| axis.abs() <= 0.5))?;
-            return Some(numbers.chunks_exact(2).map(Vec2::from_slice).collect());
-        }
+        _ => return None,
+    })
+}
+
+/// Offsets of the geometry samples of a pattern, in pixels from the pixel's centre, y down: of one of [`PATTERNS`], or of
+/// numbers separated by commas, x and y in turn. `None` for any other text, and for places outside the pixel.
+pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
+    let Some(pattern) = named(pattern) else {
+        let numbers: Option<Vec<f32>> = pattern.split(',').map(|part| part.trim().parse().ok()).collect();
+        let numbers = numbers.filter(|n| n.len() % 2 == 0 && n.iter().all(|axis| axis.abs() <= 0.5))?;
+        return Some(numbers.chunks_exact(2).map(Vec2::from_slice).collect());
     };
     let filter = Sraa {
         pattern,
@@ -30,15 +35,25 @@ pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
     Some((0..filter.samples()).map(|sample| filter.offset(sample)).collect())
 }
 
+/// The name of the pattern of such samples, if it has one.
+fn name_of(offsets: &[Vec2]) -> Option<&'static str> {
+    let near = |a: &Vec2, b: &Vec2| (*a - *b).abs().max_element() < 1.0e-4;
+    let is = |name: &&str| {
+        let known = samples(name).unwrap_or_default();
+        known.len() == offsets.len() && known.iter().zip(offsets).all(|(a, b)| near(a, b))
+    };
+    PATTERNS.into_iter().find(is)
+}
+
+/// The pattern of such samples, if it has a name.
+pub(crate) fn pattern_of(offsets: &[Vec2]) -> Option<Pattern> {
+    name_of(offsets).and_then(named)
+}
+
 /// The options of SRAA that say where `capture` was sampled.
 pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
-    let near = |a: &Vec2, b: &Vec2| (*a - *b).abs().max_element() < 1.0e-4;
-    let is = |name: &&&str| {
-        let offsets = samples(name).unwrap_or_default();
-        offsets.len() == capture.samples.len() && offsets.iter().zip(&capture.samples).all(|(a, b)| near(a, b))
-    };
-    let mut options = match PATTERNS.iter().find(is) {
-        Some(name) => vec![("pattern", (*name).to_owned())],
+    let mut options = match name_of(&capture.samples) {
+        Some(name) => vec![("pattern", name.to_owned())],
         None => {
             let numbers = capture.samples.iter().flat_map(|offset| offset.to_array());
             let numbers: Vec<String> = numbers.map(|axis| axis.to_string()).collect();

@@ -52,6 +52,7 @@ pub struct GBuffer<'a> {
     height: i32,
     colors: &'a [Frame<Vec4>],
     place: Option<&'a Frame<UVec4>>,
+    extra: Option<Extra<'a>>,
     albedo: Option<Stored<'a>>,
     direct: Option<&'a Frame<Vec4>>,
     rest: Option<&'a Frame<Vec4>>,
@@ -60,6 +61,24 @@ pub struct GBuffer<'a> {
     rays: Option<[[f64; 3]; 3]>,
     origin: [f64; 2],
     planes: [f64; 2],
+}
+
+/// Further shading samples, and what is known of their light.
+struct Extra<'a> {
+    sample: &'a Frame<UVec4>,
+    color: &'a Frame<Vec4>,
+    direct: Option<&'a Frame<Vec4>>,
+    rest: Option<&'a Frame<Vec4>>,
+}
+
+/// What is known of the light of a shading sample.
+#[derive(Clone, Copy)]
+pub struct Light {
+    pub color: [f64; 4],
+    /// What the direct light adds to it out of shadow; 0 if that is not known.
+    pub direct: [f64; 3],
+    /// What of it does not follow the albedo; 0 if that is not known.
+    pub rest: [f64; 3],
 }
 
 /// One quantity at all samples.
@@ -102,6 +121,18 @@ impl<'a> GBuffer<'a> {
             Shading::Placed => Some(integers(inputs, "place")?),
             Shading::Sample0 | Shading::Centre | Shading::Listed => None,
         };
+        let extra = match params.extra {
+            false => None,
+            true => {
+                let image = |name: &str| images(inputs, name, 1).map(|frames| &frames[0]);
+                Some(Extra {
+                    sample: integers(inputs, "extra")?,
+                    color: image("extra_color")?,
+                    direct: direct.map(|_| image("extra_direct")).transpose()?,
+                    rest: rest.map(|_| image("extra_rest")).transpose()?,
+                })
+            }
+        };
         let rays = match params.metric {
             Metric::PlanesNormals => Some([
                 vector(inputs, "ray_corner")?,
@@ -123,6 +154,7 @@ impl<'a> GBuffer<'a> {
             height: inputs.size.y as i32,
             colors,
             place,
+            extra,
             albedo,
             direct,
             rest,
@@ -153,14 +185,26 @@ impl<'a> GBuffer<'a> {
         numbers(texel(&self.colors[k], self.inside(pixel)))
     }
 
-    /// What the direct light adds to a pixel's colour out of shadow, or to that of the nearest pixel inside; 0 if that is not known.
-    pub fn direct(&self, pixel: [i32; 2]) -> [f64; 3] {
-        self.part(self.direct, pixel)
+    /// Light of shading sample `k` of `pixel`, or of the nearest one inside.
+    pub fn light(&self, pixel: [i32; 2], k: usize) -> Light {
+        Light {
+            color: self.color(pixel, k),
+            direct: self.part(self.direct, pixel),
+            rest: self.part(self.rest, pixel),
+        }
     }
 
-    /// What of a pixel's colour does not follow the albedo, or of that of the nearest pixel inside; 0 if that is not known.
-    pub fn rest(&self, pixel: [i32; 2]) -> [f64; 3] {
-        self.part(self.rest, pixel)
+    /// The geometry sample at which `pixel`, or the nearest one inside, is shaded once more, and its light; `None` where it is not.
+    pub fn further(&self, pixel: [i32; 2]) -> Option<(usize, Light)> {
+        let extra = self.extra.as_ref()?;
+        let [x, y] = self.inside(pixel);
+        let sample = extra.sample.texels()[y as usize * self.width as usize + x as usize].x as usize;
+        let light = Light {
+            color: numbers(texel(extra.color, [x, y])),
+            direct: self.part(extra.direct, pixel),
+            rest: self.part(extra.rest, pixel),
+        };
+        (sample < self.samples).then_some((sample, light))
     }
 
     fn part(&self, of: Option<&Frame<Vec4>>, pixel: [i32; 2]) -> [f64; 3] {

@@ -15,11 +15,12 @@
 //! same light times the albedo at s; where shadow is too, of the direct light the share at s instead of that at t. What of the colour does
 //! not follow the albedo, if that is known, is taken as it is. The albedo at t is higher where it may be that of another surface. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
 //! mean of those shading samples of a larger square that do not, weighed by a Gaussian with a standard deviation of a pixel; if
-//! there are any. With earlier frames, C(s) is the mean over the shading samples of all of them, each where it has moved to; of this
+//! there are any. Pixels that are shaded once more give such samples, within the square or the nine pixels around, that sample, too. With earlier frames, C(s) is the mean over the shading samples of all of them, each where it has moved to; of this
 //! frame's the nearest weighs 2⁻⁴⁰ at least.
 
 pub mod bound;
 pub mod edge;
+mod extra;
 mod gbuffer;
 mod history;
 mod params;
@@ -28,10 +29,11 @@ mod place;
 pub mod quads;
 
 use crate::execute::Inputs;
-use gbuffer::{DEEPEST, GBuffer, Point};
+use gbuffer::{DEEPEST, GBuffer, Light, Point};
 use history::History;
 use rayon::prelude::*;
 
+pub use extra::extra;
 pub use params::{
     Demodulate, Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError,
     Pattern, Plane, Resolve, Search, Shading, SraaParams, Turn,
@@ -275,7 +277,7 @@ impl<'a> Definition<'a> {
                             at: tap,
                             falloff,
                             difference,
-                            color: self.repainted(pixel, at, tap, self.gbuffer.color(there, k), true),
+                            color: self.repainted(pixel, at, tap, self.gbuffer.light(there, k), true),
                             is_earlier: false,
                         });
                     }
@@ -293,7 +295,7 @@ impl<'a> Definition<'a> {
         pixel: [i32; 2],
         at: ([i32; 2], usize),
         tap: ([i32; 2], usize),
-        color: [f64; 4],
+        light: Light,
         is_own: bool,
     ) -> [f64; 4] {
         let there = |(away, sample): ([i32; 2], usize)| ([pixel[0] + away[0], pixel[1] + away[1]], sample);
@@ -302,13 +304,13 @@ impl<'a> Definition<'a> {
             self.gbuffer.paint(pixel, sample)
         };
         let (Some((onto, arrives)), Some((from, arrived))) = (paint(at), paint(tap)) else {
-            return color;
+            return light.color;
         };
         let from = match is_own {
             true => from,
             false => from.map(|channel| channel.max(self.params.unseen_floor)),
         };
-        let (direct, rest) = (self.gbuffer.direct(there(tap).0), self.gbuffer.rest(there(tap).0));
+        let Light { color, direct, rest } = light;
         let light = |axis: usize| (color[axis] - rest[axis] + (arrives - arrived) * direct[axis]) / from[axis];
         let onto = |axis: usize| onto[axis] * light(axis) + rest[axis];
         [onto(0), onto(1), onto(2), color[3]]
@@ -316,7 +318,7 @@ impl<'a> Definition<'a> {
 
     /// Those that a geometry sample takes its colour from: `near`, or what a search finds; and whether 32 bits decide so too.
     fn searched(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
-        if self.params.search == Search::None && !self.takes_less_by_other_surfaces() {
+        if self.params.search == Search::None && !self.params.extra && !self.takes_less_by_other_surfaces() {
             return (near, true);
         }
         let most = self.params.search_threshold;
@@ -329,6 +331,7 @@ impl<'a> Definition<'a> {
             Search::None => Vec::new(),
             Search::Five | Search::Seven => self.taps_around(pixel, at),
         };
+        around.extend(self.further_taps(pixel, at));
         let is_decided = decided(nearest) && around.iter().all(|tap| decided(tap.difference));
         around.retain(|tap| tap.difference <= most);
         // They count alike.
@@ -353,8 +356,8 @@ impl<'a> Definition<'a> {
     fn by_other_surfaces(&self, pixel: [i32; 2], at: ([i32; 2], usize), mut near: Vec<Tap>) -> Vec<Tap> {
         near.retain(|tap| !tap.is_earlier);
         for tap in &mut near {
-            let color = self.gbuffer.color([0, 1].map(|axis| pixel[axis] + tap.at.0[axis]), 0);
-            tap.color = self.repainted(pixel, at, tap.at, color, false);
+            let light = self.gbuffer.light([0, 1].map(|axis| pixel[axis] + tap.at.0[axis]), 0);
+            tap.color = self.repainted(pixel, at, tap.at, light, false);
         }
         near
     }

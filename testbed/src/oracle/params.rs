@@ -262,6 +262,8 @@ pub struct SraaParams {
     pub resolve: Resolve,
     /// How far from the centre that ends on each axis, in pixels, except for a box.
     pub resolve_radius: f64,
+    /// Whether some pixels have a further shading sample.
+    pub extra: bool,
     /// How far the surface of a sample is searched for that no tap shows.
     pub search: Search,
     /// The largest difference of what shows a sample's surface, for a search.
@@ -315,6 +317,7 @@ impl Default for SraaParams {
             normalisation: Normalisation::Shifted,
             resolve: Resolve::Box,
             resolve_radius: 1.0,
+            extra: false,
             search: Search::None,
             search_threshold: 0.05,
             unseen: 0.01,
@@ -403,6 +406,7 @@ impl SraaParams {
             "plane" => self.plane = choice(option, value, Plane::ALL, Plane::name)?,
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
             "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
+            "extra" => self.extra = value == "true",
             "search" => self.search = choice(option, value, Search::ALL, Search::name)?,
             "search-threshold" => self.search_threshold = number(option, value)?,
             "unseen" => self.unseen = number(option, value)?,

@@ -47,6 +47,12 @@ pub enum RenderError {
         /// How many samples there are.
         samples: usize,
     },
+    /// A picture of which no pixel can be shaded once more.
+    #[error(
+        "further shading samples are of pictures with normals and a camera, shaded at the first sample, the pixel's centre or where they \
+         are placed, and sampled at a pattern that has a name"
+    )]
+    Extra,
     /// The device has too little memory, does not do what it was asked, or is gone.
     #[error("the GPU failed while {doing}: {description}")]
     Device {

@@ -18,38 +18,50 @@ static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
     offsets
 };
 
+/// What the kernels that say where to shade are given of a G-buffer: surfaces of which a step of a third of the depth is between
+/// unrelated ones.
+pub(super) struct Surfaces {
+    pub(super) cfg: Sraa,
+    pub(super) gbuffer: GBuffer,
+    pub(super) view: View,
+}
+
+impl Surfaces {
+    pub(super) fn new(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameLayers<Vec3>) -> Surfaces {
+        let cfg = Sraa {
+            pattern: Pattern::Listed,
+            offsets: &OFFSETS[..2 * samples.len().min(MAX_SAMPLES)],
+            difference: Difference::Relative,
+            depth_scale: 3.0,
+            ..Sraa::default()
+        };
+        let with_fourth = |layer: &Frame<Vec3>| {
+            let texels = layer.texels().iter().map(|n| n.extend(0.0));
+            Frame::new(layer.size(), texels.collect())
+        };
+        let gbuffer = GBuffer {
+            depth: depth.clone(),
+            normal: FrameLayers::new(normal.layers().iter().map(with_fourth).collect()),
+            ..GBuffer::unread()
+        };
+        let view = View {
+            ray_corner: Vec3::ZERO,
+            ray_right: Vec3::ZERO,
+            ray_down: Vec3::ZERO,
+            origin: IVec2::ZERO,
+            near: 1.0,
+            far: 1.0,
+        };
+        Surfaces { cfg, gbuffer, view }
+    }
+}
+
 /// The layer in whose place each pixel is to be shaded: the kernel `sraa_place`, as rustc compiles it.
 pub(super) fn choose(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameLayers<Vec3>) -> Frame<u32> {
-    let cfg = Sraa {
-        pattern: Pattern::Listed,
-        offsets: &OFFSETS[..2 * samples.len().min(MAX_SAMPLES)],
-        difference: Difference::Relative,
-        depth_scale: 3.0,
-        ..Sraa::default()
-    };
-    let with_fourth = |layer: &Frame<Vec3>| {
-        let texels = layer.texels().iter().map(|n| n.extend(0.0));
-        Frame::new(layer.size(), texels.collect())
-    };
-    let gbuffer = GBuffer {
-        depth: depth.clone(),
-        normal: FrameLayers::new(normal.layers().iter().map(with_fourth).collect()),
-        ..GBuffer::unread()
-    };
-    let view = View {
-        ray_corner: Vec3::ZERO,
-        ray_right: Vec3::ZERO,
-        ray_down: Vec3::ZERO,
-        origin: IVec2::ZERO,
-        near: 1.0,
-        far: 1.0,
-    };
+    let Surfaces { cfg, gbuffer, view } = &Surfaces::new(samples, depth, normal);
     let size = depth.layers()[0].size();
     let rows = (0..size.y as i32).into_par_iter();
-    let texels = rows.flat_map_iter(|y| {
-        let (cfg, gbuffer, view) = (&cfg, &gbuffer, &view);
-        (0..size.x as i32).map(move |x| sraa_place(cfg, gbuffer, view, ivec2(x, y)))
-    });
+    let texels = rows.flat_map_iter(|y| (0..size.x as i32).map(move |x| sraa_place(cfg, gbuffer, view, ivec2(x, y))));
     Frame::new(size, texels.collect())
 }
 

@@ -76,6 +76,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
             cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent, "gaussian" => Gaussian,
                 "mitchell" => Mitchell, "lanczos" => Lanczos)
         }
+        "extra" => cfg.extra = value == "true",
         "search" => cfg.search = one_of!(value, Search: "none" => None, "five" => Five, "seven" => Seven),
         "search-threshold" => cfg.search_threshold = number(value),
         "unseen" => cfg.unseen = number(value),
@@ -113,7 +114,8 @@ fn leaked<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> &'static [T] {
     Vec::leak(parts.collect())
 }
 
-fn gbuffer(inputs: &Inputs) -> GBuffer {
+/// What there is of a G-buffer.
+pub fn gbuffer(inputs: &Inputs) -> GBuffer {
     let mut gbuffer = GBuffer::unread();
     for (name, images) in &inputs.images {
         let first = &images[0];
@@ -147,7 +149,8 @@ fn colors(inputs: &Inputs) -> Colors {
     let mut colors = Colors {
         color: images("color").remove(0),
         colors: FrameLayers::new(images("colors")),
-        place: place(inputs),
+        place: numbers(inputs, "place"),
+        extra: numbers(inputs, "extra"),
         ..Colors::unread()
     };
     for (name, images) in &inputs.images {
@@ -159,6 +162,9 @@ fn colors(inputs: &Inputs) -> Colors {
             "centre_albedo" => colors.centre_albedo = first.clone(),
             "direct" => colors.direct = first.clone(),
             "rest" => colors.rest = first.clone(),
+            "extra_color" => colors.extra_color = first.clone(),
+            "extra_direct" => colors.extra_direct = first.clone(),
+            "extra_rest" => colors.extra_rest = first.clone(),
             _ => {}
         }
     }
@@ -184,15 +190,16 @@ fn history(inputs: &Inputs) -> History {
     history
 }
 
-/// Where each pixel is shaded; of what is shaded elsewhere, a texel that is not read.
-fn place(inputs: &Inputs) -> Frame<u32> {
-    match inputs.integers.iter().find(|(known, _)| known == "place") {
+/// An image of numbers, as where each pixel is shaded; if there is none, a texel that is not read.
+pub fn numbers(inputs: &Inputs, name: &str) -> Frame<u32> {
+    match inputs.integers.iter().find(|(known, _)| known == name) {
         Some((_, images)) => Frame::new(images[0].size(), images[0].texels().iter().map(|t| t.x).collect()),
         None => Frame::new(UVec2::ONE, vec![0]),
     }
 }
 
-fn view(inputs: &Inputs) -> View {
+/// The view's numbers.
+pub fn view(inputs: &Inputs) -> View {
     let lanes = |name: &str| {
         let found = inputs.uniforms.iter().find(|(known, _)| known == name);
         found.map(|(_, lanes)| lanes.clone()).expect("the view is there")

@@ -68,7 +68,7 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
         let mut set = completed(chosen.collect());
         // What most other options refuse: left out, so that those are tried.
         if refusal(&set) == Some(SEARCH_REFUSED) {
-            set.retain(|(name, _)| name != "search");
+            set.retain(|(name, _)| name != "search" && name != "extra");
         }
         if refusal(&set) == Some(MASK_REFUSED) {
             set.retain(|(name, _)| name != "mask");
@@ -78,8 +78,8 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
     (0..count).map(|_| set()).collect()
 }
 
-/// What a search needs.
-const SEARCH_REFUSED: &str = "a search needs one shading sample a pixel, a box and shifted weights";
+/// What a search needs, and further shading samples.
+const SEARCH_REFUSED: &str = "what sets samples apart needs one shading sample a pixel, a box and shifted weights";
 
 /// What taking light apart from paint refuses.
 const MASK_REFUSED: &str = "a mask leaves paint as it is";
@@ -116,7 +116,8 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     if value(options, "demodulate", "none") != "none" && is("rest", "true") && is("shading", "listed") {
         return Some("what does not follow the albedo is that of one shading sample");
     }
-    if value(options, "search", "none") != "none" && refuses.iter().any(|(name, value)| is(name, value)) {
+    let sets_apart = value(options, "search", "none") != "none" || is("extra", "true");
+    if sets_apart && refuses.iter().any(|(name, value)| is(name, value)) {
         return Some(SEARCH_REFUSED);
     }
     None

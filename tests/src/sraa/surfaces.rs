@@ -2,7 +2,7 @@
 
 use super::options::{Options, value};
 use super::{Random, compiled};
-use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3, vec4};
+use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2, vec3, vec4};
 use straightline_codegen::Unroll;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample};
@@ -86,13 +86,33 @@ pub fn inputs(options: &Options, size: UVec2, seed: u64) -> Inputs {
     let compiled = compiled(options, Unroll::Full).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));
     let mut alone = compiled.options;
     alone.remove("history");
+    alone.remove("extra");
     let inputs = gbuffer::inputs(&capture, &alone).unwrap_or_else(|error| panic!("{options:?}: {error}"));
     let mut random = Random(seed ^ 0x5eed);
     let inputs = inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect());
+    let inputs = match value(options, "extra", "false") {
+        "true" => with_extra(inputs, capture.samples.len(), size, seed),
+        _ => inputs,
+    };
     match value(options, "history", "0") {
         "0" => inputs,
         _ => with_history(inputs, size, seed),
     }
+}
+
+/// With a further shading sample in every second pixel, at any of `samples` samples.
+fn with_extra(inputs: Inputs, samples: usize, size: UVec2, seed: u64) -> Inputs {
+    let mut random = Random(seed ^ 0xe7_74a5);
+    let mut texel = |_| UVec4::new((random.number() % (2 * samples as u64)) as u32, 0, 0, 1);
+    let texels = (0..size.x * size.y).map(&mut texel).collect();
+    let mut light = || colors(&mut random, size);
+    let lights = [light(), light(), light()];
+    let [color, direct, rest] = lights;
+    inputs
+        .integers("extra", vec![Frame::new(size, texels)])
+        .image("extra_color", color)
+        .image("extra_direct", direct)
+        .image("extra_rest", rest)
 }
 
 /// With four earlier frames of the same surfaces, each moved by some pixels on the whole, and by as much more here and there as to show

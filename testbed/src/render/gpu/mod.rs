@@ -2,6 +2,7 @@
 
 mod drawing;
 pub(crate) mod guard;
+mod listed;
 mod multisampled;
 mod passes;
 mod pipelines;
@@ -14,6 +15,7 @@ use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use guard::guarded;
+pub use listed::Listed;
 pub use multisampled::MultisampledGeometry;
 pub use passes::{FramePass, FramePasses, Samples};
 use pipelines::Pipelines;

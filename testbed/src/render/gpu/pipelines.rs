@@ -162,6 +162,11 @@ pub(super) fn group_layout(device: &wgpu::Device, bindings: &[(ShaderStages, Bin
     })
 }
 
+/// A storage buffer that is read.
+pub(super) fn read_storage() -> BindingType {
+    buffer(BufferBindingType::Storage { read_only: true })
+}
+
 pub(super) fn uniform() -> BindingType {
     buffer(BufferBindingType::Uniform)
 }

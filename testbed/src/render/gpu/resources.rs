@@ -20,6 +20,8 @@ pub(super) struct Resources {
     pub index_count: u32,
     /// A [`Pass`].
     pub pass: wgpu::Buffer,
+    /// A [`Lighting`].
+    pub lighting: wgpu::Buffer,
     /// View-space normal and linear depth.
     pub normal_depth: wgpu::Texture,
     /// Linear RGB and material.
@@ -92,7 +94,7 @@ impl Resources {
         let pixels = u64::from(size.x) * u64::from(size.y);
         let colors = empty(
             device,
-            BufferUsages::STORAGE | BufferUsages::COPY_SRC,
+            BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
             pixels * size_of::<Vec4>() as u64,
         );
         let read = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
@@ -119,6 +121,7 @@ impl Resources {
             indices,
             index_count: 3 * scene.triangles.len() as u32,
             pass,
+            lighting,
             normal_depth,
             color_material,
             depth: target(device, size, DEPTH_FORMAT, TextureUsages::empty()),

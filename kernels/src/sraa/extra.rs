@@ -1,0 +1,195 @@
+//! Shading a few pixels once more: at a geometry sample whose surface no shading sample around shows.
+
+use super::Inputs;
+use super::gbuffer::{GBuffer, surface};
+use super::metric::{FAR, Sample, distance};
+use super::options::{Normalisation, Resolve, Sraa};
+use super::pattern::{Place, Shading, neighbour};
+use super::placed::shaded_place;
+use super::view::View;
+use crate::prelude::*;
+
+/// What the kernel looks at.
+struct Seen<'a> {
+    gbuffer: &'a GBuffer,
+    view: &'a View,
+    /// Of shading=placed.
+    place: &'a Frame<u32>,
+    pixel: IVec2,
+}
+
+/// Where `pixel` is to be shaded once more: the number of a geometry sample, or the number of samples where it is not. What it
+/// gives is the image `extra` of the filter.
+///
+/// A pixel is listed with its first sample that differs by more than `search_threshold` from all shading samples of the nine pixels around. Where
+/// x + y is odd, what a neighbour with an even sum wants counts as shaded, too: one surface is not shaded twice. Beyond the border the
+/// nearest pixel is repeated.
+///
+/// `extra_list` holds for each that is listed its pixel, as x + 65536 y, and the number of its sample. As many as it has room for
+/// are listed and no more: its length is the budget. Which these are where it is too short, the order decides in which pixels come.
+/// `extra_counts` are four numbers, 0, 1, 1, 0 before: of workgroups of 64 to dispatch for the list in x, y and z, then of pixels
+/// that wanted to be listed.
+pub fn sraa_extra(
+    cfg: &Sraa,
+    gbuffer: &GBuffer,
+    view: &View,
+    place: &Frame<u32>,
+    extra_counts: &AtomicBuffer<u32>,
+    extra_list: &StorageBuffer<UVec2>,
+    pixel: IVec2,
+) -> u32 {
+    cfg.check();
+    cfg.check_shaded_once();
+    let seen = Seen {
+        gbuffer,
+        view,
+        place,
+        pixel,
+    };
+    let mut given = cfg.samples();
+    #[cfg_attr(false, branch)]
+    if differs(cfg, &seen) {
+        let wanted = wanted(cfg, &seen);
+        if wanted < cfg.samples() {
+            let entry = extra_counts.add(3, 1);
+            if entry < extra_list.len() as u32 {
+                let at = pixel.as_uvec2();
+                extra_list.store(entry as usize, uvec2(at.x + 65536 * at.y, wanted as u32));
+                if entry.is_multiple_of(64) {
+                    extra_counts.add(0, 1);
+                }
+                given = wanted;
+            }
+        }
+    }
+    given as u32
+}
+
+/// Whether a geometry sample of the pixel differs from its own shading sample.
+fn differs(cfg: &Sraa, seen: &Seen) -> bool {
+    let own = shading_sample(cfg, seen, IVec2::ZERO);
+    let mut largest = 0.0f32;
+    for sample in 0..cfg.samples() {
+        let at = cfg.geometry_sample(IVec2::ZERO, sample);
+        largest = largest.max(apart(cfg, seen, &sampled(cfg, seen, at), own));
+    }
+    largest > cfg.search_threshold
+}
+
+/// Which sample the pixel wants to have shaded, or the number of samples. Few pixels come here: its loops stay loops.
+#[cfg_attr(false, unroll(none))]
+fn wanted(cfg: &Sraa, seen: &Seen) -> usize {
+    let even = (seen.pixel.x + seen.pixel.y) & 1 == 0;
+    for sample in 0..cfg.samples() {
+        let at = cfg.geometry_sample(IVec2::ZERO, sample);
+        if is_unseen(cfg, seen, at) && (even || !is_beside(cfg, seen, &sampled(cfg, seen, at))) {
+            return sample;
+        }
+    }
+    cfg.samples()
+}
+
+/// Whether one of the four pixels beside, whose x + y are even, wants to have the surface of `sample` shaded.
+fn is_beside(cfg: &Sraa, seen: &Seen, sample: &Sample) -> bool {
+    let mut beside = false;
+    for k in 0..4 {
+        if !beside {
+            let pixel = neighbour(2 * k + 1, 3);
+            let first = first_hidden(cfg, seen, pixel);
+            if first < cfg.samples() {
+                beside = apart(cfg, seen, sample, cfg.geometry_sample(pixel, cfg.own(first))) <= cfg.search_threshold;
+            }
+        }
+    }
+    beside
+}
+
+/// The first geometry sample of the pixel at `pixel` whose surface no shading sample around that one shows, or the number of samples.
+fn first_hidden(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> usize {
+    for sample in 0..cfg.samples() {
+        if is_unseen(cfg, seen, cfg.geometry_sample(pixel, sample)) {
+            return sample;
+        }
+    }
+    cfg.samples()
+}
+
+/// Whether no shading sample of the nine pixels around that of a geometry sample shows its surface.
+fn is_unseen(cfg: &Sraa, seen: &Seen, at: Place) -> bool {
+    let sample = sampled(cfg, seen, at);
+    let mut nearest = FAR;
+    for k in 0..9 {
+        let tap = shading_sample(cfg, seen, at.pixel + neighbour(k, 3));
+        nearest = nearest.min(apart(cfg, seen, &sample, tap));
+    }
+    nearest > cfg.search_threshold
+}
+
+/// Where the pixel at `pixel` is shaded.
+fn shading_sample(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> Place {
+    let tap = match cfg.shading {
+        Shading::Centre | Shading::Placed => cfg.centre(pixel),
+        Shading::Sample0 | Shading::Listed => cfg.geometry_sample(pixel, cfg.shaded_sample(0)),
+    };
+    shaded_place(cfg, seen.place, seen.pixel, tap)
+}
+
+/// What is seen at a geometry sample.
+fn sampled(cfg: &Sraa, seen: &Seen, at: Place) -> Sample {
+    let surface = surface(cfg, seen.gbuffer, seen.view, seen.pixel, at);
+    Sample::new(seen.view, surface, seen.pixel, at.at)
+}
+
+/// How different the surface at a tap is from a sample's.
+fn apart(cfg: &Sraa, seen: &Seen, sample: &Sample, tap: Place) -> f32 {
+    distance(
+        cfg,
+        sample,
+        &surface(cfg, seen.gbuffer, seen.view, seen.pixel, tap),
+        tap.at,
+    )
+}
+
+/// The further shading sample of a pixel.
+pub(super) struct Further {
+    pub(super) place: Place,
+    /// Whether there is one.
+    pub(super) is_there: bool,
+}
+
+/// That of the pixel at `pixel`.
+pub(super) fn extra_tap(cfg: &Sraa, inputs: &Inputs, pixel: IVec2) -> Further {
+    let samples = cfg.samples() as u32;
+    let sample = inputs.colors.extra.load(inputs.pixel + pixel);
+    Further {
+        place: Place {
+            extra: true,
+            ..cfg.geometry_sample(pixel, sample.min(samples - 1) as usize)
+        },
+        is_there: sample < samples,
+    }
+}
+
+impl Sraa {
+    /// Refuses what further shading samples have no part in.
+    pub(super) fn check_extra(&self) {
+        if self.extra {
+            self.check_shaded_once();
+            assert!(
+                self.resolve == Resolve::Box && self.normalisation == Normalisation::Shifted,
+                "extra needs resolve=box and normalisation=shifted"
+            );
+        }
+    }
+
+    fn check_shaded_once(&self) {
+        assert!(
+            self.samples() <= 32,
+            "extra needs a pattern of 32 samples at most: a bit for each says which are unseen"
+        );
+        assert!(
+            self.shading_samples() == 1,
+            "further shading samples are of a picture that is shaded once a pixel: set shading=centre, sample0 or placed"
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! Further shading samples where no shading sample around shows a surface.
+
+use super::placed::{Surfaces, gathered};
+use super::{RenderError, Renderer};
+use crate::capture::{Capture, ShadingSample};
+use crate::execute::Inputs;
+use crate::gbuffer;
+use glam::{UVec2, UVec4, Vec2, Vec4, ivec2};
+use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
+use straightline_kernels::sraa::{Metric, Shading, Sraa, View, sraa_extra};
+
+/// Pixels that are shaded once more, at one of their geometry samples.
+#[derive(Clone, Debug)]
+pub struct Extra {
+    /// For each pixel the number of the sample, or the number of samples where it is not shaded once more.
+    pub sample: Frame<u32>,
+    /// Linear colour of those that are; 0 of all others.
+    pub color: Frame<Vec4>,
+    /// How many pixels are.
+    pub listed: usize,
+    /// How many would be if the budget were large enough.
+    pub wanted: usize,
+}
+
+impl Extra {
+    /// What the filter reads of it, with everything else that it reads.
+    pub fn added_to(&self, inputs: Inputs) -> Inputs {
+        let texels = self.sample.texels().iter().map(|sample| UVec4::new(*sample, 0, 0, 1));
+        let samples = Frame::new(self.sample.size(), texels.collect());
+        inputs
+            .integers("extra", vec![samples])
+            .image("extra_color", self.color.clone())
+    }
+}
+
+/// Shades at most `budget` pixels of `capture`, which `renderer` draws, once more, where the kernel `sraa_extra` says with `metric=planes-normals`,
+/// `difference=relative` and `depth-scale=3`. Pixels are taken row by row.
+///
+/// # Errors
+///
+/// [`RenderError::Extra`] if the capture is not shaded at its first sample, at the pixels' centres or where they are placed, has no normals or
+/// no camera, or is not sampled at a pattern that has a name; what the renderer refuses.
+pub fn extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Result<Extra, RenderError> {
+    let samples = capture.samples.len();
+    let shading = match &capture.shading {
+        ShadingSample::Centre => Shading::Centre,
+        ShadingSample::Placed => Shading::Placed,
+        ShadingSample::Sample(0) => Shading::Sample0,
+        _ => return Err(RenderError::Extra),
+    };
+    let Some(normal) = &capture.normal else {
+        return Err(RenderError::Extra);
+    };
+    let Some([ray_corner, ray_right, ray_down]) = capture.rays() else {
+        return Err(RenderError::Extra);
+    };
+    let Surfaces { cfg, gbuffer, view } = Surfaces::new(&capture.samples, &capture.depth, normal);
+    let cfg = Sraa {
+        shading,
+        // Ground that recedes is one surface.
+        metric: Metric::PlanesNormals,
+        pattern: gbuffer::pattern_of(&capture.samples).ok_or(RenderError::Extra)?,
+        ..cfg
+    };
+    let view = View {
+        ray_corner,
+        ray_right,
+        ray_down,
+        ..view
+    };
+    let unread = Frame::new(UVec2::ONE, vec![0]);
+    let place = capture.place.as_ref().unwrap_or(&unread);
+    let counts = AtomicBuffer::new(vec![0, 1, 1, 0]);
+    let list = StorageBuffer::new(vec![UVec2::ZERO; budget.max(1)]);
+    let (width, height) = (capture.size.x as i32, capture.size.y as i32);
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| ivec2(x, y)));
+    let texels = pixels.map(|pixel| sraa_extra(&cfg, &gbuffer, &view, place, &counts, &list, pixel));
+    let sample = Frame::new(capture.size, texels.collect());
+    let listed = sample.texels().iter().filter(|k| (**k as usize) < samples).count();
+    let mut places = capture.samples.clone();
+    places.push(Vec2::ZERO);
+    let nothing = Frame::new(capture.size, vec![Vec4::ZERO; sample.texels().len()]);
+    Ok(Extra {
+        color: gathered(&places, &sample, nothing, |place| renderer.shaded(place))?,
+        listed,
+        wanted: counts.load(3) as usize,
+        sample,
+    })
+}
