@@ -13,7 +13,7 @@ use straightline_testbed::capture::ShadingSample;
 use straightline_testbed::execute::{Bench, Inputs, Interpreted, interpret};
 use straightline_testbed::metrics::psnr;
 use straightline_testbed::oracle::{self, Placed, Resolved, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer, GpuRenderer, Listed};
+use straightline_testbed::render::{self, CpuRenderer, Extra, GpuRenderer, Listed};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, value};
@@ -361,13 +361,11 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
     let few = render::extra(&renderer, &capture, budget).expect("further samples");
     assert!(few.listed <= budget && few.wanted == wanted.wanted);
 
-    let of_list = options(&[
-        ("shading", "placed"),
-        ("metric", "planes-normals"),
-        ("difference", "relative"),
-        ("depth-scale", "3"),
-    ]);
-    let list = compiled("sraa_extra", &of_list, Unroll::Full);
+    let list = compiled(
+        "sraa_extra",
+        &render::listing_options(&options(&[("shading", "placed")])),
+        Unroll::Full,
+    );
     let inputs = listing(
         gbuffer::inputs(&capture, &list.options).expect("inputs"),
         (size.x * size.y) as usize,
@@ -428,7 +426,7 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
 
     let reference = render::reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
     let judged = |frame: &Frame<Vec4>| psnr(&picture::at_eight_bits(frame), &picture::at_eight_bits(&reference));
-    let filtered = |more: &[(&str, &str)], with: &dyn Fn(Inputs) -> Inputs| {
+    let filtered = |more: &[(&str, &str)], with: &dyn Fn(&Compiled) -> Inputs| {
         let both = [
             ("shading", "placed"),
             ("search", "five"),
@@ -436,20 +434,22 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
             ("depth-scale", "3"),
         ];
         let kernel = compiled("sraa", &options(&[&both[..], more].concat()), Unroll::Full);
-        let alone = kernel.options.iter().filter(|(name, _)| *name != "extra");
-        let alone = alone.map(|(name, value)| (name.clone(), value.clone())).collect();
-        let inputs = with(gbuffer::inputs(&capture, &alone).expect("inputs"));
+        let inputs = with(&kernel);
         judged(&bench.run(&kernel, Stage::Compute, &inputs).expect("a picture"))
     };
-    let without = filtered(&[], &|inputs| inputs);
-    let on_processor = filtered(&[("extra", "true")], &|inputs| wanted.added_to(inputs));
-    let given = |inputs: Inputs| {
-        let texels = found.iter().map(|sample| UVec4::new(*sample, 0, 0, 1)).collect();
-        inputs
-            .integers("extra", vec![Frame::new(size, texels)])
-            .image("extra_color", color.clone())
+    let without = filtered(&[], &|kernel| {
+        gbuffer::inputs(&capture, &kernel.options).expect("inputs")
+    });
+    let extra = |shaded: &Extra| {
+        let inputs = |kernel: &Compiled| shaded.inputs(&capture, &kernel.options).expect("inputs");
+        filtered(&[("extra", "true")], &inputs)
     };
-    let on_device = filtered(&[("extra", "true")], &given);
+    let on_processor = extra(&wanted);
+    let on_device = extra(&Extra {
+        sample: Frame::new(size, found.clone()),
+        color: color.clone(),
+        ..wanted.clone()
+    });
     println!(
         "{} of {} pixels; {without:.2} dB without, {on_processor:.2} with, {on_device:.2} on the device",
         wanted.listed,

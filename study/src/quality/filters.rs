@@ -17,6 +17,7 @@ use straightline_testbed::encode::NormalEncoding;
 use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
 use straightline_testbed::gbuffer;
 use straightline_testbed::picture;
+use straightline_testbed::render;
 
 /// Bytes of a pixel of full floats, which pictures are read and written in.
 const PICTURE: u64 = 16;
@@ -28,7 +29,7 @@ enum Runner {
     /// Made of the samples that the renderer gives, after its definition; and what resolves the same samples on the device, to be
     /// timed, if anything does.
     Resolved(Vec<Shader>),
-    /// The filter, which comes last, and before it the kernel that says where pixels are shaded, if it is placed.
+    /// The filter, which comes last, and before it the kernels that say where pixels are shaded, if it is placed, and which are once more.
     Kernel(Vec<Shader>),
     Smaa(Box<Smaa>),
     /// On the processor.
@@ -222,11 +223,18 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
     let shader = Shader::new(bench, &kernel, &method.options)?;
     Ok(match method.shading() {
         _ if method.kind == Kind::Merged => Runner::Merged(Box::new(shader)),
-        ShadingSample::Placed => {
-            let place = Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?;
-            Runner::Kernel(vec![place, shader])
+        shading => {
+            let mut shaders = Vec::new();
+            if shading == ShadingSample::Placed {
+                shaders.push(Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?);
+            }
+            if method.has_extra() {
+                let listing = render::listing_options(&method.options);
+                shaders.push(Shader::new(bench, &Kernel::builtin("sraa_extra")?, &listing)?);
+            }
+            shaders.push(shader);
+            Runner::Kernel(shaders)
         }
-        _ => Runner::Kernel(vec![shader]),
     })
 }
 
@@ -310,7 +318,10 @@ impl Shader {
             Kind::Edge(_) => one_a_pixel(capture, &self.compiled)?,
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
             Kind::Own => gbuffer_of(capture, &self.manifest)?,
-            _ => gbuffer::inputs(capture, &self.compiled.options)?,
+            _ => match shot.extra(method) {
+                None => gbuffer::inputs(capture, &self.compiled.options)?,
+                Some(extra) => extra.inputs(capture, &self.compiled.options)?,
+            },
         };
         let uploaded = bench.upload(&self.manifest, &inputs)?;
         Ok((inputs, uploaded))

@@ -66,6 +66,7 @@ mod tests {
             temporal: None,
             time: None,
             bytes: 0,
+            extra: None,
             non_finite: 0,
             picture: None,
         }

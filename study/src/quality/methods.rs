@@ -199,6 +199,13 @@ impl Method {
         self.options.iter().any(of_albedo)
     }
 
+    /// Whether some pixels are shaded once more for it.
+    pub fn has_extra(&self) -> bool {
+        self.options
+            .iter()
+            .any(|(name, value)| name == "extra" && value == "true")
+    }
+
     /// What names the capture that it reads, of all that a scene is drawn in: its pattern, and where it is shaded unless that is
     /// the pixel's centre.
     pub fn reads(&self) -> String {
@@ -317,6 +324,7 @@ fn beyond() -> Vec<Method> {
             sraa("searched", &[SEARCHED]),
             sraa("placed", &[PLACED]),
             sraa("placed and searched", &[PLACED, SEARCHED]).main(),
+            sraa("placed, searched and extra", &[PLACED, SEARCHED, ("extra", "true")]).pictured(),
             sraa("demodulated by albedo", &[("demodulate", "albedo")]),
             sraa("demodulated", &[DEMODULATED]).pictured(),
             sraa("placed, searched and demodulated", &[PLACED, SEARCHED, DEMODULATED]).pictured(),

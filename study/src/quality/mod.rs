@@ -296,6 +296,7 @@ impl Wanted<'_> {
             };
             let mut scores = scores(method, &made, reference, &classes);
             (scores.bytes, scores.picture) = (bytes[k], picture);
+            scores.extra = shot.extra(method).map(render::Extra::share);
             errors.methods.push(scores);
             if method.explained {
                 reconstructed.push(made);

@@ -30,6 +30,7 @@ pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, clas
         temporal: None,
         time: None,
         bytes: 0,
+        extra: None,
         non_finite: metrics::non_finite(made),
         picture: None,
     }

@@ -9,7 +9,10 @@ use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::{Capture, ShadingSample, mean};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Aggregated, Renderer};
+use straightline_testbed::render::{self, Aggregated, Extra, Renderer};
+
+/// Of so many pixels one may be shaded once more: 2 %.
+pub const BUDGET: usize = 50;
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
 pub struct Shot {
@@ -17,6 +20,8 @@ pub struct Shot {
     pub captures: BTreeMap<String, Capture>,
     /// Shaded at each sample of `latin4`, and of `latin16`; none of a capture.
     pub shaded: BTreeMap<usize, Vec<Frame<Vec4>>>,
+    /// Pixels of a capture that are shaded once more, by what names it.
+    pub extra: BTreeMap<String, Extra>,
     /// Shaded by aggregates of the samples of a pattern.
     pub aggregated: BTreeMap<String, Aggregated>,
 }
@@ -31,6 +36,7 @@ impl Shot {
         let mut shot = Shot {
             captures: BTreeMap::new(),
             shaded: BTreeMap::new(),
+            extra: BTreeMap::new(),
             aggregated: BTreeMap::new(),
         };
         for method in methods {
@@ -45,6 +51,15 @@ impl Shot {
             {
                 check(progress)?;
                 render::add_albedo(capture, renderer)?;
+            }
+            if let Some(capture) = shot.captures.get(&method.reads())
+                && method.has_extra()
+                && !shot.extra.contains_key(&method.reads())
+            {
+                check(progress)?;
+                let pixels = (capture.size.x * capture.size.y) as usize;
+                let further = render::extra(renderer, capture, pixels / BUDGET)?;
+                shot.extra.insert(method.reads(), further);
             }
             if method.kind == Kind::Aggregated {
                 check(progress)?;
@@ -73,6 +88,7 @@ impl Shot {
         Shot {
             captures: BTreeMap::from([(String::new(), capture)]),
             shaded: BTreeMap::new(),
+            extra: BTreeMap::new(),
             aggregated: BTreeMap::new(),
         }
     }
@@ -81,6 +97,11 @@ impl Shot {
     pub fn capture(&self, method: &Method) -> Result<&Capture, QualityError> {
         let found = self.captures.get(&method.reads()).or_else(|| self.captures.get(""));
         found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
+    }
+
+    /// What is shaded once more for a method, if it wants that.
+    pub fn extra(&self, method: &Method) -> Option<&Extra> {
+        self.extra.get(&method.reads()).filter(|_| method.has_extra())
     }
 
     /// Any capture that is shaded at the pixels' centres, or else any: all of those have the same picture.

@@ -59,6 +59,9 @@ pub struct MethodErrors {
     pub time: Option<Times>,
     /// Bytes of what it reads and writes: G-buffer, picture and target.
     pub bytes: u64,
+    /// Share of the pixels that were shaded once more, 0 to 1; `None` where none may be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extra: Option<f64>,
     /// Pixels that are not finite.
     pub non_finite: usize,
     /// Picture beside the record, if one was written.

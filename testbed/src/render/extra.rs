@@ -4,8 +4,9 @@ use super::placed::{Surfaces, gathered};
 use super::{RenderError, Renderer};
 use crate::capture::{Capture, ShadingSample};
 use crate::execute::Inputs;
-use crate::gbuffer;
+use crate::gbuffer::{self, GBufferError};
 use glam::{UVec2, UVec4, Vec2, Vec4, ivec2};
+use std::collections::BTreeMap;
 use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
 use straightline_kernels::sraa::{Metric, Shading, Sraa, View, sraa_extra};
 
@@ -20,20 +21,54 @@ pub struct Extra {
     pub listed: usize,
     /// How many would be if the budget were large enough.
     pub wanted: usize,
+    /// How many could be.
+    pub budget: usize,
 }
 
 impl Extra {
-    /// What the filter reads of it, with everything else that it reads.
-    pub fn added_to(&self, inputs: Inputs) -> Inputs {
+    /// Share of the pixels that are shaded once more.
+    pub fn share(&self) -> f64 {
+        self.listed as f64 / self.sample.texels().len() as f64
+    }
+
+    /// Everything that `sraa` with these options, `extra=true` among them, may read of a capture, and `sraa_extra` too, its list as long as
+    /// this one.
+    ///
+    /// # Errors
+    ///
+    /// As [`gbuffer::inputs`].
+    pub fn inputs(&self, capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
+        let mut alone = options.clone();
+        alone.remove("extra");
         let texels = self.sample.texels().iter().map(|sample| UVec4::new(*sample, 0, 0, 1));
         let samples = Frame::new(self.sample.size(), texels.collect());
-        inputs
+        let counts = COUNTS.map(|count| [f64::from(count), 0.0, 0.0, 1.0]);
+        Ok(gbuffer::inputs(capture, &alone)?
             .integers("extra", vec![samples])
             .image("extra_color", self.color.clone())
+            .buffer("extra_counts", counts.to_vec())
+            .buffer("extra_list", vec![[0.0; 4]; self.budget]))
     }
 }
 
-/// Shades at most `budget` pixels of `capture`, which `renderer` draws, once more, where the kernel `sraa_extra` says with `metric=planes-normals`,
+/// What `extra_counts` holds before: no workgroups in x, one in y and z, and no pixels.
+const COUNTS: [u32; 4] = [0, 1, 1, 0];
+
+/// Options of `sraa_extra` for a filter with `options`: planes and relative depths, by which ground that recedes is one surface.
+pub fn listing_options(options: &[(String, String)]) -> Vec<(String, String)> {
+    let own = [
+        ("metric", "planes-normals"),
+        ("difference", "relative"),
+        ("depth-scale", "3"),
+    ];
+    let others = options
+        .iter()
+        .filter(|(name, _)| own.iter().all(|(known, _)| known != name));
+    let own = own.map(|(name, value)| (name.to_owned(), value.to_owned()));
+    others.cloned().chain(own).collect()
+}
+
+/// Shades at most `budget` pixels, at least one, of `capture`, which `renderer` draws, once more, where the kernel `sraa_extra` says with `metric=planes-normals`,
 /// `difference=relative` and `depth-scale=3`. Pixels are taken row by row.
 ///
 /// # Errors
@@ -70,8 +105,9 @@ pub fn extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Resul
     };
     let unread = Frame::new(UVec2::ONE, vec![0]);
     let place = capture.place.as_ref().unwrap_or(&unread);
-    let counts = AtomicBuffer::new(vec![0, 1, 1, 0]);
-    let list = StorageBuffer::new(vec![UVec2::ZERO; budget.max(1)]);
+    let budget = budget.max(1);
+    let counts = AtomicBuffer::new(COUNTS.to_vec());
+    let list = StorageBuffer::new(vec![UVec2::ZERO; budget]);
     let (width, height) = (capture.size.x as i32, capture.size.y as i32);
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| ivec2(x, y)));
     let texels = pixels.map(|pixel| sraa_extra(&cfg, &gbuffer, &view, place, &counts, &list, pixel));
@@ -85,5 +121,6 @@ pub fn extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Resul
         listed,
         wanted: counts.load(3) as usize,
         sample,
+        budget,
     })
 }

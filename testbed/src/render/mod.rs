@@ -29,7 +29,7 @@ pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use demodulated::add_albedo;
 pub use error::RenderError;
-pub use extra::{Extra, extra};
+pub use extra::{Extra, extra, listing_options};
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples};
 pub(crate) use placed::gathered;
