@@ -34,7 +34,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::{Bench, Times};
 use straightline_testbed::picture;
-use straightline_testbed::render::GpuRenderer;
+use straightline_testbed::render::{Extra, GpuRenderer};
 use straightline_testbed::scene::Scene;
 
 pub use classes::STEP;
@@ -296,7 +296,7 @@ impl Wanted<'_> {
             };
             let mut scores = scores(method, &made, reference, &classes);
             (scores.bytes, scores.picture) = (bytes[k], picture);
-            scores.extra = shot.extra(method).map(render::Extra::share);
+            scores.extra = shot.extra(method).map(Extra::share);
             errors.methods.push(scores);
             if method.explained {
                 reconstructed.push(made);

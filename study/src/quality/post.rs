@@ -71,6 +71,7 @@ impl Shot {
                 .map(|(n, frames)| (*n, frames.iter().map(processed).collect()))
                 .collect(),
             // No filter of the displayed picture reads those.
+            extra: BTreeMap::new(),
             aggregated: BTreeMap::new(),
         }
     }
