@@ -328,7 +328,8 @@ fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
                 0.0
             }
         }
-        Falloff::Tent => tent(away / cfg.radius),
+        Falloff::Tent if cfg.sharpness == 1.0 => tent(away / cfg.radius),
+        Falloff::Tent => tent(away / cfg.radius).powf(cfg.sharpness),
         Falloff::Gaussian => {
             if near {
                 (-away.dot(away) / (2.0 * cfg.sigma * cfg.sigma)).exp()
@@ -342,7 +343,7 @@ fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
 /// What weighs no more is not looked at. A tent ends where a tap may lie, and of that a rounding would make a weight.
 fn least(cfg: &Sraa) -> f32 {
     match cfg.falloff {
-        Falloff::Tent if cfg.history == 0 => 1.0e-6,
+        Falloff::Tent if cfg.history == 0 => 1.0e-6f32.powf(cfg.sharpness),
         Falloff::None | Falloff::Tent | Falloff::Gaussian => 0.0,
     }
 }

@@ -387,7 +387,8 @@ impl<'a> Definition<'a> {
             Falloff::None => 1.0,
             Falloff::Tent => Some(tent(away[0] / radius) * tent(away[1] / radius))
                 .filter(|weight| *weight > LEAST || self.params.history > 0)
-                .unwrap_or(0.0),
+                .unwrap_or(0.0)
+                .powf(self.params.sharpness),
             Falloff::Gaussian => {
                 let square: f64 = away.iter().map(|axis| axis * axis).sum();
                 (-square / (2.0 * self.params.sigma.powi(2))).exp()

@@ -252,6 +252,8 @@ pub struct SraaParams {
     pub falloff: Falloff,
     /// Standard deviation of [`Falloff::Gaussian`], in pixels.
     pub sigma: f64,
+    /// The power of a tent.
+    pub sharpness: f64,
     /// How far a tap may lie from its sample on each axis, in pixels, from 1 to 2.
     pub radius: f64,
     /// Of the planes: from whose a distance is measured.
@@ -311,6 +313,7 @@ impl Default for SraaParams {
             normals: Normals::Float,
             layout: Layout::Layers,
             falloff: Falloff::Tent,
+            sharpness: 1.0,
             sigma: 0.4,
             radius: 1.0,
             plane: Plane::Sample,
@@ -400,6 +403,7 @@ impl SraaParams {
             "normals" => self.normals = choice(option, value, Normals::ALL, Normals::name)?,
             "layout" => self.layout = choice(option, value, Layout::ALL, Layout::name)?,
             "falloff" => self.falloff = choice(option, value, Falloff::ALL, Falloff::name)?,
+            "sharpness" => self.sharpness = number(option, value)?,
             "sigma" => self.sigma = number(option, value)?,
             "radius" => self.radius = number(option, value)?,
             "resolve-radius" => self.resolve_radius = number(option, value)?,

@@ -98,6 +98,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "radius" => cfg.radius = number(value),
         "resolve-radius" => cfg.resolve_radius = number(value),
         "plane" => cfg.plane = one_of!(value, Plane: "sample" => Sample, "tap" => Tap),
+        "sharpness" => cfg.sharpness = number(value),
         "sigma" => cfg.sigma = number(value),
         "mask-threshold" => cfg.mask_threshold = number(value),
         other => panic!("no option `{other}`"),
