@@ -31,6 +31,7 @@ pub use error::RenderError;
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, MultisampledGeometry, Samples};
 pub(crate) use placed::gathered;
+pub use placed::{PLACED_BY, Placed, placed};
 pub use reference::{grid, reference};
 pub use shade::Surface;
 pub use shifted::Shifted;
