@@ -212,6 +212,10 @@ fn tune() -> TuneRecord {
             term: "normals".to_owned(),
             cost: 0.2,
         }],
+        needed: vec![LeftOut {
+            term: "placing".to_owned(),
+            cost: 1.25,
+        }],
         model: Model {
             terms: vec![("reads".to_owned(), 0.02), ("unused".to_owned(), 0.0)],
             learned_from: 24,

@@ -50,10 +50,10 @@ fn is_exact(math: &str) -> bool {
     math == "exact"
 }
 
-/// A term that the chosen shader does without.
+/// A term that the chosen shader does without, or that it has beyond the most general variant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// What: normals, planes, 16 samples, mask, f32.
+    /// What: normals, planes, 16 samples, mask, f32, placing.
     pub term: String,
     /// What that cost in error: with it minus without it, by the record's metric, so that what is lost is positive.
     pub cost: f64,
@@ -133,6 +133,9 @@ pub struct TuneRecord {
     pub general: usize,
     /// What the chosen one leaves out.
     pub left_out: Vec<LeftOut>,
+    /// What the chosen one has beyond the most general variant, and what is lost without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub needed: Vec<LeftOut>,
     /// What each term of the most general variant is worth: that one without it.
     pub terms: Vec<TermWorth>,
     /// Variants that could not be emitted or run.

@@ -78,6 +78,9 @@ fn choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
         budget(record, metric),
         ratio(chosen.ratio)
     );
+    for needed in &record.needed {
+        outln!("  needs {}: {} without", needed.term, lost(needed.cost, metric));
+    }
     for out in &record.left_out {
         outln!("  without {}: {}", out.term, lost(out.cost, metric));
     }

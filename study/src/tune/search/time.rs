@@ -7,7 +7,7 @@ use crate::tune::features::NAMES;
 use crate::tune::{Gauge, TuneError, model};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use straightline_testbed::execute::Job;
+use straightline_testbed::execute::{Job, Work};
 
 /// Variants that times are learned from, and on which the model is then tested; less in a small space.
 const LEARNED_FROM: usize = 32;
@@ -48,8 +48,7 @@ impl Search {
         )? {
             return Ok(false);
         }
-        // Milliseconds grow with the picture, cycles are those of a pixel.
-        let size = self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0);
+        let size = self.share();
         // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
         let general = &self.entries[0];
         let general = general
@@ -74,12 +73,24 @@ impl Search {
             mean_error,
             largest_error,
         };
+        self.predict();
+        Ok(true)
+    }
+
+    /// Says of all variants what they take by the model, if there is one.
+    pub(super) fn predict(&mut self) {
+        let coefficients: Vec<f64> = self.model.terms.iter().map(|(_, coefficient)| *coefficient).collect();
+        let size = self.share();
         for k in 0..self.entries.len() {
             if let Some(row) = self.row(k) {
                 self.entries[k].predicted = size * model::predict(&coefficients, &row);
             }
         }
-        Ok(true)
+    }
+
+    /// What the model's figures are multiplied with: milliseconds grow with the picture, cycles are those of a pixel.
+    fn share(&self) -> f64 {
+        self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0)
     }
 
     /// Measures variants, and the most general one with them: their times in turn, or cycles. Each also shows its own picture.
@@ -119,17 +130,22 @@ impl Search {
         if matches!(self.gauge, Gauge::Compiler(_)) {
             return self.ask(&all, what, progress);
         }
-        let jobs: Vec<Job<'_>> = all
-            .iter()
-            .map(|k| Job {
-                pass: &self.ready[k].0,
-                uploaded: &self.ready[k].1,
+        let work = |k: &usize| {
+            let (pass, uploaded) = &self.ready[k];
+            let job = |pass, uploaded| Job {
+                pass,
+                uploaded,
                 size: self.size,
-            })
-            .collect();
+            };
+            let place = self.placing(self.entries[*k].variant);
+            let mut jobs: Vec<Job<'_>> = place.iter().map(|place| job(&place.pass, &place.reads)).collect();
+            jobs.push(job(pass, uploaded));
+            self.bench.following(&jobs)
+        };
+        let mut works: Vec<Work<'_>> = all.iter().map(work).collect::<Result<_, _>>()?;
         progress.begin(what, rounds as usize);
         let mut complete = false;
-        let timed = self.bench.timed(&jobs, rounds, |round| {
+        let timed = self.bench.in_turn(&mut works, rounds, |round| {
             if round > 0 {
                 progress.step();
             }
