@@ -159,12 +159,31 @@ impl TuneRecord {
             None => "ms",
         }
     }
+
+    /// The best error of variants that do nothing beyond the paper, all of whose pixels are finite.
+    pub fn best_of_paper(&self) -> Option<f64> {
+        let of_paper = self.candidates.iter().filter(|c| c.non_finite == 0 && !c.goes_beyond());
+        let less = self.metric == "flip";
+        of_paper
+            .map(|c| c.error)
+            .reduce(|a, b| if less { a.min(b) } else { a.max(b) })
+    }
 }
 
 impl Candidate {
     /// What it takes, in the record's unit, if it was measured.
     pub fn measured(&self) -> Option<f64> {
         self.cycles.or(self.time.map(|time| time.median_ms))
+    }
+
+    /// Whether it is placed, searches, or borrows light apart.
+    pub fn goes_beyond(&self) -> bool {
+        let is_beyond = |(name, value): &(String, String)| match name.as_str() {
+            "shading" => value == "placed",
+            "search" | "demodulate" => value != "none",
+            _ => false,
+        };
+        self.options.iter().any(is_beyond)
     }
 }
 

@@ -18,6 +18,9 @@ const OF_THE_FASTEST: usize = 10;
 /// How much slower than the predicted winner a neighbour may be, by prediction, to be measured.
 const NEAR: f64 = 1.3;
 
+/// Share of the best ratio, of few rounds, from which a variant is measured in all rounds.
+const CONTENDS: f64 = 0.8;
+
 /// Share of the best ratio from which a variant may count as just as fast, if its spread reaches the best.
 const AS_FAST: f64 = 0.9;
 
@@ -90,6 +93,20 @@ impl Search {
             which.extend(near.filter(|k| self.is_within(*k) && self.entries[*k].predicted <= limit));
         }
         which.retain(|k| usable.contains(k));
+        if !self.measure(&which, self.fewer_rounds(), "measuring the front", progress)? {
+            return Ok(false);
+        }
+        // Those that may be fastest within the budget are measured again, and longer.
+        which.retain(|k| self.is_within(*k));
+        let ratios: Vec<(usize, Ratio)> = which
+            .iter()
+            .filter_map(|k| Some((*k, self.entries[*k].ratio?)))
+            .collect();
+        let fastest = ratios.iter().map(|(_, ratio)| ratio.median).fold(0.0, f64::max);
+        let may_win = ratios
+            .iter()
+            .filter(|(_, ratio)| ratio.median >= CONTENDS * fastest || ratio.high >= fastest);
+        which = may_win.map(|(k, _)| *k).collect();
         self.finalists = which.clone();
         self.finalists.push(0);
         self.measure(&which, self.question.rounds, "measuring, to decide", progress)

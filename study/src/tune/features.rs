@@ -1,17 +1,20 @@
 //! What a shader's static counts say of its time: the columns of the model, a pixel.
 
 use straightline_codegen::Compiled;
+use straightline_codegen::ir::{Graph, Op};
 use straightline_codegen::passes::{self, Block, Schedule, Step};
 use straightline_manifest::Counts;
 
 /// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too. Loops there, which only few
 /// pixels come to, are counted apart from that, those of the filter and those of `sraa_place`.
-pub const NAMES: [&str; 14] = [
+pub const NAMES: [&str; 16] = [
     "pixels",
     "invocations",
     "reads of depth",
     "reads of normals",
     "reads of colour",
+    "reads of light",
+    "reads at runtime layers",
     "weights",
     "exponentials and roots",
     "arithmetic",
@@ -46,24 +49,27 @@ impl Static {
         let count = |schedule: &Schedule| passes::count(&compiled.graph, schedule);
         let all = count(&compiled.schedule);
         let straight = count(&reduced(&compiled.schedule, without_loops));
-        let always = count(&reduced(&compiled.schedule, |_| Block::default()));
+        let always_run = reduced(&compiled.schedule, |_| Block::default());
+        let always = count(&always_run);
         let [width, height] = compiled.graph.invocation.pixels();
         let pixels = f64::from(width * height);
         let statements = f64::from(compiled.statements()) / pixels;
-        let (depth, normal, colour) = reads(&always);
+        let [depth, normal, colour, light] = reads(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
         let behind = arithmetic(&straight) - arithmetic(&always);
         let looped = arithmetic(&all) - arithmetic(&straight);
         let weights = f64::from(always.tallies.get("weight_evaluations").copied().unwrap_or(0));
         let seen = f64::from(straight.texture_reads + straight.colour_reads);
         // A branch reads what it needs: counted as if always.
-        let hidden = seen - (depth + normal + colour);
+        let hidden = seen - (depth + normal + colour + light);
         let figures = [
             pixels,
             1.0,
             depth,
             normal,
             colour + hidden.max(0.0),
+            light,
+            f64::from(runtime_layers(&compiled.graph, &always_run.body)),
             weights,
             calls,
             alu,
@@ -114,16 +120,31 @@ fn arithmetic(counts: &Counts) -> f64 {
     f64::from(counts.alu) + 4.0 * f64::from(counts.transcendentals)
 }
 
-/// Reads of depth, of normals (packed texels count as these), and of colour.
-fn reads(counts: &Counts) -> (f64, f64, f64) {
+/// Reads of depth, of normals (packed texels count as these), of colour and where that was shaded, and of albedo and parts of light.
+fn reads(counts: &Counts) -> [f64; 4] {
     let of = |is: &dyn Fn(&str) -> bool| {
         let found = counts.reads.iter().filter(|(name, _)| is(name));
         f64::from(found.map(|(_, n)| n).sum::<u32>())
     };
     let depth = of(&|name| name.contains("depth"));
-    let colour = of(&|name| name.starts_with("color"));
+    let colour = of(&|name| name.starts_with("color") || name == "place");
+    let light = of(&|name| name.contains("albedo") || name == "direct" || name == "rest");
     let all = of(&|_| true);
-    (depth, all - depth - colour, colour)
+    [depth, all - depth - colour - light, colour, light]
+}
+
+/// Reads of one layer of several that is told at run time, as where a pixel was shaded is: processors read those one by one.
+fn runtime_layers(graph: &Graph, block: &Block) -> u32 {
+    let of = |step: &Step| match step {
+        Step::Eval(id) => {
+            let node = graph.node(*id);
+            let layer = node.args.get(1).filter(|_| matches!(node.op, Op::Load { .. }));
+            u32::from(layer.is_some_and(|layer| graph.constant(*layer).is_none()))
+        }
+        Step::Loop { body, .. } => runtime_layers(graph, body),
+        Step::If { .. } => 0,
+    };
+    block.steps.iter().map(of).sum()
 }
 
 /// The schedule with `side` of what stands on either side of its branches.
@@ -203,12 +224,26 @@ mod tests {
         // A bit for each unseen sample is all that is added to what every pixel does.
         assert!(figure(&searched, "arithmetic") < 1.2 * figure(&plain, "arithmetic"));
         assert_eq!(searched.reads, plain.reads);
+        assert_eq!(figure(&plain, "reads at runtime layers"), 0.0);
+        let placed = counted(&[("shading", "placed")], [1, 1]);
+        // Depth and normal of each of nine taps.
+        assert_eq!(figure(&placed, "reads at runtime layers"), 18.0);
+        assert_eq!(
+            figure(&placed, "reads of colour"),
+            9.0 + figure(&plain, "reads of colour")
+        );
 
-        let place = Kernel::builtin("sraa_place").unwrap().compile(&Settings::default()).unwrap();
+        let place = Kernel::builtin("sraa_place")
+            .unwrap()
+            .compile(&Settings::default())
+            .unwrap();
         let place = Static::of(&place);
         let both = plain.clone().after(place.clone());
         assert_eq!(figure(&both, "loops behind a branch"), 0.0);
-        assert_eq!(figure(&both, "loops of placing"), figure(&place, "loops behind a branch"));
+        assert_eq!(
+            figure(&both, "loops of placing"),
+            figure(&place, "loops behind a branch")
+        );
         assert!(figure(&both, "loops of placing") > 100.0, "{place:?}");
         assert_eq!(figure(&both, "invocations"), 2.0);
         assert_eq!(both.reads, plain.reads + place.reads);

@@ -270,8 +270,7 @@ impl Bench {
                 fields,
                 ..
             } => {
-                let elements =
-                    Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
+                let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
                 Owned::Buffer(self.buffer(elements, element, fields, *stride))
             }
             BindingKind::Uniform { .. } => return Ok(None),

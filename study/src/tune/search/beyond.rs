@@ -40,7 +40,9 @@ impl Search {
         for _ in 0..LOOKS {
             let known = self.entries.len();
             let usable = self.usable();
-            let best = usable.iter().min_by(|a, b| self.losses(**a).total_cmp(&self.losses(**b)));
+            let best = usable
+                .iter()
+                .min_by(|a, b| self.losses(**a).total_cmp(&self.losses(**b)));
             let within = usable.iter().filter(|k| self.is_within(**k));
             let cheapest = within.min_by(|a, b| self.entries[**a].predicted.total_cmp(&self.entries[**b].predicted));
             let around = best.into_iter().chain(cheapest);

@@ -171,7 +171,9 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
     let is_placed = ("shading".to_owned(), "placed".to_owned());
     offer.no_placing = match () {
         () if offer.fixes("shading") && !offer.fixed.contains(&is_placed) => Some("shading is set".to_owned()),
-        () if subject.placed.len() < subject.captures.len() => Some("a capture keeps the shading that it has".to_owned()),
+        () if subject.placed.len() < subject.captures.len() => {
+            Some("only what a renderer draws can be shaded elsewhere".to_owned())
+        }
         () if offer.fixes("unseen") => Some("`unseen` is set, and scenes are placed with its default".to_owned()),
         () => None,
     };
@@ -180,7 +182,10 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
     let refused = |more: &[(&str, &str)]| {
         let mut options = offer.fixed.clone();
         options.retain(|(name, _)| more.iter().all(|(own, _)| own != name));
-        options.extend(more.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())));
+        options.extend(
+            more.iter()
+                .map(|(name, value)| ((*name).to_owned(), (*value).to_owned())),
+        );
         let sampled = offer.samples.first().map_or(&[][..], |set| &set.options);
         let sampled = sampled.iter().filter(|(name, _)| !offer.fixes(name));
         options.extend(sampled.cloned());

@@ -188,7 +188,9 @@ impl Search {
             self.space.is_placed(variant),
             self.space.value(variant, Term::Light).beyond,
         );
-        let bytes = self.ground(variant).map_or(0, |ground| ground.bytes(metric, is_placed, is_apart));
+        let bytes = self
+            .ground(variant)
+            .map_or(0, |ground| ground.bytes(metric, is_placed, is_apart));
         bytes * u64::from(self.size.x) * u64::from(self.size.y)
     }
 
@@ -230,7 +232,9 @@ impl Search {
         let compiled = self.compile(variant)?;
         let bench = self.bench.clone().precision(precision);
         let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
-        let there = self.placing(variant).map_or(&ground.uploaded, |placing| &placing.uploaded);
+        let there = self
+            .placing(variant)
+            .map_or(&ground.uploaded, |placing| &placing.uploaded);
         let uploaded = bench.share(&manifest, &ground.inputs, there)?;
         Ok((pass, uploaded))
     }

@@ -36,7 +36,12 @@ impl Search {
     /// Measures the errors of all variants that have none yet. Whether all was done.
     pub(super) fn judge(&mut self, what: &str, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let is_open = |entry: &&Entry| entry.error.is_none() && entry.refused.is_none();
-        let mut apart: BTreeSet<Variant> = self.entries.iter().filter(is_open).map(|e| self.seen_as(e.variant)).collect();
+        let mut apart: BTreeSet<Variant> = self
+            .entries
+            .iter()
+            .filter(is_open)
+            .map(|e| self.seen_as(e.variant))
+            .collect();
         let mut found: BTreeMap<Variant, Result<Seen, String>> = BTreeMap::new();
         // What was seen before is not drawn again.
         apart.retain(|variant| {

@@ -6,7 +6,7 @@ use crate::record::Model;
 use crate::tune::features::NAMES;
 use crate::tune::{Gauge, TuneError, model};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use straightline_testbed::execute::{Job, Work};
 
 /// Variants that times are learned from, and on which the model is then tested; less in a small space.
@@ -22,30 +22,39 @@ impl Search {
     pub fn learn(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let usable = self.usable();
         let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.row(*k)).collect();
-        let place: BTreeMap<usize, usize> = usable.iter().enumerate().map(|(place, k)| (*k, place)).collect();
         let general = self.space.general();
         let mut first: Vec<usize> = vec![0];
         first.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
         first.extend(self.space.neighbours(general).iter().filter_map(|v| self.index.get(v)));
-        first.retain(|k| place.contains_key(k));
+        first.retain(|k| usable.contains(k));
         first.sort_unstable();
         first.dedup();
-        let taken: Vec<usize> = first.iter().map(|k| place[k]).collect();
-        let wanted = LEARNED_FROM.min(usable.len() * 3 / 4).saturating_sub(taken.len());
+        let wanted = LEARNED_FROM.min(usable.len() * 3 / 4);
+        // First among those of the paper's terms, which the larger counts of the others would leave few places.
+        let is_bare = |at: usize| {
+            let variant = self.entries[usable[at]].variant;
+            self.space.bare(variant) == variant
+        };
+        let bare: Vec<usize> = (0..usable.len()).filter(|at| is_bare(*at)).collect();
         let mut learned = first;
-        learned.extend(model::spanning(&rows, &taken, wanted).iter().map(|at| usable[*at]));
+        for (among, wanted) in [(bare, wanted * 2 / 3), ((0..usable.len()).collect(), wanted)] {
+            let rows: Vec<Vec<f64>> = among.iter().map(|at| rows[*at].clone()).collect();
+            let taken = among
+                .iter()
+                .enumerate()
+                .filter(|(_, at)| learned.contains(&usable[**at]));
+            let taken: Vec<usize> = taken.map(|(k, _)| k).collect();
+            let missing = wanted.saturating_sub(learned.len());
+            let more = model::spanning(&rows, &taken, missing);
+            learned.extend(more.iter().map(|k| usable[among[*k]]));
+        }
         // Any others: spread over the list by a step that visits all of it.
         let others: Vec<usize> = usable.iter().copied().filter(|k| !learned.contains(k)).collect();
         let tested: Vec<usize> = (0..others.len().min(TESTED_ON))
             .map(|k| others[(k * 2 + 1) * others.len() / (2 * others.len().min(TESTED_ON))])
             .collect();
         let both: Vec<usize> = learned.iter().chain(&tested).copied().collect();
-        if !self.measure(
-            &both,
-            (self.question.rounds / 2).max(3),
-            "measuring, to learn",
-            progress,
-        )? {
+        if !self.measure(&both, self.fewer_rounds(), "measuring, to learn", progress)? {
             return Ok(false);
         }
         let size = self.share();
@@ -157,6 +166,11 @@ impl Search {
             self.entries[*k].ratio = timed.ratio(0, job);
         }
         Ok(complete)
+    }
+
+    /// Rounds where nothing is decided yet.
+    pub(in crate::tune) fn fewer_rounds(&self) -> u32 {
+        (self.question.rounds / 3).max(3)
     }
 
     fn row(&self, index: usize) -> Option<Vec<f64>> {
