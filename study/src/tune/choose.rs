@@ -18,8 +18,8 @@ const OF_THE_FASTEST: usize = 10;
 /// How much slower than the predicted winner a neighbour may be, by prediction, to be measured.
 const NEAR: f64 = 1.3;
 
-/// Share of the best ratio, of few rounds, from which a variant is measured in all rounds.
-const CONTENDS: f64 = 0.8;
+/// Variants within the budget that are measured in all rounds, the fastest in few.
+const CONTENDERS: usize = 6;
 
 /// Share of the best ratio from which a variant may count as just as fast, if its spread reaches the best.
 const AS_FAST: f64 = 0.9;
@@ -96,17 +96,12 @@ impl Search {
         if !self.measure(&which, self.fewer_rounds(), "measuring the front", progress)? {
             return Ok(false);
         }
-        // Those that may be fastest within the budget are measured again, and longer.
+        // The fastest within the budget are measured again, and longer.
         which.retain(|k| self.is_within(*k));
-        let ratios: Vec<(usize, Ratio)> = which
-            .iter()
-            .filter_map(|k| Some((*k, self.entries[*k].ratio?)))
-            .collect();
-        let fastest = ratios.iter().map(|(_, ratio)| ratio.median).fold(0.0, f64::max);
-        let may_win = ratios
-            .iter()
-            .filter(|(_, ratio)| ratio.median >= CONTENDS * fastest || ratio.high >= fastest);
-        which = may_win.map(|(k, _)| *k).collect();
+        let speed = |k: &usize| self.entries[*k].ratio.map_or(0.0, |ratio| ratio.median);
+        which.sort_by(|a, b| speed(b).total_cmp(&speed(a)).then(a.cmp(b)));
+        which.dedup();
+        which.truncate(CONTENDERS);
         self.finalists = which.clone();
         self.finalists.push(0);
         self.measure(&which, self.question.rounds, "measuring, to decide", progress)
