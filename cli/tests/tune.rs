@@ -116,7 +116,16 @@ fn variants_are_compared_by_the_cycles_of_a_compiler() {
 fn a_placed_variant_comes_with_the_shader_that_places() {
     let out = scratch("tune-placed");
     let scene = ["tune", "--scene", "railings", "--size", "64x36", "--max-error", "1"];
-    let set = ["--set", "shading=placed", "--set", "demodulate=none"];
+    let set = [
+        "--set",
+        "shading=placed",
+        "--set",
+        "demodulate=none",
+        "--set",
+        "layout=superresolution",
+        "--set",
+        "normals=octahedral",
+    ];
     let words = ["--target", "wgsl,glsl450", "--out", out.to_str().unwrap()];
     let said = finishes(&[&scene[..], &SMALL, &set, &words].concat());
     for text in [
@@ -159,6 +168,32 @@ fn a_placed_variant_comes_with_the_shader_that_places() {
         .chain(&record.needed)
         .map(|out| out.term.as_str());
     assert_eq!(told.filter(|term| *term == "search").count(), 1);
+}
+
+/// What is not searched may be set for all, and no block of pixels then goes the same way.
+#[test]
+fn what_takes_a_branch_leaves_blocks_aside() {
+    let out = scratch("tune-branch");
+    let scene = ["tune", "--scene", "railings", "--size", "64x36", "--max-error", "1"];
+    let set = [
+        "--set",
+        "search=seven",
+        "--set",
+        "demodulate=albedo",
+        "--set",
+        "shading=centre",
+    ];
+    let said = finishes(&[&scene[..], &SMALL, &set, &["--out", out.to_str().unwrap()]].concat());
+    for text in ["search: it was set to seven", "blocks: ", "mask: it would leave paint"] {
+        assert!(said.contains(text), "no `{text}` in:\n{said}");
+    }
+    let manifest = std::fs::read_to_string(out.join("sraa-railings.json")).expect("a manifest");
+    let options = Manifest::from_json(&manifest).expect("it is one").options;
+    assert_eq!(
+        (options["search"].as_str(), options["demodulate"].as_str()),
+        ("seven", "albedo")
+    );
+    assert!(!out.join("sraa-place-railings.json").exists());
 }
 
 #[test]

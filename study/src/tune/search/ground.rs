@@ -1,10 +1,11 @@
 //! What variants read, on the device: once for each set of geometry samples.
 
 use crate::tune::features::Static;
-use crate::tune::space::{Offer, SampleSet, Space};
+use crate::tune::space::{Offer, SampleSet, Space, Variant};
 use crate::tune::steps::depth_scale;
 use crate::tune::{Question, Subject, Term, TuneError};
 use straightline_codegen::{Compiled, Kernel, Manifest, Settings, Stage};
+use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::Pass;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Uploaded};
@@ -20,6 +21,9 @@ const ALBEDO_BYTES: u64 = 4;
 /// Bytes of a pixel: direct light and what does not follow the albedo as `rgba16float`, where it is shaded as `r8uint`.
 const LIGHT_BYTES: u64 = 2 * 8;
 const PLACE_BYTES: u64 = 1;
+
+/// What says where pixels are shaded.
+const PLACE: &str = "place";
 
 /// What the variants of one set of samples read, on the device.
 #[derive(Debug)]
@@ -49,50 +53,78 @@ pub(in crate::tune) struct Placing {
 }
 
 impl Ground {
-    /// The ground of the set of samples at `place` in the space.
+    /// The ground of a set of samples, by its place in the space.
     pub(super) fn new(
         bench: &Bench,
         (kernel, space): (&Kernel, &Space),
-        place: usize,
+        samples: usize,
         (capture, placed): (&Capture, Option<&Placed>),
     ) -> Result<Ground, TuneError> {
-        let light = space.values(Term::Light).len() - 1;
-        let richest = space.general().with(Term::Samples, place).with(Term::Light, light);
-        let settings = space.settings(richest);
-        let centred = shaded(settings.clone(), "centre");
-        let (compiled, manifest) = manifest_of(bench, kernel, &centred)?;
-        let inputs = gbuffer::inputs(capture, &compiled.options)?;
-        let uploaded = bench.upload(&manifest, &inputs)?;
+        let reads = |place: &str| -> Result<Vec<(Compiled, Manifest)>, TuneError> {
+            // A capture that is shaded elsewhere stays so.
+            let settings = richest(space, samples).into_iter().map(|v| match placed {
+                Some(_) => shaded(space.settings(v), place),
+                None => space.settings(v),
+            });
+            settings.map(|settings| manifest_of(bench, kernel, &settings)).collect()
+        };
+        let mut all = reads("centre")?;
+        let mut inputs = Inputs::new(capture.size);
+        if let Some((compiled, _)) = all.last() {
+            inputs = gbuffer::inputs(capture, &compiled.options)?;
+        }
+        let place = placed.map(|_| {
+            let options = place_options(
+                space,
+                space.value(space.general().with(Term::Samples, samples), Term::Samples),
+            );
+            let settings = Settings {
+                options,
+                ..Settings::default()
+            };
+            manifest_of(bench, &Kernel::builtin("sraa_place")?, &settings)
+        });
+        let place = place.transpose()?;
+        if let Some((compiled, manifest)) = &place {
+            // Normals may be what no filter reads.
+            let own = gbuffer::inputs(capture, &compiled.options)?.images;
+            let missing = own
+                .into_iter()
+                .filter(|(name, _)| inputs.images.iter().all(|(known, _)| known != name));
+            let missing: Vec<_> = missing.collect();
+            inputs.images.extend(missing);
+            all.push((compiled.clone(), manifest.clone()));
+            all.extend(reads("placed")?);
+        }
+        let wide = widest(all.iter().map(|(_, manifest)| manifest));
+        let here = Manifest {
+            bindings: wide
+                .iter()
+                .filter(|binding| binding.name != PLACE || placed.is_none())
+                .cloned()
+                .collect(),
+            ..all[0].1.clone()
+        };
+        let uploaded = bench.upload(&here, &inputs)?;
         let inputs = Inputs {
             images: Vec::new(),
             buffers: Vec::new(),
             ..inputs
         };
-        let placing = placed.map(|placed| -> Result<Placing, TuneError> {
-            let (_, manifest) = manifest_of(bench, kernel, &shaded(settings, "placed"))?;
-            let moved = moved(&inputs, placed);
-            let filter = bench.upload_onto(&manifest, &moved, &uploaded)?;
-            let options = place_options(space, space.value(richest, Term::Samples));
-            let settings = Settings {
-                options,
-                ..Settings::default()
-            };
-            let (compiled, manifest) = manifest_of(bench, &Kernel::builtin("sraa_place")?, &settings)?;
-            let (pass, _) = bench.pass(&compiled, Stage::Compute)?;
-            // Normals may be what no filter reads.
-            let mut own = gbuffer::inputs(capture, &compiled.options)?;
-            let is_there = |name: &str| uploaded.resources().iter().any(|(known, _)| *known == name);
-            own.images.retain(|(name, _)| !is_there(name));
-            own.buffers.retain(|(name, _)| !is_there(name));
-            Ok(Placing {
-                reads: bench.upload_onto(&manifest, &own, &uploaded)?,
-                known: Static::of(&compiled),
-                compiled,
-                pass,
-                uploaded: filter,
-                cycles: None,
-            })
-        });
+        let placing = place
+            .zip(placed)
+            .map(|((compiled, manifest), placed)| -> Result<Placing, TuneError> {
+                let there = Manifest { bindings: wide, ..here };
+                let (pass, _) = bench.pass(&compiled, Stage::Compute)?;
+                Ok(Placing {
+                    reads: bench.share(&manifest, &inputs, &uploaded)?,
+                    known: Static::of(&compiled),
+                    compiled,
+                    pass,
+                    uploaded: bench.upload_onto(&there, &moved(&inputs, placed), &uploaded)?,
+                    cycles: None,
+                })
+            });
         Ok(Ground {
             placing: placing.transpose()?,
             uploaded,
@@ -115,6 +147,35 @@ impl Ground {
         };
         geometry * self.layers + light + if is_placed { PLACE_BYTES } else { 0 }
     }
+}
+
+/// Variants that together read all that any of one set of samples does, and of each texture as many components: what a loop chooses a
+/// sample by is read whole. The last reads every texture.
+fn richest(space: &Space, samples: usize) -> Vec<Variant> {
+    let general = space.general().with(Term::Samples, samples);
+    let most = |v: Variant, term: Term| v.with(term, space.values(term).len() - 1);
+    let searched = most(general, Term::Search);
+    let mut all = vec![general, searched, most(searched, Term::Light)];
+    all.dedup();
+    all
+}
+
+/// The bindings of several kernels, each with all components that one of them reads.
+fn widest<'a>(manifests: impl Iterator<Item = &'a Manifest>) -> Vec<Binding> {
+    let mut all: Vec<Binding> = Vec::new();
+    for binding in manifests.flat_map(|manifest| &manifest.bindings) {
+        match all.iter_mut().find(|known| known.name == binding.name) {
+            None => all.push(binding.clone()),
+            Some(known) => {
+                if let BindingKind::Texture { components, .. } = &mut known.kind
+                    && let BindingKind::Texture { components: own, .. } = &binding.kind
+                {
+                    *components = (*components).max(*own);
+                }
+            }
+        }
+    }
+    all
 }
 
 fn manifest_of(bench: &Bench, kernel: &Kernel, settings: &Settings) -> Result<(Compiled, Manifest), TuneError> {
@@ -153,7 +214,7 @@ fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
             moved = moved.image(name, frame.clone());
         }
     }
-    moved.integers("place", vec![gbuffer::places(&placed.place)])
+    moved.integers(PLACE, vec![gbuffer::places(&placed.place)])
 }
 
 /// What may be searched of a subject.
@@ -193,8 +254,7 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
             options,
             ..Settings::default()
         };
-        let errors = kernel.compile(&settings).err()?;
-        errors.diagnostics.into_iter().next().map(|first| first.message)
+        refusal(kernel, &settings)
     };
     let no_search = blind.clone().or_else(|| refused(&[("search", "five")]));
     let has_rest = |capture: &Capture| capture.rest.is_some() || offer.fixes("rest");
@@ -208,6 +268,26 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
         no_light,
         ..offer
     }
+}
+
+/// Why there can be no blocks, if so: they take no branch, and what all variants have may bring one.
+pub(super) fn no_blocks(kernel: &Kernel, space: &Space) -> Option<String> {
+    let last = |term: Term| space.values(term).len() - 1;
+    let cheapest = space
+        .general()
+        .with(Term::Samples, last(Term::Samples))
+        .with(Term::Metric, last(Term::Metric));
+    // What is wrong with single pixels, too, is told of elsewhere.
+    match refusal(kernel, &space.settings(cheapest)) {
+        None => refusal(kernel, &space.settings(cheapest.with(Term::Block, last(Term::Block)))),
+        Some(_) => None,
+    }
+}
+
+/// What the kernel says against options.
+fn refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
+    let errors = kernel.compile(settings).err()?;
+    errors.diagnostics.into_iter().next().map(|first| first.message)
 }
 
 pub(super) fn sample_set(capture: &Capture) -> SampleSet {

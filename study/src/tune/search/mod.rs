@@ -13,7 +13,7 @@ use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Gauge, Question, Term, TuneError};
 use crate::record::Model;
 use glam::{UVec2, Vec4};
-use ground::{Ground, Placing, offer, sample_set};
+use ground::{Ground, Placing, no_blocks, offer, sample_set};
 use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
 use straightline_kernels::prelude::Frame;
@@ -98,7 +98,10 @@ impl Search {
     /// If an option is wrong, or the capture lacks what the options need.
     pub fn new(bench: &Bench, subject: Subject, question: &Question, gauge: Gauge) -> Result<Search, TuneError> {
         let kernel = Kernel::builtin("sraa")?;
-        let space = Space::new(&offer(&kernel, &subject, question)).map_err(TuneError::Space)?;
+        let mut space = Space::new(&offer(&kernel, &subject, question)).map_err(TuneError::Space)?;
+        if let Some(why) = no_blocks(&kernel, &space) {
+            space.leave_aside(Term::Block, format!("blocks: {why}"));
+        }
         let size = subject.size();
         let Some(color) = subject.captures.first().map(|capture| capture.color.clone()) else {
             return Err(TuneError::Space("there is no capture to tune for".to_owned()));

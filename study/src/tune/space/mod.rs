@@ -96,6 +96,12 @@ impl Space {
         })
     }
 
+    /// Leaves but the first value of a term, and says why.
+    pub(in crate::tune) fn leave_aside(&mut self, term: Term, why: String) {
+        self.terms[term as usize].truncate(1);
+        self.left_aside.push(why);
+    }
+
     /// The values of a term, the one that computes most first.
     pub fn values(&self, term: Term) -> &[Value] {
         &self.terms[term as usize]
