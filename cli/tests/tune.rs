@@ -111,6 +111,91 @@ fn variants_are_compared_by_the_cycles_of_a_compiler() {
     assert_eq!(again.candidates, record.candidates);
 }
 
+/// A picture that is placed cannot be had without the shader that says where.
+#[test]
+fn a_placed_variant_comes_with_the_shader_that_places() {
+    let out = scratch("tune-placed");
+    let scene = ["tune", "--scene", "railings", "--size", "64x36", "--max-error", "1"];
+    let set = [
+        "--set",
+        "shading=placed",
+        "--set",
+        "demodulate=none",
+        "--set",
+        "layout=superresolution",
+        "--set",
+        "normals=octahedral",
+    ];
+    let words = ["--target", "wgsl,glsl450", "--out", out.to_str().unwrap()];
+    let said = finishes(&[&scene[..], &SMALL, &set, &words].concat());
+    for text in [
+        "shading: it was set to placed",
+        "demodulate: it was set to none",
+        "not searched ",
+        "sraa-place-railings.wgsl",
+    ] {
+        assert!(said.contains(text), "no `{text}` in:\n{said}");
+    }
+    let manifest = |name: &str| {
+        let text = std::fs::read_to_string(out.join(name)).expect("a manifest");
+        Manifest::from_json(&text).expect("it is one")
+    };
+    let (filter, place) = (manifest("sraa-railings.json"), manifest("sraa-place-railings.json"));
+    assert_eq!((filter.kernel.as_str(), place.kernel.as_str()), ("sraa", "sraa_place"));
+    assert_eq!(filter.options["shading"], "placed");
+    assert_eq!(place.options["pattern"], filter.options["pattern"]);
+    // As the scene was placed, whatever the filter compares.
+    assert_eq!(
+        (
+            place.options["difference"].as_str(),
+            place.options["depth-scale"].as_str()
+        ),
+        ("relative", "3")
+    );
+    for manifest in [&filter, &place] {
+        assert_eq!(manifest.files.len(), 2);
+        assert!(
+            manifest.files.values().all(|file| out.join(file).is_file()),
+            "{:?}",
+            manifest.files
+        );
+    }
+    let record = std::fs::read_to_string(out.join("tune-railings.json")).expect("a record");
+    let record: TuneRecord = serde_json::from_str(&record).expect("it is one");
+    let told = record
+        .left_out
+        .iter()
+        .chain(&record.needed)
+        .map(|out| out.term.as_str());
+    assert_eq!(told.filter(|term| *term == "search").count(), 1);
+}
+
+/// What is not searched may be set for all, and no block of pixels then goes the same way.
+#[test]
+fn what_takes_a_branch_leaves_blocks_aside() {
+    let out = scratch("tune-branch");
+    let scene = ["tune", "--scene", "railings", "--size", "64x36", "--max-error", "1"];
+    let set = [
+        "--set",
+        "search=seven",
+        "--set",
+        "demodulate=albedo",
+        "--set",
+        "shading=centre",
+    ];
+    let said = finishes(&[&scene[..], &SMALL, &set, &["--out", out.to_str().unwrap()]].concat());
+    for text in ["search: it was set to seven", "blocks: ", "mask: it would leave paint"] {
+        assert!(said.contains(text), "no `{text}` in:\n{said}");
+    }
+    let manifest = std::fs::read_to_string(out.join("sraa-railings.json")).expect("a manifest");
+    let options = Manifest::from_json(&manifest).expect("it is one").options;
+    assert_eq!(
+        (options["search"].as_str(), options["demodulate"].as_str()),
+        ("seven", "albedo")
+    );
+    assert!(!out.join("sraa-place-railings.json").exists());
+}
+
 #[test]
 fn a_cost_that_there_is_not_is_refused() {
     let words = [

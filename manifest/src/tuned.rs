@@ -24,15 +24,18 @@ pub struct Tuned {
     pub adapter: String,
     /// Speedup over the most general variant: the middle of all rounds.
     pub speedup: f64,
-    /// What the most general variant has and this one has not.
+    /// What the most general variant has and this one has not, and what goes beyond that one and was tried.
     pub left_out: Vec<LeftOut>,
+    /// What this one has beyond the most general variant.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub needed: Vec<LeftOut>,
 }
 
-/// A term that a shader does without.
+/// A term that a shader does without, or that it needs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LeftOut {
-    /// What: normals, planes, 16 samples, f32, ...
+    /// What: normals, planes, 16 samples, f32, placing, ...
     pub term: String,
     /// What that cost: error without it less error with it, by the metric, a loss being positive.
     pub cost: f64,
@@ -69,7 +72,17 @@ mod tests {
                 term: "normals".to_owned(),
                 cost: 0.125,
             }],
+            needed: Vec::new(),
         });
+        let text = manifest.to_json();
+        assert!(!text.contains("needed"), "{text}");
+        assert_eq!(Manifest::from_json(&text).expect("it reads its own"), manifest);
+        if let Some(tuned) = &mut manifest.tuned {
+            tuned.needed = vec![LeftOut {
+                term: "placing".to_owned(),
+                cost: 1.25,
+            }];
+        }
         let text = manifest.to_json();
         assert_eq!(Manifest::from_json(&text).expect("it reads its own"), manifest);
         assert!(Manifest::from_json(&text.replace("\"left_out\"", "\"omitted\"")).is_err());

@@ -212,6 +212,10 @@ fn tune() -> TuneRecord {
             term: "normals".to_owned(),
             cost: 0.2,
         }],
+        needed: vec![LeftOut {
+            term: "placing".to_owned(),
+            cost: 1.25,
+        }],
         model: Model {
             terms: vec![("reads".to_owned(), 0.02), ("unused".to_owned(), 0.0)],
             learned_from: 24,
@@ -251,6 +255,7 @@ fn the_page_says_what_the_records_say() {
         "3 of 10",
         "<code>metric depth</code>, 39.8000",
         "<td>0.1250<td>2.50",
+        "would lose without: placing (1.250)",
         "Refused: f16: the adapter has none",
         "off by 7.0 % in the mean and 20.0 % at most",
         "<td>-1.25<td>-0.75<td>-0.50<td>37.5 %",

@@ -6,12 +6,12 @@ use common::bench;
 use glam::{UVec2, Vec4};
 use std::sync::{Mutex, OnceLock};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{EmitOptions, Kernel, Manifest, Settings};
+use straightline_codegen::{EmitOptions, Kernel, Manifest, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
 use straightline_study::progress::{Progress, Silent};
 use straightline_study::record::{Circumstances, TuneRecord};
-use straightline_study::tune::{ErrorMetric, Gauge, Outcome, PATTERNS, Question, Subject, TuneError, tune};
+use straightline_study::tune::{Beyond, ErrorMetric, Gauge, Outcome, PATTERNS, Question, Subject, TuneError, tune};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::execute::{Clock, interpret};
 use straightline_testbed::render::{CpuRenderer, capture, reference};
@@ -34,9 +34,14 @@ fn circumstances() -> Circumstances {
     }
 }
 
-/// A part of the space, so that the test is short: one falloff, one way to compare depths, whole floats.
+/// A part of the space, so that the test is short: one falloff, one way to compare depths, whole floats, nothing beyond the paper.
 fn question(metric: ErrorMetric, max_error: f64) -> Question {
-    let fixed = [("falloff", "tent"), ("difference", "absolute"), ("non-finite", "skip")];
+    let fixed = [
+        ("falloff", "tent"),
+        ("difference", "absolute"),
+        ("non-finite", "skip"),
+        ("search", "none"),
+    ];
     Question {
         metric,
         max_error,
@@ -56,7 +61,7 @@ fn tuned(subject: Subject, question: &Question) -> Outcome {
 }
 
 fn subject(scene: &str) -> Subject {
-    let subject = Subject::of_scene(scene, &renderer(scene), &PATTERNS, &mut Silent);
+    let subject = Subject::of_scene(scene, &renderer(scene), &PATTERNS, Beyond::NONE, &mut Silent);
     subject.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it")
 }
 
@@ -311,7 +316,7 @@ fn half_precision_is_searched_where_the_device_has_it() {
     budget.fixed.push(("pattern".to_owned(), "latin4".to_owned()));
     budget.fixed.push(("mask".to_owned(), "none".to_owned()));
     let renderer = renderer("creases");
-    let subject = Subject::of_scene("creases", &renderer, &["latin4"], &mut Silent);
+    let subject = Subject::of_scene("creases", &renderer, &["latin4"], Beyond::NONE, &mut Silent);
     let outcome = tuned(
         subject.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it"),
         &budget,
@@ -344,4 +349,72 @@ fn half_precision_is_searched_where_the_device_has_it() {
         .find(|term| term.instead == "f16")
         .expect("what f16 is worth");
     assert_eq!(slower, term.ratio.expect("it was timed").median < 1.0);
+}
+
+/// A part of the space in which a scene shows what it needs beyond the paper.
+fn beyond() -> Question {
+    let mut question = question(ErrorMetric::Psnr, 0.5);
+    question.fixed = [
+        ("falloff", "gaussian"),
+        ("difference", "relative"),
+        ("depth-scale", "3"),
+        ("non-finite", "skip"),
+        ("mask", "none"),
+    ]
+    .map(|(name, value)| (name.to_owned(), value.to_owned()))
+    .into();
+    question
+}
+
+#[test]
+fn painted_scenes_need_light_apart_and_fine_ones_placing_and_a_search() {
+    for (scene, needs, option) in [
+        (
+            "posters",
+            "light apart from paint and shadow",
+            ("demodulate", "albedo-shadow"),
+        ),
+        ("railings", "placing", ("shading", "placed")),
+    ] {
+        let renderer = renderer(scene);
+        let subject = Subject::of_scene(scene, &renderer, &PATTERNS, Beyond::ALL, &mut Silent);
+        let subject = subject.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it");
+        let captures = subject.captures.clone();
+        let placed = subject.placed.clone();
+        let outcome = tuned(subject, &beyond());
+        let record = &outcome.record;
+        let needed = |term: &str| record.needed.iter().find(|needed| needed.term == term);
+        let gain = needed(needs).unwrap_or_else(|| panic!("{scene} needs {needs}: {:?}", record.needed));
+        assert!(gain.cost > record.max_error, "{scene}: {gain:?}");
+        // Whether it is there or not, each is told of, and once.
+        let terms = ["placing", "search", "light apart from paint and shadow"];
+        for term in terms {
+            let left_out = record.left_out.iter().filter(|out| out.term == term).count();
+            assert_eq!(left_out + usize::from(needed(term).is_some()), 1, "{scene}: {term}");
+        }
+        let (manifest, _) = emitted(&outcome);
+        let tuned = manifest.tuned.as_ref().expect("what was left out");
+        assert_eq!(tuned.needed.len(), record.needed.len());
+        assert_eq!(manifest.options[option.0], option.1);
+        for term in &record.terms {
+            assert!(term.cost.is_finite() && term.ratio.is_some(), "{scene}: {term:?}");
+        }
+        let chosen = outcome.chosen.as_ref().expect("something is chosen");
+        assert_eq!(chosen.place.is_some(), manifest.options["shading"] == "placed");
+        let Some(place) = &chosen.place else { continue };
+        // The kernel that goes with it says where the picture was shaded.
+        let is_own = |capture: &&Capture| gbuffer::sampled_at(capture)[0].1 == manifest.options["pattern"];
+        let k = captures
+            .iter()
+            .position(|capture| is_own(&capture))
+            .expect("its samples");
+        let inputs = gbuffer::inputs(&captures[k], &place.options).expect("all is captured");
+        let said = bench().targets(place, Stage::Compute, &inputs).expect("it runs");
+        let own = said[0].texels.iter().map(|texel| texel[0] as u32);
+        let off = own.zip(placed[k].place.texels()).filter(|(a, b)| a != *b).count();
+        assert!(
+            off * 1000 < said[0].texels.len(),
+            "{scene}: {off} pixels are placed elsewhere"
+        );
+    }
 }

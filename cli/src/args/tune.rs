@@ -37,7 +37,8 @@ pub struct TuneArgs {
     /// Texel format of the shader's output: rgba8unorm, rgba16float or rgba32float
     #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
     pub format: Format,
-    /// Folder for the shader (sraa-SCENE.wgsl, .json) and the record (tune-SCENE.json, .csv); made if it is not there
+    /// Folder for the shader (sraa-SCENE.wgsl, .json), for the one that says where pixels are shaded, if they are placed
+    /// (sraa-place-SCENE.wgsl, .json), and for the record (tune-SCENE.json, .csv); made if it is not there
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Print the record as JSON

@@ -7,7 +7,7 @@ use super::{QualityError, check};
 use crate::baselines::{Smaa, Transfer, fxaa, mlaa};
 use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
@@ -244,10 +244,12 @@ fn one_after_the_other<'a>(
     shaders: &'a [Shader],
     uploads: &'a [(UVec2, Uploaded)],
 ) -> Result<Work<'a>, ExecuteError> {
-    let passes = shaders.iter().zip(uploads);
-    let works: Result<Vec<Work<'a>>, _> = passes.map(|(shader, upload)| shader.work(bench, upload)).collect();
-    let mut works = works?;
-    Ok(Box::new(move || works.iter_mut().map(|work| work()).sum()))
+    let jobs = shaders.iter().zip(uploads).map(|(shader, (size, uploaded))| Job {
+        pass: &shader.pass,
+        uploaded,
+        size: *size,
+    });
+    bench.following(&jobs.collect::<Vec<_>>())
 }
 
 /// What MLAA makes of a picture, linear as it is.
@@ -283,15 +285,6 @@ impl Shader {
             pass,
             manifest,
         })
-    }
-
-    fn work<'a>(&'a self, bench: &Bench, (size, uploaded): &'a (UVec2, Uploaded)) -> Result<Work<'a>, ExecuteError> {
-        let job = Job {
-            pass: &self.pass,
-            uploaded,
-            size: *size,
-        };
-        bench.work(job, Duration::ZERO)
     }
 
     fn bytes(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<u64, QualityError> {

@@ -50,10 +50,10 @@ fn is_exact(math: &str) -> bool {
     math == "exact"
 }
 
-/// A term that the chosen shader does without.
+/// A term that the chosen shader does without, or that it has beyond the most general variant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// What: normals, planes, 16 samples, mask, f32.
+    /// What: normals, planes, 16 samples, mask, f32, placing.
     pub term: String,
     /// What that cost in error: with it minus without it, by the record's metric, so that what is lost is positive.
     pub cost: f64,
@@ -133,6 +133,9 @@ pub struct TuneRecord {
     pub general: usize,
     /// What the chosen one leaves out.
     pub left_out: Vec<LeftOut>,
+    /// What the chosen one has beyond the most general variant, and what is lost without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub needed: Vec<LeftOut>,
     /// What each term of the most general variant is worth: that one without it.
     pub terms: Vec<TermWorth>,
     /// Variants that could not be emitted or run.
@@ -156,12 +159,31 @@ impl TuneRecord {
             None => "ms",
         }
     }
+
+    /// The best error of variants that do nothing beyond the paper, all of whose pixels are finite.
+    pub fn best_of_paper(&self) -> Option<f64> {
+        let of_paper = self.candidates.iter().filter(|c| c.non_finite == 0 && !c.goes_beyond());
+        let less = self.metric == "flip";
+        of_paper
+            .map(|c| c.error)
+            .reduce(|a, b| if less { a.min(b) } else { a.max(b) })
+    }
 }
 
 impl Candidate {
     /// What it takes, in the record's unit, if it was measured.
     pub fn measured(&self) -> Option<f64> {
         self.cycles.or(self.time.map(|time| time.median_ms))
+    }
+
+    /// Whether it is placed, searches, or borrows light apart.
+    pub fn goes_beyond(&self) -> bool {
+        let is_beyond = |(name, value): &(String, String)| match name.as_str() {
+            "shading" => value == "placed",
+            "search" | "demodulate" => value != "none",
+            _ => false,
+        };
+        self.options.iter().any(is_beyond)
     }
 }
 

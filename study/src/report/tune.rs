@@ -2,7 +2,7 @@
 
 use super::plot::{Dot, Line, Plot, Scale, number};
 use super::{ReportError, caption, options};
-use crate::record::{Candidate, TuneRecord};
+use crate::record::{Candidate, LeftOut, TuneRecord};
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
@@ -19,6 +19,7 @@ pub(super) struct Tune {
     chosen: Option<Row>,
     general: Option<Row>,
     left_out: Vec<(String, String)>,
+    needed: Vec<(String, String)>,
     /// What is left out of the most general variant, what is there instead, what that costs and what it saves.
     worth: Vec<[String; 4]>,
     refused: Vec<(String, String)>,
@@ -71,11 +72,8 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
         front: front.iter().filter_map(|k| row(*k)).collect(),
         chosen: record.chosen.and_then(row),
         general: row(record.general),
-        left_out: record
-            .left_out
-            .iter()
-            .map(|left| (left.term.clone(), format!("{:.3}", left.cost)))
-            .collect(),
+        left_out: costs(&record.left_out),
+        needed: costs(&record.needed),
         worth: record
             .terms
             .iter()
@@ -111,6 +109,11 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
             .map(|(term, weight)| (term.clone(), format!("{weight:.4}")))
             .collect(),
     })
+}
+
+fn costs(terms: &[LeftOut]) -> Vec<(String, String)> {
+    let of = |left: &LeftOut| (left.term.clone(), format!("{:.3}", left.cost));
+    terms.iter().map(of).collect()
 }
 
 fn cost(candidate: &Candidate) -> f64 {

@@ -18,17 +18,52 @@ const OF_THE_FASTEST: usize = 10;
 /// How much slower than the predicted winner a neighbour may be, by prediction, to be measured.
 const NEAR: f64 = 1.3;
 
+/// Variants within the budget that are measured in all rounds, the fastest in few.
+const CONTENDERS: usize = 6;
+
 /// Share of the best ratio from which a variant may count as just as fast, if its spread reaches the best.
 const AS_FAST: f64 = 0.9;
 
+/// Decisions at most: what the chosen variant is then compared with may be better than the best that was known.
+const DECISIONS: usize = 3;
+
 impl Search {
+    /// Measures what may be chosen, and chooses. `None` if the progress stops it before.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails, or no variant is within the budget.
+    pub fn decide(&mut self, progress: &mut dyn Progress) -> Result<Option<usize>, TuneError> {
+        if !self.refine(progress)? {
+            return Ok(None);
+        }
+        for _ in 0..DECISIONS {
+            if !self.measure_front(progress)? {
+                return Ok(None);
+            }
+            let chosen = self.choose()?;
+            let variant = self.entries[chosen].variant;
+            let mut compared: Vec<Variant> = self.space.left_out(variant).into_iter().map(|(_, with)| with).collect();
+            for added in self.space.added(variant) {
+                compared.extend([added.without, added.with]);
+            }
+            if !self.add(&compared, progress)? {
+                return Ok(None);
+            }
+            if self.is_within(chosen) {
+                return Ok(Some(chosen));
+            }
+        }
+        self.choose().map(Some)
+    }
+
     /// Measures the predicted front, the variants within the budget that are predicted to be fastest, and what is next to
     /// them. Whether all was done.
     ///
     /// # Errors
     ///
     /// If the device fails.
-    pub fn measure_front(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+    fn measure_front(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let usable = self.usable();
         let points: Vec<(f64, f64)> = usable
             .iter()
@@ -58,6 +93,15 @@ impl Search {
             which.extend(near.filter(|k| self.is_within(*k) && self.entries[*k].predicted <= limit));
         }
         which.retain(|k| usable.contains(k));
+        if !self.measure(&which, self.fewer_rounds(), "measuring the front", progress)? {
+            return Ok(false);
+        }
+        // The fastest within the budget are measured again, and longer.
+        which.retain(|k| self.is_within(*k));
+        let speed = |k: &usize| self.entries[*k].ratio.map_or(0.0, |ratio| ratio.median);
+        which.sort_by(|a, b| speed(b).total_cmp(&speed(a)).then(a.cmp(b)));
+        which.dedup();
+        which.truncate(CONTENDERS);
         self.finalists = which.clone();
         self.finalists.push(0);
         self.measure(&which, self.question.rounds, "measuring, to decide", progress)
@@ -69,7 +113,7 @@ impl Search {
     /// # Errors
     ///
     /// [`TuneError::NothingWithin`], which says what comes closest.
-    pub fn choose(&self) -> Result<usize, TuneError> {
+    fn choose(&self) -> Result<usize, TuneError> {
         let within = self.finalists.iter().copied().filter(|k| self.is_within(*k));
         let measured: Vec<(usize, Ratio)> = within.filter_map(|k| Some((k, self.entries[k].ratio?))).collect();
         let fastest = measured.iter().map(|(_, ratio)| ratio.median).fold(0.0, f64::max);
@@ -127,11 +171,11 @@ impl Search {
         Some(self.question.metric.loss(self.best(), error))
     }
 
-    fn losses(&self, index: usize) -> f64 {
+    pub(super) fn losses(&self, index: usize) -> f64 {
         self.loss(index).unwrap_or(f64::INFINITY)
     }
 
-    fn is_within(&self, index: usize) -> bool {
+    pub(super) fn is_within(&self, index: usize) -> bool {
         let entry = &self.entries[index];
         entry.refused.is_none()
             && matches!(entry.error, Some((_, 0)))
@@ -201,6 +245,7 @@ impl Search {
             chosen: chosen.and_then(|k| place.get(&k).copied()),
             general: place.get(&0).copied().unwrap_or(0),
             left_out: chosen.map_or(Vec::new(), |k| self.left_out(self.entries[k].variant)),
+            needed: chosen.map_or(Vec::new(), |k| self.added(self.entries[k].variant, true)),
             terms: self.terms(&place),
             refused: refused.collect(),
             not_searched: self.space.left_aside.clone(),
@@ -235,10 +280,23 @@ impl Search {
     /// What the chosen variant does without, and what putting each back would win.
     fn left_out(&self, chosen: Variant) -> Vec<LeftOut> {
         let all = self.space.left_out(chosen).into_iter();
-        all.filter_map(|(term, with)| {
+        let left_out = all.filter_map(|(term, with)| {
             Some(LeftOut {
                 term,
                 cost: self.cost(chosen, with)?,
+            })
+        });
+        left_out.chain(self.added(chosen, false)).collect()
+    }
+
+    /// What a variant has, or has not, beyond the most general one, and what each wins.
+    fn added(&self, variant: Variant, is_there: bool) -> Vec<LeftOut> {
+        let all = self.space.added(variant).into_iter();
+        let all = all.filter(|added| added.is_there == is_there);
+        all.filter_map(|added| {
+            Some(LeftOut {
+                cost: self.cost(added.without, added.with)?,
+                term: added.term,
             })
         })
         .collect()
@@ -269,12 +327,16 @@ impl Search {
     pub fn chosen(&self, index: usize, record: &TuneRecord) -> Result<Chosen, TuneError> {
         let entry = &self.entries[index];
         let error = |entry: &Entry| entry.error.map_or(0.0, |(error, _)| error);
-        let left_out = record.left_out.iter().map(|out| straightline_manifest::LeftOut {
-            term: out.term.clone(),
-            cost: out.cost,
-        });
+        let said = |all: &[LeftOut]| {
+            let of = |out: &LeftOut| straightline_manifest::LeftOut {
+                term: out.term.clone(),
+                cost: out.cost,
+            };
+            all.iter().map(of).collect()
+        };
         Ok(Chosen {
             compiled: self.compile(entry.variant)?,
+            place: self.placing(entry.variant).map(|placing| placing.compiled.clone()),
             precision: self.space.precision(entry.variant),
             tuned: Tuned {
                 scene: record.scene.clone(),
@@ -289,7 +351,8 @@ impl Search {
                     None => record.circumstances.adapter.clone(),
                 },
                 speedup: entry.ratio.map_or(1.0, |ratio| ratio.median),
-                left_out: left_out.collect(),
+                left_out: said(&record.left_out),
+                needed: said(&record.needed),
             },
         })
     }

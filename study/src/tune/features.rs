@@ -1,21 +1,27 @@
 //! What a shader's static counts say of its time: the columns of the model, a pixel.
 
 use straightline_codegen::Compiled;
+use straightline_codegen::ir::{Graph, Op};
 use straightline_codegen::passes::{self, Block, Schedule, Step};
 use straightline_manifest::Counts;
 
-/// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too.
-pub const NAMES: [&str; 12] = [
+/// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too. Loops there, which only few
+/// pixels come to, are counted apart from that, those of the filter and those of `sraa_place`.
+pub const NAMES: [&str; 16] = [
     "pixels",
     "invocations",
     "reads of depth",
     "reads of normals",
     "reads of colour",
+    "reads of light",
+    "reads at runtime layers",
     "weights",
     "exponentials and roots",
     "arithmetic",
     "live values",
     "arithmetic behind a branch",
+    "loops behind a branch",
+    "loops of placing",
     "arithmetic in f16",
     "exponentials in f16",
 ];
@@ -31,7 +37,7 @@ const HALF: [(&str, &str); 2] = [
 pub struct Static {
     /// Figures by [`NAMES`], a pixel.
     pub row: Vec<f64>,
-    /// Texture reads a pixel.
+    /// Texture reads a pixel, without those of loops behind a branch.
     pub reads: f64,
     /// Statements a pixel.
     pub statements: f64,
@@ -40,34 +46,43 @@ pub struct Static {
 impl Static {
     /// Counts a compiled variant, as it computes in `f32`.
     pub fn of(compiled: &Compiled) -> Static {
-        let all = passes::count(&compiled.graph, &compiled.schedule);
-        let always = passes::count(&compiled.graph, &without_branches(&compiled.schedule));
+        let count = |schedule: &Schedule| passes::count(&compiled.graph, schedule);
+        let all = count(&compiled.schedule);
+        let straight = count(&reduced(&compiled.schedule, without_loops));
+        let always_run = reduced(&compiled.schedule, |_| Block::default());
+        let always = count(&always_run);
         let [width, height] = compiled.graph.invocation.pixels();
         let pixels = f64::from(width * height);
         let statements = f64::from(compiled.statements()) / pixels;
-        let (depth, normal, colour) = reads(&always);
+        let [depth, normal, colour, light] = reads(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
-        let behind = f64::from(all.alu + 4 * all.transcendentals) - f64::from(always.alu + 4 * always.transcendentals);
+        let behind = arithmetic(&straight) - arithmetic(&always);
+        let looped = arithmetic(&all) - arithmetic(&straight);
         let weights = f64::from(always.tallies.get("weight_evaluations").copied().unwrap_or(0));
+        let seen = f64::from(straight.texture_reads + straight.colour_reads);
         // A branch reads what it needs: counted as if always.
-        let hidden = f64::from(all.texture_reads + all.colour_reads) - (depth + normal + colour);
+        let hidden = seen - (depth + normal + colour + light);
         let figures = [
             pixels,
             1.0,
             depth,
             normal,
             colour + hidden.max(0.0),
+            light,
+            f64::from(runtime_layers(&compiled.graph, &always_run.body)),
             weights,
             calls,
             alu,
             f64::from(all.max_live),
             behind.max(0.0),
+            looped.max(0.0),
+            0.0,
             0.0,
             0.0,
         ];
         Static {
             row: figures.iter().map(|figure| figure / pixels).collect(),
-            reads: f64::from(all.texture_reads + all.colour_reads) / pixels,
+            reads: seen / pixels,
             statements,
         }
     }
@@ -75,45 +90,96 @@ impl Static {
     /// The same computed in `f16`.
     pub fn in_half(mut self) -> Static {
         for (whole, half) in HALF {
-            let place = |name: &str| NAMES.iter().position(|known| *known == name);
-            if let (Some(whole), Some(half)) = (place(whole), place(half)) {
-                self.row[half] = std::mem::take(&mut self.row[whole]);
-            }
+            self.rename(whole, half);
         }
         self
     }
+
+    /// Both passes one after the other, `place` being the kernel `sraa_place`.
+    pub fn after(mut self, mut place: Static) -> Static {
+        place.rename("loops behind a branch", "loops of placing");
+        for (own, other) in self.row.iter_mut().zip(&place.row) {
+            *own += other;
+        }
+        self.reads += place.reads;
+        self.statements += place.statements;
+        self
+    }
+
+    /// Counts in one column what was counted in another.
+    fn rename(&mut self, old: &str, new: &str) {
+        let place = |name: &str| NAMES.iter().position(|known| *known == name);
+        if let (Some(old), Some(new)) = (place(old), place(new)) {
+            self.row[new] = std::mem::take(&mut self.row[old]);
+        }
+    }
 }
 
-/// Reads of depth, of normals (packed texels count as these), and of colour.
-fn reads(counts: &Counts) -> (f64, f64, f64) {
+/// Operations, a transcendental one as four.
+fn arithmetic(counts: &Counts) -> f64 {
+    f64::from(counts.alu) + 4.0 * f64::from(counts.transcendentals)
+}
+
+/// Reads of depth, of normals (packed texels count as these), of colour and where that was shaded, and of albedo and parts of light.
+fn reads(counts: &Counts) -> [f64; 4] {
     let of = |is: &dyn Fn(&str) -> bool| {
         let found = counts.reads.iter().filter(|(name, _)| is(name));
         f64::from(found.map(|(_, n)| n).sum::<u32>())
     };
     let depth = of(&|name| name.contains("depth"));
-    let colour = of(&|name| name.starts_with("color"));
+    let colour = of(&|name| name.starts_with("color") || name == "place");
+    let light = of(&|name| name.contains("albedo") || name == "direct" || name == "rest");
     let all = of(&|_| true);
-    (depth, all - depth - colour, colour)
+    [depth, all - depth - colour - light, colour, light]
 }
 
-/// The schedule with nothing on either side of its branches.
-fn without_branches(schedule: &Schedule) -> Schedule {
+/// Reads of one layer of several that is told at run time, as where a pixel was shaded is: processors read those one by one.
+fn runtime_layers(graph: &Graph, block: &Block) -> u32 {
+    let of = |step: &Step| match step {
+        Step::Eval(id) => {
+            let node = graph.node(*id);
+            let layer = node.args.get(1).filter(|_| matches!(node.op, Op::Load { .. }));
+            u32::from(layer.is_some_and(|layer| graph.constant(*layer).is_none()))
+        }
+        Step::Loop { body, .. } => runtime_layers(graph, body),
+        Step::If { .. } => 0,
+    };
+    block.steps.iter().map(of).sum()
+}
+
+/// The schedule with `side` of what stands on either side of its branches.
+fn reduced(schedule: &Schedule, side: fn(&Block) -> Block) -> Schedule {
     let mut schedule = schedule.clone();
-    strip(&mut schedule.body);
+    reduce(&mut schedule.body, side);
     schedule
 }
 
-fn strip(block: &mut Block) {
+fn reduce(block: &mut Block, side: fn(&Block) -> Block) {
     for step in &mut block.steps {
         match step {
             Step::If { then, otherwise, .. } => {
-                *then = Block::default();
-                *otherwise = Block::default();
+                *then = side(then);
+                *otherwise = side(otherwise);
             }
-            Step::Loop { body, .. } => strip(body),
+            Step::Loop { body, .. } => reduce(body, side),
             Step::Eval(_) => {}
         }
     }
+}
+
+fn without_loops(block: &Block) -> Block {
+    let mut block = block.clone();
+    for step in &mut block.steps {
+        match step {
+            Step::If { then, otherwise, .. } => {
+                *then = without_loops(then);
+                *otherwise = without_loops(otherwise);
+            }
+            Step::Loop { body, .. } => *body = Block::default(),
+            Step::Eval(_) => {}
+        }
+    }
+    block
 }
 
 #[cfg(test)]
@@ -146,6 +212,41 @@ mod tests {
         assert!(figure(&masked, "arithmetic behind a branch") > 50.0, "{masked:?}");
         assert!(figure(&masked, "exponentials and roots") < figure(&plain, "exponentials and roots"));
         assert_eq!(plain.reads, 35.0);
+    }
+
+    #[test]
+    fn loops_behind_a_branch_are_counted_apart_and_those_of_placing_too() {
+        let plain = counted(&[], [1, 1]);
+        let searched = counted(&[("search", "five")], [1, 1]);
+        assert_eq!(figure(&plain, "loops behind a branch"), 0.0);
+        assert!(figure(&searched, "loops behind a branch") > 500.0, "{searched:?}");
+        assert_eq!(figure(&searched, "arithmetic behind a branch"), 0.0);
+        // A bit for each unseen sample is all that is added to what every pixel does.
+        assert!(figure(&searched, "arithmetic") < 1.2 * figure(&plain, "arithmetic"));
+        assert_eq!(searched.reads, plain.reads);
+        assert_eq!(figure(&plain, "reads at runtime layers"), 0.0);
+        let placed = counted(&[("shading", "placed")], [1, 1]);
+        // Depth and normal of each of nine taps.
+        assert_eq!(figure(&placed, "reads at runtime layers"), 18.0);
+        assert_eq!(
+            figure(&placed, "reads of colour"),
+            9.0 + figure(&plain, "reads of colour")
+        );
+
+        let place = Kernel::builtin("sraa_place")
+            .unwrap()
+            .compile(&Settings::default())
+            .unwrap();
+        let place = Static::of(&place);
+        let both = plain.clone().after(place.clone());
+        assert_eq!(figure(&both, "loops behind a branch"), 0.0);
+        assert_eq!(
+            figure(&both, "loops of placing"),
+            figure(&place, "loops behind a branch")
+        );
+        assert!(figure(&both, "loops of placing") > 100.0, "{place:?}");
+        assert_eq!(figure(&both, "invocations"), 2.0);
+        assert_eq!(both.reads, plain.reads + place.reads);
     }
 
     #[test]

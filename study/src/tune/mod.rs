@@ -33,8 +33,8 @@ use straightline_testbed::render::RenderError;
 pub use cost::{Cost, Gauge};
 pub use features::{NAMES as COUNTS, Static};
 pub use search::Search;
-pub use space::{Offer, SampleSet, Space, Term, Value, Variant};
-pub use subject::{PATTERNS, Subject};
+pub use space::{Added, Offer, SampleSet, Space, Term, Value, Variant};
+pub use subject::{Beyond, PATTERNS, Subject};
 
 /// PSNR of pictures whose red, green and blue are off by one step of 8 bits, root mean square: as good as equal.
 pub const EQUAL_DB: f64 = 48.130_803_608_679_1;
@@ -133,6 +133,9 @@ pub struct Outcome {
 pub struct Chosen {
     /// The kernel.
     pub compiled: Compiled,
+    /// The kernel `sraa_place`, which runs before it and before shading, if pixels are to be shaded where that says. It computes in
+    /// `f32`.
+    pub place: Option<Compiled>,
     /// What it is to compute in.
     pub precision: Precision,
     /// For its manifest.
@@ -199,8 +202,8 @@ pub fn tune(
     if !search.has_general() {
         return Ok(None);
     }
-    let chosen = match finished && search.learn(progress)? && search.measure_front(progress)? {
-        true => Some(search.choose()?),
+    let chosen = match finished && search.learn(progress)? {
+        true => search.decide(progress)?,
         false => None,
     };
     let circumstances = Circumstances {

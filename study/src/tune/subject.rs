@@ -6,13 +6,35 @@ use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Renderer};
+use straightline_testbed::render::{self, Placed, Renderer};
 
 /// Patterns that a scene is sampled in, the most samples first.
 pub const PATTERNS: [&str; 3] = ["latin16", "standard8", "latin4"];
 
 /// Side of the grid of samples that a scene's reference is the mean of: 256 a pixel.
 const REFERENCE_SIDE: u32 = 16;
+
+/// What of a scene is drawn for variants that go beyond the paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Beyond {
+    /// Shading where the kernel `sraa_place` says.
+    pub placing: bool,
+    /// Albedo and visibility at every sample, the direct light, and what does not follow the albedo.
+    pub light: bool,
+}
+
+impl Beyond {
+    /// Everything.
+    pub const ALL: Beyond = Beyond {
+        placing: true,
+        light: true,
+    };
+    /// Nothing.
+    pub const NONE: Beyond = Beyond {
+        placing: false,
+        light: false,
+    };
+}
 
 /// One view, in as many captures as it has sets of geometry samples, the largest set first.
 #[derive(Clone, Debug)]
@@ -21,6 +43,8 @@ pub struct Subject {
     pub name: String,
     /// The same view with the same colours; at least one.
     pub captures: Vec<Capture>,
+    /// The shading of each capture where geometry asks for it, or none of any.
+    pub placed: Vec<Placed>,
     /// What a perfect filter would give.
     pub reference: Option<Frame<Vec4>>,
     /// What the reference is, in words.
@@ -28,8 +52,8 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// A scene, sampled in `patterns` and shaded at the pixels' centres, with its 256× reference. `None` if the progress stops
-    /// it before all is drawn.
+    /// A scene, sampled in `patterns` and shaded at the pixels' centres, with its 256× reference, and what `beyond` asks for. `None` if
+    /// the progress stops it before all is drawn.
     ///
     /// # Errors
     ///
@@ -38,13 +62,21 @@ impl Subject {
         name: &str,
         renderer: &dyn Renderer,
         patterns: &[&str],
+        beyond: Beyond,
         progress: &mut dyn Progress,
     ) -> Result<Option<Subject>, TuneError> {
-        let mut captures = Vec::new();
+        let (mut captures, mut placed) = (Vec::new(), Vec::new());
         progress.begin("geometry", patterns.len());
         for pattern in patterns {
             let samples = gbuffer::samples(pattern).unwrap_or_default();
-            captures.push(render::capture(renderer, &samples, ShadingSample::Centre)?);
+            let mut capture = render::capture(renderer, &samples, ShadingSample::Centre)?;
+            if beyond.light {
+                render::add_albedo(&mut capture, renderer)?;
+            }
+            if beyond.placing {
+                placed.extend(render::placed(&capture, renderer)?);
+            }
+            captures.push(capture);
             progress.step();
             if progress.stopped() {
                 return Ok(None);
@@ -58,6 +90,7 @@ impl Subject {
         Ok(Some(Subject {
             name: name.to_owned(),
             captures,
+            placed,
             reference: Some(reference),
             referred_to: format!("the mean of {} samples a pixel", REFERENCE_SIDE * REFERENCE_SIDE),
         }))
@@ -82,6 +115,7 @@ impl Subject {
         Subject {
             name: name.to_owned(),
             captures,
+            placed: Vec::new(),
             reference,
             referred_to: referred_to.to_owned(),
         }
@@ -125,6 +159,10 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         let kept = layers.iter().map(|k| normal.layers()[*k].clone());
         FrameLayers::new(kept.collect())
     });
+    let albedo = capture.albedo.as_ref().map(|albedo| {
+        let kept = layers.iter().map(|k| albedo.layers()[*k].clone());
+        FrameLayers::new(kept.collect())
+    });
     let place = |old: &usize| kept.iter().position(|k| k == old).unwrap_or(0);
     Capture {
         size: capture.size,
@@ -142,9 +180,9 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         place: capture.place.clone(),
         depth: FrameLayers::new(depth),
         normal,
-        albedo: None,
-        direct: None,
-        rest: None,
+        albedo,
+        direct: capture.direct.clone(),
+        rest: capture.rest.clone(),
         reference: None,
     }
 }
@@ -166,6 +204,7 @@ mod tests {
         let layers = samples.len() + usize::from(shading == ShadingSample::Centre);
         let depth = (0..layers).map(|k| Frame::new(size, vec![k as f32; 2]));
         let normal = (0..layers).map(|k| Frame::new(size, vec![Vec3::splat(k as f32); 2]));
+        let albedo = (0..layers).map(|k| Frame::new(size, vec![Vec4::splat(k as f32); 2]));
         Capture {
             size,
             shading,
@@ -176,8 +215,8 @@ mod tests {
             place: None,
             depth: FrameLayers::new(depth.collect()),
             normal: Some(FrameLayers::new(normal.collect())),
-            albedo: None,
-            direct: None,
+            albedo: Some(FrameLayers::new(albedo.collect())),
+            direct: Some(Frame::new(size, vec![Vec4::ONE; 2])),
             rest: None,
             reference: None,
             samples,
@@ -201,6 +240,12 @@ mod tests {
             assert_eq!(counts, [16, 8, 4]);
             for thin in &subject.captures {
                 assert_eq!(thin.depth.layers().len(), thin.layer_count());
+                assert!(thin.direct.is_some() && thin.rest.is_none());
+                let albedo = thin.albedo.as_ref().unwrap().layers();
+                for (own, depth) in albedo.iter().zip(thin.depth.layers()) {
+                    assert_eq!(own.texels()[0].x, depth.texels()[0]);
+                }
+                assert_eq!(albedo.len(), thin.layer_count());
                 for (sample, layer) in thin.samples.iter().zip(thin.depth.layers()) {
                     let place = whole.samples.iter().position(|s| s == sample).unwrap();
                     assert_eq!(layer.texels()[0], place as f32);

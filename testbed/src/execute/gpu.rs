@@ -7,7 +7,7 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, BufferType, Element, Manifest, REGION, SamplerType, UniformField};
+use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, REGION, SamplerType, UniformField};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,
@@ -207,55 +207,81 @@ impl Bench {
     ///
     /// If something is missing, or the device refuses it.
     pub fn upload(&self, manifest: &Manifest, inputs: &Inputs) -> Result<Uploaded, ExecuteError> {
-        let missing = |what: &str, name: &str| ExecuteError::Input(format!("no {what} is given for `{name}`"));
+        let nothing = Uploaded {
+            resources: Vec::new(),
+            uniforms: Vec::new(),
+        };
+        self.upload_onto(manifest, inputs, &nothing)
+    }
+
+    /// As [`upload`](Self::upload), with what `inputs` does not have taken from what is there already.
+    ///
+    /// # Errors
+    ///
+    /// If something is missing in both, or the device refuses it.
+    pub fn upload_onto(
+        &self,
+        manifest: &Manifest,
+        inputs: &Inputs,
+        there: &Uploaded,
+    ) -> Result<Uploaded, ExecuteError> {
         let mut resources = Vec::new();
         for binding in &manifest.bindings {
-            let name = binding.name.as_str();
-            let owned = match &binding.kind {
-                BindingKind::Texture {
-                    dimension,
-                    sample_type,
-                    components,
-                    ..
-                } => {
-                    if let Some(scalar) = integers_of(*sample_type) {
-                        let layers =
-                            Inputs::find(&inputs.integers, name).ok_or_else(|| missing("image of integers", name))?;
-                        Owned::Texture(self.integers(layers, *dimension, scalar)?)
-                    } else {
-                        let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing("image", name))?;
-                        let smaller = Inputs::find(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
-                        Owned::Texture(self.levels(layers, smaller, *dimension, *sample_type, *components)?)
-                    }
-                }
-                BindingKind::Sampler { .. } => {
-                    let state = Inputs::find(&inputs.samplers, name).copied().unwrap_or_default();
-                    let is = |of| matches!(&binding.kind, BindingKind::Sampler { sampler } if *sampler == of);
-                    // One that the generator made, which is not among a kernel's inputs.
-                    let state = match is(SamplerType::NonFiltering) {
-                        true => SamplerState::NEAREST,
-                        false => state,
-                    };
-                    Owned::Sampler(self.sampler(state, is(SamplerType::Comparison)))
-                }
-                BindingKind::Buffer {
-                    element,
-                    stride,
-                    fields,
-                    ..
-                } => {
-                    let elements =
-                        Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
-                    Owned::Buffer(self.buffer(elements, element, fields, *stride))
-                }
-                BindingKind::Uniform { .. } => continue,
+            let found = there.resources.iter().find(|(name, _)| *name == binding.name);
+            let owned = match found.filter(|_| !inputs.has(&binding.name)) {
+                Some((_, owned)) => Some(owned.clone()),
+                None => self.resource(binding, inputs)?,
             };
-            resources.push((binding.name.clone(), owned));
+            resources.extend(owned.map(|owned| (binding.name.clone(), owned)));
         }
         Ok(Uploaded {
             resources,
             uniforms: uniforms(manifest, inputs),
         })
+    }
+
+    /// What a binding is given; nothing if it is a uniform.
+    fn resource(&self, binding: &Binding, inputs: &Inputs) -> Result<Option<Owned>, ExecuteError> {
+        let missing = |what: &str, name: &str| ExecuteError::Input(format!("no {what} is given for `{name}`"));
+        let name = binding.name.as_str();
+        Ok(Some(match &binding.kind {
+            BindingKind::Texture {
+                dimension,
+                sample_type,
+                components,
+                ..
+            } => {
+                if let Some(scalar) = integers_of(*sample_type) {
+                    let layers =
+                        Inputs::find(&inputs.integers, name).ok_or_else(|| missing("image of integers", name))?;
+                    Owned::Texture(self.integers(layers, *dimension, scalar)?)
+                } else {
+                    let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing("image", name))?;
+                    let smaller = Inputs::find(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
+                    Owned::Texture(self.levels(layers, smaller, *dimension, *sample_type, *components)?)
+                }
+            }
+            BindingKind::Sampler { .. } => {
+                let state = Inputs::find(&inputs.samplers, name).copied().unwrap_or_default();
+                let is = |of| matches!(&binding.kind, BindingKind::Sampler { sampler } if *sampler == of);
+                // One that the generator made, which is not among a kernel's inputs.
+                let state = match is(SamplerType::NonFiltering) {
+                    true => SamplerState::NEAREST,
+                    false => state,
+                };
+                Owned::Sampler(self.sampler(state, is(SamplerType::Comparison)))
+            }
+            BindingKind::Buffer {
+                element,
+                stride,
+                fields,
+                ..
+            } => {
+                let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
+                Owned::Buffer(self.buffer(elements, element, fields, *stride))
+            }
+            BindingKind::Uniform { .. } => return Ok(None),
+        }))
     }
 
     /// As [`upload`](Self::upload), with all but uniforms taken from what another shader of the same kernel reads, so that many

@@ -117,6 +117,14 @@ impl Inputs {
         self
     }
 
+    /// Whether there is anything but a uniform of this name.
+    fn has(&self, name: &str) -> bool {
+        Inputs::find(&self.images, name).is_some()
+            || Inputs::find(&self.integers, name).is_some()
+            || Inputs::find(&self.samplers, name).is_some()
+            || Inputs::find(&self.buffers, name).is_some()
+    }
+
     fn find<'a, T>(entries: &'a [(String, T)], name: &str) -> Option<&'a T> {
         entries
             .iter()

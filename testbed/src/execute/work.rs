@@ -32,6 +32,24 @@ impl Bench {
         })
     }
 
+    /// Passes that follow on each other, in one submission, to be timed with others: their times are added up.
+    ///
+    /// # Errors
+    ///
+    /// If a pass cannot be bound, or the device cannot be asked for the time.
+    pub fn following<'a>(&self, jobs: &[Job<'_>]) -> Result<Work<'a>, ExecuteError> {
+        let bound: Vec<Bound> = jobs.iter().map(|job| self.bound(*job)).collect::<Result<_, _>>()?;
+        self.recorded(bound.len() as u32, Duration::ZERO, move |encoder, mut timer| {
+            for bound in &bound {
+                match &mut timer {
+                    Some(timer) => bound.encode_timed(encoder, timer)?,
+                    None => bound.encode(encoder),
+                }
+            }
+            Ok(())
+        })
+    }
+
     /// What records a pass among others.
     ///
     /// # Errors

@@ -143,8 +143,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
         inputs = inputs.layers("colors", capture.colors.clone());
     }
     if let Some(place) = &capture.place {
-        let texels = place.texels().iter().map(|layer| UVec4::new(*layer, 0, 0, 1));
-        inputs = inputs.integers("place", vec![Frame::new(capture.size, texels.collect())]);
+        inputs = inputs.integers("place", vec![places(place)]);
     }
     let apart = capture.layer_count() > capture.samples.len();
     for (name, stack) in images {
@@ -180,6 +179,12 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
         }),
         (None, _) => Ok(inputs),
     }
+}
+
+/// Where each pixel is shaded, as the binding `place` has it.
+pub fn places(place: &Frame<u32>) -> Frame<UVec4> {
+    let texels = place.texels().iter().map(|layer| UVec4::new(*layer, 0, 0, 1));
+    Frame::new(place.size(), texels.collect())
 }
 
 /// What taking light apart needs of a capture.

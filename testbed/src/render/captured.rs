@@ -38,21 +38,14 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
     for place in shaded {
         colors.push(renderer.shaded(place)?);
     }
-    let mut color = mean(&colors).ok_or(RenderError::NoOffsets)?;
+    let color = mean(&colors).ok_or(RenderError::NoOffsets)?;
     let (mut depth, mut normal) = (Vec::new(), Vec::new());
     for place in &places {
         let (depths, normals) = renderer.geometry(*place)?;
         depth.push(depths);
         normal.push(normals);
     }
-    let (depth, normal) = (FrameLayers::new(depth), FrameLayers::new(normal));
-    let mut place = None;
-    if shading == ShadingSample::Placed {
-        let chosen = placed::choose(samples, &depth, &normal);
-        color = placed::gathered(&places, &chosen, color, |place| renderer.shaded(place))?;
-        place = Some(chosen);
-    }
-    Ok(Capture {
+    let mut capture = Capture {
         size: renderer.size(),
         samples: samples.to_vec(),
         color,
@@ -63,12 +56,19 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         shading,
         normal_space: NormalSpace::View,
         camera: Some(renderer.camera()),
-        place,
-        depth,
-        normal: Some(normal),
+        place: None,
+        depth: FrameLayers::new(depth),
+        normal: Some(FrameLayers::new(normal)),
         albedo: None,
         direct: None,
         rest: None,
         reference: None,
-    })
+    };
+    if capture.shading == ShadingSample::Placed
+        && let Some(placed) = placed(&capture, renderer)?
+    {
+        capture.color = placed.color;
+        capture.place = Some(placed.place);
+    }
+    Ok(capture)
 }

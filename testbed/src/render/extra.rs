@@ -5,7 +5,7 @@ use super::{RenderError, Renderer};
 use crate::capture::{Capture, ShadingSample};
 use crate::execute::Inputs;
 use crate::gbuffer::{self, GBufferError};
-use glam::{UVec2, UVec4, Vec2, Vec4, ivec2};
+use glam::{UVec2, Vec2, Vec4, ivec2};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
 use straightline_kernels::sraa::{Metric, Shading, Sraa, View, sraa_extra};
@@ -40,11 +40,9 @@ impl Extra {
     pub fn inputs(&self, capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
         let mut alone = options.clone();
         alone.remove("extra");
-        let texels = self.sample.texels().iter().map(|sample| UVec4::new(*sample, 0, 0, 1));
-        let samples = Frame::new(self.sample.size(), texels.collect());
         let counts = COUNTS.map(|count| [f64::from(count), 0.0, 0.0, 1.0]);
         Ok(gbuffer::inputs(capture, &alone)?
-            .integers("extra", vec![samples])
+            .integers("extra", vec![gbuffer::places(&self.sample)])
             .image("extra_color", self.color.clone())
             .buffer("extra_counts", counts.to_vec())
             .buffer("extra_list", vec![[0.0; 4]; self.budget]))

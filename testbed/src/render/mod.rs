@@ -33,6 +33,7 @@ pub use extra::{Extra, extra, listing_options};
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples};
 pub(crate) use placed::gathered;
+pub use placed::{PLACED_BY, Placed, placed};
 pub use reference::{grid, reference};
 pub use shade::Surface;
 pub use shifted::Shifted;

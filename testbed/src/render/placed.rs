@@ -1,7 +1,7 @@
 //! Shading once a pixel, where geometry asks for it.
 
-use super::RenderError;
-use crate::capture::MAX_SAMPLES;
+use super::{RenderError, Renderer};
+use crate::capture::{Capture, MAX_SAMPLES};
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -54,6 +54,55 @@ impl Surfaces {
         };
         Surfaces { cfg, gbuffer, view }
     }
+}
+
+/// Options of the kernel `sraa_place` that say what tells surfaces apart where shading is placed here.
+pub const PLACED_BY: [(&str, &str); 3] = [
+    ("metric", "depth-normals"),
+    ("difference", "relative"),
+    ("depth-scale", "3"),
+];
+
+/// What is shaded once a pixel, where the kernel `sraa_place` says.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// Of each pixel the number of the geometry sample at which it is shaded, or the number of samples for its centre.
+    pub place: Frame<u32>,
+    /// Linear colours there.
+    pub color: Frame<Vec4>,
+    /// The direct light there as it would be without a shadow, if the capture has that.
+    pub direct: Option<Frame<Vec4>>,
+    /// What does not follow the albedo there, if the capture has that.
+    pub rest: Option<Frame<Vec4>>,
+}
+
+/// What `renderer` drew for a capture that is shaded at the pixels' centres, shaded where the kernel `sraa_place` says instead, with
+/// the options [`PLACED_BY`]. `None` of a capture without normals.
+///
+/// # Errors
+///
+/// What the renderer refuses.
+pub fn placed(capture: &Capture, renderer: &dyn Renderer) -> Result<Option<Placed>, RenderError> {
+    let Some(normal) = &capture.normal else {
+        return Ok(None);
+    };
+    let place = choose(&capture.samples, &capture.depth, normal);
+    let mut places = capture.samples.clone();
+    places.push(Vec2::ZERO);
+    let moved = |centred: &Frame<Vec4>, drawn: &dyn Fn(Vec2) -> Result<Frame<Vec4>, RenderError>| {
+        gathered(&places, &place, centred.clone(), drawn)
+    };
+    let color = moved(&capture.color, &|offset| renderer.shaded(offset))?;
+    let direct = capture.direct.as_ref();
+    let direct = direct.map(|centred| moved(centred, &|offset| renderer.sunlight(offset)));
+    let rest = capture.rest.as_ref();
+    let rest = rest.map(|centred| moved(centred, &|offset| renderer.unpainted(offset)));
+    Ok(Some(Placed {
+        color,
+        direct: direct.transpose()?,
+        rest: rest.transpose()?,
+        place,
+    }))
 }
 
 /// The layer in whose place each pixel is to be shaded: the kernel `sraa_place`, as rustc compiles it.

@@ -14,7 +14,7 @@ use straightline_codegen::{EmitOptions, Kernel, Settings, files};
 use straightline_isa::Compiler;
 use straightline_study::progress::Progress;
 use straightline_study::record::Record;
-use straightline_study::tune::{self, Chosen, Cost, Gauge, PATTERNS, Question, Subject, TuneError};
+use straightline_study::tune::{self, Beyond, Chosen, Cost, Gauge, PATTERNS, Question, Subject, TuneError};
 use straightline_testbed::capture::Capture;
 use straightline_testbed::gbuffer;
 
@@ -52,10 +52,16 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
         return Err(nothing_measured());
     };
     let emitted = outcome.chosen.as_ref().map(|chosen| emit(args, chosen)).transpose()?;
+    let place = outcome.chosen.as_ref().and_then(|chosen| chosen.place.as_ref());
+    let place = place.map(|compiled| compiled.emit(&options(args))).transpose();
+    let place = place.map_err(Failure::of)?;
     // The shader and the record that says why it was chosen are one set.
     let mut set = outcome.record.files(&format!("tune-{stem}")).map_err(Failure::of)?;
     if let Some(emitted) = emitted {
         set.extend(emitted.named(&format!("sraa-{stem}")));
+    }
+    if let Some(place) = place {
+        set.extend(place.named(&format!("sraa-place-{stem}")));
     }
     let written = files::write_all(&args.out, &set).map_err(Failure::of)?;
     print::report(args, &outcome.record, &written)?;
@@ -90,13 +96,16 @@ fn subject(args: &TuneArgs, gpu: &Gpu, progress: &mut dyn Progress) -> Result<Op
         None => name.to_owned(),
     };
     let renderer = scene::renderer(Some(gpu), &world, args.size.unwrap_or(SIZE))?;
-    let asked = args
-        .set
-        .iter()
-        .rev()
-        .find(|(name, _)| name == "pattern")
-        .map(|(_, value)| value.as_str());
-    let patterns: Vec<&str> = match asked {
+    let asked = |option: &str| {
+        let found = args.set.iter().rev().find(|(name, _)| name == option);
+        found.map(|(_, value)| value.as_str())
+    };
+    // What is not searched need not be drawn.
+    let beyond = Beyond {
+        placing: asked("shading").is_none_or(|place| place == "placed"),
+        light: asked("demodulate").is_none_or(|what| what != "none"),
+    };
+    let patterns: Vec<&str> = match asked("pattern") {
         Some(pattern) if gbuffer::PATTERNS.contains(&pattern) => vec![pattern],
         Some(other) => {
             return Err(Failure::Usage(format!(
@@ -106,7 +115,7 @@ fn subject(args: &TuneArgs, gpu: &Gpu, progress: &mut dyn Progress) -> Result<Op
         }
         None => PATTERNS.to_vec(),
     };
-    Subject::of_scene(&name, renderer.as_ref(), &patterns, progress).map_err(failure)
+    Subject::of_scene(&name, renderer.as_ref(), &patterns, beyond, progress).map_err(failure)
 }
 
 /// Refuses options that the kernel does not have before anything is drawn, and those left to a host.
@@ -125,14 +134,16 @@ fn check_options(args: &TuneArgs) -> Result<(), Failure> {
 }
 
 fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
-    let options = EmitOptions::new()
-        .format(args.format)
-        .precision(chosen.precision)
-        .accept_loss(true)
-        .targets(args.target.iter().copied());
+    let options = options(args).precision(chosen.precision).accept_loss(true);
     let mut emitted = chosen.compiled.emit(&options).map_err(Failure::of)?;
     emitted.manifest.tuned = Some(chosen.tuned.clone());
     Ok(emitted)
+}
+
+fn options(args: &TuneArgs) -> EmitOptions {
+    EmitOptions::new()
+        .format(args.format)
+        .targets(args.target.iter().copied())
 }
 
 /// What files are called for a scene, a model's path or a capture's.

@@ -24,11 +24,16 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
             record.circumstances.rounds
         ),
     }
+    let of_paper = record.best_of_paper().filter(|best| *best != record.best);
     outln!(
-        "{} variants against {}; the best has {}, the unfiltered picture {}\n",
+        "{} variants against {}; the best has {}{}, the unfiltered picture {}\n",
         record.candidates.len(),
         record.reference,
         metric.show(record.best),
+        of_paper.map_or(String::new(), |best| format!(
+            " (of the paper's terms alone {})",
+            metric.show(best)
+        )),
         metric.show(record.unfiltered)
     );
     for line in &record.not_searched {
@@ -73,11 +78,14 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
 fn choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
     outln!("\nchosen: {}", chosen.name);
     outln!(
-        "  {}, budget {}; speedup {} over the most general variant",
+        "  {}, budget {}; {}",
         metric.show(chosen.error),
         budget(record, metric),
-        ratio(chosen.ratio)
+        speed(chosen.ratio)
     );
+    for needed in &record.needed {
+        outln!("  needs {}: {} without", needed.term, lost(needed.cost, metric));
+    }
     for out in &record.left_out {
         outln!("  without {}: {}", out.term, lost(out.cost, metric));
     }
@@ -138,6 +146,19 @@ fn lost(cost: f64, metric: ErrorMetric) -> String {
         _ if cost == 0.0 => "the same".to_owned(),
         ErrorMetric::Psnr => format!("{:.2} dB {what}", cost.abs()),
         ErrorMetric::Flip => format!("{:.5} {what}", cost.abs()),
+    }
+}
+
+/// What it takes beside the most general variant, which may be less than that of one with more terms.
+fn speed(found: Option<Ratio>) -> String {
+    let longer = found.filter(|found| found.median < 1.0).map(|found| Ratio {
+        median: 1.0 / found.median,
+        low: 1.0 / found.high,
+        high: 1.0 / found.low,
+    });
+    match longer {
+        Some(_) => format!("takes {} times as long as the most general variant", ratio(longer)),
+        None => format!("speedup {} over the most general variant", ratio(found)),
     }
 }
 

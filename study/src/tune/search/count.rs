@@ -13,11 +13,12 @@ use straightline_codegen::Precision;
 const LONGEST: f64 = 2500.0;
 
 impl Search {
-    /// Static counts of every variant but blocks that would be too long.
+    /// Static counts of every variant that has none yet, but of blocks that would be too long.
     pub(super) fn count(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         // One graph for both precisions; single pixels before blocks, which are judged by them.
         let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
-        for (k, entry) in self.entries.iter().enumerate() {
+        let unknown = self.entries.iter().enumerate().filter(|(_, e)| e.known.is_none());
+        for (k, entry) in unknown {
             alike.entry(entry.variant.with(Term::Precision, 0)).or_default().push(k);
         }
         let mut graphs: Vec<Variant> = alike.keys().copied().collect();
@@ -44,7 +45,9 @@ impl Search {
                 "blocks of more than {LONGEST} statements, which drivers take long to compile: {too_long} variants in each precision"
             ));
         }
-        self.keep(|entry| entry.known.is_some());
+        if self.entries.iter().any(|entry| entry.known.is_none()) {
+            self.keep(|entry| entry.known.is_some());
+        }
         Ok(true)
     }
 
@@ -58,6 +61,10 @@ impl Search {
         {
             return Ok(None);
         }
-        Ok(Some(Static::of(&self.compile(variant)?)))
+        let filter = Static::of(&self.compile(variant)?);
+        Ok(Some(match self.placing(variant) {
+            Some(placing) => filter.after(placing.known.clone()),
+            None => filter,
+        }))
     }
 }

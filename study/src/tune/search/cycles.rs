@@ -4,7 +4,7 @@ use super::Search;
 use crate::progress::Progress;
 use crate::tune::{Gauge, Term, TuneError};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{EmitOptions, Stage};
+use straightline_codegen::{Compiled, EmitOptions, Precision, Stage};
 use straightline_isa::IsaError;
 use straightline_testbed::execute::Ratio;
 
@@ -41,25 +41,44 @@ impl Search {
         Ok(true)
     }
 
-    /// Cycles of a wave and pixel of its invocations.
+    /// Cycles of a wave and pixel of its invocations, of both passes where its pixels are placed.
     fn cycles(&mut self, index: usize) -> Result<f64, TuneError> {
         let variant = self.entries[index].variant;
+        let [width, height] = self.space.value(variant, Term::Block).block;
+        let filter = self.compile(variant)?;
+        let filter = self.asked(&filter, self.space.precision(variant))? / f64::from(width * height);
+        let samples = variant.at(Term::Samples);
+        let placing = self.placing(variant);
+        let place = match placing.map(|placing| (placing.cycles, placing.compiled.clone())) {
+            None => 0.0,
+            Some((Some(cycles), _)) => cycles,
+            Some((None, compiled)) => {
+                let cycles = self.asked(&compiled, Precision::F32)?;
+                if let Some(placing) = &mut self.grounds[samples].placing {
+                    placing.cycles = Some(cycles);
+                }
+                cycles
+            }
+        };
+        Ok(filter + place)
+    }
+
+    /// Cycles of a wave and invocation of a kernel.
+    fn asked(&mut self, compiled: &Compiled, precision: Precision) -> Result<f64, TuneError> {
         let options = EmitOptions::new()
             .stage(Stage::Compute)
-            .precision(self.space.precision(variant))
+            .precision(precision)
             .accept_loss(true)
             .unbounded_loops(true)
             .targets([Target::Spirv]);
-        let emitted = self
-            .compile(variant)?
+        let emitted = compiled
             .emit(&options)
             .map_err(straightline_testbed::execute::ExecuteError::from)?;
-        let [width, height] = self.space.value(variant, Term::Block).block;
         let Gauge::Compiler(compiler) = &mut self.gauge else {
             unreachable!("a compiler is asked where there is one");
         };
         let module = emitted.files.get(&Target::Spirv).map_or(&[][..], Vec::as_slice);
         let report = compiler.compile(module, &emitted.manifest.entry_point)?;
-        Ok(report.figures.inverse_throughput as f64 / f64::from(width * height))
+        Ok(report.figures.inverse_throughput as f64)
     }
 }

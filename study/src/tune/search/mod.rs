@@ -1,40 +1,29 @@
 //! A search under way: every variant, what is known of it, and how it is run.
 
+mod beyond;
 mod count;
 mod cycles;
+mod ground;
 mod pictures;
 mod time;
 
 use super::features::Static;
-use super::space::{Offer, SampleSet, Space, Variant};
-use super::steps::depth_scale;
+use super::space::{Space, Variant};
 use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Gauge, Question, Term, TuneError};
 use crate::record::Model;
 use glam::{UVec2, Vec4};
+use ground::{Ground, Placing, no_blocks, offer, sample_set};
 use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Ratio, Times, Uploaded};
-use straightline_testbed::gbuffer;
+use straightline_testbed::capture::Capture;
+use straightline_testbed::execute::{Bench, ExecuteError, Ratio, Times, Uploaded};
 use straightline_testbed::metrics;
 
 /// PSNR that counts as no difference at all; equal pictures would have an infinite one.
 const NO_DIFFERENCE_DB: f64 = 100.0;
-
-/// Bytes of a geometry sample: depth as `r32float`, a normal as `rgba16float`, as `straightline budget` counts.
-const DEPTH_BYTES: u64 = 4;
-const NORMAL_BYTES: u64 = 8;
-
-/// What a variant of one set of samples reads, on the device.
-#[derive(Debug)]
-struct Ground {
-    uploaded: Uploaded,
-    /// Uniforms; the images are on the device.
-    inputs: Inputs,
-    layers: u64,
-}
 
 /// A shader with what it reads.
 type Ready = (Pass, Uploaded);
@@ -56,6 +45,21 @@ pub(in crate::tune) struct Entry {
     /// Where a compiler is asked: cycles of a wave and pixel of its invocations.
     pub cycles: Option<f64>,
     pub ratio: Option<Ratio>,
+}
+
+impl Entry {
+    fn new(variant: Variant) -> Entry {
+        Entry {
+            variant,
+            known: None,
+            error: None,
+            refused: None,
+            predicted: 0.0,
+            time: None,
+            cycles: None,
+            ratio: None,
+        }
+    }
 }
 
 /// A search under way.
@@ -94,52 +98,33 @@ impl Search {
     /// If an option is wrong, or the capture lacks what the options need.
     pub fn new(bench: &Bench, subject: Subject, question: &Question, gauge: Gauge) -> Result<Search, TuneError> {
         let kernel = Kernel::builtin("sraa")?;
-        let first = subject.captures.first();
-        let offer = Offer {
-            samples: subject.captures.iter().map(sample_set).collect(),
-            normals: first.is_some_and(|capture| capture.normal.is_some()),
-            camera: first.is_some_and(|capture| capture.camera.is_some()),
-            depth_scale: first.and_then(depth_scale),
-            no_half: question.no_half.clone(),
-            fixed: question.fixed.clone(),
-        };
-        let space = Space::new(&offer).map_err(TuneError::Space)?;
+        let mut space = Space::new(&offer(&kernel, &subject, question)).map_err(TuneError::Space)?;
+        if let Some(why) = no_blocks(&kernel, &space) {
+            space.leave_aside(Term::Block, format!("blocks: {why}"));
+        }
         let size = subject.size();
-        let Some(color) = first.map(|capture| capture.color.clone()) else {
+        let Some(color) = subject.captures.first().map(|capture| capture.color.clone()) else {
             return Err(TuneError::Space("there is no capture to tune for".to_owned()));
         };
+        let mut colors = std::iter::once(&color).chain(subject.placed.iter().map(|placed| &placed.color));
+        let finite_colors = colors.all(|color| metrics::non_finite(color) == 0);
         let mut grounds = Vec::new();
         for (place, value) in space.values(Term::Samples).iter().enumerate() {
             // Of the captures, one whose options a value has.
-            let own = subject.captures.iter().find(|c| sample_set(c).options == value.options);
-            let Some(capture) = own else { continue };
-            let richest = space.general().with(Term::Samples, place);
-            let compiled = kernel.compile(&space.settings(richest))?;
-            let inputs = gbuffer::inputs(capture, &compiled.options)?;
-            let emitted = compiled
-                .emit(&bench.options(Stage::Compute))
-                .map_err(ExecuteError::from)?;
-            let uploaded = bench.upload(&emitted.manifest, &inputs)?;
-            grounds.push(Ground {
-                uploaded,
-                inputs: Inputs {
-                    images: Vec::new(),
-                    ..inputs
-                },
-                layers: capture.layer_count() as u64,
-            });
+            let is_own = |capture: &&Capture| {
+                let mut options = sample_set(capture).options;
+                options.retain(|(name, _)| name != "shading");
+                options.iter().all(|option| value.options.contains(option))
+            };
+            let Some(k) = subject.captures.iter().position(|capture| is_own(&capture)) else {
+                continue;
+            };
+            let may_be_placed = space.values(Term::Placing).iter().any(|v| v.beyond);
+            let placed = subject.placed.get(k).filter(|_| may_be_placed);
+            let view = (&subject.captures[k], placed);
+            grounds.push(Ground::new(bench, (&kernel, &space), place, view)?);
         }
-        let entry = |variant| Entry {
-            variant,
-            known: None,
-            error: None,
-            refused: None,
-            predicted: 0.0,
-            time: None,
-            cycles: None,
-            ratio: None,
-        };
-        let entries: Vec<Entry> = space.variants().into_iter().map(entry).collect();
+        let entries: Vec<Entry> = space.variants().into_iter().map(Entry::new).collect();
         let defaults = kernel.options()?.into_iter().map(|info| (info.name, info.default));
         Ok(Search {
             bench: bench.clone(),
@@ -154,7 +139,7 @@ impl Search {
             entries,
             space,
             grounds,
-            finite_colors: metrics::non_finite(&color) == 0,
+            finite_colors,
             color,
             ceiling_db: match subject.reference {
                 Some(_) => NO_DIFFERENCE_DB,
@@ -201,16 +186,25 @@ impl Search {
 
     /// Bytes of G-buffer that a variant reads.
     pub(in crate::tune) fn gbuffer_bytes(&self, variant: Variant) -> u64 {
-        let sample = match self.space.value(variant, Term::Metric).label.as_str() {
-            "normals" => NORMAL_BYTES,
-            "depth" => DEPTH_BYTES,
-            _ => DEPTH_BYTES + NORMAL_BYTES,
-        };
-        let layers = self
-            .grounds
-            .get(variant.at(Term::Samples))
-            .map_or(0, |ground| ground.layers);
-        sample * layers * u64::from(self.size.x) * u64::from(self.size.y)
+        let metric = self.space.value(variant, Term::Metric).label.as_str();
+        let (is_placed, is_apart) = (
+            self.space.is_placed(variant),
+            self.space.value(variant, Term::Light).beyond,
+        );
+        let bytes = self
+            .ground(variant)
+            .map_or(0, |ground| ground.bytes(metric, is_placed, is_apart));
+        bytes * u64::from(self.size.x) * u64::from(self.size.y)
+    }
+
+    fn ground(&self, variant: Variant) -> Option<&Ground> {
+        self.grounds.get(variant.at(Term::Samples))
+    }
+
+    /// The pass that goes before a variant, if its pixels are shaded where that says.
+    pub(in crate::tune) fn placing(&self, variant: Variant) -> Option<&Placing> {
+        let ground = self.ground(variant).filter(|_| self.space.is_placed(variant))?;
+        ground.placing.as_ref()
     }
 
     pub(in crate::tune) fn compile(&self, variant: Variant) -> Result<Compiled, TuneError> {
@@ -235,13 +229,16 @@ impl Search {
     }
 
     fn prepare(&self, variant: Variant) -> Result<Ready, TuneError> {
-        let ground = self.grounds.get(variant.at(Term::Samples));
+        let ground = self.ground(variant);
         let ground = ground.ok_or_else(|| ExecuteError::Input("there is no such set of samples".to_owned()))?;
         let precision: Precision = self.space.precision(variant);
         let compiled = self.compile(variant)?;
         let bench = self.bench.clone().precision(precision);
         let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
-        let uploaded = bench.share(&manifest, &ground.inputs, &ground.uploaded)?;
+        let there = self
+            .placing(variant)
+            .map_or(&ground.uploaded, |placing| &placing.uploaded);
+        let uploaded = bench.share(&manifest, &ground.inputs, there)?;
         Ok((pass, uploaded))
     }
 }
@@ -255,11 +252,4 @@ fn chunk() -> usize {
 fn places(entries: &[Entry]) -> BTreeMap<Variant, usize> {
     let places = entries.iter().enumerate();
     places.map(|(k, entry)| (entry.variant, k)).collect()
-}
-
-fn sample_set(capture: &straightline_testbed::capture::Capture) -> SampleSet {
-    SampleSet {
-        count: capture.samples.len(),
-        options: gbuffer::sampled_at(capture),
-    }
 }

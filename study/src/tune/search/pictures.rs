@@ -1,6 +1,6 @@
 //! Pictures of variants, and their errors.
 
-use super::{Ready, Search, Seen, chunk};
+use super::{Entry, Ready, Search, Seen, chunk};
 use crate::progress::Progress;
 use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
@@ -30,10 +30,27 @@ impl Search {
         if !self.probe_half(progress)? {
             return Ok(false);
         }
-        let apart: BTreeSet<Variant> = self.entries.iter().map(|e| self.seen_as(e.variant)).collect();
+        Ok(self.judge("pictures", progress)? && self.extend(progress)?)
+    }
+
+    /// Measures the errors of all variants that have none yet. Whether all was done.
+    pub(super) fn judge(&mut self, what: &str, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+        let is_open = |entry: &&Entry| entry.error.is_none() && entry.refused.is_none();
+        let mut apart: BTreeSet<Variant> = self
+            .entries
+            .iter()
+            .filter(is_open)
+            .map(|e| self.seen_as(e.variant))
+            .collect();
+        let mut found: BTreeMap<Variant, Result<Seen, String>> = BTreeMap::new();
+        // What was seen before is not drawn again.
+        apart.retain(|variant| {
+            let known = self.index.get(variant).and_then(|k| self.entries[*k].error);
+            found.extend(known.map(|error| (*variant, Ok(error))));
+            known.is_none()
+        });
         let apart: Vec<Variant> = apart.into_iter().collect();
-        let mut found: BTreeMap<Variant, Result<(f64, usize), String>> = BTreeMap::new();
-        progress.begin("pictures", apart.len());
+        progress.begin(what, apart.len());
         let mut finished = true;
         for some in apart.chunks(chunk()) {
             if progress.stopped() {
@@ -47,7 +64,11 @@ impl Search {
             }
         }
         for k in 0..self.entries.len() {
-            match found.get(&self.seen_as(self.entries[k].variant)) {
+            let (entry, seen) = (&self.entries[k], self.seen_as(self.entries[k].variant));
+            if !is_open(&entry) {
+                continue;
+            }
+            match found.get(&seen) {
                 Some(Ok(error)) => self.entries[k].error = Some(*error),
                 Some(Err(reason)) => self.entries[k].refused = Some(reason.clone()),
                 None => {}

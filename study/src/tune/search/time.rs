@@ -6,8 +6,8 @@ use crate::record::Model;
 use crate::tune::features::NAMES;
 use crate::tune::{Gauge, TuneError, model};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
-use straightline_testbed::execute::Job;
+use std::collections::BTreeSet;
+use straightline_testbed::execute::{Job, Work};
 
 /// Variants that times are learned from, and on which the model is then tested; less in a small space.
 const LEARNED_FROM: usize = 32;
@@ -22,34 +22,42 @@ impl Search {
     pub fn learn(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let usable = self.usable();
         let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.row(*k)).collect();
-        let place: BTreeMap<usize, usize> = usable.iter().enumerate().map(|(place, k)| (*k, place)).collect();
         let general = self.space.general();
         let mut first: Vec<usize> = vec![0];
         first.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
         first.extend(self.space.neighbours(general).iter().filter_map(|v| self.index.get(v)));
-        first.retain(|k| place.contains_key(k));
+        first.retain(|k| usable.contains(k));
         first.sort_unstable();
         first.dedup();
-        let taken: Vec<usize> = first.iter().map(|k| place[k]).collect();
-        let wanted = LEARNED_FROM.min(usable.len() * 3 / 4).saturating_sub(taken.len());
+        let wanted = LEARNED_FROM.min(usable.len() * 3 / 4);
+        // First among those of the paper's terms, which the larger counts of the others would leave few places.
+        let is_bare = |at: usize| {
+            let variant = self.entries[usable[at]].variant;
+            self.space.bare(variant) == variant
+        };
+        let bare: Vec<usize> = (0..usable.len()).filter(|at| is_bare(*at)).collect();
         let mut learned = first;
-        learned.extend(model::spanning(&rows, &taken, wanted).iter().map(|at| usable[*at]));
+        for (among, wanted) in [(bare, wanted * 2 / 3), ((0..usable.len()).collect(), wanted)] {
+            let rows: Vec<Vec<f64>> = among.iter().map(|at| rows[*at].clone()).collect();
+            let taken = among
+                .iter()
+                .enumerate()
+                .filter(|(_, at)| learned.contains(&usable[**at]));
+            let taken: Vec<usize> = taken.map(|(k, _)| k).collect();
+            let missing = wanted.saturating_sub(learned.len());
+            let more = model::spanning(&rows, &taken, missing);
+            learned.extend(more.iter().map(|k| usable[among[*k]]));
+        }
         // Any others: spread over the list by a step that visits all of it.
         let others: Vec<usize> = usable.iter().copied().filter(|k| !learned.contains(k)).collect();
         let tested: Vec<usize> = (0..others.len().min(TESTED_ON))
             .map(|k| others[(k * 2 + 1) * others.len() / (2 * others.len().min(TESTED_ON))])
             .collect();
         let both: Vec<usize> = learned.iter().chain(&tested).copied().collect();
-        if !self.measure(
-            &both,
-            (self.question.rounds / 2).max(3),
-            "measuring, to learn",
-            progress,
-        )? {
+        if !self.measure(&both, self.fewer_rounds(), "measuring, to learn", progress)? {
             return Ok(false);
         }
-        // Milliseconds grow with the picture, cycles are those of a pixel.
-        let size = self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0);
+        let size = self.share();
         // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
         let general = &self.entries[0];
         let general = general
@@ -74,12 +82,24 @@ impl Search {
             mean_error,
             largest_error,
         };
+        self.predict();
+        Ok(true)
+    }
+
+    /// Says of all variants what they take by the model, if there is one.
+    pub(super) fn predict(&mut self) {
+        let coefficients: Vec<f64> = self.model.terms.iter().map(|(_, coefficient)| *coefficient).collect();
+        let size = self.share();
         for k in 0..self.entries.len() {
             if let Some(row) = self.row(k) {
                 self.entries[k].predicted = size * model::predict(&coefficients, &row);
             }
         }
-        Ok(true)
+    }
+
+    /// What the model's figures are multiplied with: milliseconds grow with the picture, cycles are those of a pixel.
+    fn share(&self) -> f64 {
+        self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0)
     }
 
     /// Measures variants, and the most general one with them: their times in turn, or cycles. Each also shows its own picture.
@@ -119,17 +139,22 @@ impl Search {
         if matches!(self.gauge, Gauge::Compiler(_)) {
             return self.ask(&all, what, progress);
         }
-        let jobs: Vec<Job<'_>> = all
-            .iter()
-            .map(|k| Job {
-                pass: &self.ready[k].0,
-                uploaded: &self.ready[k].1,
+        let work = |k: &usize| {
+            let (pass, uploaded) = &self.ready[k];
+            let job = |pass, uploaded| Job {
+                pass,
+                uploaded,
                 size: self.size,
-            })
-            .collect();
+            };
+            let place = self.placing(self.entries[*k].variant);
+            let mut jobs: Vec<Job<'_>> = place.iter().map(|place| job(&place.pass, &place.reads)).collect();
+            jobs.push(job(pass, uploaded));
+            self.bench.following(&jobs)
+        };
+        let mut works: Vec<Work<'_>> = all.iter().map(work).collect::<Result<_, _>>()?;
         progress.begin(what, rounds as usize);
         let mut complete = false;
-        let timed = self.bench.timed(&jobs, rounds, |round| {
+        let timed = self.bench.in_turn(&mut works, rounds, |round| {
             if round > 0 {
                 progress.step();
             }
@@ -141,6 +166,11 @@ impl Search {
             self.entries[*k].ratio = timed.ratio(0, job);
         }
         Ok(complete)
+    }
+
+    /// Rounds where nothing is decided yet.
+    pub(in crate::tune) fn fewer_rounds(&self) -> u32 {
+        (self.question.rounds / 3).max(3)
     }
 
     fn row(&self, index: usize) -> Option<Vec<f64>> {

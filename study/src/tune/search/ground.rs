@@ -1,0 +1,298 @@
+//! What variants read, on the device: once for each set of geometry samples.
+
+use crate::tune::features::Static;
+use crate::tune::space::{Offer, SampleSet, Space, Variant};
+use crate::tune::steps::depth_scale;
+use crate::tune::{Question, Subject, Term, TuneError};
+use straightline_codegen::{Compiled, Kernel, Manifest, Settings, Stage};
+use straightline_manifest::{Binding, BindingKind};
+use straightline_runtime::Pass;
+use straightline_testbed::capture::Capture;
+use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Uploaded};
+use straightline_testbed::gbuffer;
+use straightline_testbed::render::{PLACED_BY, Placed};
+
+/// Bytes of a geometry sample: depth as `r32float`, a normal as `rgba16float`, as `straightline budget` counts; albedo as
+/// `rgba8unorm`.
+const DEPTH_BYTES: u64 = 4;
+const NORMAL_BYTES: u64 = 8;
+const ALBEDO_BYTES: u64 = 4;
+
+/// Bytes of a pixel: direct light and what does not follow the albedo as `rgba16float`, where it is shaded as `r8uint`.
+const LIGHT_BYTES: u64 = 2 * 8;
+const PLACE_BYTES: u64 = 1;
+
+/// What says where pixels are shaded.
+const PLACE: &str = "place";
+
+/// What the variants of one set of samples read, on the device.
+#[derive(Debug)]
+pub(super) struct Ground {
+    /// The view, shaded at the pixels' centres or where a capture has it.
+    pub uploaded: Uploaded,
+    /// Uniforms; the images are on the device.
+    pub inputs: Inputs,
+    /// Geometry samples, and the centre's.
+    pub layers: u64,
+    /// The view shaded where the kernel `sraa_place` says.
+    pub placing: Option<Placing>,
+}
+
+/// The pass that says where pixels are shaded, and what was shaded there.
+#[derive(Debug)]
+pub(in crate::tune) struct Placing {
+    pub compiled: Compiled,
+    pub known: Static,
+    pub pass: Pass,
+    /// What that pass reads.
+    pub reads: Uploaded,
+    /// What the filter then reads.
+    pub uploaded: Uploaded,
+    /// The pass's cycles, where a compiler was asked.
+    pub cycles: Option<f64>,
+}
+
+impl Ground {
+    /// The ground of a set of samples, by its place in the space.
+    pub(super) fn new(
+        bench: &Bench,
+        (kernel, space): (&Kernel, &Space),
+        samples: usize,
+        (capture, placed): (&Capture, Option<&Placed>),
+    ) -> Result<Ground, TuneError> {
+        let reads = |place: &str| -> Result<Vec<(Compiled, Manifest)>, TuneError> {
+            // A capture that is shaded elsewhere stays so.
+            let settings = richest(space, samples).into_iter().map(|v| match placed {
+                Some(_) => shaded(space.settings(v), place),
+                None => space.settings(v),
+            });
+            settings.map(|settings| manifest_of(bench, kernel, &settings)).collect()
+        };
+        let mut all = reads("centre")?;
+        let mut inputs = Inputs::new(capture.size);
+        if let Some((compiled, _)) = all.last() {
+            inputs = gbuffer::inputs(capture, &compiled.options)?;
+        }
+        let place = placed.map(|_| {
+            let options = place_options(
+                space,
+                space.value(space.general().with(Term::Samples, samples), Term::Samples),
+            );
+            let settings = Settings {
+                options,
+                ..Settings::default()
+            };
+            manifest_of(bench, &Kernel::builtin("sraa_place")?, &settings)
+        });
+        let place = place.transpose()?;
+        if let Some((compiled, manifest)) = &place {
+            // Normals may be what no filter reads.
+            let own = gbuffer::inputs(capture, &compiled.options)?.images;
+            let missing = own
+                .into_iter()
+                .filter(|(name, _)| inputs.images.iter().all(|(known, _)| known != name));
+            let missing: Vec<_> = missing.collect();
+            inputs.images.extend(missing);
+            all.push((compiled.clone(), manifest.clone()));
+            all.extend(reads("placed")?);
+        }
+        let wide = widest(all.iter().map(|(_, manifest)| manifest));
+        let here = Manifest {
+            bindings: wide
+                .iter()
+                .filter(|binding| binding.name != PLACE || placed.is_none())
+                .cloned()
+                .collect(),
+            ..all[0].1.clone()
+        };
+        let uploaded = bench.upload(&here, &inputs)?;
+        let inputs = Inputs {
+            images: Vec::new(),
+            buffers: Vec::new(),
+            ..inputs
+        };
+        let placing = place
+            .zip(placed)
+            .map(|((compiled, manifest), placed)| -> Result<Placing, TuneError> {
+                let there = Manifest { bindings: wide, ..here };
+                let (pass, _) = bench.pass(&compiled, Stage::Compute)?;
+                Ok(Placing {
+                    reads: bench.share(&manifest, &inputs, &uploaded)?,
+                    known: Static::of(&compiled),
+                    compiled,
+                    pass,
+                    uploaded: bench.upload_onto(&there, &moved(&inputs, placed), &uploaded)?,
+                    cycles: None,
+                })
+            });
+        Ok(Ground {
+            placing: placing.transpose()?,
+            uploaded,
+            inputs,
+            layers: capture.layer_count() as u64,
+        })
+    }
+
+    /// Bytes that a variant reads a pixel, by its metric, and whether it is placed and borrows light apart.
+    pub(super) fn bytes(&self, metric: &str, is_placed: bool, is_apart: bool) -> u64 {
+        let geometry = match metric {
+            _ if is_placed => DEPTH_BYTES + NORMAL_BYTES,
+            "normals" => NORMAL_BYTES,
+            "depth" => DEPTH_BYTES,
+            _ => DEPTH_BYTES + NORMAL_BYTES,
+        };
+        let light = match is_apart {
+            true => ALBEDO_BYTES * self.layers + LIGHT_BYTES,
+            false => 0,
+        };
+        geometry * self.layers + light + if is_placed { PLACE_BYTES } else { 0 }
+    }
+}
+
+/// Variants that together read all that any of one set of samples does, and of each texture as many components: what a loop chooses a
+/// sample by is read whole. The last reads every texture.
+fn richest(space: &Space, samples: usize) -> Vec<Variant> {
+    let general = space.general().with(Term::Samples, samples);
+    let most = |v: Variant, term: Term| v.with(term, space.values(term).len() - 1);
+    let searched = most(general, Term::Search);
+    let mut all = vec![general, searched, most(searched, Term::Light)];
+    all.dedup();
+    all
+}
+
+/// The bindings of several kernels, each with all components that one of them reads.
+fn widest<'a>(manifests: impl Iterator<Item = &'a Manifest>) -> Vec<Binding> {
+    let mut all: Vec<Binding> = Vec::new();
+    for binding in manifests.flat_map(|manifest| &manifest.bindings) {
+        match all.iter_mut().find(|known| known.name == binding.name) {
+            None => all.push(binding.clone()),
+            Some(known) => {
+                if let BindingKind::Texture { components, .. } = &mut known.kind
+                    && let BindingKind::Texture { components: own, .. } = &binding.kind
+                {
+                    *components = (*components).max(*own);
+                }
+            }
+        }
+    }
+    all
+}
+
+fn manifest_of(bench: &Bench, kernel: &Kernel, settings: &Settings) -> Result<(Compiled, Manifest), TuneError> {
+    let compiled = kernel.compile(settings)?;
+    let emitted = compiled
+        .emit(&bench.options(Stage::Compute))
+        .map_err(ExecuteError::from)?;
+    Ok((compiled, emitted.manifest))
+}
+
+/// The same where shading is searched, with one place of it.
+fn shaded(mut settings: Settings, place: &str) -> Settings {
+    for (name, value) in &mut settings.options {
+        if name == "shading" && ["centre", "placed"].contains(&value.as_str()) {
+            place.clone_into(value);
+        }
+    }
+    settings
+}
+
+/// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
+/// the filter does.
+fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<(String, String)> {
+    let own = |name: &str| PLACED_BY.iter().any(|(known, _)| *known == name);
+    let given = space.fixed.iter().chain(&samples.options);
+    let mut options: Vec<(String, String)> = given.filter(|(name, _)| !own(name)).cloned().collect();
+    options.extend(PLACED_BY.map(|(name, value)| (name.to_owned(), value.to_owned())));
+    options
+}
+
+/// What a filter reads of what was placed.
+fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
+    let mut moved = inputs.clone().image("color", placed.color.clone());
+    for (name, frame) in [("direct", &placed.direct), ("rest", &placed.rest)] {
+        if let Some(frame) = frame {
+            moved = moved.image(name, frame.clone());
+        }
+    }
+    moved.integers(PLACE, vec![gbuffer::places(&placed.place)])
+}
+
+/// What may be searched of a subject.
+pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> Offer {
+    let first = subject.captures.first();
+    let mut offer = Offer {
+        samples: subject.captures.iter().map(sample_set).collect(),
+        normals: first.is_some_and(|capture| capture.normal.is_some()),
+        camera: first.is_some_and(|capture| capture.camera.is_some()),
+        depth_scale: first.and_then(depth_scale),
+        no_half: question.no_half.clone(),
+        fixed: question.fixed.clone(),
+        ..Offer::default()
+    };
+    let is_placed = ("shading".to_owned(), "placed".to_owned());
+    offer.no_placing = match () {
+        () if offer.fixes("shading") && !offer.fixed.contains(&is_placed) => Some("shading is set".to_owned()),
+        () if subject.placed.len() < subject.captures.len() => {
+            Some("only what a renderer draws can be shaded elsewhere".to_owned())
+        }
+        () if offer.fixes("unseen") => Some("`unseen` is set, and scenes are placed with its default".to_owned()),
+        () => None,
+    };
+    let blind = subject.reference.is_none();
+    let blind = blind.then(|| "without a reference it cannot be judged by what computes less".to_owned());
+    let refused = |more: &[(&str, &str)]| {
+        let mut options = offer.fixed.clone();
+        options.retain(|(name, _)| more.iter().all(|(own, _)| own != name));
+        options.extend(
+            more.iter()
+                .map(|(name, value)| ((*name).to_owned(), (*value).to_owned())),
+        );
+        let sampled = offer.samples.first().map_or(&[][..], |set| &set.options);
+        let sampled = sampled.iter().filter(|(name, _)| !offer.fixes(name));
+        options.extend(sampled.cloned());
+        let settings = Settings {
+            options,
+            ..Settings::default()
+        };
+        refusal(kernel, &settings)
+    };
+    let no_search = blind.clone().or_else(|| refused(&[("search", "five")]));
+    let has_rest = |capture: &Capture| capture.rest.is_some() || offer.fixes("rest");
+    let has_light = first.is_some_and(|c| c.albedo.is_some() && c.direct.is_some() && has_rest(c));
+    let no_light = match has_light {
+        true => blind.or_else(|| refused(&[("demodulate", "albedo-shadow")])),
+        false => Some("there is no albedo, direct light and rest (`capture --albedo` writes them)".to_owned()),
+    };
+    Offer {
+        no_search,
+        no_light,
+        ..offer
+    }
+}
+
+/// Why there can be no blocks, if so: they take no branch, and what all variants have may bring one.
+pub(super) fn no_blocks(kernel: &Kernel, space: &Space) -> Option<String> {
+    let last = |term: Term| space.values(term).len() - 1;
+    let cheapest = space
+        .general()
+        .with(Term::Samples, last(Term::Samples))
+        .with(Term::Metric, last(Term::Metric));
+    // What is wrong with single pixels, too, is told of elsewhere.
+    match refusal(kernel, &space.settings(cheapest)) {
+        None => refusal(kernel, &space.settings(cheapest.with(Term::Block, last(Term::Block)))),
+        Some(_) => None,
+    }
+}
+
+/// What the kernel says against options.
+fn refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
+    let errors = kernel.compile(settings).err()?;
+    errors.diagnostics.into_iter().next().map(|first| first.message)
+}
+
+pub(super) fn sample_set(capture: &Capture) -> SampleSet {
+    SampleSet {
+        count: capture.samples.len(),
+        options: gbuffer::sampled_at(capture),
+    }
+}

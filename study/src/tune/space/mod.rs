@@ -1,0 +1,311 @@
+//! What a search varies: all variants of the filter, and how they are next to each other.
+
+mod terms;
+
+use std::collections::BTreeMap;
+use straightline_codegen::{Precision, Settings};
+
+pub use terms::{Offer, SampleSet, Term, Value};
+
+/// Places of a variant's values in the lists of the terms, in the order of [`Term::ALL`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Variant(pub [usize; Term::ALL.len()]);
+
+impl Variant {
+    /// The place of a term's value.
+    pub fn at(&self, term: Term) -> usize {
+        self.0[term as usize]
+    }
+
+    /// The same but for one term.
+    pub fn with(mut self, term: Term, value: usize) -> Variant {
+        self.0[term as usize] = value;
+        self
+    }
+}
+
+/// What goes beyond the paper, and what a variant is with it and without.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Added {
+    /// In words: placing, search, light apart from paint and shadow.
+    pub term: String,
+    /// Whether the variant has it.
+    pub is_there: bool,
+    /// The variant without it.
+    pub without: Variant,
+    /// The variant with it.
+    pub with: Variant,
+}
+
+/// All variants of the filter that are searched.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Space {
+    terms: [Vec<Value>; Term::ALL.len()],
+    /// Options that all variants have.
+    pub fixed: Vec<(String, String)>,
+    /// What is not searched, and why.
+    pub left_aside: Vec<String>,
+}
+
+impl Space {
+    /// The terms that the offer leaves open.
+    ///
+    /// # Errors
+    ///
+    /// If a fixed option leaves a term without any value.
+    pub fn new(offer: &Offer) -> Result<Space, String> {
+        let mut left_aside = Vec::new();
+        let mut terms = terms::of(offer, &mut left_aside);
+        let mut fixed = offer.fixed.clone();
+        for (name, value) in &offer.fixed {
+            let varies = |values: &Vec<Value>| values.iter().any(|v| v.options.iter().any(|(n, _)| n == name));
+            let Some(place) = terms.iter().position(varies) else {
+                continue;
+            };
+            let term = &mut terms[place];
+            let stands_for = |(n, v): &(String, String)| {
+                n == name && (v == value || (name == "mask" && v == "branch" && value == "select"))
+            };
+            let line = Offer::set(name, value);
+            if !left_aside.contains(&line) {
+                left_aside.push(line);
+            }
+            let found = term.iter().any(|v| v.options.iter().any(stands_for));
+            // What goes beyond the paper has more values than are searched.
+            if !found && Term::BEYOND.iter().any(|beyond| *beyond as usize == place) {
+                term.truncate(1);
+                term[0] = terms::unsaid(term[0].clone());
+                continue;
+            }
+            term.retain(|v| v.options.iter().any(stands_for));
+            if term.is_empty() {
+                return Err(format!("`{name}={value}` leaves nothing to search among what there is"));
+            }
+            fixed.retain(|(n, _)| n != name);
+        }
+        let light = &terms[Term::Light as usize][0];
+        let is_apart = |(name, value): &(String, String)| name == "demodulate" && value != "none";
+        if fixed.iter().chain(&light.options).any(is_apart) {
+            terms[Term::Mask as usize].retain(|v| v.sets("mask", "none"));
+            left_aside.push("mask: it would leave paint and shadow as they are".to_owned());
+        }
+        Ok(Space {
+            terms,
+            fixed,
+            left_aside,
+        })
+    }
+
+    /// Leaves but the first value of a term, and says why.
+    pub(in crate::tune) fn leave_aside(&mut self, term: Term, why: String) {
+        self.terms[term as usize].truncate(1);
+        self.left_aside.push(why);
+    }
+
+    /// The values of a term, the one that computes most first.
+    pub fn values(&self, term: Term) -> &[Value] {
+        &self.terms[term as usize]
+    }
+
+    /// A variant's value of a term.
+    pub fn value(&self, variant: Variant, term: Term) -> &Value {
+        &self.terms[term as usize][variant.at(term)]
+    }
+
+    /// The most general variant: of every term the value that computes most, and nothing beyond the paper that is not set. It is the
+    /// first of [`variants`](Self::variants).
+    pub fn general(&self) -> Variant {
+        Variant([0; Term::ALL.len()])
+    }
+
+    /// Every variant that adds nothing to the most general one: all combinations but those that mean the same.
+    pub fn variants(&self) -> Vec<Variant> {
+        let mut all = vec![self.general()];
+        for term in Term::ALL.into_iter().filter(|term| !Term::BEYOND.contains(term)) {
+            all = self.each(&all, term);
+        }
+        all.retain(|v| *v == self.canonical(*v));
+        all
+    }
+
+    /// A variant with everything that goes beyond the paper, in all combinations, and nothing else changed. None of one that is not
+    /// [`plain`](Self::plain).
+    pub fn extended(&self, variant: Variant) -> Vec<Variant> {
+        let bare = self.bare(variant);
+        if self.plain(bare) != bare {
+            return Vec::new();
+        }
+        let mut all = vec![bare];
+        for term in Term::BEYOND {
+            all = self.each(&all, term);
+        }
+        all.retain(|v| self.bare(*v) != *v);
+        all
+    }
+
+    fn each(&self, variants: &[Variant], term: Term) -> Vec<Variant> {
+        let values = 0..self.values(term).len();
+        let all = variants
+            .iter()
+            .flat_map(|v| values.clone().map(move |k| v.with(term, k)));
+        all.collect()
+    }
+
+    /// A variant without what is added to the most general one.
+    pub fn bare(&self, variant: Variant) -> Variant {
+        Term::BEYOND.into_iter().fold(variant, |v, term| v.with(term, 0))
+    }
+
+    /// A variant as it can be added to: all pixels filtered, each by its own invocation, in whole floats, by exact mathematics. More is
+    /// not searched, so that the space stays small.
+    pub fn plain(&self, variant: Variant) -> Variant {
+        let cheaper = [Term::Mask, Term::Precision, Term::Math, Term::Block];
+        cheaper.into_iter().fold(variant, |v, term| v.with(term, 0))
+    }
+
+    /// Where depth is not compared, how it is compared means nothing, and fast mathematics has next to nothing to do where nothing is
+    /// tested: of variants that mean the same, the one that is searched. Of those with what goes beyond the paper, the plain one.
+    pub fn canonical(&self, variant: Variant) -> Variant {
+        let variant = match self.bare(variant) == variant {
+            true => variant,
+            false => self.plain(variant),
+        };
+        let variant = match self.value(variant, Term::FiniteTest).label.as_str() {
+            "no finite test" => variant.with(Term::Math, 0),
+            _ => variant,
+        };
+        match self.value(variant, Term::Metric).label.as_str() {
+            "normals" => variant.with(Term::Difference, 0),
+            _ => variant,
+        }
+    }
+
+    /// The variants that differ in one term.
+    pub fn neighbours(&self, variant: Variant) -> Vec<Variant> {
+        let of = |term: Term| {
+            let others = (0..self.values(term).len()).filter(move |k| *k != variant.at(term));
+            others.map(move |k| self.canonical(variant.with(term, k)))
+        };
+        let mut found: Vec<Variant> = Term::ALL.into_iter().flat_map(of).collect();
+        found.retain(|v| *v != variant);
+        found.dedup();
+        found
+    }
+
+    /// The variant that was run for this one's picture: blocks compute the same picture as single pixels, fast mathematics one that
+    /// differs by roundings (what is measured is judged by its own), and a filter without the finite test the same if all colours are
+    /// finite.
+    pub fn picture_of(&self, variant: Variant, finite: bool) -> Variant {
+        let single = variant.with(Term::Block, 0).with(Term::Math, 0);
+        if finite {
+            single.with(Term::FiniteTest, 0)
+        } else {
+            single
+        }
+    }
+
+    /// How the kernel is generated for a variant.
+    pub fn settings(&self, variant: Variant) -> Settings {
+        let terms = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
+        let block = self.value(variant, Term::Block).block;
+        let mut options = self.fixed.clone();
+        options.extend(terms.flat_map(|term| self.value(variant, term).options.iter().cloned()));
+        // The pixels of a block go the same way: there the mask selects.
+        for (name, value) in &mut options {
+            if name == "mask" && value == "branch" && block != [1, 1] {
+                *value = "select".to_owned();
+            }
+        }
+        Settings {
+            options,
+            block,
+            math: self.value(variant, Term::Math).math,
+            ..Settings::default()
+        }
+    }
+
+    /// Whether a term does anything in a variant: normals alone have no depths to compare.
+    fn counts(&self, variant: Variant, term: Term) -> bool {
+        term != Term::Difference || self.value(variant, Term::Metric).label != "normals"
+    }
+
+    /// A variant's precision.
+    pub fn precision(&self, variant: Variant) -> Precision {
+        self.value(variant, Term::Precision).precision
+    }
+
+    /// A variant in words, term by term; what it does not add is not mentioned.
+    pub fn name(&self, variant: Variant) -> String {
+        let is_said = |term: &Term| !Term::BEYOND.contains(term) || self.value(variant, *term).beyond;
+        let labels = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
+        let labels = labels.filter(is_said);
+        let labels: Vec<&str> = labels.map(|term| self.value(variant, term).label.as_str()).collect();
+        labels.join(", ")
+    }
+
+    /// The variant that has the kernel's defaults, if it is searched.
+    pub fn of_defaults(&self, defaults: &BTreeMap<String, String>) -> Option<Variant> {
+        let all_default = |value: &&Value| value.options.iter().all(|(name, v)| defaults.get(name) == Some(v));
+        let mut variant = self.general();
+        for term in Term::ALL {
+            let values = self.values(term);
+            let place = values.iter().position(|v| all_default(&v))?;
+            variant = variant.with(term, place);
+        }
+        Some(self.canonical(variant))
+    }
+
+    /// Whether a variant's pixels are shaded where the kernel `sraa_place` says.
+    pub fn is_placed(&self, variant: Variant) -> bool {
+        self.value(variant, Term::Placing).sets("shading", "placed")
+    }
+
+    /// What can be added to a variant, or was: in words, whether it was, and the variant without it and with it, both as they are
+    /// searched.
+    pub fn added(&self, variant: Variant) -> Vec<Added> {
+        let open = Term::BEYOND.into_iter().filter(|term| self.values(*term).len() > 1);
+        let added = open.map(|term| Added {
+            term: self.values(term)[0].needs.clone(),
+            is_there: variant.at(term) != 0,
+            without: self.plain(variant).with(term, 0),
+            with: self.plain(variant).with(term, 1),
+        });
+        added.collect()
+    }
+
+    /// What a variant lacks that the most general one has: the term, in words, and the variant with that put back.
+    pub fn left_out(&self, variant: Variant) -> Vec<(String, Variant)> {
+        let mut found = Vec::new();
+        for term in Term::ALL {
+            // A block leaves nothing out, and what is added is told of by `added`.
+            if variant.at(term) == 0 || term == Term::Block || Term::BEYOND.contains(&term) {
+                continue;
+            }
+            // Neither does another scale.
+            let own = &self.value(variant, term).options;
+            if term == Term::Difference && own.iter().any(|(_, value)| value == "relative") {
+                continue;
+            }
+            if term == Term::Metric {
+                let label = |k: usize| self.values(term)[k].label.as_str();
+                let own = label(variant.at(term));
+                for place in 0..variant.at(term) {
+                    let lacks = match (label(place), own) {
+                        ("planes-normals", _) => "planes",
+                        ("depth-normals", "normals") => "depth",
+                        ("depth-normals", "depth") => "normals",
+                        _ => continue,
+                    };
+                    found.push((lacks.to_owned(), self.canonical(variant.with(term, place))));
+                }
+                continue;
+            }
+            let needs = self.values(term)[0].needs.clone();
+            found.push((needs, self.canonical(variant.with(term, 0))));
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,313 @@
+//! Terms of the filter and the values that each can have, the one that computes most first; of what goes beyond the paper, none first.
+
+use straightline_codegen::{Math, Precision};
+
+/// What can be left out of a filter, be had cheaper, or be added. `docs/tune.md` has the same table, with reasons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Term {
+    /// Geometry samples of a pixel.
+    Samples,
+    /// What tells surfaces apart: planes, normals, depth.
+    Metric,
+    /// Whether differences in depth count as shares of the depth.
+    Difference,
+    /// Which taps a sample has, and how distance counts.
+    Falloff,
+    /// Whether pixels without geometric variation are filtered.
+    Mask,
+    /// Whether colours are tested to be finite.
+    FiniteTest,
+    /// Precision of floats.
+    Precision,
+    /// Whether algebra may change roundings.
+    Math,
+    /// Pixels of one invocation.
+    Block,
+    /// Whether pixels are shaded where the kernel `sraa_place` says.
+    Placing,
+    /// Whether surfaces that no tap shows are searched for.
+    Search,
+    /// Whether light is borrowed apart from paint and shadow.
+    Light,
+}
+
+impl Term {
+    /// Every term, in the order of a variant's values.
+    pub const ALL: [Term; 12] = [
+        Term::Samples,
+        Term::Metric,
+        Term::Difference,
+        Term::Falloff,
+        Term::Mask,
+        Term::FiniteTest,
+        Term::Precision,
+        Term::Math,
+        Term::Block,
+        Term::Placing,
+        Term::Search,
+        Term::Light,
+    ];
+
+    /// Terms that go beyond the paper: the most general variant has none of them.
+    pub const BEYOND: [Term; 3] = [Term::Placing, Term::Search, Term::Light];
+}
+
+/// A value that a term can have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    /// In words, for tables: `16 samples`.
+    pub label: String,
+    /// What is left out where another value is chosen, and this is the most general one: `normals`. Of a term that goes beyond the
+    /// paper, what it adds: `placing`.
+    pub needs: String,
+    /// Options of the kernel that it stands for.
+    pub options: Vec<(String, String)>,
+    /// What shaders compute in.
+    pub precision: Precision,
+    /// Which algebra is done.
+    pub math: Math,
+    /// Pixels of one invocation, across and down.
+    pub block: [u32; 2],
+    /// Whether it does what the paper's filter does not.
+    pub beyond: bool,
+}
+
+impl Value {
+    pub(super) fn of(label: &str, needs: &str, options: &[(&str, &str)]) -> Value {
+        Value {
+            label: label.to_owned(),
+            needs: needs.to_owned(),
+            options: owned(options),
+            precision: Precision::F32,
+            math: Math::Exact,
+            block: [1, 1],
+            beyond: false,
+        }
+    }
+
+    /// Whether it gives an option this value.
+    pub(super) fn sets(&self, name: &str, value: &str) -> bool {
+        self.options.iter().any(|(n, v)| n == name && v == value)
+    }
+}
+
+/// A set of geometry samples that a subject was sampled at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampleSet {
+    /// Geometry samples of a pixel.
+    pub count: usize,
+    /// The options that say where they are.
+    pub options: Vec<(String, String)>,
+}
+
+/// What a subject and a device allow to be searched.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Offer {
+    /// Sets of geometry samples, the largest first.
+    pub samples: Vec<SampleSet>,
+    /// Whether there are normals.
+    pub normals: bool,
+    /// Whether there is a camera, without which there are no planes.
+    pub camera: bool,
+    /// With which scale of depth most steps from surface to surface are 1 or more, where there are any.
+    pub depth_scale: Option<f64>,
+    /// Why half precision is not searched, if it is not.
+    pub no_half: Option<String>,
+    /// Why shading is not placed, if it is not.
+    pub no_placing: Option<String>,
+    /// Why nothing is searched for what no tap shows, if it is not.
+    pub no_search: Option<String>,
+    /// Why light is not borrowed apart from paint and shadow, if it is not.
+    pub no_light: Option<String>,
+    /// Options that all variants have. One that the search varies is thereby taken out of it.
+    pub fixed: Vec<(String, String)>,
+}
+
+impl Offer {
+    /// Whether all variants have an option, whatever its value.
+    pub(in crate::tune) fn fixes(&self, option: &str) -> bool {
+        self.fixed.iter().any(|(name, _)| name == option)
+    }
+
+    /// Why an option that all variants have is not searched.
+    pub(super) fn set(name: &str, value: &str) -> String {
+        format!("{name}: it was set to {value}")
+    }
+}
+
+/// The values of every term that an offer leaves open, before options are fixed. What is not searched is said in `left_aside`.
+pub(super) fn of(offer: &Offer, left_aside: &mut Vec<String>) -> [Vec<Value>; Term::ALL.len()] {
+    let precision = match &offer.no_half {
+        Some(why) => {
+            left_aside.push(format!("half precision: {why}"));
+            vec![Value::of("f32", "f32", &[])]
+        }
+        None => vec![
+            Value::of("f32", "f32", &[]),
+            Value {
+                precision: Precision::F16,
+                ..Value::of("f16", "f16", &[])
+            },
+        ],
+    };
+    [
+        samples(offer),
+        metrics(offer, left_aside),
+        differences(offer),
+        vec![
+            Value::of("gaussian", "nine taps a sample, weighted", &[("falloff", "gaussian")]),
+            Value::of("no falloff", "nine taps a sample", &[("falloff", "none")]),
+            Value::of("tent", "tent", &[("falloff", "tent")]),
+        ],
+        vec![
+            Value::of("no mask", "filter where geometry is even", &[("mask", "none")]),
+            Value::of("mask", "mask", &[("mask", "branch")]),
+        ],
+        vec![
+            Value::of("finite test", "finite test", &[("non-finite", "skip")]),
+            Value::of(
+                "no finite test",
+                "no finite test",
+                &[("non-finite", "spread"), ("guards", "none")],
+            ),
+        ],
+        precision,
+        vec![
+            Value::of("exact", "exact mathematics", &[]),
+            Value {
+                math: Math::Fast,
+                ..Value::of("fast", "fast mathematics", &[])
+            },
+        ],
+        vec![
+            Value::of("1x1", "one pixel an invocation", &[]),
+            Value {
+                block: [2, 2],
+                ..Value::of("2x2", "blocks of 2x2", &[])
+            },
+        ],
+        placing(offer, left_aside),
+        beyond(
+            (offer, &offer.no_search),
+            Value::of("not searched", "search", &[("search", "none")]),
+            Value::of("searched", "search", &[("search", "five")]),
+            left_aside,
+        ),
+        light(offer, left_aside),
+    ]
+}
+
+/// Sets of samples. Where shading is searched they leave it open.
+fn samples(offer: &Offer) -> Vec<Value> {
+    let value = |set: &SampleSet| {
+        let label = format!("{} samples", set.count);
+        let mut options = set.options.clone();
+        options.retain(|(name, _)| name != "shading" || offer.no_placing.is_some());
+        Value {
+            options,
+            ..Value::of(&label, &label, &[])
+        }
+    };
+    offer.samples.iter().map(value).collect()
+}
+
+fn metrics(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
+    let all = [
+        ("planes-normals", "planes"),
+        ("depth-normals", "normals"),
+        ("normals", "normals"),
+        ("depth", "depth"),
+    ];
+    let has = |name: &str| match name {
+        "planes-normals" => offer.normals && offer.camera,
+        "depth" => true,
+        _ => offer.normals,
+    };
+    if !offer.normals {
+        left_aside.push("normals and planes: the capture has no normals".to_owned());
+    } else if !offer.camera {
+        left_aside.push("planes: the capture has no camera".to_owned());
+    }
+    let values = all.iter().filter(|(name, _)| has(name));
+    values
+        .map(|(name, needs)| Value::of(name, needs, &[("metric", name)]))
+        .collect()
+}
+
+/// Ways to compare depths. Two of them have a scale of their own, unless one was set: with one a tenth of the depth is a step, and
+/// a floor that recedes to the horizon is one surface; the other is what the steps of the view call for.
+fn differences(offer: &Offer) -> Vec<Value> {
+    let coarse = [("difference", "relative"), ("depth-scale", "0.1")];
+    let mut values = vec![
+        Value::of("relative depth", "relative depth", &coarse[..1]),
+        Value::of("coarse relative depth", "coarse relative depth", &coarse),
+        Value::of("absolute depth", "absolute depth", &[("difference", "absolute")]),
+    ];
+    let is_set = offer.fixes("depth-scale");
+    if is_set {
+        values.remove(1);
+    }
+    if let Some(scale) = offer.depth_scale.filter(|_| !is_set) {
+        let name = "absolute depth, scaled";
+        let options = [("difference", "absolute"), ("depth-scale", &*scale.to_string())];
+        values.insert(2, Value::of(name, name, &options));
+    }
+    values
+}
+
+fn placing(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
+    let name = "placing";
+    beyond(
+        (offer, &offer.no_placing),
+        Value::of("shaded at centres", name, &[("shading", "centre")]),
+        Value::of("placed", name, &[("shading", "placed")]),
+        left_aside,
+    )
+}
+
+/// Of `rest` that which is set, if it is; else highlights and haze are borrowed as they are.
+fn light(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
+    let name = "light apart from paint and shadow";
+    let options = [("demodulate", "albedo-shadow"), ("rest", "true")];
+    let count = if offer.fixes("rest") { 1 } else { 2 };
+    beyond(
+        (offer, &offer.no_light),
+        Value::of("light with its paint and shadow", name, &[("demodulate", "none")]),
+        Value::of(name, name, &options[..count]),
+        left_aside,
+    )
+}
+
+/// The values of a term that goes beyond the paper, or one that says nothing where there is a reason against it.
+fn beyond(
+    (offer, no): (&Offer, &Option<String>),
+    without: Value,
+    with: Value,
+    left_aside: &mut Vec<String>,
+) -> Vec<Value> {
+    let Some(why) = no else {
+        return vec![without, Value { beyond: true, ..with }];
+    };
+    let is_own = |(name, _): &&(String, String)| without.options.iter().any(|(own, _)| own == name);
+    left_aside.push(match offer.fixed.iter().find(is_own) {
+        Some((name, value)) => Offer::set(name, value),
+        None => format!("{}: {why}", without.needs),
+    });
+    vec![unsaid(without)]
+}
+
+/// A value that leaves its options to whoever fixed them.
+pub(super) fn unsaid(value: Value) -> Value {
+    Value {
+        options: Vec::new(),
+        beyond: false,
+        ..value
+    }
+}
+
+pub(super) fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
+    options
+        .iter()
+        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
+        .collect()
+}

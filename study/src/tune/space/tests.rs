@@ -1,0 +1,244 @@
+use super::terms::owned;
+use super::*;
+use std::collections::BTreeSet;
+
+fn offer() -> Offer {
+    let set = |count: usize, pattern: &str| SampleSet {
+        count,
+        options: owned(&[("pattern", pattern), ("shading", "centre")]),
+    };
+    Offer {
+        samples: vec![set(16, "latin16"), set(8, "standard8"), set(4, "latin4")],
+        normals: true,
+        camera: true,
+        depth_scale: Some(0.5),
+        ..Offer::default()
+    }
+}
+
+#[test]
+fn every_variant_is_searched_once() {
+    let space = Space::new(&offer()).unwrap();
+    let all = space.variants();
+    // Thirteen ways to tell surfaces apart, normals alone having no depth to compare.
+    // Fast mathematics where there are finite tests.
+    assert_eq!(all.len(), 3 * 13 * 3 * 2 * 3 * 2 * 2);
+    let settings: BTreeSet<String> = all
+        .iter()
+        .map(|v| format!("{:?} {}", space.settings(*v), space.precision(*v)))
+        .collect();
+    assert_eq!(settings.len(), all.len());
+    assert_eq!(all[0], space.general());
+    let general = space.settings(space.general());
+    for option in [
+        ("pattern", "latin16"),
+        ("metric", "planes-normals"),
+        ("non-finite", "skip"),
+    ] {
+        assert!(general.options.contains(&owned(&[option])[0]), "{option:?}");
+    }
+}
+
+#[test]
+fn neighbours_differ_in_one_term_and_are_searched() {
+    let space = Space::new(&offer()).unwrap();
+    let mut all: BTreeSet<Variant> = space.variants().into_iter().collect();
+    let extended: Vec<Variant> = all.iter().flat_map(|v| space.extended(*v)).collect();
+    all.extend(extended);
+    for variant in &all {
+        for neighbour in space.neighbours(*variant) {
+            assert!(all.contains(&neighbour), "{}", space.name(neighbour));
+            assert_ne!(neighbour, *variant);
+        }
+    }
+}
+
+#[test]
+fn what_is_missing_or_fixed_is_not_searched_and_that_is_said() {
+    let bare = Offer {
+        normals: false,
+        no_half: Some("the device has none".to_owned()),
+        ..offer()
+    };
+    let space = Space::new(&bare).unwrap();
+    assert_eq!(space.values(Term::Metric).len(), 1);
+    assert_eq!(space.values(Term::Precision).len(), 1);
+    assert_eq!(space.left_aside.len(), 2, "{:?}", space.left_aside);
+
+    let set = Offer {
+        fixed: owned(&[("falloff", "tent"), ("tau", "300"), ("depth-scale", "2")]),
+        ..offer()
+    };
+    let space = Space::new(&set).unwrap();
+    assert_eq!(space.values(Term::Falloff).len(), 1);
+    assert!(
+        space
+            .settings(space.general())
+            .options
+            .contains(&owned(&[("tau", "300")])[0])
+    );
+    assert_eq!(space.values(Term::Difference).len(), 2);
+
+    let no_such = Offer {
+        fixed: owned(&[("metric", "planes-normals")]),
+        normals: false,
+        ..offer()
+    };
+    assert!(Space::new(&no_such).unwrap_err().contains("metric=planes-normals"));
+}
+
+#[test]
+fn a_block_selects_where_a_pixel_branches() {
+    let space = Space::new(&offer()).unwrap();
+    let masked = space.general().with(Term::Mask, 1);
+    let mask = |v: Variant| {
+        let settings = space.settings(v);
+        settings.options.into_iter().find(|(n, _)| n == "mask").unwrap().1
+    };
+    assert_eq!(mask(masked), "branch");
+    assert_eq!(mask(masked.with(Term::Block, 1)), "select");
+}
+
+#[test]
+fn what_is_left_out_is_named() {
+    let space = Space::new(&offer()).unwrap();
+    let names = |v: Variant| -> Vec<String> { space.left_out(v).into_iter().map(|(name, _)| name).collect() };
+    assert!(names(space.general().with(Term::Block, 1)).is_empty());
+    assert_eq!(names(space.general().with(Term::Metric, 3)), ["planes", "normals"]);
+    assert_eq!(names(space.general().with(Term::Metric, 2)), ["planes", "depth"]);
+    let four = space.general().with(Term::Samples, 2).with(Term::Precision, 1);
+    assert_eq!(names(four), ["16 samples", "f32"]);
+}
+
+/// Each of the general variant's options that goes beyond the paper.
+fn beyond(space: &Space, variant: Variant) -> Vec<(String, String)> {
+    let names = ["shading", "search", "demodulate", "rest"];
+    let mut options = space.settings(variant).options;
+    options.retain(|(name, _)| names.contains(&name.as_str()));
+    options
+}
+
+#[test]
+fn what_goes_beyond_the_paper_is_added_to_plain_variants_alone() {
+    let space = Space::new(&offer()).unwrap();
+    let general = space.general();
+    let none = owned(&[("shading", "centre"), ("search", "none"), ("demodulate", "none")]);
+    assert_eq!(beyond(&space, general), none);
+    let extended = space.extended(general);
+    assert_eq!(extended.len(), 2 * 2 * 2 - 1);
+    let all = general
+        .with(Term::Placing, 1)
+        .with(Term::Search, 1)
+        .with(Term::Light, 1);
+    assert!(extended.contains(&all));
+    let options = [
+        ("shading", "placed"),
+        ("search", "five"),
+        ("demodulate", "albedo-shadow"),
+        ("rest", "true"),
+    ];
+    assert_eq!(beyond(&space, all), owned(&options));
+    assert!(space.is_placed(all) && !space.is_placed(general));
+    for cheaper in [Term::Mask, Term::Precision, Term::Math, Term::Block] {
+        let cheap = general.with(cheaper, 1);
+        assert!(space.extended(cheap).is_empty(), "{}", space.name(cheap));
+        assert_eq!(
+            space.canonical(cheap.with(Term::Search, 1)),
+            general.with(Term::Search, 1)
+        );
+    }
+    // The same from a variant that has some of it already.
+    assert_eq!(space.extended(all), extended);
+    assert!(
+        space
+            .name(all)
+            .ends_with("1x1, placed, searched, light apart from paint and shadow")
+    );
+    assert!(space.name(general).ends_with("1x1"));
+}
+
+#[test]
+fn what_was_added_is_told_apart_from_what_can_be() {
+    let space = Space::new(&offer()).unwrap();
+    let masked = space.general().with(Term::Mask, 1);
+    let added = space.added(masked);
+    let terms: Vec<&str> = added.iter().map(|added| added.term.as_str()).collect();
+    assert_eq!(terms, ["placing", "search", "light apart from paint and shadow"]);
+    // A mask leaves out what it leaves out: placing is judged without.
+    assert!(
+        added
+            .iter()
+            .all(|added| !added.is_there && added.without == space.general())
+    );
+    assert_eq!(added[0].with, space.general().with(Term::Placing, 1));
+    let searched = space.general().with(Term::Search, 1);
+    let added = space.added(searched);
+    assert_eq!(
+        added.iter().map(|a| a.is_there).collect::<Vec<_>>(),
+        [false, true, false]
+    );
+    assert_eq!((added[1].without, added[1].with), (space.general(), searched));
+    assert_eq!(added[2].with, searched.with(Term::Light, 1));
+    assert!(space.left_out(searched).is_empty());
+}
+
+#[test]
+fn options_beyond_the_paper_can_be_set_as_all_others() {
+    let set = |options: &[(&str, &str)]| {
+        let fixed = owned(options);
+        Space::new(&Offer { fixed, ..offer() }).unwrap()
+    };
+    let searched = |space: &Space| -> Vec<Term> {
+        let open = |term: &Term| space.values(*term).len() > 1;
+        Term::BEYOND.into_iter().filter(open).collect()
+    };
+    let none = set(&[("search", "none"), ("demodulate", "none"), ("shading", "centre")]);
+    assert!(searched(&none).is_empty() && none.extended(none.general()).is_empty());
+    assert!(none.added(none.general()).is_empty());
+    assert!(none.left_aside.iter().any(|line| line == "search: it was set to none"));
+
+    // What all have is what they are compared with: it may go with all else.
+    let placed = set(&[("shading", "placed")]);
+    assert_eq!(searched(&placed), [Term::Search, Term::Light]);
+    assert!(placed.is_placed(placed.general()) && placed.name(placed.general()).ends_with("placed"));
+    assert_eq!(placed.variants().len(), set(&[]).variants().len());
+    // What is not searched may be set.
+    let seven = set(&[("search", "seven")]);
+    assert_eq!(searched(&seven), [Term::Placing, Term::Light]);
+    assert_eq!(beyond(&seven, seven.general())[0], owned(&[("search", "seven")])[0]);
+    // A mask would leave paint as it is.
+    let albedo = set(&[("demodulate", "albedo")]);
+    assert_eq!(albedo.values(Term::Mask).len(), 1);
+    assert!(albedo.left_aside.iter().any(|line| line.starts_with("mask:")));
+    let apart = set(&[("demodulate", "albedo-shadow")]);
+    assert_eq!(apart.values(Term::Mask)[0].label, "no mask");
+    let without_rest = set(&[("rest", "false")]);
+    let light = without_rest.general().with(Term::Light, 1);
+    assert!(beyond(&without_rest, light).contains(&owned(&[("rest", "false")])[0]));
+}
+
+#[test]
+fn reasons_against_what_goes_beyond_the_paper_are_said() {
+    let space = Space::new(&Offer {
+        no_placing: Some("a capture keeps its own".to_owned()),
+        no_light: Some("there is no albedo".to_owned()),
+        ..offer()
+    });
+    let space = space.unwrap();
+    assert_eq!(space.extended(space.general()).len(), 1);
+    // Then the samples say where it is shaded.
+    assert_eq!(
+        beyond(&space, space.general()),
+        owned(&[("shading", "centre"), ("search", "none")])
+    );
+    for line in [
+        "placing: a capture keeps its own",
+        "light apart from paint and shadow: there is no albedo",
+    ] {
+        assert!(
+            space.left_aside.iter().any(|said| said == line),
+            "{:?}",
+            space.left_aside
+        );
+    }
+}
