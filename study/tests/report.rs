@@ -83,6 +83,7 @@ fn quality(pictures: bool) -> QualityRecord {
         temporal: Some(0.01),
         time: ms.map(times),
         bytes: 5_500_000,
+        extra: None,
         non_finite: 0,
         picture: pictures.then(|| format!("pictures/{name}.png")),
     };
@@ -168,6 +169,7 @@ fn tune() -> TuneRecord {
         math: "exact".to_owned(),
         block: [1, 1],
         error,
+        extra: None,
         non_finite: 0,
         reads: 22.0,
         statements: 100.0,

@@ -34,8 +34,8 @@ options! {
         pub layout: Layout = Layout::Layers,
         /// How a tap's weight falls with its distance on the screen.
         pub falloff: Falloff = Falloff::Tent,
-        /// Of falloff=tent: the power that it is raised to. With 4, what varies smoothly within a surface is blurred as by the pixel's own
-        /// area, and no more; with less, more, and what is shaded sharply within a surface is smoothed.
+        /// Of falloff=tent: the power that it is raised to. With 3 of 4 samples, and with 4 of 16, what varies smoothly within a surface is
+        /// blurred as by the pixel's own area; with less, more, and what is shaded sharply within a surface is smoothed.
         pub sharpness: f32 [1.0..=4.0] = 1.0,
         /// Of falloff=gaussian: the standard deviation, in pixels. With less, the farthest taps would weigh too little for a float.
         pub sigma: f32 [0.125..=4.0] = 0.4,

@@ -284,6 +284,55 @@ pub fn demodulated(record: &QualityRecord) -> String {
     markdown(&head, rows.collect())
 }
 
+/// What shading some pixels once more is worth, and how many these are.
+pub fn extra(record: &QualityRecord) -> String {
+    let head = [
+        "scene",
+        "samples",
+        "placed and searched",
+        "and some shaded once more",
+        "of all pixels",
+        "supersampling",
+    ];
+    let rows = record.scenes.iter().flat_map(|scene| {
+        ["4", "16"].map(|samples| {
+            let name = format!("SRAA {samples}, placed, searched and extra");
+            let found = scene.methods.iter().find(|method| method.method == name);
+            let share = found.and_then(|method| method.extra);
+            vec![
+                scene.scene.clone(),
+                samples.to_owned(),
+                cell(scene, &format!("SRAA {samples}, placed and searched")),
+                cell(scene, &name),
+                share.map_or("–".to_owned(), |share| format!("{:.2} %", 100.0 * share)),
+                cell(scene, &format!("{samples}x")),
+            ]
+        })
+    });
+    markdown(&head, rows.collect())
+}
+
+/// PSNR of even regions, and of the whole picture, above that of no antialiasing.
+pub fn flat(record: &QualityRecord) -> String {
+    let names = record.scenes.first().map_or(Vec::new(), |scene| {
+        let all = scene.methods.iter().map(|method| method.method.as_str());
+        all.filter(|name| *name != "1x").collect()
+    });
+    let mut head = vec!["scene"];
+    head.extend(&names);
+    let row = |scene: &SceneErrors| {
+        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
+        let gain = |name: &&str| {
+            let (own, none) = (of(name)?, of("1x")?);
+            let even = own.psnr_flat? - none.psnr_flat?;
+            Some(format!("{even:+.1}, {:+.1}", own.psnr - none.psnr))
+        };
+        let cells = names.iter().map(|name| gain(name).unwrap_or("–".to_owned()));
+        std::iter::once(scene.scene.clone()).chain(cells).collect()
+    };
+    markdown(&head, record.scenes.iter().map(row).collect())
+}
+
 /// Every scene: PSNR and FLIP of the main methods.
 pub fn scenes(record: &QualityRecord) -> String {
     of_scenes(record, &MAIN)

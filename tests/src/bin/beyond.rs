@@ -1,0 +1,170 @@
+//! What each of the filter's ways beyond the paper mends, at six times, and the worst that is left: the picture of
+//! `docs/beyond-the-paper.md`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use straightline_codegen::{Stage, Unroll};
+use straightline_kernels::prelude::{Frame, UVec2, Vec4, uvec2};
+use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::execute::Bench;
+use straightline_testbed::render::{self, CpuRenderer};
+use straightline_testbed::scene::Scene;
+use straightline_testbed::{gbuffer, picture};
+use straightline_tests::sraa::compiled;
+use straightline_tests::sraa::options::{Options, options, value};
+
+const USAGE: &str = "usage: beyond FILE.png";
+
+type Failure = Box<dyn std::error::Error>;
+
+/// Of the scenes' pictures, and of a square of them that is shown.
+const SIZE: UVec2 = uvec2(640, 360);
+const SIDE: u32 = 28;
+const ZOOM: u32 = 6;
+
+/// What all have.
+const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
+const PLACED: (&str, &str) = ("shading", "placed");
+const SEARCHED: (&str, &str) = ("search", "five");
+const EXTRA: (&str, &str) = ("extra", "true");
+const LIGHT: [(&str, &str); 2] = [("demodulate", "albedo-shadow"), ("rest", "true")];
+
+/// A scene, what is shown first, and what is shown beside it: options and a title of each.
+struct Row {
+    scene: &'static str,
+    without: (&'static str, &'static [(&'static str, &'static str)]),
+    with: (&'static str, &'static [(&'static str, &'static str)]),
+}
+
+const ROWS: [Row; 6] = [
+    Row {
+        scene: "railings",
+        without: ("SRAA 4", &[]),
+        with: ("placed", &[PLACED]),
+    },
+    Row {
+        scene: "railings",
+        without: ("SRAA 4", &[]),
+        with: ("searched", &[SEARCHED]),
+    },
+    Row {
+        scene: "tubes",
+        without: ("placed, searched", &[PLACED, SEARCHED]),
+        with: ("once more", &[PLACED, SEARCHED, EXTRA]),
+    },
+    Row {
+        scene: "posters",
+        without: ("placed, searched", &[PLACED, SEARCHED]),
+        with: ("light apart", &[PLACED, SEARCHED, LIGHT[0], LIGHT[1]]),
+    },
+    Row {
+        scene: "sparkle",
+        without: ("SRAA 4", &[]),
+        with: ("sharpness 4", &[("sharpness", "4")]),
+    },
+    Row {
+        scene: "roof",
+        without: ("SRAA 4", &[]),
+        with: ("all that is left", &[PLACED, SEARCHED, EXTRA]),
+    },
+];
+
+fn main() -> ExitCode {
+    let words: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let [path] = &words[..] else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    let written = rows().and_then(|rows| Ok(picture::write_png(path, &below(&rows))?));
+    match written {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn rows() -> Result<Vec<Frame<Vec4>>, Failure> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
+    let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
+    let bench = Bench::new(&device, &queue, false);
+    ROWS.iter()
+        .enumerate()
+        .map(|(k, row)| shown(&bench, row, k + 1 == ROWS.len()))
+        .collect()
+}
+
+/// Where `with` is nearer to the reference than `without` by most, or where it is farthest from it if the `worst` is asked for.
+fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> {
+    let scene = Scene::named(row.scene).ok_or("no such scene")?;
+    let renderer = CpuRenderer::new(&scene, SIZE)?;
+    let reference = render::reference(&renderer, 16, &mut |_, _| {})?;
+    let drawn = |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[&RELATIVE[..], own].concat()));
+    let (without, with) = (drawn(row.without.1)?, drawn(row.with.1)?);
+    let off = |frame: &Frame<Vec4>, k: usize| {
+        (frame.texels()[k] - reference.texels()[k])
+            .clamp(Vec4::NEG_ONE, Vec4::ONE)
+            .length_squared()
+    };
+    let score = |k: usize| {
+        if worst {
+            off(&with, k)
+        } else {
+            off(&without, k) - off(&with, k)
+        }
+    };
+    let sums = (0..SIZE.y - SIDE)
+        .step_by(4)
+        .flat_map(|y| (0..SIZE.x - SIDE).step_by(4).map(move |x| uvec2(x, y)));
+    let of_square = |corner: &UVec2| -> f32 {
+        let pixels = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| uvec2(x, y)));
+        pixels
+            .map(|at| score(((corner.y + at.y) * SIZE.x + corner.x + at.x) as usize))
+            .sum()
+    };
+    let corner = sums
+        .max_by(|a, b| of_square(a).total_cmp(&of_square(b)))
+        .ok_or("no square")?;
+    let pictures = [
+        (row.without.0, &without),
+        (row.with.0, &with),
+        ("256 samples", &reference),
+    ];
+    Ok(picture::details(&pictures, corner, SIDE, ZOOM))
+}
+
+fn filtered(bench: &Bench, renderer: &CpuRenderer, set: &Options) -> Result<Frame<Vec4>, Failure> {
+    let shading = match value(set, "shading", "centre") {
+        "placed" => ShadingSample::Placed,
+        _ => ShadingSample::Centre,
+    };
+    let samples = gbuffer::samples("latin4").ok_or("no such pattern")?;
+    let mut capture: Capture = render::capture(renderer, &samples, shading)?;
+    if value(set, "demodulate", "none") != "none" {
+        render::add_albedo(&mut capture, renderer)?;
+    }
+    let compiled = compiled(set, Unroll::Full)?;
+    let inputs = match value(set, "extra", "false") {
+        "true" => {
+            let budget = (SIZE.x * SIZE.y / 50) as usize;
+            render::extra(renderer, &capture, budget)?.inputs(&capture, &compiled.options)?
+        }
+        _ => gbuffer::inputs(&capture, &compiled.options)?,
+    };
+    Ok(bench.run(&compiled, Stage::Compute, &inputs)?)
+}
+
+/// Pictures of one width, one below the other.
+fn below(rows: &[Frame<Vec4>]) -> Frame<Vec4> {
+    let width = rows.iter().map(|row| row.size().x).max().unwrap_or(1);
+    let mut texels = Vec::new();
+    for row in rows {
+        for line in row.texels().chunks(row.size().x as usize) {
+            texels.extend_from_slice(line);
+            texels.resize(texels.len() + width as usize - line.len(), Vec4::ONE);
+        }
+    }
+    Frame::new(uvec2(width, (texels.len() / width as usize) as u32), texels)
+}

@@ -1,0 +1,107 @@
+//! Goals that were set for accuracy, and what the records say.
+
+use super::markdown;
+use super::quality::GEOMETRIC;
+use std::path::Path;
+use straightline_study::record::{MethodErrors, QualityRecord, Record, SceneErrors};
+
+/// Each goal with what it comes to: of the record of what goes beyond the paper, that of even regions, and that of paint and shadow.
+pub fn table(files: &[&Path]) -> Result<String, String> {
+    let [beyond, flat, paint] = files else {
+        return Err("the table `reached` needs three records".to_owned());
+    };
+    let read = |file: &Path| QualityRecord::read(file).map_err(|error| error.to_string());
+    let (beyond, flat, paint) = (read(beyond)?, read(flat)?, read(paint)?);
+    let mut rows = Vec::new();
+    for (samples, mean, worst) in [("4", 0.5, 1.5), ("16", 2.0, 4.0)] {
+        let below = below(&beyond, &format!("SRAA {samples}, placed and searched"), samples)?;
+        rows.push(row(
+            &format!("SRAA {samples} below {samples}×, same shading rate: mean; worst, dB"),
+            &format!("at most {mean}; {worst}"),
+            &format!("{:.1}; {:.1}", below.0, below.1),
+            below.0 <= mean && below.1 <= worst,
+        ));
+    }
+    let few = below(&beyond, "SRAA 4, placed, searched and extra", "4")?;
+    let many = below(&beyond, "SRAA 16, placed, searched and extra", "16")?;
+    rows.push(row(
+        "with up to 2 % shaded once more, 4; 16 samples: mean, dB",
+        "at most 0.4; 1.6",
+        &format!("{:.1}; {:.1}", few.0, many.0),
+        few.0 <= 0.4 && many.0 <= 1.6,
+    ));
+    let flips: Result<Vec<f64>, String> = beyond
+        .scenes
+        .iter()
+        .map(|scene| {
+            Ok(named(scene, "SRAA 16, placed and searched")?.flip - named(scene, "SRAA 4, placed and searched")?.flip)
+        })
+        .collect();
+    let flip = flips?.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    rows.push(row(
+        "FLIP of 16 samples less that of 4: worst scene",
+        "at most 0",
+        &format!("{flip:+.4}"),
+        flip <= 0.0,
+    ));
+    let mut below_paint = 0.0f64;
+    for scene in paint
+        .scenes
+        .iter()
+        .filter(|scene| ["posters", "awning"].contains(&scene.scene.as_str()))
+    {
+        for samples in ["4", "16"] {
+            let own = named(
+                scene,
+                &format!("SRAA {samples}, placed, searched, demodulated and rest apart"),
+            )?;
+            below_paint = below_paint.max(named(scene, &format!("{samples}x"))?.psnr - own.psnr);
+        }
+    }
+    rows.push(row(
+        "paint and shadow, light apart: worst below supersampling, dB",
+        "at most 1.5",
+        &format!("{below_paint:.1}"),
+        below_paint <= 1.5,
+    ));
+    for method in ["SRAA 4", "planes, sharpness 4"] {
+        let mut worst = f64::INFINITY;
+        for scene in &flat.scenes {
+            let (own, none) = (named(scene, method)?, named(scene, "1x")?);
+            if let (Some(own), Some(none)) = (own.psnr_flat, none.psnr_flat) {
+                worst = worst.min(own - none);
+            }
+        }
+        rows.push(row(
+            &format!("even regions above no antialiasing, {method}: worst scene, dB"),
+            "at least -0.3",
+            &format!("{worst:.1}"),
+            worst >= -0.3,
+        ));
+    }
+    Ok(markdown(&["what", "goal", "now", "met"], rows))
+}
+
+fn row(what: &str, goal: &str, now: &str, is_met: bool) -> Vec<String> {
+    let met = if is_met { "yes" } else { "no" };
+    vec![what.to_owned(), goal.to_owned(), format!("**{now}**"), met.to_owned()]
+}
+
+/// How far a method is below supersampling with as many samples, over the scenes of geometric edges: mean and worst.
+fn below(record: &QualityRecord, method: &str, samples: &str) -> Result<(f64, f64), String> {
+    let scenes = record
+        .scenes
+        .iter()
+        .filter(|scene| GEOMETRIC.contains(&scene.scene.as_str()));
+    let all: Result<Vec<f64>, String> = scenes
+        .map(|scene| Ok(named(scene, &format!("{samples}x"))?.psnr - named(scene, method)?.psnr))
+        .collect();
+    let all = all?;
+    let mean = all.iter().sum::<f64>() / all.len().max(1) as f64;
+    Ok((mean, all.into_iter().fold(f64::NEG_INFINITY, f64::max)))
+}
+
+fn named<'a>(scene: &'a SceneErrors, name: &str) -> Result<&'a MethodErrors, String> {
+    let found = scene.methods.iter().find(|method| method.method == name);
+    found.ok_or_else(|| format!("the record has no {name} of {}", scene.scene))
+}
