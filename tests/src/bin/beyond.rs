@@ -98,7 +98,7 @@ fn rows() -> Result<Vec<Frame<Vec4>>, Failure> {
 
 /// Where `with` is nearer to the reference than `without` by most, or where it is farthest from it if the `worst` is asked for.
 fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> {
-    let scene = Scene::named(row.scene).ok_or("no such scene")?;
+    let scene = Scene::named(row.scene)?;
     let renderer = CpuRenderer::new(&scene, SIZE)?;
     let reference = render::reference(&renderer, 16, &mut |_, _| {})?;
     let drawn = |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[&RELATIVE[..], own].concat()));
