@@ -169,7 +169,6 @@ fn tune() -> TuneRecord {
         math: "exact".to_owned(),
         block: [1, 1],
         error,
-        extra: None,
         non_finite: 0,
         reads: 22.0,
         statements: 100.0,
