@@ -82,7 +82,7 @@ pub const CATALOGUE: &[Entry] = &[
     },
     Entry {
         name: "sraa_extra",
-        summary: "Which pixels sraa with extra=true has shaded at one more sample",
+        summary: "Which pixels sraa with extra=true has shaded once more",
         sources: SRAA,
         paper: no_paper,
         half: half::unstudied,
