@@ -65,7 +65,7 @@ const ROWS: [Row; 6] = [
     Row {
         scene: "roof",
         without: ("SRAA 4", &[]),
-        with: ("all that is left", &[PLACED, SEARCHED, EXTRA]),
+        with: ("with all three", &[PLACED, SEARCHED, EXTRA]),
     },
 ];
 

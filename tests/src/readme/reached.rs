@@ -64,7 +64,7 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
         &format!("{below_paint:.1}"),
         below_paint <= 1.5,
     ));
-    for method in ["SRAA 4", "planes, sharpness 4"] {
+    for method in ["SRAA 4", "sharpness 4", "relative, sharpness 4", "planes, sharpness 4"] {
         let mut worst = f64::INFINITY;
         for scene in &flat.scenes {
             let (own, none) = (named(scene, method)?, named(scene, "1x")?);
