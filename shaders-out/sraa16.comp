@@ -56,7 +56,7 @@ void main() {
     float number_s0_t8 = (apart_s0_t8 < 16.0 ? apart_s0_t8 : 16.0);
     float d_s0_t8 = min(max(abs(seen_depth_s0 - shaded_depth_t8), number_s0_t8), 16.0);
     float nearest_s0_t8 = min(min(min(d_s0_t4, d_s0_t5), d_s0_t7), d_s0_t8);
-    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:158)
+    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:160)
     float w_s0_t4 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t4) - 0.284038);
     float w_s0_t5 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t5) - 3.5570564);
     float w_s0_t7 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t7) - 3.5570564);
@@ -439,7 +439,7 @@ void main() {
     float w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.2120974);
     float w_s15_t4 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t4) - 1.6646097);
     float scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:231)
     vec4 shaded_t0 = texelFetch(sampler2D(color, unfiltered), at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

@@ -52,7 +52,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s0_t8 = select(16.0, apart_s0_t8, apart_s0_t8 < 16.0);
     let d_s0_t8 = min(max(abs(seen_depth_s0 - shaded_depth_t8), number_s0_t8), 16.0);
     let nearest_s0_t8 = min(min(min(d_s0_t4, d_s0_t5), d_s0_t7), d_s0_t8);
-    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:158)
+    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:160)
     let w_s0_t4 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t4) - 0.284038);
     let w_s0_t5 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t5) - 3.5570564);
     let w_s0_t7 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t7) - 3.5570564);
@@ -435,7 +435,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.2120974);
     let w_s15_t4 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t4) - 1.6646097);
     let scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:231)
     let shaded_t0 = textureLoad(color, at_t0, 0);
     let kept_t0 = all((bitcast<vec4u>(shaded_t0) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let w_t0 = select(0.0, weights_s10_t0 + w_s15_t0 * scale_s15, kept_t0);

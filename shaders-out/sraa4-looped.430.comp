@@ -20,12 +20,12 @@ void main() {
     if (any(greaterThanEqual(pixel, frame))) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:277)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:279)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:133)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:135)
     float share = 1.0 / total;
     ivec2 last = frame - 1;
     float weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -42,11 +42,11 @@ void main() {
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:71)
+            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:70)
             ivec2 tap_pixel = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:143)
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), tap_pixel))))) {
                     d = 0.0;
@@ -56,7 +56,7 @@ void main() {
                     float depth_3 = texelFetch(depth, ivec3(at, 4), 0).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:312
+                        // kernels/src/sraa/mod.rs:314
                         shaded_depth = depth_3;
                     }
                     vec3 n_2 = texelFetch(normal, ivec3(at, 4), 0).xyz;
@@ -66,14 +66,14 @@ void main() {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:313
+                    // kernels/src/sraa/mod.rs:315
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:151)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:153)
         float sum = 0.0;
         float tap_weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (int tap = 0; tap < 9; tap++) {
@@ -85,7 +85,7 @@ void main() {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:179)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:181)
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -94,11 +94,11 @@ void main() {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:228)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:230)
     vec4 result = vec4(0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:65)
+        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:82)
         ivec2 at = clamp(pixel + ivec2(tap % 3 - 1, tap / 3 - 1), ivec2(0), last);
         vec4 shaded = texelFetch(color, at, 0);
         bool kept = all(lessThan(floatBitsToUint(shaded) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));
@@ -107,12 +107,12 @@ void main() {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:240)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:212)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:214)
     vec4 mean_of_kept = vec4(0.0);
     if (sum > 1e-30) {
         mean_of_kept = result / sum;

@@ -24,12 +24,12 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     if (any(pixel >= frame)) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:277)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:279)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:133)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:135)
     float share = 1.0 / total;
     int2 last = frame - 1;
     float weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
@@ -46,11 +46,11 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         float distances[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:71)
+            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:70)
             int2 tap_pixel = int2(tap % 3 - 1, tap / 3 - 1);
             float2 away = float2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:143)
                 float d;
                 if (all(bool2(is_equal, all(int2(0, 0) == tap_pixel)))) {
                     d = 0.0;
@@ -60,7 +60,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                     float depth_3 = depth.Load(int4(at, 4, 0)).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:312
+                        // kernels/src/sraa/mod.rs:314
                         shaded_depth = depth_3;
                     }
                     float3 n_2 = normal.Load(int4(at, 4, 0)).xyz;
@@ -70,14 +70,14 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:313
+                    // kernels/src/sraa/mod.rs:315
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:151)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:153)
         float sum = 0.0;
         float tap_weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         for (int tap = 0; tap < 9; tap++) {
@@ -89,7 +89,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:179)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:181)
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             float2 away = float2(int2(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -98,11 +98,11 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:228)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:230)
     float4 result = float4(0.0, 0.0, 0.0, 0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:65)
+        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:82)
         int2 at = clamp(pixel + int2(tap % 3 - 1, tap / 3 - 1), int2(0, 0), last);
         float4 shaded = color.Load(int3(at, 0));
         bool kept = all(
@@ -114,12 +114,12 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:240)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:212)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:214)
     float4 mean_of_kept = float4(0.0, 0.0, 0.0, 0.0);
     if (sum > 1e-30) {
         mean_of_kept = result / sum;

@@ -18,12 +18,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:277)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:279)
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:133)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:135)
     let share = 1.0 / total;
     let last = frame - 1;
     var weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -40,11 +40,11 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:71)
+            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:70)
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:143)
                 var d: f32;
                 if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;
@@ -54,7 +54,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:312
+                        // kernels/src/sraa/mod.rs:314
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
@@ -64,14 +64,14 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:313
+                    // kernels/src/sraa/mod.rs:315
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:151)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:153)
         var sum = 0.0;
         var tap_weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (var tap = 0; tap < 9; tap++) {
@@ -83,7 +83,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:179)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:181)
         let scale = share / sum;
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -92,11 +92,11 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:228)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:230)
     var result = vec4f(0.0);
     var sum = 0.0;
     for (var tap = 0; tap < 9; tap++) {
-        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:65)
+        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:82)
         let at = clamp(pixel + vec2i(tap % 3 - 1, tap / 3 - 1), vec2i(0), last);
         let shaded = textureLoad(color, at, 0);
         let kept = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
@@ -105,12 +105,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             w = weights[tap];
         }
         if kept {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:240)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:212)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:214)
     var mean_of_kept = vec4f(0.0);
     if sum > 1e-30 {
         mean_of_kept = result / sum;

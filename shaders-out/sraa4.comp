@@ -54,7 +54,7 @@ void main() {
     float number_s0_t4 = (apart_s0_t4 < 16.0 ? apart_s0_t4 : 16.0);
     float d_s0_t4 = min(max(abs(seen_depth_s0 - shaded_depth_t4), number_s0_t4), 16.0);
     float nearest_s0_t4 = min(min(min(d_s0_t0, d_s0_t1), d_s0_t3), d_s0_t4);
-    // sample 0, tap 0: the mean of the geometry samples (kernels/src/sraa/mod.rs:158)
+    // sample 0, tap 0: the mean of the geometry samples (kernels/src/sraa/mod.rs:160)
     float w_s0_t0 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t0) - 4.4150376);
     float w_s0_t1 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t1) - 1.6076826);
     float w_s0_t3 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t3) - 3.678072);
@@ -148,7 +148,7 @@ void main() {
     float w_s3_t7 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t7) - 1.6076826);
     float w_s3_t8 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t8) - 4.4150376);
     float scale_s3 = 0.25 / (w_s3_t4 + w_s3_t5 + w_s3_t7 + w_s3_t8);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:231)
     vec4 shaded_t0 = texelFetch(sampler2D(color, unfiltered), at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

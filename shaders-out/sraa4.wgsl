@@ -50,7 +50,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s0_t4 = select(16.0, apart_s0_t4, apart_s0_t4 < 16.0);
     let d_s0_t4 = min(max(abs(seen_depth_s0 - shaded_depth_t4), number_s0_t4), 16.0);
     let nearest_s0_t4 = min(min(min(d_s0_t0, d_s0_t1), d_s0_t3), d_s0_t4);
-    // sample 0, tap 0: the mean of the geometry samples (kernels/src/sraa/mod.rs:158)
+    // sample 0, tap 0: the mean of the geometry samples (kernels/src/sraa/mod.rs:160)
     let w_s0_t0 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t0) - 4.4150376);
     let w_s0_t1 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t1) - 1.6076826);
     let w_s0_t3 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t3) - 3.678072);
@@ -144,7 +144,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let w_s3_t7 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t7) - 1.6076826);
     let w_s3_t8 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t8) - 4.4150376);
     let scale_s3 = 0.25 / (w_s3_t4 + w_s3_t5 + w_s3_t7 + w_s3_t8);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:229)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:231)
     let shaded_t0 = textureLoad(color, at_t0, 0);
     let kept_t0 = all((bitcast<vec4u>(shaded_t0) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let w_t0 = select(0.0, w_s0_t0 * scale_s0, kept_t0);
