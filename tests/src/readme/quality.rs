@@ -284,34 +284,6 @@ pub fn demodulated(record: &QualityRecord) -> String {
     markdown(&head, rows.collect())
 }
 
-/// What shading some pixels once more is worth, and how many these are.
-pub fn extra(record: &QualityRecord) -> String {
-    let head = [
-        "scene",
-        "samples",
-        "placed and searched",
-        "and some shaded once more",
-        "of all pixels",
-        "supersampling",
-    ];
-    let rows = record.scenes.iter().flat_map(|scene| {
-        ["4", "16"].map(|samples| {
-            let name = format!("SRAA {samples}, placed, searched and extra");
-            let found = scene.methods.iter().find(|method| method.method == name);
-            let share = found.and_then(|method| method.extra);
-            vec![
-                scene.scene.clone(),
-                samples.to_owned(),
-                cell(scene, &format!("SRAA {samples}, placed and searched")),
-                cell(scene, &name),
-                share.map_or("–".to_owned(), |share| format!("{:.2} %", 100.0 * share)),
-                cell(scene, &format!("{samples}x")),
-            ]
-        })
-    });
-    markdown(&head, rows.collect())
-}
-
 /// PSNR of even regions, and of the whole picture, above that of no antialiasing.
 pub fn flat(record: &QualityRecord) -> String {
     let names = record.scenes.first().map_or(Vec::new(), |scene| {

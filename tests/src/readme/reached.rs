@@ -22,14 +22,6 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
             below.0 <= mean && below.1 <= worst,
         ));
     }
-    let few = below(&beyond, "SRAA 4, placed, searched and extra", "4")?;
-    let many = below(&beyond, "SRAA 16, placed, searched and extra", "16")?;
-    rows.push(row(
-        "with up to 2 % shaded once more, 4; 16 samples: mean, dB",
-        "at most 0.4; 1.6",
-        &format!("{:.1}; {:.1}", few.0, many.0),
-        few.0 <= 0.4 && many.0 <= 1.6,
-    ));
     let flips: Result<Vec<f64>, String> = beyond
         .scenes
         .iter()
