@@ -79,26 +79,33 @@ fn differs(cfg: &Sraa, seen: &Seen) -> bool {
 /// Which sample the pixel wants to have shaded, or the number of samples. Few pixels come here: its loops stay loops.
 #[cfg_attr(false, unroll(none))]
 fn wanted(cfg: &Sraa, seen: &Seen) -> usize {
+    let first = first_hidden(cfg, seen, IVec2::ZERO);
     let even = (seen.pixel.x + seen.pixel.y) & 1 == 0;
+    if even || first == cfg.samples() {
+        return first;
+    }
+    // What the four pixels beside want, whose x + y are even.
+    let mut beside = [0; 4];
+    for k in 0..4 {
+        beside[k] = first_hidden(cfg, seen, neighbour(2 * k + 1, 3));
+    }
     for sample in 0..cfg.samples() {
         let at = cfg.geometry_sample(IVec2::ZERO, sample);
-        if is_unseen(cfg, seen, at) && (even || !is_beside(cfg, seen, &sampled(cfg, seen, at))) {
+        if is_unseen(cfg, seen, at) && !is_beside(cfg, seen, &sampled(cfg, seen, at), &beside) {
             return sample;
         }
     }
     cfg.samples()
 }
 
-/// Whether one of the four pixels beside, whose x + y are even, wants to have the surface of `sample` shaded.
-fn is_beside(cfg: &Sraa, seen: &Seen, sample: &Sample) -> bool {
+/// Whether one of the four pixels beside wants to have the surface of `sample` shaded.
+fn is_beside(cfg: &Sraa, seen: &Seen, sample: &Sample, wanted: &[usize; 4]) -> bool {
     let mut beside = false;
     for k in 0..4 {
-        if !beside {
-            let pixel = neighbour(2 * k + 1, 3);
-            let first = first_hidden(cfg, seen, pixel);
-            if first < cfg.samples() {
-                beside = apart(cfg, seen, sample, cfg.geometry_sample(pixel, cfg.own(first))) <= cfg.search_threshold;
-            }
+        let pixel = neighbour(2 * k + 1, 3);
+        let there = cfg.geometry_sample(pixel, cfg.own(wanted[k]));
+        if wanted[k] < cfg.samples() && apart(cfg, seen, sample, there) <= cfg.search_threshold {
+            beside = true;
         }
     }
     beside
