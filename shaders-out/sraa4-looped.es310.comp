@@ -104,7 +104,7 @@ void main() {
     vec4 result = vec4(0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:82)
+        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
         ivec2 at = clamp(pixel + ivec2(tap % 3 - 1, tap / 3 - 1), ivec2(0), last);
         vec4 shaded = texelFetch(color, at, 0);
         bool kept = all(lessThan(floatBitsToUint(shaded) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));

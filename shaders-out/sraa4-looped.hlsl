@@ -102,7 +102,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     float4 result = float4(0.0, 0.0, 0.0, 0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:82)
+        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
         int2 at = clamp(pixel + int2(tap % 3 - 1, tap / 3 - 1), int2(0, 0), last);
         float4 shaded = color.Load(int3(at, 0));
         bool kept = all(

@@ -96,7 +96,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     var result = vec4f(0.0);
     var sum = 0.0;
     for (var tap = 0; tap < 9; tap++) {
-        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:82)
+        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
         let at = clamp(pixel + vec2i(tap % 3 - 1, tap / 3 - 1), vec2i(0), last);
         let shaded = textureLoad(color, at, 0);
         let kept = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));

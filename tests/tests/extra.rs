@@ -6,7 +6,7 @@ mod common;
 use common::{bench, device};
 use glam::{IVec2, UVec2, UVec4, Vec2, Vec4, dvec2, ivec2, uvec2};
 use std::collections::BTreeSet;
-use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Compiled, Stage, Unroll};
 use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
 use straightline_kernels::sraa::sraa_extra;
 use straightline_testbed::capture::ShadingSample;
@@ -17,18 +17,12 @@ use straightline_testbed::render::{self, CpuRenderer, Extra, GpuRenderer, Listed
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, value};
-use straightline_tests::sraa::{Random, native, surfaces};
+use straightline_tests::sraa::{self, Random, native, surfaces};
 
 const SIZE: UVec2 = uvec2(37, 29);
 
 fn compiled(kernel: &str, options: &Options, unroll: Unroll) -> Compiled {
-    let settings = Settings {
-        options: options.clone(),
-        unroll,
-        ..Settings::default()
-    };
-    let kernel = Kernel::builtin(kernel).and_then(|kernel| kernel.compile(&settings));
-    kernel.unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"))
+    sraa::kernel(kernel, options, unroll).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"))
 }
 
 fn params(set: &Options) -> SraaParams {

@@ -4,7 +4,7 @@ mod common;
 
 use common::bench;
 use glam::{UVec2, uvec2};
-use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Compiled, Stage, Unroll};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::execute::{Bench, Inputs, interpret};
 use straightline_testbed::metrics::psnr;
@@ -13,18 +13,12 @@ use straightline_testbed::render::{self, CpuRenderer, Renderer};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, one_at_a_time, options, refusal, samples_needed, value};
-use straightline_tests::sraa::surfaces;
+use straightline_tests::sraa::{self, surfaces};
 
 const SIZE: UVec2 = uvec2(61, 47);
 
 fn compiled(kernel: &str, options: &Options, unroll: Unroll) -> Compiled {
-    let settings = Settings {
-        options: options.clone(),
-        unroll,
-        ..Settings::default()
-    };
-    let kernel = Kernel::builtin(kernel).and_then(|kernel| kernel.compile(&settings));
-    kernel.unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"))
+    sraa::kernel(kernel, options, unroll).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"))
 }
 
 /// Sets that say something of surfaces: what a colour or a weight is makes no difference here.

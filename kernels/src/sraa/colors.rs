@@ -75,12 +75,13 @@ pub(super) fn color(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Vec
 
 /// Colour of a pixel's only shading sample, or of its further one.
 pub(super) fn color_at(inputs: &Inputs, tap: Place) -> Vec4 {
+    shaded(inputs, tap, &inputs.colors.color, &inputs.colors.extra_color)
+}
+
+/// What shading gave at a tap: of its pixel's only shading sample, or of its further one.
+pub(super) fn shaded(inputs: &Inputs, tap: Place, only: &Frame<Vec4>, further: &Frame<Vec4>) -> Vec4 {
     let at = inputs.pixel + tap.pixel;
-    if tap.extra {
-        inputs.colors.extra_color.load(at)
-    } else {
-        inputs.colors.color.load(at)
-    }
+    if tap.extra { further.load(at) } else { only.load(at) }
 }
 
 /// The pixel's own colour: the mean of its shading samples.

@@ -8,7 +8,7 @@
 //! it is.
 
 use super::Inputs;
-use super::colors::{color_at, is_kept};
+use super::colors::{color_at, is_kept, shaded};
 use super::gbuffer::Layout;
 use super::options::{Guards, Mask, Normalisation, Resolve, Search, Sraa};
 use super::pattern::Place;
@@ -98,23 +98,13 @@ fn share(cfg: &Sraa, lit: f32) -> f32 {
 
 /// What the direct light adds to a tap's colour out of shadow.
 fn direct(inputs: &Inputs, tap: Place) -> Vec4 {
-    let at = inputs.pixel + tap.pixel;
-    let light = if tap.extra {
-        inputs.colors.extra_direct.load(at)
-    } else {
-        inputs.colors.direct.load(at)
-    };
+    let light = shaded(inputs, tap, &inputs.colors.direct, &inputs.colors.extra_direct);
     light.xyz().extend(0.0)
 }
 
 /// What of a tap's colour does not follow the albedo.
 fn rest(inputs: &Inputs, tap: Place) -> Vec4 {
-    let at = inputs.pixel + tap.pixel;
-    let light = if tap.extra {
-        inputs.colors.extra_rest.load(at)
-    } else {
-        inputs.colors.rest.load(at)
-    };
+    let light = shaded(inputs, tap, &inputs.colors.rest, &inputs.colors.extra_rest);
     light.xyz().extend(0.0)
 }
 
@@ -166,8 +156,8 @@ fn taken(
     }
 }
 
-/// The colour that a sample with a paint of its own takes from a tap that is its pixel's only shading sample, or a further one, whose surface is the
-/// sample's own or, if not `seen`, may be any.
+/// The colour that a sample with a paint of its own takes from a tap, its pixel's only shading sample or a further one, whose surface
+/// is the sample's own or, if not `seen`, may be any.
 pub(super) fn repainted(cfg: &Sraa, inputs: &Inputs, tap: Place, own: &Paint, seen: bool) -> Vec4 {
     let shaded = color_at(inputs, tap);
     match cfg.demodulate {

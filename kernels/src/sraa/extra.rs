@@ -21,9 +21,9 @@ struct Seen<'a> {
 /// Where `pixel` is to be shaded once more: the number of a geometry sample, or the number of samples where it is not. What it
 /// gives is the image `extra` of the filter.
 ///
-/// A pixel is listed with its first sample that differs by more than `search_threshold` from all shading samples of the nine pixels around. Where
-/// x + y is odd, what a neighbour with an even sum wants counts as shaded, too: one surface is not shaded twice. Beyond the border the
-/// nearest pixel is repeated.
+/// A pixel is listed with its first sample that differs by more than `search_threshold` from all shading samples of the nine pixels
+/// around. Where x + y is odd, what a neighbour with an even sum wants counts as shaded, too: one surface is not shaded twice. Beyond
+/// the border the nearest pixel is repeated.
 ///
 /// `extra_list` holds for each that is listed its pixel, as x + 65536 y, and the number of its sample. As many as it has room for
 /// are listed and no more: its length is the budget. Which these are where it is too short, the order decides in which pixels come.
@@ -111,7 +111,8 @@ fn is_beside(cfg: &Sraa, seen: &Seen, sample: &Sample, wanted: &[usize; 4]) -> b
     beside
 }
 
-/// The first geometry sample of the pixel at `pixel` whose surface no shading sample around that one shows, or the number of samples.
+/// The first geometry sample of the pixel at `pixel` whose surface no shading sample around that one shows, or the number of
+/// samples.
 fn first_hidden(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> usize {
     for sample in 0..cfg.samples() {
         if is_unseen(cfg, seen, cfg.geometry_sample(pixel, sample)) {

@@ -37,18 +37,27 @@ impl Random {
     }
 }
 
-/// The kernel with some options set.
+/// The filter with some options set.
 ///
 /// # Errors
 ///
 /// What the kernel refuses, and why.
 pub fn compiled(options: &Options, unroll: Unroll) -> Result<Compiled, Errors> {
+    kernel("sraa", options, unroll)
+}
+
+/// One of the kernels of SRAA with some options set.
+///
+/// # Errors
+///
+/// What the kernel refuses, and why.
+pub fn kernel(name: &str, options: &Options, unroll: Unroll) -> Result<Compiled, Errors> {
     let settings = Settings {
         options: options.clone(),
         unroll,
         ..Settings::default()
     };
-    Kernel::builtin("sraa")?.compile(&settings)
+    Kernel::builtin(name)?.compile(&settings)
 }
 
 /// How far a result is from what it should be.
