@@ -13,7 +13,7 @@ use straightline_testbed::capture::ShadingSample;
 use straightline_testbed::execute::{Bench, Inputs, Interpreted, interpret};
 use straightline_testbed::metrics::psnr;
 use straightline_testbed::oracle::{self, Placed, Resolved, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer, Extra, GpuRenderer, Listed};
+use straightline_testbed::render::{self, CpuRenderer, Extra, GpuRenderer, Listed, PlacedBy};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, value};
@@ -343,8 +343,9 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
     let scene = Scene::named("railings").expect("a scene");
     let size = uvec2(160, 90);
     let renderer = GpuRenderer::new(&device, &queue, &scene, size).expect("a renderer");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    let capture = render::capture(&renderer, &samples, ShadingSample::Placed).expect("a capture");
+    let samples = gbuffer::samples("latin16").expect("a pattern");
+    let sampled = [("pattern", "latin16"), ("shading", "placed")];
+    let capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
     let budget = (size.x * size.y / 50) as usize;
     let wanted = render::extra(&renderer, &capture, (size.x * size.y) as usize).expect("further samples");
     assert!(
@@ -355,11 +356,7 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
     let few = render::extra(&renderer, &capture, budget).expect("further samples");
     assert!(few.listed <= budget && few.wanted == wanted.wanted);
 
-    let list = compiled(
-        "sraa_extra",
-        &render::listing_options(&options(&[("shading", "placed")])),
-        Unroll::Full,
-    );
+    let list = compiled("sraa_extra", &render::listing_options(&options(&sampled)), Unroll::Full);
     let inputs = listing(
         gbuffer::inputs(&capture, &list.options).expect("inputs"),
         (size.x * size.y) as usize,
@@ -421,13 +418,8 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
     let reference = render::reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
     let judged = |frame: &Frame<Vec4>| psnr(&picture::at_eight_bits(frame), &picture::at_eight_bits(&reference));
     let filtered = |more: &[(&str, &str)], with: &dyn Fn(&Compiled) -> Inputs| {
-        let both = [
-            ("shading", "placed"),
-            ("search", "five"),
-            ("difference", "relative"),
-            ("depth-scale", "3"),
-        ];
-        let kernel = compiled("sraa", &options(&[&both[..], more].concat()), Unroll::Full);
+        let set = [PlacedBy::Planes.options(), &sampled, &[("search", "five")], more].concat();
+        let kernel = compiled("sraa", &options(&set), Unroll::Full);
         let inputs = with(&kernel);
         judged(&bench.run(&kernel, Stage::Compute, &inputs).expect("a picture"))
     };

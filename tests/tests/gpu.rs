@@ -154,6 +154,49 @@ fn a_bad_colour_spreads_nowhere() {
     }
 }
 
+/// Where the pixel's own samples show what its shading sample shows, it keeps its colour bit for bit, whatever lies around: and only
+/// there.
+#[test]
+fn a_pixel_without_variation_within_keeps_its_colour() {
+    let bench = bench();
+    let size = uvec2(61, 47);
+    for more in [
+        &[][..],
+        &[("shading", "placed"), ("search", "five")],
+        &[("shading", "sample0"), ("difference", "relative")],
+        &[
+            ("metric", "planes-normals"),
+            ("difference", "relative"),
+            ("guards", "fallback"),
+        ],
+        &[("resolve", "tent")],
+    ] {
+        for mask in ["select", "branch"] {
+            let set = options(&[&[("mask", mask), ("variation", "within")], more].concat());
+            let inputs = surfaces::inputs(&set, size, 5);
+            let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+            let expected = oracle::sraa(&inputs, &params).expect("a definition");
+            let color = image(&inputs, "color");
+            let own = |k: usize| color.texels()[k].to_array();
+            let is_own = |k: usize| expected[k].color == own(k).map(f64::from);
+            let compiled = compiled(&set, Unroll::Full).expect("it compiles");
+            for stage in [Stage::Compute, Stage::Fragment] {
+                let result = bench.run(&compiled, stage, &inputs).expect("it runs");
+                let off = difference(&result, &expected);
+                assert!(off.largest < BOUND && off.non_finite == 0, "{set:?} {stage:?}: {off:?}");
+                let sure = (0..expected.len()).filter(|k| expected[*k].sure);
+                let kept = sure.clone().filter(|k| is_own(*k)).count();
+                assert!(kept > 100 && kept + 20 < sure.clone().count(), "{set:?}: {kept} kept");
+                for k in sure {
+                    let bits = result.texels()[k].to_array().map(f32::to_bits);
+                    let is_kept = bits == own(k).map(f32::to_bits);
+                    assert!(is_kept || !is_own(k), "{set:?} {stage:?} at {k}");
+                }
+            }
+        }
+    }
+}
+
 /// Alpha is a weight like any other component: what is premultiplied stays so, and colours may be brighter than 1.
 #[test]
 fn bright_and_transparent_colours_are_filtered_as_they_are() {

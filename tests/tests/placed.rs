@@ -9,7 +9,7 @@ use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::execute::{Bench, Inputs, interpret};
 use straightline_testbed::metrics::psnr;
 use straightline_testbed::oracle::{self, Placed, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer, Renderer};
+use straightline_testbed::render::{self, CpuRenderer, PlacedBy, Renderer};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, one_at_a_time, options, refusal, samples_needed, value};
@@ -40,6 +40,7 @@ fn sets() -> Vec<Options> {
         ("difference", "relative"),
         ("depth-scale", "3"),
     ])])
+    .chain([options(PlacedBy::Planes.options())])
     .collect()
 }
 
@@ -108,27 +109,37 @@ fn places_are_those_of_the_definition() {
     );
 }
 
-/// A frame of railings, shaded once a pixel.
-fn captured(shading: ShadingSample) -> (Capture, Inputs, CpuRenderer) {
+/// A frame of railings, shaded once a pixel: where it is placed, by planes or by depths.
+fn captured(placed: Option<PlacedBy>) -> (Capture, Inputs, CpuRenderer) {
     let scene = Scene::named("railings").expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
     let samples = gbuffer::samples("latin4").expect("a pattern");
-    let capture = render::capture(&renderer, &samples, shading).expect("a capture");
-    let set = gbuffer::sampled_at(&capture).into_iter().collect();
-    let inputs = gbuffer::inputs(&capture, &set).expect("inputs");
+    let capture = match placed {
+        Some(by) => render::capture_placed(&renderer, &samples, by),
+        None => render::capture(&renderer, &samples, ShadingSample::Centre),
+    };
+    let capture = capture.expect("a capture");
+    let planes = PlacedBy::Planes.instead_of(&gbuffer::sampled_at(&capture));
+    let inputs = gbuffer::inputs(&capture, &planes.into_iter().collect()).expect("inputs");
     (capture, inputs, renderer)
 }
 
 #[test]
 fn of_a_pixel_and_its_neighbours_one_moves_at_most() {
-    let (capture, ..) = captured(ShadingSample::Placed);
-    let place = capture.place.expect("places");
-    let (width, samples) = (place.size().x as usize, capture.samples.len() as u32);
-    let moved: Vec<usize> = (0..place.texels().len())
-        .filter(|k| place.texels()[*k] < samples)
-        .collect();
-    assert!(moved.len() > place.texels().len() / 100, "{} pixels moved", moved.len());
-    assert!(moved.iter().all(|k| (k % width + k / width) % 2 == 0));
+    for by in [PlacedBy::Depths, PlacedBy::Planes] {
+        let (capture, ..) = captured(Some(by));
+        let place = capture.place.expect("places");
+        let (width, samples) = (place.size().x as usize, capture.samples.len() as u32);
+        let moved: Vec<usize> = (0..place.texels().len())
+            .filter(|k| place.texels()[*k] < samples)
+            .collect();
+        assert!(
+            moved.len() > place.texels().len() / 100,
+            "{by:?}: {} pixels moved",
+            moved.len()
+        );
+        assert!(moved.iter().all(|k| (k % width + k / width) % 2 == 0), "{by:?}");
+    }
 }
 
 /// Section 3.5 of the paper leaves what no shading sample shows to chance. One sample a pixel still, moved, and a search: railings
@@ -136,14 +147,12 @@ fn of_a_pixel_and_its_neighbours_one_moves_at_most() {
 #[test]
 fn placing_and_searching_close_most_of_the_gap() {
     let bench = bench();
-    let relative = [("difference", "relative"), ("depth-scale", "3")];
-    let (centred, centred_inputs, renderer) = captured(ShadingSample::Centre);
-    let (_, placed_inputs, _) = captured(ShadingSample::Placed);
+    let (centred, centred_inputs, renderer) = captured(None);
+    let (_, placed_inputs, _) = captured(Some(PlacedBy::Planes));
     let reference = render::reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
     let judged = |frame| psnr(&picture::at_eight_bits(&frame), &picture::at_eight_bits(&reference));
     let filtered = |more: &[(&str, &str)], inputs: &Inputs| {
-        let set = options(&[&relative[..], more].concat());
-        assert_eq!(value(&set, "difference", ""), "relative");
+        let set = options(&[PlacedBy::Planes.options(), more].concat());
         let compiled = compiled("sraa", &set, Unroll::Full);
         judged(bench.run(&compiled, Stage::Compute, inputs).expect("a picture"))
     };
@@ -151,6 +160,13 @@ fn placing_and_searching_close_most_of_the_gap() {
     let searched = filtered(&[("search", "five")], &centred_inputs);
     let placed = filtered(&[("shading", "placed")], &placed_inputs);
     let both = filtered(&[("shading", "placed"), ("search", "five")], &placed_inputs);
+    let kept_even = [
+        ("shading", "placed"),
+        ("search", "five"),
+        ("mask", "branch"),
+        ("variation", "within"),
+    ];
+    let kept_even = filtered(&kept_even, &placed_inputs);
     let shaded = centred
         .samples
         .iter()
@@ -159,10 +175,14 @@ fn placing_and_searching_close_most_of_the_gap() {
     let texel = |k: usize| shaded.iter().map(|frame| frame.texels()[k]).sum::<glam::Vec4>() / 4.0;
     let mean = (0..shaded[0].texels().len()).map(texel).collect();
     let supersampled = judged(straightline_kernels::prelude::Frame::new(shaded[0].size(), mean));
-    println!("plain {plain:.2}, searched {searched:.2}, placed {placed:.2}, both {both:.2}, 4x {supersampled:.2} dB");
+    println!(
+        "plain {plain:.2}, searched {searched:.2}, placed {placed:.2}, both {both:.2}, kept even too {kept_even:.2}, \
+         4x {supersampled:.2} dB"
+    );
     assert!(
         searched > plain && placed > plain + 1.0 && both > placed,
         "{plain} {searched} {placed} {both}"
     );
     assert!(supersampled - both < 1.5, "{both} of {supersampled}");
+    assert!((kept_even - both).abs() < 0.2, "{kept_even} of {both}");
 }

@@ -32,7 +32,7 @@ pub use extra::sraa_extra;
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use history::History;
 pub use metric::{Difference, Metric, Plane};
-pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn};
+pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn, Variation};
 pub use pattern::{Pattern, Shading};
 pub use placed::sraa_place;
 pub use view::View;
@@ -282,7 +282,7 @@ fn total_share(cfg: &Sraa) -> f32 {
     total
 }
 
-/// Whether no surface that the filter looks at differs from that of its sample.
+/// Whether no surface that the mask looks at differs from that of its sample.
 fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
     let mut largest = 0.0f32;
     for sample in 0..cfg.reconstructed() {
@@ -290,13 +290,21 @@ fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) ->
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
+                if is_looked_at(cfg, place, cfg.tap(tap, SIDE)) {
                     largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
                 }
             }
         }
     }
     largest <= cfg.mask_threshold
+}
+
+/// Whether the mask compares a tap with a geometry sample.
+fn is_looked_at(cfg: &Sraa, sample: Place, tap: Place) -> bool {
+    match cfg.variation {
+        Variation::Around => falloff(cfg, sample, tap) > least(cfg),
+        Variation::Within => sample.pixel == IVec2::ZERO && tap.pixel == IVec2::ZERO,
+    }
 }
 
 /// What is seen at a geometry sample.

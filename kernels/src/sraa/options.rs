@@ -72,8 +72,10 @@ options! {
         pub history: i32 [0..=4] = 0,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,
+        /// Of mask: where there must be no variation.
+        pub variation: Variation = Variation::Around,
         /// Of mask: the largest difference that is no variation.
-        pub mask_threshold: f32 [0.0..=16.0] = 0.01,
+        pub mask_threshold: f32 [0.0..=16.0] = 0.002,
         /// What a colour that is infinite or not a number does.
         pub non_finite: NonFinite = NonFinite::Skip,
         /// How far apart two normals are.
@@ -148,6 +150,16 @@ pub enum Mask {
     Select,
     /// They do, and the filter is computed only where it counts.
     Branch,
+}
+
+/// Where a mask looks for geometric variation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variation {
+    /// Among all surfaces that the filter looks at.
+    Around,
+    /// Between the pixel's own geometry samples and its shading samples: where they show one surface, no neighbour's colour is
+    /// needed, and little is read.
+    Within,
 }
 
 /// What a colour that is infinite or not a number does.

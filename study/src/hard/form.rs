@@ -3,6 +3,7 @@
 use super::case::Case;
 use straightline_codegen::Math;
 use straightline_kernels::HalfPrecision;
+use straightline_testbed::render::PlacedBy;
 
 /// What a kernel reads, and which definition judges it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +55,14 @@ const PLACED: &[(&str, &str)] = &[
     ("difference", "relative"),
     ("depth-scale", "3"),
     ("search", "seven"),
+];
+
+/// The same by planes, and the colour kept of pixels whose samples show one.
+const KEPT_EVEN: &[(&str, &str)] = &[
+    ("shading", "placed"),
+    ("search", "five"),
+    ("mask", "branch"),
+    ("variation", "within"),
 ];
 
 impl Form {
@@ -116,6 +125,11 @@ impl Form {
             Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
             Form::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),
             Form::new("sraa placed", Sraa, PLACED),
+            Form::new(
+                "sraa kept even",
+                Sraa,
+                &[PlacedBy::Planes.options(), KEPT_EVEN].concat(),
+            ),
             Form::new("sraa mask", Sraa, &[("mask", "select")]),
             Form::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).unpromised(),
             Form::new("sraa paper", Sraa, PAPER).unpromised().taking_options(),

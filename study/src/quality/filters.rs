@@ -226,7 +226,8 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         shading => {
             let mut shaders = Vec::new();
             if shading == ShadingSample::Placed {
-                shaders.push(Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?);
+                let placing = method.placed_by().instead_of(&method.options);
+                shaders.push(Shader::new(bench, &Kernel::builtin("sraa_place")?, &placing)?);
             }
             if method.has_extra() {
                 let listing = render::listing_options(&method.options);

@@ -6,6 +6,7 @@ use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::gbuffer;
+use straightline_testbed::render::PlacedBy;
 
 /// What a method is, beyond its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -193,6 +194,11 @@ impl Method {
         }
     }
 
+    /// What tells surfaces apart where its picture is placed: planes if the filter goes by them.
+    pub fn placed_by(&self) -> PlacedBy {
+        PlacedBy::of(self.options.iter().map(|(name, value)| (name, value)))
+    }
+
     /// Whether it reads albedo at every geometry sample.
     pub fn reads_albedo(&self) -> bool {
         let of_albedo = |(name, value): &(String, String)| name == "demodulate" && value != "none";
@@ -211,7 +217,13 @@ impl Method {
     pub fn reads(&self) -> String {
         match (self.options.iter().find(|(name, _)| name == "shaded"), self.shading()) {
             (Some((_, list)), _) => format!("{} shaded at {list}", self.pattern()),
-            (None, ShadingSample::Placed) => format!("{} placed", self.pattern()),
+            (None, ShadingSample::Placed) => {
+                let by = match self.placed_by() {
+                    PlacedBy::Depths => "depths",
+                    PlacedBy::Planes => "planes",
+                };
+                format!("{} placed by {by}", self.pattern())
+            }
             (None, _) => self.pattern().to_owned(),
         }
     }
@@ -324,7 +336,6 @@ fn beyond() -> Vec<Method> {
             sraa("searched", &[SEARCHED]),
             sraa("placed", &[PLACED]),
             sraa("placed and searched", &[PLACED, SEARCHED]).main(),
-            sraa("placed, searched and extra", &[PLACED, SEARCHED, ("extra", "true")]).pictured(),
             sraa("demodulated by albedo", &[("demodulate", "albedo")]),
             sraa("demodulated", &[DEMODULATED]).pictured(),
             sraa("placed, searched and demodulated", &[PLACED, SEARCHED, DEMODULATED]).pictured(),
@@ -334,9 +345,30 @@ fn beyond() -> Vec<Method> {
             )
             .pictured(),
         ]);
+        let by_planes = |what: &str, options: &[(&str, &str)]| {
+            let basis = [&[("pattern", pattern)], PlacedBy::Planes.options(), options].concat();
+            Method::new(&format!("SRAA {samples}, {what}"), Kind::Sraa, &basis)
+        };
+        all.extend([
+            by_planes("placed and searched by planes", &[PLACED, SEARCHED]).main(),
+            by_planes("kept even", &KEPT_EVEN),
+            by_planes(
+                "placed, searched and kept even",
+                &[&[PLACED, SEARCHED], &KEPT_EVEN[..]].concat(),
+            )
+            .main(),
+            by_planes(
+                "placed, searched, kept even and extra",
+                &[&[PLACED, SEARCHED, ("extra", "true")], &KEPT_EVEN[..]].concat(),
+            )
+            .pictured(),
+        ]);
     }
     all
 }
+
+/// Where a pixel's samples show one plane, its colour stays.
+const KEPT_EVEN: [(&str, &str); 2] = [("mask", "branch"), ("variation", "within")];
 
 pub(super) const PLACED: (&str, &str) = ("shading", "placed");
 pub(super) const SEARCHED: (&str, &str) = ("search", "five");

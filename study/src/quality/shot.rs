@@ -43,7 +43,10 @@ impl Shot {
             if let Entry::Vacant(vacant) = shot.captures.entry(method.reads()) {
                 check(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
-                vacant.insert(render::capture(renderer, &samples, method.shading())?);
+                vacant.insert(match method.shading() {
+                    ShadingSample::Placed => render::capture_placed(renderer, &samples, method.placed_by())?,
+                    shading => render::capture(renderer, &samples, shading)?,
+                });
             }
             if let Some(capture) = shot.captures.get_mut(&method.reads())
                 && method.reads_albedo()

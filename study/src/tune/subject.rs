@@ -6,7 +6,7 @@ use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Placed, Renderer};
+use straightline_testbed::render::{self, Placed, PlacedBy, Renderer};
 
 /// Patterns that a scene is sampled in, the most samples first.
 pub const PATTERNS: [&str; 3] = ["latin16", "standard8", "latin4"];
@@ -74,7 +74,7 @@ impl Subject {
                 render::add_albedo(&mut capture, renderer)?;
             }
             if beyond.placing {
-                placed.extend(render::placed(&capture, renderer)?);
+                placed.extend(render::placed(&capture, renderer, PlacedBy::Depths)?);
             }
             captures.push(capture);
             progress.step();

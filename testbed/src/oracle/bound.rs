@@ -202,8 +202,11 @@ impl Definition<'_> {
         let mut largest = Range { low: 0.0, high: 0.0 };
         let mut undecided = 0.0;
         for (at, share) in reconstructed {
-            let near = self.reach(pixel, at, self.taps(pixel, at), 0.0, rounding);
-            largest = near.iter().fold(largest, |most, tap| most.max(tap.range));
+            let taps = self.taps(pixel, at);
+            let looked_at: Vec<bool> = taps.iter().map(|tap| self.is_looked_at(at, tap)).collect();
+            let near = self.reach(pixel, at, taps, 0.0, rounding);
+            let compared = near.iter().zip(looked_at).filter(|(_, is_looked_at)| *is_looked_at);
+            largest = compared.fold(largest, |most, (tap, _)| most.max(tap.range));
             let (reach, most) = self.searched_reach(pixel, at, near, rounding);
             undecided += most * (share / total).abs();
             match self.shares(&reach, share / total, rounding) {

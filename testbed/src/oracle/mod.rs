@@ -36,7 +36,7 @@ use rayon::prelude::*;
 pub use extra::extra;
 pub use params::{
     Demodulate, Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError,
-    Pattern, Plane, Resolve, Search, Shading, SraaParams, Turn,
+    Pattern, Plane, Resolve, Search, Shading, SraaParams, Turn, Variation,
 };
 pub use place::{Placed, place};
 
@@ -114,7 +114,8 @@ impl<'a> Definition<'a> {
         let (mut color, mut shares, mut sure, mut largest) = ([0.0; 4], 0.0, true, 0.0f64);
         for (at, share) in self.reconstructed() {
             let taps = self.taps(pixel, at);
-            largest = taps.iter().map(|tap| tap.difference).fold(largest, f64::max);
+            let looked_at = taps.iter().filter(|tap| self.is_looked_at(at, tap));
+            largest = looked_at.map(|tap| tap.difference).fold(largest, f64::max);
             let (taps, is_decided) = self.searched(pixel, at, taps);
             let (reconstructed, is_sure) = self.reconstruct(&taps);
             add(&mut color, reconstructed, share);
@@ -136,6 +137,14 @@ impl<'a> Definition<'a> {
             }
         }
         Resolved { color, sure }
+    }
+
+    /// Whether the mask compares a tap with a geometry sample.
+    fn is_looked_at(&self, (pixel, _): ([i32; 2], usize), tap: &Tap) -> bool {
+        match self.params.variation {
+            Variation::Around => true,
+            Variation::Within => pixel == [0, 0] && tap.at.0 == [0, 0],
+        }
     }
 
     /// The mean over all finite colours, each by its weight in the whole pixel.

@@ -182,6 +182,16 @@ choices! {
 }
 
 choices! {
+    /// Where a mask looks for variation.
+    Variation {
+        /// Among a pixel's samples and all shading samples within their reach.
+        Around = "around",
+        /// Among a pixel's geometry samples and its own shading samples.
+        Within = "within",
+    }
+}
+
+choices! {
     /// Whether pixels without geometric variation keep their colour.
     Mask {
         /// No.
@@ -284,6 +294,8 @@ pub struct SraaParams {
     pub history: usize,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
+    /// Where there must be none.
+    pub variation: Variation,
     /// The largest difference that is no variation.
     pub mask_threshold: f64,
     /// What a colour that is not finite does.
@@ -330,7 +342,8 @@ impl Default for SraaParams {
             rest: false,
             history: 0,
             mask: Mask::None,
-            mask_threshold: 0.01,
+            variation: Variation::Around,
+            mask_threshold: 0.002,
             non_finite: NonFinite::Skip,
             turn: Turn::Cosine,
             renormalise: false,
@@ -420,6 +433,7 @@ impl SraaParams {
             "rest" => self.rest = value == "true",
             "history" => self.history = number(option, value)? as usize,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
+            "variation" => self.variation = choice(option, value, Variation::ALL, Variation::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
             "turn" => self.turn = choice(option, value, Turn::ALL, Turn::name)?,

@@ -1,14 +1,15 @@
 //! Captures of what a renderer draws.
 
-use super::{RenderError, Renderer, placed};
+use super::{PlacedBy, RenderError, Renderer, placed};
 use crate::capture::{Capture, NormalSpace, ShadingSample, mean};
+use crate::gbuffer;
 use glam::Vec2;
 use straightline_kernels::prelude::FrameLayers;
 
 /// What a filter gets: colour shaded once a pixel, or at each of several samples, and geometry at each of `samples` (and, with
 /// [`ShadingSample::Centre`] and [`ShadingSample::Placed`], once more at the pixel's centre).
 ///
-/// Shading is placed by the kernel `sraa_place` with `difference=relative` and `depth-scale=3`.
+/// Shading is placed by depths: see [`capture_placed`].
 ///
 /// `samples` are in pixels from the pixel's centre, y down. There is no reference in the capture;
 /// [`reference`](super::reference()) makes one.
@@ -18,6 +19,27 @@ use straightline_kernels::prelude::FrameLayers;
 /// [`RenderError::NoOffsets`] without samples, [`RenderError::ShadingSample`] if `shading` names one that there is
 /// not; what the renderer refuses.
 pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample) -> Result<Capture, RenderError> {
+    captured(renderer, samples, shading, PlacedBy::Depths)
+}
+
+/// The same with [`ShadingSample::Placed`], by the kernel `sraa_place` with the options of `by`.
+///
+/// # Errors
+///
+/// [`RenderError::Unnamed`] by planes if `samples` lie at no pattern that has a name; else as [`capture`].
+pub fn capture_placed(renderer: &dyn Renderer, samples: &[Vec2], by: PlacedBy) -> Result<Capture, RenderError> {
+    if by == PlacedBy::Planes && gbuffer::pattern_of(samples).is_none() {
+        return Err(RenderError::Unnamed { samples: samples.len() });
+    }
+    captured(renderer, samples, ShadingSample::Placed, by)
+}
+
+fn captured(
+    renderer: &dyn Renderer,
+    samples: &[Vec2],
+    shading: ShadingSample,
+    by: PlacedBy,
+) -> Result<Capture, RenderError> {
     super::check_offsets(samples)?;
     let mut places = samples.to_vec();
     let of = |sample: &usize| {
@@ -65,7 +87,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         reference: None,
     };
     if capture.shading == ShadingSample::Placed
-        && let Some(placed) = placed(&capture, renderer)?
+        && let Some(placed) = placed(&capture, renderer, by)?
     {
         capture.color = placed.color;
         capture.place = Some(placed.place);

@@ -47,6 +47,15 @@ pub enum RenderError {
         /// How many samples there are.
         samples: usize,
     },
+    /// Samples of which it is not known where they lie on a surface's plane.
+    #[error(
+        "shading is placed by planes where a pattern that has a name is sampled, as latin4, and not at these {samples} places: place it by \
+         depths"
+    )]
+    Unnamed {
+        /// How many samples there are.
+        samples: usize,
+    },
     /// A picture of which no pixel can be shaded once more.
     #[error(
         "further shading samples are of pictures with normals and a camera, shaded at the first sample, the pixel's centre or where they \

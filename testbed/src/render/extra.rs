@@ -1,6 +1,6 @@
 //! Further shading samples where no shading sample around shows a surface.
 
-use super::placed::{Surfaces, gathered};
+use super::placed::{PlacedBy, Surfaces, gathered};
 use super::{RenderError, Renderer};
 use crate::capture::{Capture, ShadingSample};
 use crate::execute::Inputs;
@@ -8,7 +8,7 @@ use crate::gbuffer::{self, GBufferError};
 use glam::{UVec2, Vec2, Vec4, ivec2};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
-use straightline_kernels::sraa::{Metric, Shading, Sraa, View, sraa_extra};
+use straightline_kernels::sraa::{Shading, Sraa, sraa_extra};
 
 /// Pixels that are shaded once more, at one of their geometry samples.
 #[derive(Clone, Debug)]
@@ -52,22 +52,16 @@ impl Extra {
 /// What `extra_counts` holds before: no workgroups in x, one in y and z, and no pixels.
 const COUNTS: [u32; 4] = [0, 1, 1, 0];
 
-/// Options of `sraa_extra` for a filter with `options`: planes and relative depths, by which ground that recedes is one surface.
+/// Options of `sraa_extra` for a filter with `options`: those of [`PlacedBy::Planes`], but with the default `search-threshold`. What differs
+/// less is worth a search, and not another sample: a third fewer pixels are listed, for the same picture.
 pub fn listing_options(options: &[(String, String)]) -> Vec<(String, String)> {
-    let own = [
-        ("metric", "planes-normals"),
-        ("difference", "relative"),
-        ("depth-scale", "3"),
-    ];
-    let others = options
-        .iter()
-        .filter(|(name, _)| own.iter().all(|(known, _)| known != name));
-    let own = own.map(|(name, value)| (name.to_owned(), value.to_owned()));
-    others.cloned().chain(own).collect()
+    let mut options = PlacedBy::Planes.instead_of(options);
+    options.retain(|(name, _)| name != "search-threshold");
+    options
 }
 
-/// Shades at most `budget` pixels, at least one, of `capture`, which `renderer` draws, once more, where the kernel `sraa_extra` says with `metric=planes-normals`,
-/// `difference=relative` and `depth-scale=3`. Pixels are taken row by row.
+/// Shades at most `budget` pixels, at least one, of `capture`, which `renderer` draws, once more, where the kernel `sraa_extra` says with
+/// [`listing_options`]. Pixels are taken row by row.
 ///
 /// # Errors
 ///
@@ -81,25 +75,13 @@ pub fn extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Resul
         ShadingSample::Sample(0) => Shading::Sample0,
         _ => return Err(RenderError::Extra),
     };
-    let Some(normal) = &capture.normal else {
+    let Some(Surfaces { cfg, gbuffer, view }) = Surfaces::new(capture, PlacedBy::Planes) else {
         return Err(RenderError::Extra);
     };
-    let Some([ray_corner, ray_right, ray_down]) = capture.rays() else {
-        return Err(RenderError::Extra);
-    };
-    let Surfaces { cfg, gbuffer, view } = Surfaces::new(&capture.samples, &capture.depth, normal);
     let cfg = Sraa {
         shading,
-        // Ground that recedes is one surface.
-        metric: Metric::PlanesNormals,
-        pattern: gbuffer::pattern_of(&capture.samples).ok_or(RenderError::Extra)?,
+        search_threshold: Sraa::default().search_threshold,
         ..cfg
-    };
-    let view = View {
-        ray_corner,
-        ray_right,
-        ray_down,
-        ..view
     };
     let unread = Frame::new(UVec2::ONE, vec![0]);
     let place = capture.place.as_ref().unwrap_or(&unread);

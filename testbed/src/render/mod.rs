@@ -25,7 +25,7 @@ use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 
 pub use aggregate::{Aggregate, Aggregated, aggregated};
-pub use captured::capture;
+pub use captured::{capture, capture_placed};
 pub use cpu::CpuRenderer;
 pub use demodulated::add_albedo;
 pub use error::RenderError;
@@ -33,7 +33,7 @@ pub use extra::{Extra, extra, listing_options};
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples};
 pub(crate) use placed::gathered;
-pub use placed::{PLACED_BY, Placed, placed};
+pub use placed::{Placed, PlacedBy, placed};
 pub use reference::{grid, reference};
 pub use shade::Surface;
 pub use shifted::Shifted;

@@ -2,10 +2,11 @@
 
 use super::{RenderError, Renderer};
 use crate::capture::{Capture, MAX_SAMPLES};
+use crate::gbuffer;
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_kernels::sraa::{Difference, GBuffer, Pattern, Sraa, View, sraa_place};
+use straightline_kernels::sraa::{Difference, GBuffer, Metric, Pattern, Sraa, View, sraa_place};
 
 /// Offsets that differ: with this metric it is only counted how many there are.
 static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
@@ -18,8 +19,77 @@ static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
     offsets
 };
 
-/// What the kernels that say where to shade are given of a G-buffer: surfaces of which a step of a third of the depth is between
-/// unrelated ones.
+/// What tells surfaces apart where shading is placed, or done once more. A step of a third of the depth is between unrelated ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlacedBy {
+    /// Depths and normals.
+    Depths,
+    /// Planes and normals, by which ground that recedes is one surface: much less is a difference then.
+    Planes,
+}
+
+impl PlacedBy {
+    /// What goes with the options of a filter.
+    pub fn of<'a>(options: impl IntoIterator<Item = (&'a String, &'a String)>) -> PlacedBy {
+        let by_planes = |(name, value): (&String, &String)| name == "metric" && value == "planes-normals";
+        if options.into_iter().any(by_planes) {
+            PlacedBy::Planes
+        } else {
+            PlacedBy::Depths
+        }
+    }
+
+    /// Options of the kernels `sraa_place` and `sraa_extra`, and of a filter that goes with them.
+    pub const fn options(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            PlacedBy::Depths => &[
+                ("metric", "depth-normals"),
+                ("difference", "relative"),
+                ("depth-scale", "3"),
+            ],
+            PlacedBy::Planes => &[
+                ("metric", "planes-normals"),
+                ("difference", "relative"),
+                ("depth-scale", "10"),
+                ("unseen", "0.003"),
+                ("search-threshold", "0.004"),
+            ],
+        }
+    }
+
+    /// `options` with these in the place of their own.
+    pub fn instead_of(self, options: &[(String, String)]) -> Vec<(String, String)> {
+        let own = self.options();
+        let others = options
+            .iter()
+            .filter(|(name, _)| own.iter().all(|(known, _)| known != name));
+        let own = own
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        others.cloned().chain(own).collect()
+    }
+
+    /// The same of the kernels as rustc compiles them.
+    fn settings(self) -> Sraa {
+        let relative = Sraa {
+            difference: Difference::Relative,
+            depth_scale: 3.0,
+            ..Sraa::default()
+        };
+        match self {
+            PlacedBy::Depths => relative,
+            PlacedBy::Planes => Sraa {
+                metric: Metric::PlanesNormals,
+                depth_scale: 10.0,
+                unseen: 0.003,
+                search_threshold: 0.004,
+                ..relative
+            },
+        }
+    }
+}
+
+/// What the kernels that say where to shade are given of a G-buffer.
 pub(super) struct Surfaces {
     pub(super) cfg: Sraa,
     pub(super) gbuffer: GBuffer,
@@ -27,13 +97,22 @@ pub(super) struct Surfaces {
 }
 
 impl Surfaces {
-    pub(super) fn new(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameLayers<Vec3>) -> Surfaces {
+    /// Of a capture; `None` if it has no normals, or no camera to know planes by.
+    pub(super) fn new(capture: &Capture, by: PlacedBy) -> Option<Surfaces> {
+        let (depth, normal) = (&capture.depth, capture.normal.as_ref()?);
+        let pattern = gbuffer::pattern_of(&capture.samples);
         let cfg = Sraa {
-            pattern: Pattern::Listed,
-            offsets: &OFFSETS[..2 * samples.len().min(MAX_SAMPLES)],
-            difference: Difference::Relative,
-            depth_scale: 3.0,
-            ..Sraa::default()
+            pattern: pattern.unwrap_or(Pattern::Listed),
+            offsets: match pattern {
+                Some(_) => &[],
+                None => &OFFSETS[..2 * capture.samples.len().min(MAX_SAMPLES)],
+            },
+            ..by.settings()
+        };
+        let [ray_corner, ray_right, ray_down] = match by {
+            PlacedBy::Depths => [Vec3::ZERO; 3],
+            // Of a pattern without a name it is not known where a sample lies.
+            PlacedBy::Planes => pattern.and_then(|_| capture.rays())?,
         };
         let with_fourth = |layer: &Frame<Vec3>| {
             let texels = layer.texels().iter().map(|n| n.extend(0.0));
@@ -45,23 +124,16 @@ impl Surfaces {
             ..GBuffer::unread()
         };
         let view = View {
-            ray_corner: Vec3::ZERO,
-            ray_right: Vec3::ZERO,
-            ray_down: Vec3::ZERO,
+            ray_corner,
+            ray_right,
+            ray_down,
             origin: IVec2::ZERO,
             near: 1.0,
             far: 1.0,
         };
-        Surfaces { cfg, gbuffer, view }
+        Some(Surfaces { cfg, gbuffer, view })
     }
 }
-
-/// Options of the kernel `sraa_place` that say what tells surfaces apart where shading is placed here.
-pub const PLACED_BY: [(&str, &str); 3] = [
-    ("metric", "depth-normals"),
-    ("difference", "relative"),
-    ("depth-scale", "3"),
-];
 
 /// What is shaded once a pixel, where the kernel `sraa_place` says.
 #[derive(Clone, Debug)]
@@ -76,17 +148,16 @@ pub struct Placed {
     pub rest: Option<Frame<Vec4>>,
 }
 
-/// What `renderer` drew for a capture that is shaded at the pixels' centres, shaded where the kernel `sraa_place` says instead, with
-/// the options [`PLACED_BY`]. `None` of a capture without normals.
+/// What `renderer` drew for a capture that is shaded at the pixels' centres, shaded where the kernel `sraa_place` says instead. `None`
+/// of a capture without normals, and by planes of one without a camera or of samples that lie at no pattern that has a name.
 ///
 /// # Errors
 ///
 /// What the renderer refuses.
-pub fn placed(capture: &Capture, renderer: &dyn Renderer) -> Result<Option<Placed>, RenderError> {
-    let Some(normal) = &capture.normal else {
+pub fn placed(capture: &Capture, renderer: &dyn Renderer, by: PlacedBy) -> Result<Option<Placed>, RenderError> {
+    let Some(place) = choose(capture, by) else {
         return Ok(None);
     };
-    let place = choose(&capture.samples, &capture.depth, normal);
     let mut places = capture.samples.clone();
     places.push(Vec2::ZERO);
     let moved = |centred: &Frame<Vec4>, drawn: &dyn Fn(Vec2) -> Result<Frame<Vec4>, RenderError>| {
@@ -106,12 +177,12 @@ pub fn placed(capture: &Capture, renderer: &dyn Renderer) -> Result<Option<Place
 }
 
 /// The layer in whose place each pixel is to be shaded: the kernel `sraa_place`, as rustc compiles it.
-pub(super) fn choose(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameLayers<Vec3>) -> Frame<u32> {
-    let Surfaces { cfg, gbuffer, view } = &Surfaces::new(samples, depth, normal);
-    let size = depth.layers()[0].size();
+fn choose(capture: &Capture, by: PlacedBy) -> Option<Frame<u32>> {
+    let Surfaces { cfg, gbuffer, view } = &Surfaces::new(capture, by)?;
+    let size = capture.size;
     let rows = (0..size.y as i32).into_par_iter();
     let texels = rows.flat_map_iter(|y| (0..size.x as i32).map(move |x| sraa_place(cfg, gbuffer, view, ivec2(x, y))));
-    Frame::new(size, texels.collect())
+    Some(Frame::new(size, texels.collect()))
 }
 
 /// The picture with each pixel drawn in the place of the layer that `chosen` names, of those at `places`; `centred` is drawn in the

@@ -490,3 +490,16 @@ fn the_builtin_scene_has_wires_that_shading_samples_miss() {
     });
     assert!(alone.count() > 100);
 }
+
+#[test]
+fn shading_is_placed_by_planes_at_patterns_that_have_a_name() {
+    let renderer = CpuRenderer::new(&Scene::named("roof").expect("a scene"), uvec2(32, 18)).expect("a renderer");
+    let samples = [vec2(0.1, 0.2), vec2(-0.3, 0.0)];
+    let refused = capture_placed(&renderer, &samples, PlacedBy::Planes);
+    assert!(
+        matches!(refused, Err(RenderError::Unnamed { samples: 2 })),
+        "{refused:?}"
+    );
+    let by_depths = capture_placed(&renderer, &samples, PlacedBy::Depths).expect("a capture");
+    assert!(by_depths.place.is_some());
+}

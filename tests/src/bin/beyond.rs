@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, UVec2, Vec4, uvec2};
-use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::capture::ShadingSample;
 use straightline_testbed::execute::Bench;
-use straightline_testbed::render::{self, CpuRenderer};
+use straightline_testbed::render::{self, CpuRenderer, PlacedBy};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
 use straightline_tests::sraa::compiled;
@@ -22,14 +22,13 @@ const SIZE: UVec2 = uvec2(640, 360);
 const SIDE: u32 = 28;
 const ZOOM: u32 = 6;
 
-/// What all have.
-const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
 const PLACED: (&str, &str) = ("shading", "placed");
 const SEARCHED: (&str, &str) = ("search", "five");
 const EXTRA: (&str, &str) = ("extra", "true");
+const KEPT_EVEN: [(&str, &str); 2] = [("mask", "branch"), ("variation", "within")];
 const LIGHT: [(&str, &str); 2] = [("demodulate", "albedo-shadow"), ("rest", "true")];
 
-/// A scene, what is shown first, and what is shown beside it: options and a title of each.
+/// A scene, what is shown first, and what is shown beside it: a title and options of each, beside those of [`PlacedBy::Planes`].
 struct Row {
     scene: &'static str,
     without: (&'static str, &'static [(&'static str, &'static str)]),
@@ -60,12 +59,12 @@ const ROWS: [Row; 6] = [
     Row {
         scene: "sparkle",
         without: ("SRAA 4", &[]),
-        with: ("sharpness 4", &[("sharpness", "4")]),
+        with: ("kept even", &KEPT_EVEN),
     },
     Row {
         scene: "roof",
         without: ("SRAA 4", &[]),
-        with: ("with all three", &[PLACED, SEARCHED, EXTRA]),
+        with: ("with all", &[PLACED, SEARCHED, EXTRA, KEPT_EVEN[0], KEPT_EVEN[1]]),
     },
 ];
 
@@ -101,7 +100,8 @@ fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> 
     let scene = Scene::named(row.scene)?;
     let renderer = CpuRenderer::new(&scene, SIZE)?;
     let reference = render::reference(&renderer, 16, &mut |_, _| {})?;
-    let drawn = |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[&RELATIVE[..], own].concat()));
+    let drawn =
+        |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[PlacedBy::Planes.options(), own].concat()));
     let (without, with) = (drawn(row.without.1)?, drawn(row.with.1)?);
     let off = |frame: &Frame<Vec4>, k: usize| {
         (frame.texels()[k] - reference.texels()[k])
@@ -136,12 +136,11 @@ fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> 
 }
 
 fn filtered(bench: &Bench, renderer: &CpuRenderer, set: &Options) -> Result<Frame<Vec4>, Failure> {
-    let shading = match value(set, "shading", "centre") {
-        "placed" => ShadingSample::Placed,
-        _ => ShadingSample::Centre,
-    };
     let samples = gbuffer::samples("latin4").ok_or("no such pattern")?;
-    let mut capture: Capture = render::capture(renderer, &samples, shading)?;
+    let mut capture = match value(set, "shading", "centre") {
+        "placed" => render::capture_placed(renderer, &samples, PlacedBy::Planes)?,
+        _ => render::capture(renderer, &samples, ShadingSample::Centre)?,
+    };
     if value(set, "demodulate", "none") != "none" {
         render::add_albedo(&mut capture, renderer)?;
     }

@@ -5,7 +5,7 @@ use glam::{UVec2, Vec3, ivec2, vec2};
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite,
-    Normalisation, Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
+    Normalisation, Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, Variation, View, sraa,
 };
 use straightline_testbed::execute::Inputs;
 
@@ -89,6 +89,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "unseen-floor" => cfg.unseen_floor = number(value),
         "rest" => cfg.rest = value == "true",
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
+        "variation" => cfg.variation = one_of!(value, Variation: "around" => Around, "within" => Within),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),
         "turn" => cfg.turn = one_of!(value, Turn: "cosine" => Cosine, "chord" => Chord),
         "renormalise" => cfg.renormalise = value == "true",

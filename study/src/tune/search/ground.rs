@@ -10,7 +10,7 @@ use straightline_runtime::Pass;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Uploaded};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{PLACED_BY, Placed};
+use straightline_testbed::render::{Placed, PlacedBy};
 
 /// Bytes of a geometry sample: depth as `r32float`, a normal as `rgba16float`, as `straightline budget` counts; albedo as
 /// `rgba8unorm`.
@@ -199,11 +199,8 @@ fn shaded(mut settings: Settings, place: &str) -> Settings {
 /// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
 /// the filter does.
 fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<(String, String)> {
-    let own = |name: &str| PLACED_BY.iter().any(|(known, _)| *known == name);
-    let given = space.fixed.iter().chain(&samples.options);
-    let mut options: Vec<(String, String)> = given.filter(|(name, _)| !own(name)).cloned().collect();
-    options.extend(PLACED_BY.map(|(name, value)| (name.to_owned(), value.to_owned())));
-    options
+    let given: Vec<_> = space.fixed.iter().chain(&samples.options).cloned().collect();
+    PlacedBy::Depths.instead_of(&given)
 }
 
 /// What a filter reads of what was placed.
