@@ -56,7 +56,7 @@ void main() {
                     float depth_3 = texelFetch(depth, ivec3(at, 4), 0).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:322
+                        // kernels/src/sraa/mod.rs:344
                         shaded_depth = depth_3;
                     }
                     vec3 n_2 = texelFetch(normal, ivec3(at, 4), 0).xyz;
@@ -66,7 +66,7 @@ void main() {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:323
+                    // kernels/src/sraa/mod.rs:345
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;

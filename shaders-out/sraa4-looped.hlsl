@@ -60,7 +60,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                     float depth_3 = depth.Load(int4(at, 4, 0)).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:322
+                        // kernels/src/sraa/mod.rs:344
                         shaded_depth = depth_3;
                     }
                     float3 n_2 = normal.Load(int4(at, 4, 0)).xyz;
@@ -70,7 +70,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:323
+                    // kernels/src/sraa/mod.rs:345
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;

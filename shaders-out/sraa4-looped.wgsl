@@ -54,7 +54,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:322
+                        // kernels/src/sraa/mod.rs:344
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
@@ -64,7 +64,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                         // kernels/src/sraa/metric.rs:104
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:323
+                    // kernels/src/sraa/mod.rs:345
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;

@@ -170,6 +170,11 @@ fn a_pixel_without_variation_within_keeps_its_colour() {
             ("guards", "fallback"),
         ],
         &[("resolve", "tent")],
+        &[
+            ("pattern", "latin16"),
+            ("metric", "planes-normals"),
+            ("difference", "relative"),
+        ],
     ] {
         for mask in ["select", "branch"] {
             let set = options(&[&[("mask", mask), ("variation", "within")], more].concat());

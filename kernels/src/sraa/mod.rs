@@ -284,27 +284,49 @@ fn total_share(cfg: &Sraa) -> f32 {
 
 /// Whether no surface that the mask looks at differs from that of its sample.
 fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
+    let largest = match cfg.variation {
+        Variation::Around => variation_around::<TAPS, SIDE>(cfg, inputs),
+        // Unrolled, all surfaces would wait in registers for the filter behind the branch.
+        Variation::Within if cfg.samples() > 8 => variation_one_by_one(cfg, inputs),
+        Variation::Within => variation_within(cfg, inputs),
+    };
+    largest <= cfg.mask_threshold
+}
+
+/// The largest difference of a geometry sample and a tap.
+fn variation_around<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> f32 {
     let mut largest = 0.0f32;
     for sample in 0..cfg.reconstructed() {
         if cfg.share(sample) != 0.0 {
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
             for tap in 0..TAPS {
-                if is_looked_at(cfg, place, cfg.tap(tap, SIDE)) {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
                 }
             }
         }
     }
-    largest <= cfg.mask_threshold
+    largest
 }
 
-/// Whether the mask compares a tap with a geometry sample.
-fn is_looked_at(cfg: &Sraa, sample: Place, tap: Place) -> bool {
-    match cfg.variation {
-        Variation::Around => falloff(cfg, sample, tap) > least(cfg),
-        Variation::Within => sample.pixel == IVec2::ZERO && tap.pixel == IVec2::ZERO,
+/// The largest difference of the pixel's own geometry samples and shading samples.
+fn variation_within(cfg: &Sraa, inputs: &Inputs) -> f32 {
+    let mut largest = 0.0f32;
+    for sample in 0..cfg.samples() {
+        let place = cfg.geometry_sample(IVec2::ZERO, sample);
+        let seen = geometry_sample(cfg, inputs, place);
+        for tap in 0..cfg.shading_samples() {
+            largest = largest.max(difference(cfg, inputs, place, &seen, cfg.tap(tap, 1)));
+        }
     }
+    largest
+}
+
+/// The same in a loop.
+#[cfg_attr(false, unroll(none))]
+fn variation_one_by_one(cfg: &Sraa, inputs: &Inputs) -> f32 {
+    variation_within(cfg, inputs)
 }
 
 /// What is seen at a geometry sample.

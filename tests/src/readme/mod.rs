@@ -13,6 +13,7 @@ mod hard;
 mod isa;
 mod loops;
 mod motion;
+mod planes;
 mod quads;
 mod quality;
 mod rank;
@@ -83,7 +84,8 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "beyond" => Ok(quality::beyond(&QualityRecord::read(first).map_err(why)?)),
-        "flat" => Ok(quality::flat(&QualityRecord::read(first).map_err(why)?)),
+        "planes" => Ok(planes::scenes(&QualityRecord::read(first).map_err(why)?)),
+        "even" => Ok(planes::even(&QualityRecord::read(first).map_err(why)?)),
         "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
         "motion" => Ok(motion::methods(&MotionRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
@@ -124,7 +126,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, flat, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

@@ -284,27 +284,6 @@ pub fn demodulated(record: &QualityRecord) -> String {
     markdown(&head, rows.collect())
 }
 
-/// PSNR of even regions, and of the whole picture, above that of no antialiasing.
-pub fn flat(record: &QualityRecord) -> String {
-    let names = record.scenes.first().map_or(Vec::new(), |scene| {
-        let all = scene.methods.iter().map(|method| method.method.as_str());
-        all.filter(|name| *name != "1x").collect()
-    });
-    let mut head = vec!["scene"];
-    head.extend(&names);
-    let row = |scene: &SceneErrors| {
-        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
-        let gain = |name: &&str| {
-            let (own, none) = (of(name)?, of("1x")?);
-            let even = own.psnr_flat? - none.psnr_flat?;
-            Some(format!("{even:+.1}, {:+.1}", own.psnr - none.psnr))
-        };
-        let cells = names.iter().map(|name| gain(name).unwrap_or("–".to_owned()));
-        std::iter::once(scene.scene.clone()).chain(cells).collect()
-    };
-    markdown(&head, record.scenes.iter().map(row).collect())
-}
-
 /// Every scene: PSNR and FLIP of the main methods.
 pub fn scenes(record: &QualityRecord) -> String {
     of_scenes(record, &MAIN)
@@ -326,7 +305,8 @@ fn of_scenes(record: &QualityRecord, methods: &[&str]) -> String {
     markdown(&head, record.scenes.iter().map(row).collect())
 }
 
-fn cell(scene: &SceneErrors, name: &str) -> String {
+/// PSNR and FLIP of a method on a scene.
+pub(super) fn cell(scene: &SceneErrors, name: &str) -> String {
     match found(scene, name) {
         Some(method) => format!("{:.2}, {:.4}", method.psnr, method.flip),
         None => "–".to_owned(),
