@@ -83,7 +83,6 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "quality" => Ok(quality::in_short(&QualityRecord::read(first).map_err(why)?)),
         "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
-        "beyond" => Ok(quality::beyond(&QualityRecord::read(first).map_err(why)?)),
         "planes" => Ok(planes::scenes(&QualityRecord::read(first).map_err(why)?)),
         "even" => Ok(planes::even(&QualityRecord::read(first).map_err(why)?)),
         "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
@@ -126,7 +125,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

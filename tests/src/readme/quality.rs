@@ -234,20 +234,6 @@ pub fn methods(record: &QualityRecord) -> String {
     markdown(&head, names.iter().map(row).collect())
 }
 
-/// What goes beyond the paper, between SRAA and the supersampling that it stands for.
-const BEYOND: [&str; 10] = [
-    "SRAA 4",
-    "SRAA 4, searched",
-    "SRAA 4, placed",
-    "SRAA 4, placed and searched",
-    "4x",
-    "SRAA 16",
-    "SRAA 16, searched",
-    "SRAA 16, placed",
-    "SRAA 16, placed and searched",
-    "16x",
-];
-
 /// Where edges are those of paint and shadow: what is borrowed apart from them, between SRAA and supersampling.
 const DEMODULATED: [&str; 7] = [
     "SRAA N, relative depth",
@@ -287,11 +273,6 @@ pub fn demodulated(record: &QualityRecord) -> String {
 /// Every scene: PSNR and FLIP of the main methods.
 pub fn scenes(record: &QualityRecord) -> String {
     of_scenes(record, &MAIN)
-}
-
-/// Every scene: PSNR and FLIP of what goes beyond the paper.
-pub fn beyond(record: &QualityRecord) -> String {
-    of_scenes(record, &BEYOND)
 }
 
 fn of_scenes(record: &QualityRecord, methods: &[&str]) -> String {

@@ -48,7 +48,7 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
     rows.push(row(
         "FLIP of 16 samples less that of 4: worst scene",
         "at most 0",
-        &format!("{flip:+.4}"),
+        &format!("{flip:+.6}"),
         flip <= 0.0,
     ));
     let mut below_paint = 0.0f64;
