@@ -19,12 +19,13 @@ static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
     offsets
 };
 
-/// What tells surfaces apart where shading is placed, or done once more. A step of a third of the depth is between unrelated ones.
+/// What tells surfaces apart where shading is placed, or done once more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlacedBy {
-    /// Depths and normals.
+    /// Depths and normals. A step of a third of the depth is between unrelated surfaces.
     Depths,
-    /// Planes and normals, by which ground that recedes is one surface: much less is a difference then.
+    /// Planes and normals, by which ground that recedes is one surface: much less is a difference then. A step of a tenth of the depth is
+    /// between unrelated surfaces.
     Planes,
 }
 
