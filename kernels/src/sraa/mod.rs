@@ -287,7 +287,7 @@ fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) ->
     let largest = match cfg.variation {
         Variation::Around => variation_around::<TAPS, SIDE>(cfg, inputs),
         // Unrolled, all surfaces would wait in registers for the filter behind the branch.
-        Variation::Within if cfg.samples() > 8 => variation_one_by_one(cfg, inputs),
+        Variation::Within if cfg.mask == Mask::Branch && cfg.samples() > 8 => variation_one_by_one(cfg, inputs),
         Variation::Within => variation_within(cfg, inputs),
     };
     largest <= cfg.mask_threshold

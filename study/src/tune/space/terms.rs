@@ -159,10 +159,7 @@ pub(super) fn of(offer: &Offer, left_aside: &mut Vec<String>) -> [Vec<Value>; Te
             Value::of("no falloff", "nine taps a sample", &[("falloff", "none")]),
             Value::of("tent", "tent", &[("falloff", "tent")]),
         ],
-        vec![
-            Value::of("no mask", "filter where geometry is even", &[("mask", "none")]),
-            Value::of("mask", "mask", &[("mask", "branch")]),
-        ],
+        masks(offer),
         vec![
             Value::of("finite test", "finite test", &[("non-finite", "skip")]),
             Value::of(
@@ -253,6 +250,16 @@ fn differences(offer: &Offer) -> Vec<Value> {
         values.insert(2, Value::of(name, name, &options));
     }
     values
+}
+
+/// A mask that looks within the pixel leaves out the most; one that looks around it, too, if that is set.
+fn masks(offer: &Offer) -> Vec<Value> {
+    let options = [("mask", "branch"), ("variation", "within")];
+    let count = if offer.fixes("variation") { 1 } else { 2 };
+    vec![
+        Value::of("no mask", "filter where geometry is even", &[("mask", "none")]),
+        Value::of("mask", "mask", &options[..count]),
+    ]
 }
 
 fn placing(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {

@@ -100,6 +100,27 @@ fn a_block_selects_where_a_pixel_branches() {
 }
 
 #[test]
+fn a_mask_looks_within_the_pixel_unless_it_is_set_otherwise() {
+    let variation = |offer: &Offer| {
+        let space = Space::new(offer).unwrap();
+        let settings = space.settings(space.general().with(Term::Mask, 1));
+        let found: Vec<String> = settings
+            .options
+            .into_iter()
+            .filter(|(name, _)| name == "variation")
+            .map(|(_, value)| value)
+            .collect();
+        found
+    };
+    assert_eq!(variation(&offer()), ["within"]);
+    let around = Offer {
+        fixed: owned(&[("variation", "around")]),
+        ..offer()
+    };
+    assert_eq!(variation(&around), ["around"]);
+}
+
+#[test]
 fn what_is_left_out_is_named() {
     let space = Space::new(&offer()).unwrap();
     let names = |v: Variant| -> Vec<String> { space.left_out(v).into_iter().map(|(name, _)| name).collect() };
