@@ -1,8 +1,8 @@
 //! Shading placed, searched for and done once more by planes, even regions kept.
 
 use super::markdown;
-use super::quality::cell;
-use straightline_study::record::{MethodErrors, QualityRecord, SceneErrors};
+use super::quality::{cell, found};
+use straightline_study::record::{QualityRecord, SceneErrors};
 
 /// Methods with one number of samples, N, and what their columns are called.
 const METHODS: [(&str, &str); 6] = [
@@ -59,8 +59,4 @@ fn table(record: &QualityRecord, methods: &[(&str, &str)], of: impl Fn(&SceneErr
         })
     });
     markdown(&head, rows.collect())
-}
-
-fn found<'a>(scene: &'a SceneErrors, name: &str) -> Option<&'a MethodErrors> {
-    scene.methods.iter().find(|method| method.method == name)
 }

@@ -66,7 +66,7 @@ pub fn in_short(record: &QualityRecord) -> String {
 }
 
 /// What a method gave on a scene.
-fn found<'a>(scene: &'a SceneErrors, name: &str) -> Option<&'a MethodErrors> {
+pub(super) fn found<'a>(scene: &'a SceneErrors, name: &str) -> Option<&'a MethodErrors> {
     scene.methods.iter().find(|method| method.method == name)
 }
 
