@@ -127,8 +127,14 @@ fn captured(placed: Option<PlacedBy>) -> (Capture, Inputs, CpuRenderer) {
 #[test]
 fn of_a_pixel_and_its_neighbours_one_moves_at_most() {
     for by in [PlacedBy::Depths, PlacedBy::Planes] {
-        let (capture, ..) = captured(Some(by));
+        let (capture, inputs, _) = captured(Some(by));
         let place = capture.place.expect("places");
+        // The renderer's own settings are those that its options name.
+        let kernel = compiled("sraa_place", &options(by.options()), Unroll::Full);
+        let named = interpret::<f32>(&kernel, &inputs, false).expect("it runs");
+        let named = named.targets[0].texels.iter().map(|texel| texel[0] as u32);
+        let same = named.zip(place.texels()).filter(|(a, b)| a == *b).count();
+        assert!(same * 1000 > 999 * place.texels().len(), "{by:?}: {same} are the same");
         let (width, samples) = (place.size().x as usize, capture.samples.len() as u32);
         let moved: Vec<usize> = (0..place.texels().len())
             .filter(|k| place.texels()[*k] < samples)
