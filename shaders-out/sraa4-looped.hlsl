@@ -33,16 +33,16 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     float share = 1.0 / total;
     int2 last = frame - 1;
     float weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-    for (int sample_value = 0; sample_value < 4; sample_value++) {
-        float2 place_at = 0.0 + float2(table[sample_value]) / 16.0;
-        float depth_2 = depth.Load(int4(pixel, sample_value, 0)).x;
+    for (int sample_2 = 0; sample_2 < 4; sample_2++) {
+        float2 place_at = 0.0 + float2(table[sample_2]) / 16.0;
+        float depth_2 = depth.Load(int4(pixel, sample_2, 0)).x;
         float seen_depth = 1e30;
         if (abs(depth_2) < 1e30) {
             seen_depth = depth_2;
         }
         // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
-        float3 n = normal.Load(int4(pixel, sample_value, 0)).xyz;
-        bool is_equal = sample_value == 4;
+        float3 n = normal.Load(int4(pixel, sample_2, 0)).xyz;
+        bool is_equal = sample_2 == 4;
         float distances[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
@@ -80,21 +80,21 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         // the mean of the geometry samples (kernels/src/sraa/mod.rs:153)
         float sum = 0.0;
         float tap_weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-        for (int tap = 0; tap < 9; tap++) {
-            float2 away = float2(int2(tap % 3 - 1, tap / 3 - 1)) - place_at;
+        for (int tap_2 = 0; tap_2 < 9; tap_2++) {
+            float2 away = float2(int2(tap_2 % 3 - 1, tap_2 / 3 - 1)) - place_at;
             float tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
             if (tent > 1e-6) {
-                float w = exp2(721.34753 * (nearest - distances[tap]) + log2(tent));
-                tap_weights[tap] = w;
+                float w = exp2(721.34753 * (nearest - distances[tap_2]) + log2(tent));
+                tap_weights[tap_2] = w;
                 sum += w;
             }
         }
         // the mean of the geometry samples (kernels/src/sraa/mod.rs:181)
         float scale = share / sum;
-        for (int tap = 0; tap < 9; tap++) {
-            float2 away = float2(int2(tap % 3 - 1, tap / 3 - 1)) - place_at;
+        for (int tap_3 = 0; tap_3 < 9; tap_3++) {
+            float2 away = float2(int2(tap_3 % 3 - 1, tap_3 / 3 - 1)) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                weights[tap] += tap_weights[tap] * scale;
+                weights[tap_3] += tap_weights[tap_3] * scale;
             }
         }
     }

@@ -1,5 +1,5 @@
-//! Compilers that share nothing with naga read what is emitted: Tint the WGSL, where it is on the path; glslang the GLSL and the
-//! HLSL; spirv-val the SPIR-V. Nothing here reads MSL.
+//! Compilers that share nothing with naga read what is emitted: Tint the WGSL, where it is on the path; glslang the GLSL; glslang and
+//! DXC the HLSL; spirv-val the SPIR-V. Nothing here reads MSL.
 
 #![allow(dead_code)] // each test uses a part
 
@@ -38,7 +38,10 @@ pub fn read(emitted: &Emitted) -> Result<(), String> {
             Target::Glsl450 => glsl(&path)?,
             Target::Spirv => spirv(&path)?,
             // glslang's HLSL has no half precision.
-            Target::Hlsl if half => {}
+            Target::Hlsl if half => {
+                let text = std::fs::read_to_string(&path).map_err(|e| e.to_string())?;
+                dxc(&text, manifest.stage, &manifest.entry_point)?;
+            }
             Target::Hlsl => hlsl(&path, manifest.stage, &manifest.entry_point)?,
             Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => opengl(&path)?,
             Target::Msl => {}
@@ -92,6 +95,7 @@ pub fn all(folder: &Path, shaders: &[(PathBuf, String)]) -> Result<(), String> {
     for (path, entry) in shaders {
         if is_hlsl(path) {
             let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+            dxc(&text, Stage::Compute, entry)?;
             std::fs::write(path, zeros_one_by_one(&text)).map_err(|e| e.to_string())?;
             glslc.args(["-x", "hlsl", &format!("-fentry-point={entry}")]);
         } else {
@@ -178,14 +182,46 @@ pub fn opengl_all(paths: &[PathBuf]) -> Result<(), String> {
     run("glslangValidator", "glslang-tools", &arguments, last)
 }
 
-/// glslang on HLSL.
+/// glslang and DXC on HLSL.
 ///
 /// # Errors
 ///
-/// What it says of a text that it refuses.
+/// What the first of them that refuses the text says.
 pub fn hlsl(path: &Path, stage: Stage, entry: &str) -> Result<(), String> {
     let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     compiled_hlsl(&text, stage, entry).map(drop)
+}
+
+/// DXC on HLSL: in its default language version, and in that of 2021, where conditions of vectors are an error.
+///
+/// # Errors
+///
+/// What it says of a text that it refuses, or that it is not there.
+pub fn dxc(text: &str, stage: Stage, entry: &str) -> Result<(), String> {
+    [&[][..], &["-HV", "2021"]]
+        .iter()
+        .try_for_each(|version| by_dxc(text, stage, entry, version).map(drop))
+}
+
+/// The SPIR-V that DXC makes of HLSL, as words. Register `n` of any class, and of space 0, is binding `n` of set 0, and the entry
+/// point keeps its name.
+///
+/// # Errors
+///
+/// What DXC says of a text that it refuses, or that it is not there.
+pub fn spirv_by_dxc(text: &str, stage: Stage, entry: &str) -> Result<Vec<u32>, String> {
+    let arguments = ["-spirv", "-fspv-target-env=vulkan1.1", "-fvk-use-dx-layout"];
+    by_dxc(text, stage, entry, &arguments).map(|bytes| words(&bytes))
+}
+
+fn by_dxc(text: &str, stage: Stage, entry: &str, further: &[&str]) -> Result<Vec<u8>, String> {
+    let profile = match stage {
+        Stage::Compute => "cs_6_0",
+        Stage::Fragment => "ps_6_0",
+    };
+    let arguments = [&["-T", profile, "-E", entry], further].concat();
+    straightline_foreign::dxc::compile(text, &arguments)
+        .map_err(|why| format!("DXC {} refuses it:\n{why}\n{text}", further.join(" ")))
 }
 
 fn zeros_one_by_one(text: &str) -> String {
@@ -263,18 +299,20 @@ pub fn compiled_glsl(text: &str, stage: &str) -> Result<Vec<u32>, String> {
 /// The SPIR-V that glslang makes of HLSL, as words. Register `n` of any class, and of space 0, is binding `n` of set 0, and the
 /// entry point keeps its name.
 ///
-/// glslang knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one.
+/// glslang knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one. DXC reads the text as it is.
 ///
 /// # Errors
 ///
-/// What glslang says of a text that it refuses.
+/// What glslang or DXC says of a text that it refuses.
 pub fn compiled_hlsl(text: &str, stage: Stage, entry: &str) -> Result<Vec<u32>, String> {
-    let stage = match stage {
+    let name = match stage {
         Stage::Compute => "comp",
         Stage::Fragment => "frag",
     };
-    let language = ["-D", "-S", stage, "-e", entry];
-    compiled(&zeros_one_by_one(text), "shader.hlsl", &language)
+    let language = ["-D", "-S", name, "-e", entry];
+    let words = compiled(&zeros_one_by_one(text), "shader.hlsl", &language)?;
+    dxc(text, stage, entry)?;
+    Ok(words)
 }
 
 /// The words that glslang makes of a text in a file of this name.

@@ -4,6 +4,7 @@
 //! every form: all must compute the same bits.
 
 pub use straightline_testbed::oracle::quads;
+pub mod bare;
 pub mod compilers;
 pub mod gl;
 pub mod impatient;

@@ -273,7 +273,11 @@ impl Scopes<'_> {
                 StmtKind::For { counter, .. } => {
                     let name = self.declare(counter);
                     stmt.blocks().into_iter().for_each(|inner| self.block(inner));
-                    self.leave(vec![name]);
+                    match self.words {
+                        // A counter of HLSL lives until the end of the block around its loop.
+                        Words::Hlsl => declared.push(name),
+                        Words::Wgsl | Words::Glsl => self.leave(vec![name]),
+                    }
                 }
                 _ => stmt.blocks().into_iter().for_each(|inner| self.block(inner)),
             }
