@@ -2,6 +2,7 @@
 
 use crate::fits;
 use crate::spelling;
+use crate::words::comment;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use straightline_codegen::{OptionInfo, OptionKind};
@@ -18,7 +19,7 @@ pub struct Context {
     pub class: String,
     /// The name in words: `Joint bilateral`.
     pub title: String,
-    /// The first sentence of the kernel's documentation, or nothing.
+    /// First sentence of the kernel's documentation, harmless in a comment of any language; or nothing.
     pub summary: String,
     /// Name and version of the generator.
     pub generator: String,
@@ -85,7 +86,7 @@ pub struct SamplerContext {
 pub struct UniformContext {
     /// Name in the kernel.
     pub name: String,
-    /// What it is for, in the kernel's words, or nothing.
+    /// Purpose in the kernel's words, harmless in a comment of any language; or nothing.
     pub docs: String,
     /// Name where it lies in no block: that of the kernel, unless the shader has a use for that.
     pub loose: String,
@@ -273,7 +274,7 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
         UniformContext {
             name: field.name.clone(),
             loose: loose.map_or(&field.name, |b| &b.name).clone(),
-            docs: option.map(|option| one_line(&option.docs)).unwrap_or_default(),
+            docs: option.map(|option| comment(&option.docs)).unwrap_or_default(),
             wgsl: field.ty.to_string(),
             glsl: spelling::glsl(field.ty),
             hlsl: spelling::hlsl(field.ty),
@@ -370,9 +371,4 @@ pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> Shader
         workgroup: manifest.workgroup_size,
         manifest: serde_json::to_value(manifest).unwrap_or_default(),
     }
-}
-
-/// A text without its line breaks.
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -116,6 +116,24 @@ pub enum HowReads {
     Functions,
 }
 
+impl Description {
+    /// Reads an `engine.toml`.
+    ///
+    /// # Errors
+    ///
+    /// It is not TOML of this shape, a language of it is unknown, or it names no shader or no file.
+    pub(crate) fn from_toml(text: &str) -> Result<Description, String> {
+        let description: Description = toml::from_str(text).map_err(|error| error.to_string())?;
+        for (name, shader) in &description.shaders {
+            shader.target().map_err(|why| format!("shader `{name}`: {why}"))?;
+        }
+        if description.shaders.is_empty() || description.files.is_empty() {
+            return Err("it names no shader, or no file".to_owned());
+        }
+        Ok(description)
+    }
+}
+
 impl ShaderDescription {
     /// The language.
     ///

@@ -3,15 +3,13 @@
 use crate::context::{self, Context};
 use crate::description::{Description, ShaderDescription};
 use crate::error::EngineError;
+use crate::words::comment;
 use crate::{builtin, fits, names, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::emit::{EmitError, Emitted, Target};
-use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage, files};
+use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage};
 use straightline_manifest::Manifest;
-
-/// Bytes that a file of an engine's folder may have.
-const LONGEST: u64 = 1 << 20;
 
 /// What is written for an engine.
 #[derive(Clone, Debug)]
@@ -83,28 +81,6 @@ impl Engine {
         })
     }
 
-    /// The engine in a folder: `engine.toml`, and the templates that it names.
-    fn folder(folder: &Path) -> Result<Engine, EngineError> {
-        let name = folder
-            .file_name()
-            .map_or_else(|| "engine".into(), |name| name.to_string_lossy());
-        let read = |file: &str| {
-            let path = folder.join(file);
-            files::read_text(&path, LONGEST).map_err(|source| EngineError::Read { path, source })
-        };
-        let description = described(&name, &read("engine.toml")?)?;
-        let each = description
-            .files
-            .keys()
-            .map(|template| Ok((template.clone(), read(template)?)));
-        let templates = each.collect::<Result<_, EngineError>>()?;
-        Ok(Engine {
-            name: name.into_owned(),
-            description,
-            templates: Some(templates),
-        })
-    }
-
     /// Its name: that of its folder.
     pub fn name(&self) -> &str {
         &self.name
@@ -170,10 +146,10 @@ impl Engine {
             name: name.clone(),
             kernel: compiled.kernel.clone(),
             class: spelling::class(name),
-            title: spelling::title(name),
-            summary: compiled.summary.clone(),
+            title: comment(&spelling::title(name)),
+            summary: comment(&compiled.summary),
             generator: String::new(),
-            engine: self.name.clone(),
+            engine: comment(&self.name),
             textures: Vec::new(),
             picture: None,
             samplers: Vec::new(),
@@ -197,7 +173,9 @@ impl Engine {
             .changed
             .iter()
             .filter_map(|name| compiled.options.get_key_value(name));
-        context.changed = changed.map(|(name, value)| format!("{name}={value}")).collect();
+        context.changed = changed
+            .map(|(name, value)| comment(&format!("{name}={value}")))
+            .collect();
         context.shaders = shaders
             .into_iter()
             .map(|(name, shader)| {
@@ -219,22 +197,6 @@ impl Engine {
             message,
         }
     }
-}
-
-fn described(name: &str, text: &str) -> Result<Description, EngineError> {
-    let wrong = |message: String| EngineError::Description {
-        engine: name.to_owned(),
-        message,
-    };
-    let description: Description = toml::from_str(text).map_err(|error| wrong(error.to_string()))?;
-    for (shader, described) in &description.shaders {
-        let target = described.target();
-        target.map_err(|why| wrong(format!("shader `{shader}`: {why}")))?;
-    }
-    if description.shaders.is_empty() || description.files.is_empty() {
-        return Err(wrong("it names no shader, or no file".to_owned()));
-    }
-    Ok(description)
 }
 
 /// A shader of a kernel.

@@ -43,6 +43,16 @@ pub enum EngineError {
         /// What, and where.
         message: String,
     },
+    /// Templates of a user's folder that have not ended in time.
+    #[error(
+        "the templates of the engine `{engine}` take longer than {seconds} s: is there a loop in a loop in one of them?"
+    )]
+    Endless {
+        /// The engine.
+        engine: String,
+        /// Seconds that they had.
+        seconds: u64,
+    },
     /// The kernel needs what the engine does not give.
     #[error("`{kernel}` does not fit {title}: it {why}; {instead}")]
     Unfit {

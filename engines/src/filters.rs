@@ -1,5 +1,6 @@
 //! Filters that templates have beside those of tera: how a text becomes part of another language.
 
+use crate::words;
 use tera::{Kwargs, State, Tera, TeraResult};
 
 /// Adds the filters.
@@ -10,6 +11,20 @@ pub fn register(tera: &mut Tera) {
     tera.register_filter("c_string", |text: &str, _: Kwargs, _: &State| c_string(text));
     tera.register_filter("python_string", |text: &str, _: Kwargs, _: &State| python_string(text));
     tera.register_filter("comment", comment);
+    tera.register_filter("quoted", |text: &str, _: Kwargs, _: &State| quoted(text));
+    tera.register_filter("parameter", |text: &str, _: Kwargs, _: &State| parameter(text));
+    tera.register_filter("markdown", |text: &str, _: Kwargs, _: &State| words::markdown(text));
+}
+
+/// Between the quotation marks of C, HLSL, C# or JavaScript, on one line.
+fn quoted(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('"', "\\\"").replace("??", "?\\?")
+}
+
+/// Between the quotation marks of libretro's `#pragma parameter`, which has no escapes; of a longer text than 63 bytes its reader
+/// drops the whole parameter.
+fn parameter(text: &str) -> String {
+    words::shortened(text.trim_end_matches('.'), 63).replace('"', "'")
 }
 
 /// Between the backquotes of JavaScript.
@@ -49,5 +64,7 @@ mod tests {
         assert_eq!(template_literal("a `b` ${c} \\d"), "a \\`b\\` \\${c} \\\\d");
         assert_eq!(python_string("a \"\"\"b\"\nc\\d"), "a \\\"\\\"\\\"b\\\"\nc\\\\d");
         assert_eq!(c_string("a \"b\"\nc??/"), "    \"a \\\"b\\\"\\n\"\n    \"c\\?\\?/\\n\"");
+        assert_eq!(quoted("a \"b\" c:\\d ??("), "a \\\"b\\\" c:\\\\d ?\\?(");
+        assert_eq!(parameter("The \"look\"."), "The 'look'");
     }
 }

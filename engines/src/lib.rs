@@ -28,8 +28,10 @@ mod engine;
 mod error;
 mod filters;
 mod fits;
+mod folder;
 mod render;
 mod spelling;
+mod words;
 
 pub use engine::{Engine, Request};
 pub use error::EngineError;

@@ -5,17 +5,29 @@ use crate::error::EngineError;
 use crate::{builtin, filters};
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 use std::path::{Component, Path};
 use tera::Tera;
 
+/// Bytes that one rendered file may have: naga's limits are far below.
+const LONGEST: usize = 32 << 20;
+
 impl Engine {
-    /// The files that the templates make of what [`Engine::context`] gives, as JSON; by name.
+    /// The files that the templates make of what [`Engine::context`] returns, as JSON; by name.
     ///
     /// # Errors
     ///
-    /// A template fails.
+    /// A template fails, makes more than 32 MiB or, of a user's folder, takes longer than 10 s; two templates make one file; a file
+    /// would lie outside of the folder that is written.
     pub fn render(&self, context: Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
-        let context = tera::Context::from_serialize(&context).map_err(|e| self.wrong(e.to_string()))?;
+        match self.templates {
+            Some(_) => self.render_within_time(context),
+            None => self.render_now(&context),
+        }
+    }
+
+    pub(crate) fn render_now(&self, context: &Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+        let context = tera::Context::from_serialize(context).map_err(|e| self.wrong(e.to_string()))?;
         let mut tera = Tera::default();
         filters::register(&mut tera);
         tera.autoescape_on(Vec::<&str>::new());
@@ -29,12 +41,21 @@ impl Engine {
             let source = self.template(template);
             let source = source.ok_or_else(|| self.wrong(format!("there is no template `{template}`")))?;
             tera.add_raw_template(template, source).map_err(failed)?;
-            let text = tera.render(template, &context).map_err(failed)?;
-            let file = tera.render_str(file, &context, false).map_err(failed)?;
-            if !is_plain(&file) {
-                return Err(self.wrong(format!("`{file}` is no name of a file in the folder that is written")));
+            let (mut text, mut name) = (Bounded::default(), Bounded::default());
+            tera.render_to(template, &context, &mut text).map_err(failed)?;
+            tera.render_str_to(file, &context, false, &mut name).map_err(failed)?;
+            let name = String::from_utf8_lossy(&name.0).into_owned();
+            if !is_plain(&name) {
+                return Err(self.wrong(format!("`{name}` is no name of a file in the folder that is written")));
             }
-            made.insert(file, text.into_bytes());
+            // Some file systems take no notice of case.
+            if let Some(other) = made
+                .keys()
+                .find(|other: &&String| other.to_lowercase() == name.to_lowercase())
+            {
+                return Err(self.wrong(format!("two templates make one file: `{other}` and `{name}`")));
+            }
+            made.insert(name, text.0);
         }
         Ok(made)
     }
@@ -48,10 +69,29 @@ impl Engine {
     }
 }
 
-/// Whether a name stays in its folder: relative, without `..`.
-fn is_plain(file: &str) -> bool {
+/// Text of at most [`LONGEST`] bytes.
+#[derive(Default)]
+struct Bounded(Vec<u8>);
+
+impl Write for Bounded {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.0.len() + bytes.len() > LONGEST {
+            return Err(io::Error::other(format!("it makes more than {LONGEST} bytes")));
+        }
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Whether a name stays in its folder on every system: relative, of plain parts, without backslashes or the colons of drives and streams.
+pub(crate) fn is_plain(file: &str) -> bool {
     let mut parts = Path::new(file).components();
-    !file.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
+    let portable = !file.contains(['\\', ':']) && !file.chars().any(char::is_control);
+    !file.is_empty() && portable && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
 /// An error of tera, with its place in the template, and what caused it.

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{COPY, Fixture, Gpu, Kernel, RESOLVE, SCALE, SHADOW, SHAPES, STAGES, Stage, TABLE, array_view, view};
+use common::{BINS, COPY, Fixture, Gpu, Kernel, RESOLVE, SCALE, SHADOW, SHAPES, STAGES, Stage, TABLE, array_view, view};
 use straightline_runtime::manifest::SamplerType;
 use straightline_runtime::{BufferProblem, Error, Pass, Resource, ResourceKind, SamplerProblem, ViewProblem, wgpu};
 use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureView};
@@ -317,6 +317,33 @@ fn buffers_that_cannot_be_bound() {
         destroyed.destroy();
         let destroyed = with(&destroyed);
         assert!(matches!(destroyed, BufferProblem::Refused { .. }), "{destroyed}");
+    }
+}
+
+/// A buffer that is written and bound twice is an error of `bind`; wgpu would refuse the caller's encoder. One that is only read may be
+/// bound as often as one likes.
+#[test]
+fn buffers_that_are_written_and_bound_twice() {
+    let gpu = Gpu::new();
+    let buffer = || gpu.buffer(64, BufferUsages::STORAGE);
+    let [table, bins, more] = [buffer(), buffer(), buffer()];
+    let pass = pass(&gpu, &BINS, Stage::Compute);
+    let given = |table, bins, more| {
+        let pairs: [(&str, &wgpu::Buffer); 3] = [("table", table), ("bins", bins), ("more", more)];
+        pairs.map(|(name, buffer)| (name, Resource::from(buffer)))
+    };
+    let target = view(&gpu.target(SIZE));
+    pass.bind(&given(&table, &bins, &more), &target).expect("three buffers");
+    for (inputs, name, other) in [
+        (given(&bins, &bins, &more), "bins", "table"),
+        (given(&table, &bins, &bins), "bins", "more"),
+        (given(&more, &bins, &more), "more", "table"),
+        (given(&bins, &bins, &bins), "bins", "table"),
+        // A clone is the same buffer.
+        (given(&bins.clone(), &bins, &more), "bins", "table"),
+    ] {
+        let problem = buffer_problem(refuse(&gpu, &pass, &inputs), name);
+        assert_eq!(problem, BufferProblem::IsOther { other: other.to_owned() });
     }
 }
 

@@ -4,6 +4,8 @@
 //! `STRAIGHTLINE_BLESS=1` writes what is emitted now.
 
 mod engines {
+    mod code;
+    mod hostile;
     pub mod readable;
 }
 

@@ -476,6 +476,10 @@ fn a_pass_says_what_is_wrong_with_targets() {
     other = all;
     other[1].1 = albedo;
     assert!(said(&other).contains("target `normal` of `gbuffer`: is the target `albedo` too"));
+    // Another view of the same image.
+    let again = albedo.texture().create_view(&wgpu::TextureViewDescriptor::default());
+    other[1].1 = &again;
+    assert!(said(&other).contains("target `normal` of `gbuffer`: is the target `albedo` too"));
     let one = uploaded.bind(&pass, albedo).expect_err("one target for four");
     assert!(
         one.to_string()

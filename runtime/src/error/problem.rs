@@ -136,7 +136,7 @@ pub enum ViewProblem {
         /// Width and height of the first one.
         first: [u32; 2],
     },
-    /// The same view is given for two targets.
+    /// The same image is given for two targets.
     #[error("is the target `{other}` too: give each a texture of its own")]
     IsOtherTarget {
         /// The other target.
@@ -216,6 +216,12 @@ pub enum BufferProblem {
     Unaligned {
         /// Bytes of the buffer.
         size: u64,
+    },
+    /// The kernel writes it and was given it under another name, too.
+    #[error("the kernel writes it, and it is given as `{other}` too: give each a buffer of its own")]
+    IsOther {
+        /// The other name.
+        other: String,
     },
     /// wgpu refuses the buffer.
     #[error("wgpu refuses the buffer: {description}")]

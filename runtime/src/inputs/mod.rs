@@ -111,6 +111,29 @@ pub(crate) fn check_inputs(
             _ => {}
         }
     }
+    check_aliases(plan, resources)
+}
+
+/// Refuses a buffer that is written and bound under another name, too: all of it is bound, so the two overlap.
+fn check_aliases(plan: &Plan, resources: &[Resource<'_>]) -> Result<(), Error> {
+    let bound = || plan.inputs.iter().zip(resources);
+    for (k, (input, resource)) in bound().enumerate() {
+        let (InputKind::Buffer(BufferPlan { written: true, .. }), Resource::Buffer(buffer)) = (&input.kind, resource)
+        else {
+            continue;
+        };
+        let is_same = |other: &Resource<'_>| matches!(other, Resource::Buffer(other) if other == buffer);
+        let other = bound().enumerate().find(|(n, (_, other))| *n != k && is_same(other));
+        if let Some((_, (other, _))) = other {
+            return Err(Error::InputBuffer {
+                kernel: plan.kernel.clone(),
+                name: input.name.clone(),
+                problem: BufferProblem::IsOther {
+                    other: other.name.clone(),
+                },
+            });
+        }
+    }
     Ok(())
 }
 

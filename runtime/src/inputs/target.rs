@@ -1,7 +1,7 @@
 //! Checks the targets.
 
 use super::Abilities;
-use super::texture::{check_shape, check_usage, size};
+use super::texture::{check_shape, check_usage, is_one_image, size};
 use crate::error::{Error, ViewProblem};
 use crate::plan::{Plan, StagePlan};
 use straightline_manifest::Dimension;
@@ -32,7 +32,11 @@ fn beside(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewPro
     if own != first {
         return Err(ViewProblem::TargetSize { size: own, first });
     }
-    match targets[..k].iter().position(|other| *other == targets[k]) {
+    // Two views of a texture of one image show the same; of others only wgpu knows which part a view shows.
+    let is_same = |other: &TextureView| {
+        other == targets[k] || (other.texture() == targets[k].texture() && is_one_image(other.texture()))
+    };
+    match targets[..k].iter().position(|other| is_same(other)) {
         Some(other) => Err(ViewProblem::IsOtherTarget {
             other: plan.outputs[other].name.clone(),
         }),

@@ -112,3 +112,19 @@ pub const SHAPES: Kernel = Kernel {
     result: "textureSampleLevel(around, linear, vec3f(1.0, 0.0, 0.0), 0.0) + textureLoad(volume, vec3i(0), 0)
         + f32(textureLoad(ids, vec2i(0), 0).x)",
 };
+
+/// `table` added up in `bins`, and again in `more`.
+pub const BINS: Kernel = Kernel {
+    name: "bins",
+    bindings: &[
+        r#"{"group": 0, "binding": 3, "name": "table", "type": "buffer", "buffer_type": "read-only-storage",
+    "element": "u32", "stride": 4}"#,
+        r#"{"group": 0, "binding": 4, "name": "bins", "type": "buffer", "buffer_type": "storage", "element": "u32", "stride": 4}"#,
+        r#"{"group": 0, "binding": 5, "name": "more", "type": "buffer", "buffer_type": "storage", "element": "u32", "stride": 4}"#,
+    ],
+    declarations: "@group(0) @binding(3) var<storage, read> table: array<u32>;
+        @group(0) @binding(4) var<storage, read_write> bins: array<u32>;
+        @group(0) @binding(5) var<storage, read_write> more: array<u32>;
+        fn noted(pixel: vec2i) -> vec4f { bins[pixel.x] = table[pixel.x]; more[pixel.y] = 1u; return vec4f(1.0); }",
+    result: "noted(pixel)",
+};
