@@ -174,6 +174,28 @@ fn bindings_compile_whatever_is_read() {
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
+/// rustc takes no bare carriage return and no mark of writing direction in documentation.
+#[test]
+fn bindings_compile_whatever_is_documented() {
+    let folder = folder("words");
+    runtime(&folder);
+    for (k, words) in [
+        "a\\rb */ c \\\\",
+        "\\u{202e}back\\u{2066}",
+        "line\\nline\\u{2028}line",
+        "\\\"quoted\\\" `${x}` */",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let text = format!(
+            "#[doc = \"{words}\"]\npub fn k(color: &Frame<Vec4>, gain: f32, pixel: IVec2) -> Vec4 {{ color.load(pixel) * gain }}"
+        );
+        compiles(&folder, &format!("words_{k}.rs"), &text).unwrap_or_else(|e| panic!("{e}"));
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
 #[test]
 fn bindings_compile_whatever_uniforms_are_called() {
     let folder = folder("names");

@@ -2,9 +2,9 @@
 
 use crate::fits;
 use crate::spelling;
-use crate::words::comment;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use straightline_codegen::emit::comment;
 use straightline_codegen::{OptionInfo, OptionKind};
 use straightline_manifest::{BindingKind, Extent, LanguageKind, Manifest, SamplerType};
 

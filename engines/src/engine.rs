@@ -3,11 +3,10 @@
 use crate::context::{self, Context};
 use crate::description::{Description, ShaderDescription};
 use crate::error::EngineError;
-use crate::words::comment;
 use crate::{builtin, fits, names, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
-use straightline_codegen::emit::{EmitError, Emitted, Target};
+use straightline_codegen::emit::{EmitError, Emitted, Target, comment};
 use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage};
 use straightline_manifest::Manifest;
 

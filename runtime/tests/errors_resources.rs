@@ -2,7 +2,9 @@
 
 mod common;
 
-use common::{BINS, COPY, Fixture, Gpu, Kernel, RESOLVE, SCALE, SHADOW, SHAPES, STAGES, Stage, TABLE, array_view, view};
+use common::{
+    BINS, COPY, Fixture, Gpu, Kernel, RESOLVE, SCALE, SHADOW, SHAPES, STAGES, Stage, TABLE, array_view, view,
+};
 use straightline_runtime::manifest::SamplerType;
 use straightline_runtime::{BufferProblem, Error, Pass, Resource, ResourceKind, SamplerProblem, ViewProblem, wgpu};
 use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureView};
@@ -343,7 +345,12 @@ fn buffers_that_are_written_and_bound_twice() {
         (given(&bins.clone(), &bins, &more), "bins", "table"),
     ] {
         let problem = buffer_problem(refuse(&gpu, &pass, &inputs), name);
-        assert_eq!(problem, BufferProblem::IsOther { other: other.to_owned() });
+        assert_eq!(
+            problem,
+            BufferProblem::IsOther {
+                other: other.to_owned()
+            }
+        );
     }
 }
 

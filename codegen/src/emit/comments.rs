@@ -1,7 +1,7 @@
 //! Comments that say where statements come from: one for each group of statements of a place.
 
 use super::ast::{Block, Stmt, StmtKind};
-use super::text::comment;
+use super::prose::comment;
 use std::collections::{HashMap, HashSet};
 use straightline_evaluator::ir::{Counter, Graph, Origin};
 

@@ -25,6 +25,7 @@ mod origin;
 mod outputs;
 mod places;
 mod print;
+mod prose;
 mod register;
 mod renamed;
 mod resources;
@@ -49,6 +50,7 @@ use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_by
 pub use bindings::{Module, bindings};
 pub use error::EmitError;
 pub use options::{EmitOptions, Reads};
+pub use prose::comment;
 pub use register::Register;
 pub use target::Target;
 

@@ -1,17 +1,5 @@
 //! Expressions as text, with what is needed to put them into larger ones.
 
-/// A text as it may stand in a comment of one line: without what ends a line in any language, and without backslashes, which
-/// in GLSL carry a comment on to the next line.
-pub fn comment(text: &str) -> String {
-    let harmless = |c: char| match c {
-        '\u{2028}' | '\u{2029}' => ' ',
-        c if c.is_control() => ' ',
-        '\\' => '/',
-        c => c,
-    };
-    text.chars().map(harmless).collect()
-}
-
 /// How tightly an expression's outermost operator binds; larger binds tighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binds {

@@ -3,6 +3,7 @@
 use super::code::without_words;
 use super::readable;
 use crate::Subject;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use straightline_codegen::{Kernel, Settings};
@@ -52,13 +53,7 @@ fn words_of_authors_stay_words() {
             HOSTILE[(k + 4) % HOSTILE.len()],
         );
         for engine in names() {
-            let [wanted, found] = [&plain, &hostile].map(|subject| {
-                let files = subject.files(engine).unwrap_or_else(|e| panic!("{engine}: {e}"));
-                let texts = files
-                    .into_iter()
-                    .map(|(name, bytes)| (name, String::from_utf8(bytes).expect("text")));
-                texts.collect::<std::collections::BTreeMap<_, _>>()
-            });
+            let [wanted, found] = [&plain, &hostile].map(|subject| texts(subject, engine));
             readable::check(engine, &found).unwrap_or_else(|e| panic!("{engine}, {words:?}: {e}"));
             assert!(wanted.keys().eq(found.keys()), "{engine}");
             for (name, text) in &found {
@@ -85,6 +80,74 @@ fn words_of_authors_stay_words() {
             }
         }
     }
+}
+
+/// As above, of words put together at random from what is special somewhere. Comparing code takes no compilers.
+#[test]
+fn words_at_random_stay_words() {
+    const PIECES: [&str; 24] = [
+        "*/",
+        "/*",
+        "//",
+        "\\",
+        "\"",
+        "'",
+        "`",
+        "${",
+        "}",
+        "\n",
+        "\r",
+        "\u{2028}",
+        "\u{85}",
+        "??/",
+        "#",
+        "{{",
+        "%}",
+        "-->",
+        "<!--",
+        "</script>",
+        "\u{202e}",
+        "*\u{feff}/",
+        " ",
+        "pwned",
+    ];
+    let mut state = 1u32;
+    let mut next = || {
+        state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        (state >> 16) as usize
+    };
+    let plain = documented("Plain.", "Plain.", "Plain.");
+    for _ in 0..200 {
+        let [kernel, first, second] = [(); 3].map(|()| {
+            (0..=next() % 12)
+                .map(|_| PIECES[next() % PIECES.len()])
+                .chain(["word"])
+                .rev()
+                .collect::<String>()
+        });
+        let hostile = documented(&kernel, &first, &second);
+        for engine in names() {
+            let [wanted, found] = [&plain, &hostile].map(|subject| texts(subject, engine));
+            for (name, text) in found.iter().filter(|(name, _)| *name != "README.md") {
+                let [wanted, found] = [&wanted[name], text].map(|text| {
+                    without_words(name, text).unwrap_or_else(|e| panic!("{engine}, {name}, {kernel:?}, {first:?}: {e}"))
+                });
+                assert_eq!(
+                    found, wanted,
+                    "{engine}, {name}, {kernel:?}, {first:?}, {second:?}:\n{text}"
+                );
+            }
+        }
+    }
+}
+
+/// Files of an engine as text, by name.
+fn texts(subject: &Subject, engine: &str) -> BTreeMap<String, String> {
+    let files = subject.files(engine).unwrap_or_else(|e| panic!("{engine}: {e}"));
+    let texts = files
+        .into_iter()
+        .map(|(name, bytes)| (name, String::from_utf8(bytes).expect("text")));
+    texts.collect()
 }
 
 /// A folder of a user's engine with these files.

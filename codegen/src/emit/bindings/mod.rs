@@ -6,6 +6,7 @@ mod parameters;
 mod pass;
 
 use crate::compiled::Compiled;
+use crate::emit::prose::comment;
 use inputs::Input;
 use pass::{Given, Targets};
 use proc_macro2::{Literal, TokenStream};
@@ -123,7 +124,8 @@ fn documentation(module: &Module<'_>) -> Vec<String> {
         false => format!("Generated for {}", options.join(", ")),
     };
     vec![
-        summary,
+        // A bare carriage return, of which rustc takes none in documentation, or a line end of another kind is no part of it.
+        comment(&summary),
         String::new(),
         format!("{generated}; loops unrolled: `{}`.", module.compiled.policy),
     ]

@@ -2,8 +2,8 @@
 
 use crate::compiled::Compiled;
 use crate::emit::layout::value_type;
+use crate::emit::prose::comment;
 use crate::emit::resources::Resources;
-use crate::emit::text::comment;
 use straightline_evaluator::ir::{Invocation, Scalar, Type};
 use straightline_evaluator::policy::Transport;
 use straightline_manifest::{Counts, Form, Origin, Precision};
@@ -24,7 +24,7 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         .changed
         .iter()
         .filter_map(|name| compiled.options.get_key_value(name));
-    lines.extend(changed.map(|(name, value)| format!("  {name} = {}", shortened(value))));
+    lines.extend(changed.map(|(name, value)| format!("{name} = {}", shortened(value))));
     let options = &resources.options;
     let (what, output) = match options.form {
         Form::Entry => (format!("Stage {}", options.stage.name()), outputs(resources)),
