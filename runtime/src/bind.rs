@@ -39,6 +39,9 @@ impl Pass {
     /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
     /// [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
     ///
+    /// All resources are of the pass's device. Of those of another device wgpu tells; of those of another *instance* it cannot, and may
+    /// take some other resource for them: make one instance.
+    ///
     /// wgpu does not tell which mip level and layers a view shows. Give views of level 0 that begin at the layer that
     /// the kernel calls 0: sizes and layers are checked on the texture.
     ///

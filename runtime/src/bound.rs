@@ -99,6 +99,8 @@ impl Bound {
     /// Sets the uniform `name` for what `queue`, the device's own, submits next. A matrix or an array that the kernel takes is one
     /// value: `[[1.0, 0.0], [0.0, 1.0]]`, columns first.
     ///
+    /// Nothing is written by a queue of another device: wgpu reports that to the error handler of that device, as of any `write_buffer`.
+    ///
     /// As with any `write_buffer`, all encoders of one submission see the value that was written last before it. Other
     /// [`Bound`]s of the same pass keep theirs. Of numbers, vectors and matrices nothing is allocated here.
     ///

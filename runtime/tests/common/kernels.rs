@@ -115,7 +115,7 @@ pub const SHAPES: Kernel = Kernel {
 
 /// `table` added up in `bins`, and again in `more`.
 pub const BINS: Kernel = Kernel {
-    name: "bins",
+    name: "sums",
     bindings: &[
         r#"{"group": 0, "binding": 3, "name": "table", "type": "buffer", "buffer_type": "read-only-storage",
     "element": "u32", "stride": 4}"#,

@@ -3,7 +3,7 @@
 /// Ends of a line in some language: WGSL and JavaScript know more than C.
 const LINE_ENDS: [char; 7] = ['\n', '\r', '\u{b}', '\u{c}', '\u{85}', '\u{2028}', '\u{2029}'];
 
-/// The code, with `""` for each string and one space for each comment.
+/// The code, with `""` for strings that follow each other and one blank for white space.
 ///
 /// # Errors
 ///
@@ -52,7 +52,10 @@ impl<'t> Reader<'t> {
                 self.rest = &self.rest[c.len_utf8()..];
             }
         }
-        Ok(self.code)
+        // A longer comment has more lines, also as lines of a string.
+        let mut words: Vec<&str> = self.code.split_whitespace().collect();
+        words.dedup_by(|word, before| word == before && *word == "\"\"");
+        Ok(words.join(" "))
     }
 
     fn comment(&mut self, text: &str) -> Result<(), String> {
