@@ -68,7 +68,7 @@ impl Lower {
         let then = ExprKind::Block(self.block(&e.then_branch));
         let then = self.at(then, e.then_branch.span());
         let otherwise = match &e.else_branch {
-            Some((_, other)) => self.expr(other),
+            Some((_, other)) => *self.link(other),
             None => self.at(ExprKind::Tuple(Vec::new()), e.span()),
         };
         let attribute = self.branch_attribute(&e.attrs);

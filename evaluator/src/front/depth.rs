@@ -107,6 +107,10 @@ struct Level {
     angles: Vec<usize>,
     /// Operators, calls and fields since then.
     chained: usize,
+    /// Prefix operators of the operand that is being read, which the parser has gone down with: a binary operator ends it.
+    prefixed: usize,
+    /// Whether the last character of an operator followed an operand.
+    between: bool,
     /// Whether this is a `use`, whose path the parser goes down with.
     import: bool,
 }
@@ -137,6 +141,8 @@ impl Level {
             nested: 0,
             angles: Vec::new(),
             chained: 0,
+            prefixed: 0,
+            between: false,
             import,
         }
     }
@@ -147,6 +153,7 @@ impl Level {
         self.angles.clear();
         self.chained = 0;
         self.prefixes = 0;
+        self.prefixed = 0;
         self.import = false;
         self.before = Before::Start;
     }
@@ -186,6 +193,7 @@ impl Level {
             }
             _ if NESTING.contains(&word) => {
                 self.nested += 1;
+                self.prefixed = 0;
                 // A loop of prefixes such as `return return` is told as one.
                 self.prefixes += 1;
                 Before::Word
@@ -221,6 +229,8 @@ impl Level {
         let before = self.before;
         self.before = Before::Punct(c, joint);
         let joined = matches!(before, Before::Punct(_, true));
+        let follows = matches!(before, Before::Operand | Before::Braces);
+        let between = std::mem::replace(&mut self.between, follows);
         match c {
             ';' => return self.restart(),
             ',' => {
@@ -274,10 +284,24 @@ impl Level {
                 _ => self.nested += 1,
             },
             // `||` and `|`: between operands an operator, else a closure or the first of several patterns.
-            '|' if joined && matches!(before, Before::Punct('|', true)) => {}
+            // No generic argument goes on with them: each `<` before was a comparison or a shift.
+            '|' | '&' if between && joined && before == Before::Punct(c, true) => self.angles.clear(),
+            '|' if joined && before == Before::Punct('|', true) => {}
             _ => match before {
-                Before::Operand | Before::Braces => self.chained += 1,
-                Before::Start | Before::Word | Before::Else | Before::Punct(..) => self.nested += 1,
+                Before::Operand | Before::Braces => {
+                    self.chained += 1;
+                    // Calls, fields and `?` belong to what a prefix stands before.
+                    if !matches!(c, '.' | '?') {
+                        self.nested -= std::mem::take(&mut self.prefixed).min(self.nested);
+                    }
+                    if matches!(c, '*' | '/' | '%' | '^') {
+                        self.angles.clear();
+                    }
+                }
+                Before::Start | Before::Word | Before::Else | Before::Punct(..) => {
+                    self.nested += 1;
+                    self.prefixed += usize::from(matches!(c, '-' | '!' | '*' | '&'));
+                }
             },
         }
         self.prefixes += 1;

@@ -17,6 +17,10 @@ use syn::spanned::Spanned;
 /// How deep expressions may be nested.
 pub const DEPTH: u32 = 128;
 
+/// Whether the links of a chain (`a + b + c`, `a.b().c()`, `else if`) count as nested. They do only where the stack is the host's;
+/// elsewhere `depth.rs` limits their number.
+pub const COUNTS_LINKS: bool = cfg!(target_arch = "wasm32");
+
 /// Lowers one item of one file, gathering errors.
 pub struct Lower {
     file: u32,
@@ -182,6 +186,17 @@ impl Lower {
         Box::new(self.expr(expr))
     }
 
+    /// The part of an expression that a chain of operators, calls, fields or `else if` goes on in.
+    pub fn link(&mut self, expr: &syn::Expr) -> Box<Expr> {
+        let depth = self.depth;
+        if !COUNTS_LINKS {
+            self.depth = depth.saturating_sub(1);
+        }
+        let link = self.boxed(expr);
+        self.depth = depth;
+        link
+    }
+
     fn kind(&mut self, expr: &syn::Expr) -> ExprKind {
         match expr {
             syn::Expr::Paren(e) => self.kind(&e.expr),
@@ -198,7 +213,7 @@ impl Lower {
             syn::Expr::Assign(e) => ExprKind::Assign(self.boxed(&e.left), None, self.boxed(&e.right)),
             syn::Expr::Call(e) => self.call(e),
             syn::Expr::MethodCall(e) => {
-                let receiver = self.boxed(&e.receiver);
+                let receiver = self.link(&e.receiver);
                 ExprKind::Method(
                     receiver,
                     e.method.to_string(),
@@ -207,14 +222,14 @@ impl Lower {
             }
             syn::Expr::Field(e) => {
                 let name = member(&e.member);
-                ExprKind::Field(self.boxed(&e.base), name)
+                ExprKind::Field(self.link(&e.base), name)
             }
-            syn::Expr::Index(e) => ExprKind::Index(self.boxed(&e.expr), self.boxed(&e.index)),
+            syn::Expr::Index(e) => ExprKind::Index(self.link(&e.expr), self.boxed(&e.index)),
             syn::Expr::If(e) if has_let(&e.cond) => self.if_let(e),
             syn::Expr::If(e) => {
                 let condition = self.boxed(&e.cond);
                 let then = self.block(&e.then_branch);
-                let otherwise = e.else_branch.as_ref().map(|(_, other)| self.boxed(other));
+                let otherwise = e.else_branch.as_ref().map(|(_, other)| self.link(other));
                 ExprKind::If(condition, then, otherwise, self.branch_attribute(&e.attrs))
             }
             syn::Expr::Match(e) => self.match_(e),
@@ -224,7 +239,7 @@ impl Lower {
             syn::Expr::Array(e) => ExprKind::Array(e.elems.iter().map(|e| self.expr(e)).collect()),
             syn::Expr::Repeat(e) => ExprKind::Repeat(self.boxed(&e.expr), self.boxed(&e.len)),
             syn::Expr::Struct(e) => self.struct_(e),
-            syn::Expr::Cast(e) => ExprKind::Cast(self.boxed(&e.expr), self.ty(&e.ty)),
+            syn::Expr::Cast(e) => ExprKind::Cast(self.link(&e.expr), self.ty(&e.ty)),
             syn::Expr::Range(e) => self.range(e),
             syn::Expr::ForLoop(e) => {
                 let over = self.expr(&e.expr);
@@ -248,7 +263,7 @@ impl Lower {
                 self.while_(condition, body, label, &e.attrs)
             }
             syn::Expr::Loop(e) => self.loop_(e),
-            syn::Expr::Try(e) => ExprKind::Try(self.boxed(&e.expr)),
+            syn::Expr::Try(e) => ExprKind::Try(self.link(&e.expr)),
             syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
             syn::Expr::Break(e) => self.break_(e),
             syn::Expr::Continue(e) => ExprKind::Continue(label(e.label.as_ref())),
@@ -333,42 +348,34 @@ impl Lower {
 
     fn binary(&mut self, e: &syn::ExprBinary) -> ExprKind {
         use syn::BinOp as B;
-        let (left, right) = (self.boxed(&e.left), self.boxed(&e.right));
-        let plain = |op| ExprKind::Binary(op, left.clone(), right.clone());
-        let assign = |op| ExprKind::Assign(left.clone(), Some(op), right.clone());
-        match e.op {
-            B::Add(_) => plain(BinaryOp::Add),
-            B::Sub(_) => plain(BinaryOp::Sub),
-            B::Mul(_) => plain(BinaryOp::Mul),
-            B::Div(_) => plain(BinaryOp::Div),
-            B::Rem(_) => plain(BinaryOp::Rem),
-            B::BitXor(_) => plain(BinaryOp::Xor),
-            B::BitAnd(_) => plain(BinaryOp::And),
-            B::BitOr(_) => plain(BinaryOp::Or),
-            B::Shl(_) => plain(BinaryOp::Shl),
-            B::Shr(_) => plain(BinaryOp::Shr),
-            B::Eq(_) => plain(BinaryOp::Eq),
-            B::Ne(_) => plain(BinaryOp::Ne),
-            B::Lt(_) => plain(BinaryOp::Lt),
-            B::Le(_) => plain(BinaryOp::Le),
-            B::Gt(_) => plain(BinaryOp::Gt),
-            B::Ge(_) => plain(BinaryOp::Ge),
-            B::And(_) => ExprKind::Lazy(true, left, right),
-            B::Or(_) => ExprKind::Lazy(false, left, right),
-            B::AddAssign(_) => assign(BinaryOp::Add),
-            B::SubAssign(_) => assign(BinaryOp::Sub),
-            B::MulAssign(_) => assign(BinaryOp::Mul),
-            B::DivAssign(_) => assign(BinaryOp::Div),
-            B::RemAssign(_) => assign(BinaryOp::Rem),
-            B::BitXorAssign(_) => assign(BinaryOp::Xor),
-            B::BitAndAssign(_) => assign(BinaryOp::And),
-            B::BitOrAssign(_) => assign(BinaryOp::Or),
-            B::ShlAssign(_) => assign(BinaryOp::Shl),
-            B::ShrAssign(_) => assign(BinaryOp::Shr),
+        let (left, right) = (self.link(&e.left), self.boxed(&e.right));
+        let op = match e.op {
+            B::And(_) => return ExprKind::Lazy(true, left, right),
+            B::Or(_) => return ExprKind::Lazy(false, left, right),
+            B::Add(_) | B::AddAssign(_) => BinaryOp::Add,
+            B::Sub(_) | B::SubAssign(_) => BinaryOp::Sub,
+            B::Mul(_) | B::MulAssign(_) => BinaryOp::Mul,
+            B::Div(_) | B::DivAssign(_) => BinaryOp::Div,
+            B::Rem(_) | B::RemAssign(_) => BinaryOp::Rem,
+            B::BitXor(_) | B::BitXorAssign(_) => BinaryOp::Xor,
+            B::BitAnd(_) | B::BitAndAssign(_) => BinaryOp::And,
+            B::BitOr(_) | B::BitOrAssign(_) => BinaryOp::Or,
+            B::Shl(_) | B::ShlAssign(_) => BinaryOp::Shl,
+            B::Shr(_) | B::ShrAssign(_) => BinaryOp::Shr,
+            B::Eq(_) => BinaryOp::Eq,
+            B::Ne(_) => BinaryOp::Ne,
+            B::Lt(_) => BinaryOp::Lt,
+            B::Le(_) => BinaryOp::Le,
+            B::Gt(_) => BinaryOp::Gt,
+            B::Ge(_) => BinaryOp::Ge,
             _ => {
                 self.unsupported(e.span(), "this operator", "use the operators of numbers and booleans");
-                ExprKind::Tuple(Vec::new())
+                return ExprKind::Tuple(Vec::new());
             }
+        };
+        match assigns(&e.op) {
+            false => ExprKind::Binary(op, left, right),
+            true => ExprKind::Assign(left, Some(op), right),
         }
     }
 
@@ -379,7 +386,7 @@ impl Lower {
                 let constants = self.generic_arguments(&path.path);
                 ExprKind::Call(self.of_type(path).unwrap_or_default(), constants, args)
             }
-            other => ExprKind::Invoke(self.boxed(other), args),
+            other => ExprKind::Invoke(self.link(other), args),
         }
     }
 
@@ -463,4 +470,22 @@ pub fn member(member: &syn::Member) -> Name {
 
 pub fn label(label: Option<&syn::Lifetime>) -> Option<String> {
     label.map(|l| l.ident.to_string())
+}
+
+/// Whether an operator assigns its result to its left side.
+fn assigns(op: &syn::BinOp) -> bool {
+    use syn::BinOp as B;
+    matches!(
+        op,
+        B::AddAssign(_)
+            | B::SubAssign(_)
+            | B::MulAssign(_)
+            | B::DivAssign(_)
+            | B::RemAssign(_)
+            | B::BitXorAssign(_)
+            | B::BitAndAssign(_)
+            | B::BitOrAssign(_)
+            | B::ShlAssign(_)
+            | B::ShrAssign(_)
+    )
 }

@@ -2,7 +2,7 @@
 
 use super::super::cfg::Carrier;
 use super::super::choice::MatchesSyntax;
-use super::super::expr::DEPTH;
+use super::super::expr::{COUNTS_LINKS, DEPTH};
 use super::Check;
 use crate::diagnostic::Diagnostic;
 use proc_macro2::{TokenStream, TokenTree};
@@ -26,19 +26,35 @@ impl Check {
         self.depth -= 1;
     }
 
+    /// The part of an expression that a chain goes on in, as [`Lower::link`](super::super::expr::Lower::link).
+    fn link(&mut self, expr: &mut syn::Expr) {
+        let depth = self.depth;
+        if !COUNTS_LINKS {
+            self.depth = depth.saturating_sub(1);
+        }
+        self.expr(expr);
+        self.depth = depth;
+    }
+
     fn kind(&mut self, expr: &mut syn::Expr) {
         use syn::Expr as E;
         match expr {
             E::Array(e) => self.exprs(&mut e.elems),
             E::Assign(e) => self.pair(&mut e.left, &mut e.right),
-            E::Binary(e) => self.pair(&mut e.left, &mut e.right),
-            E::Index(e) => self.pair(&mut e.expr, &mut e.index),
+            E::Binary(e) => {
+                self.link(&mut e.left);
+                self.expr(&mut e.right);
+            }
+            E::Index(e) => {
+                self.link(&mut e.expr);
+                self.expr(&mut e.index);
+            }
             E::Repeat(e) => self.pair(&mut e.expr, &mut e.len),
             E::Block(e) => self.block(&mut e.block),
             E::Call(e) => {
                 match &mut *e.func {
                     E::Path(path) => self.path(&mut path.path, true),
-                    other => self.expr(other),
+                    other => self.link(other),
                 }
                 self.exprs(&mut e.args);
             }
@@ -58,13 +74,13 @@ impl Check {
                 self.expr(&mut e.body);
             }
             E::Cast(e) => {
-                self.expr(&mut e.expr);
+                self.link(&mut e.expr);
                 match &mut *e.ty {
                     syn::Type::Path(t) if t.qself.is_none() => self.path(&mut t.path, true),
                     other => self.ty(other),
                 }
             }
-            E::Field(e) => self.expr(&mut e.base),
+            E::Field(e) => self.link(&mut e.base),
             // Where it is no condition, the lowering refuses it.
             E::Let(e) => {
                 self.pattern(&mut e.pat);
@@ -75,15 +91,15 @@ impl Check {
                 self.expr(&mut e.expr);
                 self.block(&mut e.body);
             }
-            E::Group(e) => self.expr(&mut e.expr),
-            E::Paren(e) => self.expr(&mut e.expr),
+            E::Group(e) => self.link(&mut e.expr),
+            E::Paren(e) => self.link(&mut e.expr),
             E::Reference(e) => self.expr(&mut e.expr),
             E::Unary(e) => self.expr(&mut e.expr),
             E::If(e) => {
                 self.expr(&mut e.cond);
                 self.block(&mut e.then_branch);
                 if let Some((_, other)) = &mut e.else_branch {
-                    self.expr(other);
+                    self.link(other);
                 }
             }
             E::Loop(e) => self.block(&mut e.body),
@@ -103,7 +119,7 @@ impl Check {
                 }
             }
             E::MethodCall(e) => {
-                self.expr(&mut e.receiver);
+                self.link(&mut e.receiver);
                 let of_numbers = e.method == "sum" || e.method == "product";
                 if let Some(arguments) = e.turbofish.as_ref().filter(|_| !of_numbers) {
                     self.refuse(
@@ -120,7 +136,7 @@ impl Check {
                 .flatten()
                 .for_each(|end| self.expr(end)),
             E::Break(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
-            E::Try(e) => self.expr(&mut e.expr),
+            E::Try(e) => self.link(&mut e.expr),
             E::Return(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
             E::Struct(e) => self.structure_literal(e),
             E::Tuple(e) => self.exprs(&mut e.elems),
