@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Duration;
 use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::Graph;
+use straightline_evaluator::limits::Limits;
 use straightline_evaluator::passes::{self, Gathered, Schedule, Sharing};
 use straightline_evaluator::policy::{Policy, Transport};
 use straightline_kernels::{Entry, HalfPrecision, PaperCounts};
@@ -42,6 +44,12 @@ pub struct Compiled {
     pub gathered: Arc<[Gathered]>,
     /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,
+    /// What compiling and emitting may take.
+    pub limits: Limits,
+    /// Work of compiling it: expressions evaluated and operations visited by passes. The same on every machine.
+    pub work: u64,
+    /// Time that compiling it took; 0 in WebAssembly, which has no clock.
+    pub time: Duration,
 }
 
 impl Compiled {

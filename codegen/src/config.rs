@@ -21,6 +21,7 @@ use crate::pipeline::{Kernel, Settings};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
@@ -139,6 +140,19 @@ impl KernelConfig {
     /// Statements that the kernel may have; by default [`Settings::BUDGET`].
     pub fn budget(mut self, statements: u32) -> Self {
         self.settings.budget = statements;
+        self
+    }
+
+    /// Longest time that compiling and emitting the kernel may take; by default 60 s. What takes longer is an error that names the
+    /// loops with the most work.
+    pub fn time_limit(mut self, time: Duration) -> Self {
+        self.settings.limits.time = time;
+        self
+    }
+
+    /// Most bytes that values and operations may hold while the kernel is compiled; by default 2 000 000 000.
+    pub fn memory_limit(mut self, bytes: u64) -> Self {
+        self.settings.limits.memory = bytes;
         self
     }
 

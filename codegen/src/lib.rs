@@ -23,6 +23,7 @@ pub use config::{Config, compile};
 pub use emit::EmitOptions;
 pub use pipeline::{Kernel, Observer, Settings};
 pub use straightline_evaluator::eval::{LoopReport, OptionInfo, OptionKind};
+pub use straightline_evaluator::limits::Limits;
 pub use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 pub use straightline_evaluator::{diagnostic, interp, ir, passes, policy, shorten};
 pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

@@ -11,6 +11,7 @@ use straightline_evaluator::eval::{self, OptionInfo};
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::ir::{Graph, Invocation, verify};
+use straightline_evaluator::limits::{self, Limits, Meter};
 use straightline_evaluator::passes;
 use straightline_evaluator::policy::{Branches, LoopPolicy, Math, Policy, ReadOrder, Share, Transport, Unroll};
 
@@ -56,6 +57,8 @@ pub struct Settings {
     pub share: Share,
     /// Which algebra may be done with floats: what changes no bit, or what may change roundings too.
     pub math: Math,
+    /// What compiling and emitting the kernel may take.
+    pub limits: Limits,
 }
 
 impl Settings {
@@ -88,6 +91,7 @@ impl Default for Settings {
             share_loads: true,
             share: Share::default(),
             math: Math::default(),
+            limits: Limits::default(),
         }
     }
 }
@@ -284,6 +288,7 @@ impl Kernel {
     }
 
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
+        let meter = Meter::open(settings.limits);
         let library = self.library()?;
         let policy = settings.policy();
         policy.check().map_err(|what| {
@@ -303,6 +308,14 @@ impl Kernel {
             invocation,
         )?;
         let mut stage = |name: &str, graph: Graph| -> Result<Graph, Errors> {
+            limits::spend(graph.nodes.len() as u64);
+            if let Some(excess) = limits::exceeded(graph.nodes.len()) {
+                let what = format!("compiling `{}` takes {excess}", self.name);
+                let error = Diagnostic::at(evaluated.span, what)
+                    .label(format!("in the stage `{name}`, with {} operations", graph.nodes.len()))
+                    .help(excess.help());
+                return Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files));
+            }
             verify::verify(&graph).map_err(|why| internal(name, &why))?;
             observer(name, &graph);
             Ok(graph)
@@ -445,6 +458,9 @@ impl Kernel {
             sharing,
             gathered,
             quad,
+            limits: settings.limits,
+            work: meter.work(),
+            time: meter.time(),
         };
         if emit::statements_at_most(&compiled.graph) > settings.budget {
             within_budget(compiled.statements())?;

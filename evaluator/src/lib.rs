@@ -11,6 +11,7 @@ pub mod front;
 pub mod infer;
 pub mod interp;
 pub mod ir;
+pub mod limits;
 pub mod passes;
 pub mod policy;
 mod shorten;

@@ -4,8 +4,9 @@ use super::{pair, size};
 use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;
+use std::time::Duration;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Branches, Kernel, Math, ReadOrder, Settings, Share, Transport, Unroll};
+use straightline_codegen::{Branches, Kernel, Limits, Math, ReadOrder, Settings, Share, Transport, Unroll};
 
 /// Which kernel, with which options.
 #[derive(Debug, Clone, Args)]
@@ -51,6 +52,12 @@ pub struct OptionArgs {
     /// Most statements that the kernel may have
     #[arg(help_heading = "Kernel options", long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
     pub budget: u32,
+    /// Longest time that compiling and emitting the kernel may take, in seconds
+    #[arg(help_heading = "Kernel options", long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
+    pub time_limit: Duration,
+    /// Most memory that values and operations may take while the kernel is compiled, in millions of bytes
+    #[arg(help_heading = "Kernel options", long, value_name = "MEGABYTES", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub memory_limit: u64,
     /// How the lanes of a pixel quad exchange values: subgroup, derivatives or block; by default subgroup operations in
     /// fragment shaders and blocks in compute
     #[arg(help_heading = "Kernel options", long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
@@ -76,6 +83,8 @@ impl Default for OptionArgs {
             branches: Branches::default(),
             reads: ReadOrder::default(),
             budget: Settings::BUDGET,
+            time_limit: Limits::default().time,
+            memory_limit: Limits::default().memory / MEGABYTE,
             transport: None,
             share: Share::default(),
             math: Math::default(),
@@ -97,9 +106,23 @@ impl OptionArgs {
             share: self.share,
             math: self.math,
             block: self.block.to_array(),
+            limits: Limits {
+                time: self.time_limit,
+                memory: self.memory_limit * MEGABYTE,
+            },
             ..Settings::default()
         }
     }
+}
+
+/// Bytes of a unit of `--memory-limit`.
+const MEGABYTE: u64 = 1_000_000;
+
+/// A positive number of seconds.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
+    let time = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    time.ok_or_else(|| format!("`{text}` is no time: give a positive number of seconds, such as 60 or 0.5"))
 }
 
 fn loop_policy(text: &str) -> Result<(String, Unroll), String> {

@@ -1,8 +1,22 @@
 //! Why a kernel cannot be emitted.
 
+use straightline_evaluator::limits::Excess;
+
 /// Why a kernel cannot be emitted.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmitError {
+    /// A limit of time or memory.
+    #[error("emitting `{kernel}` takes {excess}, with {statements} statements{largest}: {}", excess.help())]
+    Limit {
+        /// The kernel.
+        kernel: String,
+        /// The limit.
+        excess: Excess,
+        /// Statements that it has.
+        statements: u32,
+        /// The loop that made the most of them, if there is one.
+        largest: String,
+    },
     /// A built-in kernel in half precision, whose loss hard cases show.
     #[error(
         "`{kernel}` in f16 does not keep what can be seen: {reason}. Emit it in f32, or with options that keep it (`study hard --precision f16` tells which \

@@ -41,7 +41,9 @@ use crate::compiled::Compiled;
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::{Graph, Invocation, Op};
+use straightline_evaluator::limits::{self, Meter};
 use straightline_evaluator::passes::Schedule;
 use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
@@ -170,8 +172,28 @@ impl Compiled {
     }
 }
 
+/// The error that a limit is exceeded, if one is.
+fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Excess>) -> Result<(), EmitError> {
+    let Some(excess) = excess else { return Ok(()) };
+    let largest = compiled.loops.iter().max_by_key(|report| report.operations);
+    let named = |report: &LoopReport| {
+        format!(
+            ", most of them of the loop `{}` with {} copies",
+            report.path(),
+            report.copies
+        )
+    };
+    Err(EmitError::Limit {
+        kernel: compiled.kernel.clone(),
+        excess,
+        statements,
+        largest: largest.map(named).unwrap_or_default(),
+    })
+}
+
 /// Emits a kernel. Nothing is given out that naga does not validate.
 fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
+    let _meter = Meter::resume(compiled.limits, compiled.time);
     if let Some([x, y]) = options.workgroup
         && (x == 0 || y == 0 || x.saturating_mul(y) > 1024)
     {
@@ -203,6 +225,11 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         host::check(compiled, &resources)?;
     }
     let (tree, statements) = tree(compiled, &resources);
+    within_limits(
+        compiled,
+        statements,
+        limits::would_exceed(translate::time_to_parse(statements)),
+    )?;
     let shader = Shader {
         compiled,
         resources: &resources,
@@ -218,6 +245,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
     let mut manifest = resources.manifest(compiled, &counts);
     let mut files = BTreeMap::new();
     for target in &options.targets {
+        within_limits(compiled, statements, limits::exceeded(0))?;
         let bytes = match target {
             Target::Wgsl => shader.wgsl(&counts)?.into_bytes(),
             Target::Glsl450 | Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => {

@@ -5,7 +5,13 @@ use super::resources::Resources;
 use naga::back::{msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use std::time::Duration;
 use straightline_manifest::Stage;
+
+/// Time that naga may take to read so many statements: the square of their number, 5 s for 10 000 on a slow machine.
+pub fn time_to_parse(statements: u32) -> Duration {
+    Duration::from_secs_f64((f64::from(statements) / 10_000.0).powi(2) * 5.0)
+}
 
 /// A validated module.
 pub struct Module {

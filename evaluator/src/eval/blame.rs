@@ -1,8 +1,8 @@
 //! Which loops an error comes from: of those that are left in the shader, the ones without which what is looked at would be a
 //! compile-time constant.
 
+use super::Evaluator;
 use super::value::{Captured, Value};
-use super::{Evaluator, MAX_NODES, MAX_STEPS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use crate::front::{children, mentioned_in};
@@ -54,8 +54,7 @@ impl Evaluator<'_> {
     /// of what it points at, else all that the expression mentions, as they are what has to be known; else loops in functions that
     /// it calls, of which there were `before` when it began; else what its floats depend on.
     pub fn blame(&self, error: &mut Diagnostic, expr: &Expr, before: usize) {
-        let too_large = self.steps > MAX_STEPS || self.builder.graph().nodes.len() > MAX_NODES;
-        if !error.loops.is_empty() || self.kept.avoidable.is_empty() || too_large {
+        if !error.loops.is_empty() || self.kept.avoidable.is_empty() || self.exhausted {
             return;
         }
         let parts = children(expr);

@@ -3,6 +3,7 @@
 use super::Evaluator;
 use super::value::Eval;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::limits;
 use crate::policy::{self, Unroll};
 use std::collections::HashMap;
 
@@ -44,6 +45,8 @@ pub struct Loops {
     open: Vec<(usize, usize, usize)>,
     /// How often each loop was tried to be left in the shader in vain, and why not the last time.
     refused: HashMap<Span, (u32, Diagnostic)>,
+    /// Attempts to unroll each loop that were given up, as its end turned out to be a runtime value.
+    guessed: HashMap<Span, u32>,
     /// Errors to give if there are no others: what follows a loop needs it unrolled, but it was asked for by name.
     deferred: Vec<Diagnostic>,
 }
@@ -51,6 +54,12 @@ pub struct Loops {
 /// Attempts to leave one loop in the shader after which it is unrolled wherever it is reached. Without such an end loops
 /// in loops would be tried twice a level.
 const MAX_REFUSALS: u32 = 3;
+
+/// Iterations after which a `while` that is left early under a runtime condition is taken to end at run time only.
+const MAX_GUESSED: u64 = 256;
+
+/// The least number of such iterations, after attempts in vain. Without a decrease loops in loops would be tried 256 times a level.
+const MIN_GUESSED: u64 = 4;
 
 impl Loops {
     /// A loop begins, when `operations` have been made.
@@ -97,6 +106,17 @@ impl Loops {
         (*times >= MAX_REFUSALS).then(|| why.clone())
     }
 
+    /// Iterations after which the attempt to unroll a loop is given up if some have left it.
+    pub fn guesses(&self, span: Span) -> u64 {
+        let failed = self.guessed.get(&span).copied().unwrap_or(0);
+        (MAX_GUESSED >> (2 * failed).min(63)).max(MIN_GUESSED)
+    }
+
+    /// An attempt to unroll a loop is given up.
+    pub fn guessed(&mut self, span: Span) {
+        *self.guessed.entry(span).or_insert(0) += 1;
+    }
+
     /// An error to give if there are no others.
     pub fn defer(&mut self, error: Diagnostic) {
         if !self.deferred.contains(&error) {
@@ -112,7 +132,12 @@ impl Loops {
     /// Goes back to a state, but keeps in mind which attempts failed.
     pub fn return_to(&mut self, before: Loops) {
         let refused = std::mem::take(&mut self.refused);
-        *self = Loops { refused, ..before };
+        let guessed = std::mem::take(&mut self.guessed);
+        *self = Loops {
+            refused,
+            guessed,
+            ..before
+        };
     }
 
     /// It ends.
@@ -161,7 +186,9 @@ const PARTS_A_STEP: usize = 8;
 impl Evaluator<'_> {
     /// Counts the work of copying or comparing a value of so many parts, so that copies of large arrays in loops end.
     pub fn copied(&mut self, parts: usize, span: Span) -> Eval<()> {
-        self.steps += (parts / PARTS_A_STEP) as u64;
+        let steps = (parts / PARTS_A_STEP) as u64;
+        self.steps += steps;
+        limits::spend(steps);
         self.step(span)
     }
 

@@ -10,6 +10,10 @@ use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
 use std::rc::Rc;
 
+/// Branches and loops that are left in the shader inside of one another: WGSL reads 127 braces in braces, some of which are those of
+/// the function and the test for the frame's border.
+const MAX_NESTED: usize = 100;
+
 impl Evaluator<'_> {
     /// An `if`, and what ends with it.
     pub fn if_(
@@ -31,6 +35,11 @@ impl Evaluator<'_> {
                 self.branch(tail, id, keep, span, |e| e.block_in(then, tail), other)
             }
         }
+    }
+
+    /// Whether another branch or loop may be left in the shader inside of those that are open. Beyond, branches are selections.
+    pub fn may_nest(&self) -> bool {
+        self.builder.open_regions().len() < MAX_NESTED
     }
 
     /// A condition, as a boolean.
@@ -74,6 +83,7 @@ impl Evaluator<'_> {
         let pending = std::mem::take(&mut self.departed);
         let before = self.scope.clone();
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
+        let keep = keep && self.may_nest();
         let joined = self.narrowed(&gone, |e| match keep {
             true => e.kept_branch(tail, condition, span, then, otherwise),
             false => e.selected(tail, condition, span, then, otherwise),
@@ -218,7 +228,14 @@ impl Evaluator<'_> {
                 }
                 compared += x.len();
             }
-            if a != b {
+            if a == b {
+                if left_scope.shared(slot) != self.scope.shared(slot) {
+                    self.scope.unshare(slot);
+                }
+            } else if let Some(common) = self.scope.common(left_scope, slot) {
+                let common = common.clone();
+                self.scope.set(slot, common);
+            } else {
                 pairs.push((Some(slot), a.clone(), b.clone()));
             }
         }

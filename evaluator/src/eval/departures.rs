@@ -67,6 +67,26 @@ pub struct Side {
     pub value: Option<Value>,
     /// Who leaves it, each by another way.
     pub exits: Vec<(Way, NodeId)>,
+    /// States before they were merged into one.
+    pub states: Vec<State>,
+}
+
+/// The variables at the end of a side.
+pub struct State {
+    /// Exit that is taken in this state; `None` of the state that goes on.
+    pub way: Option<Way>,
+    /// Variables in this state.
+    pub scope: Scope,
+}
+
+impl State {
+    /// Whether this state goes where `way` leads; `None` is on.
+    pub fn goes(&self, way: Option<&Way>) -> bool {
+        match (&self.way, way) {
+            (Some(own), Some(way)) => own.is_like(way),
+            (own, way) => own.is_none() && way.is_none(),
+        }
+    }
 }
 
 impl Evaluator<'_> {
@@ -169,7 +189,7 @@ impl Evaluator<'_> {
     /// Whether what follows an exit under a run-time condition is left to a branch in the shader.
     pub fn keeps_exits(&self, attribute: Option<Branches>) -> bool {
         let stated = attribute.unwrap_or(self.policy.branches);
-        self.policy.keeps(attribute) || (self.kept_loops > 0 && stated == Branches::AsLoops)
+        self.may_nest() && (self.policy.keeps(attribute) || (self.kept_loops > 0 && stated == Branches::AsLoops))
     }
 
     /// Those who have left by a way that leads here, since there were `since` departures, go on from here, with the values
@@ -183,15 +203,16 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval {
         let mut mine: Vec<Departure> = Vec::new();
+        // Holds for those who have not arrived yet.
+        let mut others = self.builder.bool(true);
         for mut departure in self.departed.split_off(since) {
             if leads_here(&departure.way) {
+                let stays = self.not(departure.condition);
+                others = self.and(others, stays);
                 mine.push(departure);
                 continue;
             }
-            for arrived in &mine {
-                let stays = self.not(arrived.condition);
-                departure.condition = self.and(stays, departure.condition);
-            }
+            departure.condition = self.and(others, departure.condition);
             self.departed.push(departure);
         }
         let mut value = match outcome {
@@ -242,15 +263,25 @@ impl Evaluator<'_> {
             let stays = self.not(departure.condition);
             staying = self.and(staying, stays);
         }
-        if let Some(way) = last {
-            self.add_exit(&mut exits, &way, staying, span)?;
+        if let Some(way) = &last {
+            self.add_exit(&mut exits, way, staying, span)?;
         }
         self.scope.leave(mark);
-        for departure in departed.into_iter().rev() {
+        let mut states = vec![State {
+            way: last,
+            scope: self.scope.clone(),
+        }];
+        for mut departure in departed.into_iter().rev() {
+            departure.scope.leave(mark);
+            states.push(State {
+                way: Some(departure.way),
+                scope: departure.scope.clone(),
+            });
+            self.scope.fill_unset(&mut departure.scope);
             let theirs = (departure.scope, Value::unit());
             self.join(departure.condition, None, theirs, Value::unit(), span)?;
         }
-        Ok(Side { value, exits })
+        Ok(Side { value, exits, states })
     }
 
     fn add_exit(&mut self, exits: &mut Vec<(Way, NodeId)>, way: &Way, leaves: NodeId, span: Span) -> Eval<()> {
@@ -274,7 +305,7 @@ impl Evaluator<'_> {
         condition: NodeId,
         negated: NodeId,
         regions: (RegionId, RegionId),
-        (left_scope, left): (Scope, Side),
+        (mut left_scope, left): (Scope, Side),
         right: Side,
         span: Span,
     ) -> Eval {
@@ -312,9 +343,16 @@ impl Evaluator<'_> {
                 pairs.push(self.paired(value(a).as_ref(), value(b).as_ref()));
             }
         }
+        self.scope.fill_unset(&mut left_scope);
         let joined = self.join_all(condition, Some(regions), &left_scope, pairs, span)?;
         let mut joined = joined.into_iter();
-        let value = goes_on.then(|| joined.next()).flatten();
+        let mut value = goes_on.then(|| joined.next()).flatten();
+        let of_sides: Vec<&Value> = left.value.iter().chain(&right.value).collect();
+        if let Some(refined) = value.as_ref().and_then(|value| self.refined(value, &of_sides)) {
+            value = Some(refined);
+        }
+        let states: Vec<State> = left.states.into_iter().chain(right.states).collect();
+        let merged = self.scope.clone();
         let mut departed = Vec::new();
         for (way, flag) in ways.into_iter().zip(flags) {
             let condition = match flag {
@@ -328,7 +366,7 @@ impl Evaluator<'_> {
             if flag.is_none() {
                 self.name_exit(condition, &way, span);
             }
-            let scope = self.scope.clone();
+            let scope = self.in_state(&merged, &states, Some(&way));
             let group = Some(regions.0);
             departed.push(Departure {
                 condition,
@@ -339,6 +377,7 @@ impl Evaluator<'_> {
         }
         match value {
             Some(value) => {
+                self.scope = self.in_state(&merged, &states, None);
                 self.departed.extend(departed);
                 Ok(value)
             }

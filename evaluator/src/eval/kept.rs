@@ -20,6 +20,14 @@ impl Evaluator<'_> {
         iteration: impl Fn(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
+        if !self.may_nest() {
+            return Err(
+                Diagnostic::at(span, "loops and branches of the shader are nested more than 100 deep")
+                    .label("this loop is left in the shader")
+                    .help("put the condition of inner loops into outer ones")
+                    .into(),
+            );
+        }
         let before = self.scope.clone();
         let pending = std::mem::take(&mut self.departed);
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
@@ -54,7 +62,9 @@ impl Evaluator<'_> {
             if wider.is_empty() {
                 return Ok(());
             }
-            self.return_to(before.clone());
+            let (slots, values): (Vec<usize>, Vec<Value>) = wider.into_iter().unzip();
+            let values = self.return_with(before.clone(), values);
+            wider = slots.into_iter().zip(values).collect();
         }
         Err(changes("a variable", span))
     }
@@ -104,6 +114,10 @@ impl Evaluator<'_> {
         for slot in &carried {
             let value = self.scope.at(*slot).1.clone();
             match self.settle(&value, span) {
+                // It gets its value in the loop: in the first iteration it has any.
+                Ok(value) if *settled.at(*slot).1 == Value::Unset && value != Value::Unset => {
+                    wider.push((*slot, self.blank(&value)));
+                }
                 Ok(value) if same_shape(&value, settled.at(*slot).1) => value.flatten(&mut results),
                 Ok(value) => match self.unify(settled.at(*slot).1, &value, span) {
                     // It is less than what is carried, or what is carried has to be more.
@@ -131,7 +145,7 @@ impl Evaluator<'_> {
         }
         self.builder
             .close_region(if same { results.clone() } else { initial.clone() });
-        side?;
+        let side = side?;
         if let Some(error) = changed {
             return Err(error);
         }
@@ -160,7 +174,7 @@ impl Evaluator<'_> {
                 Way::Return(value) => Way::Return(value.unflatten(&mut left)),
                 other => other,
             };
-            let scope = self.scope.clone();
+            let scope = self.in_state(&self.scope, &side.states, Some(&way));
             self.name_exit(condition, &way, span);
             let group = Some(region);
             self.departed.push(Departure {

@@ -186,6 +186,7 @@ impl Evaluator<'_> {
             self.kept.avoidable(span);
             match count(self).and_then(|count| self.keep(body, &count, asked.unroll, span)) {
                 // What cannot be a loop in the shader is unrolled; if that fails too, it says why.
+                Err(exit) if self.exhausted => return Err(exit),
                 Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
                     let noted = self.return_to(before);
                     let why = match exit {

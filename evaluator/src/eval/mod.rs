@@ -41,6 +41,7 @@ mod results;
 mod scope;
 mod sequence;
 mod shape;
+mod states;
 mod textures;
 mod traits;
 mod value;
@@ -51,6 +52,7 @@ use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
 use crate::front::name::Name;
 use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type};
+use crate::limits;
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
@@ -92,13 +94,17 @@ pub fn evaluate(
     invocation: Invocation,
 ) -> Result<Evaluated, Errors> {
     let mut unrolled: HashMap<Span, Diagnostic> = HashMap::new();
+    let mut steps = 0;
     loop {
         let mut evaluator = Evaluator::new(library, files, policy);
         // After some attempts all at once, so that a wrong kernel is told so in time.
         evaluator.unrolls_all = unrolled.len() > MAX_ATTEMPTS;
         evaluator.unrolled.clone_from(&unrolled);
+        evaluator.steps = steps;
+        evaluator.checked = steps;
         evaluator.builder.graph_mut().invocation = invocation;
         let result = evaluator.kernel(entry, settings);
+        steps = evaluator.steps;
         let failed = result.is_err() || !evaluator.errors.is_empty();
         let last = match &result {
             Err(Exit::Error(last)) => Some(&**last),
@@ -144,6 +150,9 @@ const MAX_ATTEMPTS: usize = 24;
 /// Operations after which a kernel is taken not to end.
 const MAX_STEPS: u64 = 20_000_000;
 
+/// Steps after which time and memory are looked at.
+const STEPS_BETWEEN_CHECKS: u64 = 1 << 10;
+
 /// Nodes after which a kernel is taken to be unrolled by mistake.
 const MAX_NODES: usize = 400_000;
 
@@ -183,15 +192,22 @@ struct Evaluator<'a> {
     errors: Vec<Diagnostic>,
     /// Structures whose parts were named last, and after what: most are given on from function to function.
     named: VecDeque<Named>,
-    /// Constants evaluated so far.
-    consts: HashMap<String, Value>,
+    /// Constants evaluated so far, with the number of nodes there were then.
+    consts: HashMap<String, (usize, Value)>,
     /// Reads made so far.
     sites: u32,
     /// Whether the threads of a workgroup run what is being evaluated.
     in_phase: bool,
     /// Types of the elements of buffers, by buffer.
     elements: Vec<crate::front::tree::Type>,
+    /// Steps of work, those of earlier attempts at the kernel counted.
     steps: u64,
+    /// Steps when time and memory were looked at last.
+    checked: u64,
+    /// Nodes that there may be.
+    most_nodes: usize,
+    /// Whether a limit has been reached.
+    exhausted: bool,
     /// Expressions that are being evaluated, one inside of the other.
     depth: u32,
     /// Who has left the blocks that are being evaluated, first to last.
@@ -235,6 +251,9 @@ impl<'a> Evaluator<'a> {
             in_phase: false,
             elements: Vec::new(),
             steps: 0,
+            checked: 0,
+            most_nodes: MAX_NODES,
+            exhausted: false,
             depth: 0,
             departed: Vec::new(),
             kept_loops: 0,
@@ -248,18 +267,28 @@ impl Evaluator<'_> {
     /// Counts a step of work, so that nothing runs for ever.
     fn step(&mut self, span: Span) -> Eval<()> {
         self.steps += 1;
-        if self.steps > MAX_STEPS || self.builder.graph().nodes.len() > MAX_NODES {
-            let what = if self.steps > MAX_STEPS {
-                format!("evaluation takes more than {MAX_STEPS} steps")
-            } else {
-                format!("the kernel unrolls to more than {MAX_NODES} operations")
+        limits::spend(1);
+        let made = self.builder.graph().nodes.len();
+        let (what, help) = if self.steps > MAX_STEPS {
+            let what = format!("evaluation takes more than {MAX_STEPS} steps");
+            (what, budget::BUDGET_HELP)
+        } else if made > self.most_nodes {
+            let what = format!("the kernel unrolls to more than {} operations", self.most_nodes);
+            (what, budget::BUDGET_HELP)
+        } else {
+            let due = self.steps >= self.checked + STEPS_BETWEEN_CHECKS;
+            let Some(excess) = due.then(|| limits::exceeded(made)).flatten() else {
+                self.checked = if due { self.steps } else { self.checked };
+                return Ok(());
             };
-            let error = Diagnostic::at(span, what)
-                .label("reached here")
-                .help(budget::BUDGET_HELP);
-            return Err(self.loops.blame(error).into());
-        }
-        Ok(())
+            (format!("evaluation takes {excess}"), excess.help())
+        };
+        self.exhausted = true;
+        let function = self.calls.last().cloned().unwrap_or_default();
+        let error = Diagnostic::at(span, what)
+            .label(format!("reached here, in `{function}`"))
+            .help(help);
+        Err(self.loops.blame(error).into())
     }
 
     /// Notes an error; one that is noted already is not noted again.

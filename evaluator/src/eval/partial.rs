@@ -8,8 +8,9 @@ use super::scope::Scope;
 use super::sequence::Columns;
 use super::value::{Eval, Place, Step, Value};
 use crate::diagnostic::Span;
-use crate::ir::{BinaryOp, Counter, Graph, NodeId, Type};
+use crate::ir::{BinaryOp, Counter, Graph, Mark, NodeId, Type};
 use crate::policy::Unroll;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -24,8 +25,7 @@ pub struct Checkpoint {
     kept_loops: u32,
     /// Loops that are left in the shader.
     kept: usize,
-    /// Of each region that is open.
-    effects: Vec<usize>,
+    made: Mark,
 }
 
 impl Checkpoint {
@@ -50,7 +50,7 @@ pub enum Count {
 }
 
 impl Evaluator<'_> {
-    /// A state to return to. Nodes made meanwhile stay, unused.
+    /// A state to return to.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
             scope: self.scope.clone(),
@@ -60,22 +60,54 @@ impl Evaluator<'_> {
             departed: self.departed.clone(),
             kept_loops: self.kept_loops,
             kept: self.kept.len(),
-            effects: self.builder.effects(),
+            made: self.builder.mark(),
         }
     }
 
-    /// Goes back. Gives the first error that was noted meanwhile.
+    /// Goes back, and removes the nodes made meanwhile. Gives the first error that was noted meanwhile.
     pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
         self.counters = before.counters;
         self.departed = before.departed;
         self.kept_loops = before.kept_loops;
         self.kept.truncate(before.kept);
-        self.builder.take_back(&before.effects);
+        self.builder.return_to(&before.made);
+        self.consts.retain(|_, (made, _)| *made <= before.made.nodes);
         self.loops.return_to(before.loops);
         let noted = self.errors.get(before.errors).cloned();
         self.errors.truncate(before.errors);
         noted
+    }
+
+    /// Goes back, but keeps values that consist of constants and of values from before.
+    pub fn return_with(&mut self, mut before: Checkpoint, values: Vec<Value>) -> Vec<Value> {
+        if !values.iter().all(Value::is_plain) {
+            // What a closure took along cannot be made anew.
+            before.made = self.builder.mark().with_effects_of(&before.made);
+            self.return_to(before);
+            return values;
+        }
+        let first = before.made.nodes;
+        let mut leaves = Vec::new();
+        values.iter().for_each(|value| value.flatten(&mut leaves));
+        let mut pending = leaves.clone();
+        let mut lost = BTreeMap::new();
+        while let Some(id) = pending.pop() {
+            let node = self.builder.graph().node(id);
+            if id.0 as usize >= first && !lost.contains_key(&id) {
+                pending.extend(&node.args);
+                lost.insert(id, node.clone());
+            }
+        }
+        self.return_to(before);
+        let mut made: HashMap<NodeId, NodeId> = HashMap::new();
+        // Arguments come before their users.
+        for (id, node) in lost {
+            let args: Vec<NodeId> = node.args.iter().map(|arg| *made.get(arg).unwrap_or(arg)).collect();
+            made.insert(id, self.builder.add(node.op, args, node.ty));
+        }
+        let mut leaves = leaves.into_iter().map(|id| *made.get(&id).unwrap_or(&id));
+        values.iter().map(|value| value.unflatten(&mut leaves)).collect()
     }
 
     /// Leaves a loop in the shader, its body written once or several times in a row.

@@ -91,7 +91,7 @@ impl Evaluator<'_> {
 
     /// A constant of the kernel's files, evaluated once.
     fn constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
-        if let Some(value) = self.consts.get(name) {
+        if let Some(value) = self.consts.get(name).map(|(_, value)| value) {
             return Ok(Some(value.clone()));
         }
         let library = self.library;
@@ -110,7 +110,8 @@ impl Evaluator<'_> {
         self.calls.pop();
         self.scope.leave_function(outer);
         let value = self.ascribe(value?, Some(&constant.ty), constant.value.span)?;
-        self.consts.insert(name.to_owned(), value.clone());
+        let made = self.builder.graph().nodes.len();
+        self.consts.insert(name.to_owned(), (made, value.clone()));
         Ok(Some(value))
     }
 }

@@ -2,12 +2,13 @@
 
 use super::value::{Place, Value};
 use crate::front::name::Name;
+use crate::limits::Held;
 use std::cell::Cell;
 use std::rc::Rc;
 
 /// The variables of all functions being evaluated, each function's after its caller's. By name a function sees its own;
 /// through a mutable reference it reaches those of its callers.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Scope {
     /// Outermost first; a later variable of the same name shadows an earlier one.
     variables: Vec<Variable>,
@@ -15,6 +16,19 @@ pub struct Scope {
     base: usize,
     /// Number of the next variable, shared by all copies: no two variables ever have the same.
     next: Rc<Cell<u32>>,
+    /// Memory of a copy.
+    _held: Option<Held>,
+}
+
+impl Clone for Scope {
+    fn clone(&self) -> Self {
+        Scope {
+            variables: self.variables.clone(),
+            base: self.base,
+            next: Rc::clone(&self.next),
+            _held: Some(Held::new(self.variables.len() * size_of::<Variable>())),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +36,8 @@ struct Variable {
     name: Name,
     id: u32,
     value: Value,
+    /// The same value as other states hold it, until it is assigned: the result of a branch, of which this state knows the constant.
+    shared: Option<Value>,
 }
 
 impl Scope {
@@ -56,6 +72,7 @@ impl Scope {
             name: name.into(),
             id,
             value,
+            shared: None,
         });
         self.variables.len() - 1
     }
@@ -93,7 +110,45 @@ impl Scope {
 
     /// Changes the value at a position; gives the old one.
     pub fn set(&mut self, slot: usize, value: Value) -> Value {
+        self.variables[slot].shared = None;
         std::mem::replace(&mut self.variables[slot].value, value)
+    }
+
+    /// States the constants of a value at a position. The value that was there stays the form that it is joined in.
+    pub fn refine(&mut self, slot: usize, value: Value) {
+        let variable = &mut self.variables[slot];
+        let general = std::mem::replace(&mut variable.value, value);
+        variable.shared = Some(general);
+    }
+
+    /// Lets a variable that has a value in one of two states have any value in the other. Which states it has a value in, the
+    /// states before they are joined tell.
+    pub fn fill_unset(&mut self, other: &mut Scope) {
+        for (a, b) in self.variables.iter_mut().zip(&mut other.variables) {
+            match (&a.value, &b.value) {
+                (Value::Unset, Value::Unset) => {}
+                (Value::Unset, _) => a.value = Value::Blank,
+                (_, Value::Unset) => b.value = Value::Blank,
+                _ => {}
+            }
+        }
+    }
+
+    /// Forgets the form that the value at a position shares with other states.
+    pub fn unshare(&mut self, slot: usize) {
+        self.variables[slot].shared = None;
+    }
+
+    /// The form that the value at a position shares with other states.
+    pub fn shared(&self, slot: usize) -> Option<&Value> {
+        self.variables[slot].shared.as_ref()
+    }
+
+    /// A form of the variable at a position that both states hold: each of them may know it as another constant.
+    pub fn common<'s>(&'s self, other: &'s Scope, slot: usize) -> Option<&'s Value> {
+        let theirs = other.variables[slot].forms();
+        let mut own = self.variables[slot].forms().into_iter().flatten();
+        own.find(|form| theirs.contains(&Some(*form)))
     }
 
     /// Names of the innermost function's variables, each once.
@@ -107,6 +162,13 @@ impl Scope {
     /// Number of variables.
     pub fn len(&self) -> usize {
         self.variables.len()
+    }
+}
+
+impl Variable {
+    /// The value as other states hold it, and as this one knows it.
+    fn forms(&self) -> [Option<&Value>; 2] {
+        [self.shared.as_ref(), Some(&self.value)]
     }
 }
 

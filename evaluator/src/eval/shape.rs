@@ -98,6 +98,18 @@ impl Evaluator<'_> {
                 return Err(Diagnostic::at(span, format!("{} cannot be indexed", other.describe())).into());
             }
         };
+        if elements.len() > MAX_INDEXED {
+            return Err(Diagnostic::at(
+                span,
+                format!(
+                    "an array of {} elements is indexed at run time, or changed in a loop",
+                    elements.len()
+                ),
+            )
+            .label(format!("more than {MAX_INDEXED}"))
+            .help("read it from a `&Buffer`, or unroll the loop")
+            .into());
+        }
         let mut nodes = Vec::new();
         for element in &elements {
             match element {
@@ -210,6 +222,9 @@ impl Evaluator<'_> {
         Ok(pairs?.into_iter().unzip())
     }
 }
+
+/// Elements of an array that is one value of a shader: an instruction of SPIR-V has 65535 words at most.
+const MAX_INDEXED: usize = 65_000;
 
 /// What an array is of, for a message.
 fn kind(element: &Value) -> String {

@@ -5,6 +5,8 @@ use crate::diagnostic::Diagnostic;
 use crate::front::name::Name;
 use crate::front::tree::Closure;
 use crate::ir::NodeId;
+use crate::limits::Held;
+use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -27,7 +29,7 @@ pub enum Value {
     /// A tuple; `()` is empty.
     Tuple(Vec<Value>),
     /// An array with known indices; shared until it is changed.
-    Array(Rc<Vec<Value>>),
+    Array(Rc<Elements>),
     /// Counters from a first to one before an end, for a loop.
     Range(Range),
     /// A text: the name in `tally`.
@@ -64,6 +66,34 @@ pub enum Value {
     Blank,
     /// What an expression with an error gives; using it is no second error.
     Poison,
+}
+
+/// Elements of an array, whose memory is counted.
+#[derive(Clone, Debug)]
+pub struct Elements {
+    elements: Vec<Value>,
+    /// Counts as long as the elements are held.
+    _held: Held,
+}
+
+impl PartialEq for Elements {
+    fn eq(&self, other: &Self) -> bool {
+        self.elements == other.elements
+    }
+}
+
+impl Deref for Elements {
+    type Target = Vec<Value>;
+
+    fn deref(&self) -> &Vec<Value> {
+        &self.elements
+    }
+}
+
+impl DerefMut for Elements {
+    fn deref_mut(&mut self) -> &mut Vec<Value> {
+        &mut self.elements
+    }
 }
 
 /// A closure with the variables that it mentions.
@@ -148,7 +178,8 @@ impl Value {
 
     /// An array of its elements.
     pub fn array(elements: Vec<Value>) -> Value {
-        Value::Array(Rc::new(elements))
+        let held = Held::new(elements.len() * size_of::<Value>());
+        Value::Array(Rc::new(Elements { elements, _held: held }))
     }
 
     /// A structure.
@@ -162,6 +193,18 @@ impl Value {
     /// Whether it can be called.
     pub fn is_called(&self) -> bool {
         matches!(self, Value::Closure(_) | Value::Function(_) | Value::OneOf(..))
+    }
+
+    /// Whether all nodes in it are those that [`Value::flatten`] lists: it holds no closure, range or place.
+    pub fn is_plain(&self) -> bool {
+        match self {
+            Value::Struct { fields, .. } => fields.iter().all(|(_, value)| value.is_plain()),
+            Value::Tuple(parts) => parts.iter().all(Value::is_plain),
+            Value::Array(parts) => parts.iter().all(Value::is_plain),
+            Value::Enum(choice) => choice.all().all(|(_, value)| value.is_plain()),
+            Value::Int(_) | Value::Node(_) | Value::Unset | Value::Blank => true,
+            _ => false,
+        }
     }
 
     /// Whether it is a closure that changes variables around it, or may be one.

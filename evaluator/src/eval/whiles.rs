@@ -4,6 +4,7 @@ use super::Evaluator;
 use super::departures::Tail;
 use super::loops::{Body, Granted, Wish};
 use super::partial::Count;
+use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
@@ -76,8 +77,8 @@ impl Evaluator<'_> {
             refused = match granted {
                 Granted::Kept(unroll) => {
                     // What the loop makes of variables is known where it is known without the loop.
-                    for (slot, value) in after.into_iter().enumerate() {
-                        if self.scope.at(slot).1 != &value && self.is_known(&value) {
+                    for (slot, value) in after {
+                        if self.scope.at(slot).1 != &value {
                             self.scope.set(slot, value);
                         }
                     }
@@ -120,8 +121,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// How many iterations a `while` has, if that is known, and what it makes of the variables.
-    fn counted(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<(Option<u64>, Vec<Value>)> {
+    /// How many iterations a `while` has, if that is known, and the constants that variables are after it.
+    fn counted(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<(Option<u64>, Vec<(usize, Value)>)> {
         let test = Block {
             statements: vec![Statement::Expr(condition.clone())],
             value: None,
@@ -136,27 +137,42 @@ impl Evaluator<'_> {
         if effects.leaves || test.leaves || writes {
             return Ok((None, Vec::new()));
         }
-        let before = self.checkpoint();
+        let (before, initial) = (self.checkpoint(), self.scope.clone());
         let unrolls_all = std::mem::replace(&mut self.unrolls_all, true);
         let mut rounds = 0;
+        let made = self.builder.graph().nodes.len();
+        let most_nodes = self.most_nodes;
+        self.most_nodes = most_nodes.min(made + MAX_COUNTED);
         let counted = self.rounds(condition, body, &mut rounds, span);
         self.unrolls_all = unrolls_all;
+        let too_many = self.exhausted && self.builder.graph().nodes.len() > self.most_nodes;
+        self.most_nodes = most_nodes;
+        if too_many && self.builder.graph().nodes.len() <= most_nodes {
+            self.exhausted = false;
+            self.return_to(before);
+            return Ok((None, Vec::new()));
+        }
         let noted = self.errors.len() > before.errors();
         let ended = counted?.is_some();
         if noted {
             return Err(Exit::Noted);
         }
-        let after = (0..self.scope.len()).map(|slot| self.scope.at(slot).1.clone());
-        let after = if ended { after.collect() } else { Vec::new() };
-        self.return_to(before);
-        Ok((ended.then_some(rounds), after))
+        let mut after = Vec::new();
+        if ended {
+            let values = (0..self.scope.len()).map(|slot| (slot, self.scope.at(slot).1.clone()));
+            let changed = values.filter(|(slot, value)| initial.at(*slot).1 != value);
+            after = changed.filter(|(_, value)| self.is_known(value)).collect();
+        }
+        let (slots, values): (Vec<usize>, Vec<Value>) = after.into_iter().unzip();
+        let values = self.return_with(before, values);
+        Ok((ended.then_some(rounds), slots.into_iter().zip(values).collect()))
     }
 
     /// Whether all numbers in a value are known.
     fn is_known(&self, value: &Value) -> bool {
         let mut leaves = Vec::new();
         value.flatten(&mut leaves);
-        leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
+        value.is_plain() && leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
     }
 
     /// Unrolls a `while`; gives how it ends, or `None` if it goes on at run time. Counts its iterations.
@@ -164,6 +180,8 @@ impl Evaluator<'_> {
         let (mark, since) = (self.scope.enter(), self.departed.len());
         let noted = self.errors.len();
         let mut outcome = Ok(Value::unit());
+        let limit = self.loops.guesses(span);
+        let mut before: Option<Scope> = None;
         loop {
             self.step(span)?;
             let id = self.condition(condition)?;
@@ -172,9 +190,16 @@ impl Evaluator<'_> {
                 Some(false) => break,
                 None => return Ok(None),
             }
-            // Some have left: whether the others ever do is not known.
-            if self.departed.len() > since && *rounds >= MAX_GUESSED {
-                return Ok(None);
+            if self.departed.len() > since {
+                // With nothing new known the next iteration is decided as the last one was, and so are all that follow.
+                let repeats = before.as_ref().is_some_and(|before| self.as_known(before, &self.scope));
+                if repeats || *rounds >= limit {
+                    if !repeats {
+                        self.loops.guessed(span);
+                    }
+                    return Ok(None);
+                }
+                before = Some(self.scope.clone());
             }
             *rounds += 1;
             outcome = self.unless_departed(since, Tail::Open, span, |e| {
@@ -196,8 +221,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// Iterations after which a `while` that some have left is taken to end at run time only.
-const MAX_GUESSED: u64 = 256;
+/// Nodes that are made to count the iterations of a loop, after which its end is left to the shader.
+const MAX_COUNTED: usize = 50_000;
 
 /// Whether an expression may call what writes through a reference that it is given.
 fn has_calls(e: &Expr) -> bool {

@@ -1,6 +1,6 @@
 //! Steps in their order: loops and branches.
 
-use super::{Interpreter, Scratch, store, whole};
+use super::{Interpreter, MOST_ITERATIONS, Scratch, store, whole};
 use crate::ir::arith::Cells;
 use crate::ir::{NodeId, Real, Region, Type};
 use crate::passes::{Block, Schedule, Step};
@@ -70,7 +70,9 @@ impl<R: Real> Interpreter<'_, R> {
     pub(super) fn end_iteration(&self, region: &Region, s: &mut Scratch) -> (Vec<Vec<Cells>>, bool) {
         s.loops.pop();
         let stops = region.stop.is_some_and(|stop| s.values[stop.0 as usize][0] != 0);
-        (self.leaving(region, s), stops)
+        s.iterations += 1;
+        let ended = s.iterations > MOST_ITERATIONS;
+        (self.leaving(region, s), stops || ended)
     }
 
     fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {

@@ -32,6 +32,9 @@ pub struct Interpreter<'a, R: Real = f32> {
     precision: PhantomData<R>,
 }
 
+/// Iterations of all loops of one invocation after which it is taken not to end.
+pub const MOST_ITERATIONS: u64 = 1 << 24;
+
 /// Room for the values of one pixel at a time: make one a thread and use it again.
 #[derive(Clone)]
 pub struct Scratch {
@@ -39,6 +42,8 @@ pub struct Scratch {
     arrays: Vec<Vec<Cells>>,
     /// Counters of the structured loops around, outer ones first.
     loops: Vec<(NodeId, i64)>,
+    /// Iterations of the last invocation, of all its loops.
+    iterations: u64,
     non_finite_origin: Option<NonFiniteOrigin>,
     /// What is written.
     memory: Memories,
@@ -52,6 +57,12 @@ impl Scratch {
     /// Where the last pixel first had a NaN or an infinity, if the interpreter watches for them.
     pub fn non_finite_origin(&self) -> Option<&NonFiniteOrigin> {
         self.non_finite_origin.as_ref()
+    }
+
+    /// Whether the last invocation was ended because its loops had more than [`MOST_ITERATIONS`]: its result is of no account.
+    pub fn is_endless(&self) -> bool {
+        let mut all = std::iter::once(self).chain(&self.threads);
+        all.any(|scratch| scratch.iterations > MOST_ITERATIONS)
     }
 
     /// What the invocations of a workgroup did that has no defined result, the first time.
@@ -149,6 +160,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             values,
             arrays: vec![Vec::new(); self.graph.nodes.len()],
             loops: Vec::new(),
+            iterations: 0,
             non_finite_origin: None,
             memory: Memories::default(),
             local: [0, 0],
@@ -180,6 +192,8 @@ impl<'a, R: Real> Interpreter<'a, R> {
     /// [`Interpreter::target`] tells.
     pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.non_finite_origin = None;
+        scratch.iterations = 0;
+        scratch.threads.iter_mut().for_each(|thread| thread.iterations = 0);
         match scratch.threads.is_empty() {
             true => self.block(&self.schedule.body, [x, y], scratch),
             false => self.workgroup([x, y], scratch),

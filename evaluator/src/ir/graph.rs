@@ -422,6 +422,38 @@ impl<'r> Builder<'r> {
         }
     }
 
+    /// A state to go back to with [`Builder::return_to`].
+    pub fn mark(&self) -> Mark {
+        Mark {
+            nodes: self.graph.nodes.len(),
+            regions: self.graph.regions.len(),
+            events: self.graph.events.len(),
+            effects: self.effects(),
+        }
+    }
+
+    /// Removes all nodes, regions and effects that were made since a mark, at which the same regions were open.
+    pub fn return_to(&mut self, mark: &Mark) {
+        self.take_back(&mark.effects);
+        for k in (mark.nodes..self.graph.nodes.len()).rev() {
+            let node = &self.graph.nodes[k];
+            let mut hash = hash_of(&node.op, &node.args, node.ty);
+            // Last in, first out: no chain of equal hashes is cut. Effects are in none.
+            while let Some(id) = self.known.get(&hash) {
+                if id.0 as usize == k {
+                    self.known.remove(&hash);
+                    break;
+                }
+                hash = hash.wrapping_add(1);
+            }
+        }
+        self.graph.nodes.truncate(mark.nodes);
+        self.graph.origins.truncate(mark.nodes);
+        self.graph.homes.truncate(mark.nodes);
+        self.graph.regions.truncate(mark.regions);
+        self.graph.events.truncate(mark.events);
+    }
+
     /// The node that computes `op` of `args`, if there is one already.
     pub fn find(&self, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
         self.known(op, args, ty).ok()
@@ -429,9 +461,7 @@ impl<'r> Builder<'r> {
 
     /// The node that is equal, or the hash by which it would be known.
     fn known(&self, op: &Op, args: &[NodeId], ty: Type) -> Result<NodeId, u64> {
-        let mut hasher = FxHasher::default();
-        (op, args, ty).hash(&mut hasher);
-        let mut hash = hasher.finish();
+        let mut hash = hash_of(op, args, ty);
         while let Some(id) = self.known.get(&hash) {
             let node = self.graph.node(*id);
             if node.args == args && node.ty == ty && node.op == *op {
@@ -521,4 +551,31 @@ impl<'r> Builder<'r> {
         assert!(self.open.is_empty(), "every region that was opened is closed");
         self.graph
     }
+}
+
+/// State of a builder, by how much it has made.
+#[derive(Clone, Debug)]
+pub struct Mark {
+    /// Number of nodes.
+    pub nodes: usize,
+    regions: usize,
+    events: usize,
+    /// Of each region that is open.
+    effects: Vec<usize>,
+}
+
+impl Mark {
+    /// A later mark, at which there were the effects of an earlier one.
+    pub fn with_effects_of(self, earlier: &Mark) -> Mark {
+        Mark {
+            effects: earlier.effects.clone(),
+            ..self
+        }
+    }
+}
+
+fn hash_of(op: &Op, args: &[NodeId], ty: Type) -> u64 {
+    let mut hasher = FxHasher::default();
+    (op, args, ty).hash(&mut hasher);
+    hasher.finish()
 }

@@ -59,8 +59,8 @@ pub mod verify;
 
 pub use buffer::{Access, Buffer, Element, Field, Structure};
 pub use graph::{
-    Builder, Event, Graph, Invocation, Node, NodeId, Part, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
-    Varying,
+    Builder, Event, Graph, Invocation, Mark, Node, NodeId, Part, Purpose, Region, RegionId, Rules, Sampler, Target,
+    Uniform, Varying,
 };
 pub use memory::{MOST_SHARED_BYTES, Memory, Shared};
 pub use op::{AtomicOp, Axis, BinaryOp, Direction, Op, UnaryOp};

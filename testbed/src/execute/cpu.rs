@@ -3,8 +3,10 @@
 use super::{ExecuteError, Inputs, Written};
 use glam::Vec4;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 use straightline_codegen::Compiled;
-use straightline_codegen::interp::{Bindings, Image, Interpreter, Scratch};
+use straightline_codegen::Unroll;
+use straightline_codegen::interp::{Bindings, Image, Interpreter, MOST_ITERATIONS, Scratch};
 use straightline_codegen::ir::{Access, Op, Real, Scalar};
 use straightline_kernels::prelude::Frame;
 
@@ -107,12 +109,20 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let interpreter = if watch { interpreter.watch() } else { interpreter };
     let [across, down] = compiled.graph.invocation.tile();
     let names = &compiled.graph.targets;
+    let endless = OnceLock::new();
     let row = |scratch: &mut Scratch, row: u32| {
         let (y, mut non_finite_origins) = (row * down, Vec::new());
         let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
         let mut targets = vec![vec![Vec::with_capacity(width as usize); down as usize]; names.len()];
         for x in (0..width).step_by(across as usize) {
+            if endless.get().is_some() {
+                break;
+            }
             let texels = interpreter.invocation(x, y, scratch);
+            if scratch.is_endless() {
+                endless.get_or_init(|| [x, y]);
+                break;
+            }
             non_finite_origins.extend(
                 scratch
                     .non_finite_origin()
@@ -145,6 +155,16 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
             .map_init(|| interpreter.scratch(), row)
             .collect(),
     };
+    if let Some([x, y]) = endless.get() {
+        let loops = compiled.loops.iter().filter(|report| report.unroll != Unroll::Full);
+        let named: Vec<String> = loops.map(|report| format!("`{}`", report.path())).collect();
+        return Err(ExecuteError::Input(format!(
+            "`{}` does not end at the pixel ({x}, {y}): its loops {} have more than {MOST_ITERATIONS} iterations there; bound them: \
+             `#[cfg_attr(false, bound(64))]`",
+            compiled.kernel,
+            named.join(", ")
+        )));
+    }
     if let Some(disorder) = last.disorder() {
         return Err(ExecuteError::Input(format!("`{}`: {disorder}", compiled.kernel)));
     }

@@ -1,6 +1,7 @@
 //! No statement for a value that nothing uses, and none that does nothing.
 
 use crate::emit::ast::{Block, Module, Op, Stmt, StmtKind, VarId};
+use straightline_evaluator::limits;
 
 /// How often each variable is read, by variable.
 pub fn uses(module: &Module<'_>) -> Vec<u32> {
@@ -36,6 +37,11 @@ fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
 /// Removes variables that nothing reads with what is assigned to them, branches without statements, and tables.
 pub fn remove(module: &mut Module<'_>) {
     loop {
+        limits::spend(u64::from(super::super::ast::count(&module.body)));
+        if limits::exceeded(0).is_some() {
+            // What is left over is dead, but not wrong; who asked for the text is refused it.
+            return;
+        }
         let uses = uses(module);
         let is_used = |var: VarId| uses[var.0 as usize] > 0;
         let mut removed = false;

@@ -10,6 +10,7 @@ mod statements;
 
 use super::ast::Module;
 use straightline_evaluator::ir::Graph;
+use straightline_evaluator::limits;
 use straightline_evaluator::policy::ReadOrder;
 
 pub use simplify::simplify;
@@ -27,7 +28,7 @@ pub fn tidy(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) {
     loop {
         module.rewrite(&mut |_, expr| simplify(expr));
         dead::remove(module);
-        if !inline::inline(module, graph, reads) {
+        if !inline::inline(module, graph, reads) || limits::exceeded(0).is_some() {
             break;
         }
     }

@@ -1,0 +1,196 @@
+//! Compile-time constants of one state among several.
+//!
+//! A branch or loop in the shader has one set of results for all states in which it is left. A state that goes on, or takes one
+//! exit, may know a variable as a constant where the result is a runtime value: `break` after `found = 3` leaves with 3. Keeping
+//! such constants apart is what lets an unrolled loop around the branch count its iterations.
+
+use super::Evaluator;
+use super::departures::State;
+use super::enums::{Choice, Tag};
+use super::scope::Scope;
+use super::value::{Value, Way};
+use crate::ir::{NodeId, Op};
+use std::rc::Rc;
+
+impl Evaluator<'_> {
+    /// The merged scope as one state knows it: the state that takes `way`, or of `None` the one that goes on.
+    pub fn in_state(&self, merged: &Scope, states: &[State], way: Option<&Way>) -> Scope {
+        let mut scope = merged.clone();
+        let states: Vec<&Scope> = states.iter().filter(|s| s.goes(way)).map(|s| &s.scope).collect();
+        if states.is_empty() {
+            return scope;
+        }
+        for slot in 0..merged.len() {
+            if states.iter().any(|state| state.len() <= slot) {
+                break;
+            }
+            let joined = merged.at(slot).1;
+            let values: Vec<&Value> = states.iter().map(|state| state.at(slot).1).collect();
+            if let Some(value) = self.refined(joined, &values) {
+                scope.refine(slot, value);
+            }
+        }
+        scope
+    }
+
+    /// A value with the constants that all of `states` agree on; `None` if they add none.
+    pub fn refined(&self, joined: &Value, states: &[&Value]) -> Option<Value> {
+        let (first, others) = states.split_first()?;
+        match joined {
+            Value::Unset => None,
+            // Given a value in some of the states alone, a variable has none.
+            _ if states.contains(&&Value::Unset) => Some(Value::Unset),
+            _ if shares(joined, first) && others.iter().all(|value| shares(joined, value)) => None,
+            Value::Node(id) => {
+                let agreed = others.iter().all(|value| value == first);
+                let known = match first {
+                    Value::Int(_) => true,
+                    Value::Node(node) => {
+                        self.ty(*node) == self.ty(*id) && self.builder.graph().constant(*node).is_some()
+                    }
+                    _ => false,
+                };
+                (agreed && known && joined != *first).then(|| (*first).clone())
+            }
+            Value::Struct { ty, fields } => {
+                let parts: Vec<&Value> = fields.iter().map(|(_, value)| value).collect();
+                let refined = self.refined_parts(&parts, states, |value, k| match value {
+                    Value::Struct { ty: other, fields } if ty == other => fields.get(k).map(|(_, part)| part),
+                    _ => None,
+                })?;
+                let names = fields.iter().map(|(name, _)| name.clone());
+                Some(Value::structure(ty.clone(), names.zip(refined).collect()))
+            }
+            Value::Tuple(parts) => {
+                let parts: Vec<&Value> = parts.iter().collect();
+                let refined = self.refined_parts(&parts, states, |value, k| match value {
+                    Value::Tuple(parts) => parts.get(k),
+                    _ => None,
+                });
+                refined.map(Value::Tuple)
+            }
+            Value::Array(parts) => {
+                let parts: Vec<&Value> = parts.iter().collect();
+                let refined = self.refined_parts(&parts, states, |value, k| match value {
+                    Value::Array(parts) => parts.get(k),
+                    _ => None,
+                });
+                refined.map(Value::array)
+            }
+            Value::Enum(choice) => self.refined_choice(choice, states),
+            _ => None,
+        }
+    }
+
+    /// Each part refined by what the states hold at its position, or as it was; `None` if none is refined.
+    fn refined_parts(
+        &self,
+        parts: &[&Value],
+        states: &[&Value],
+        part_of: impl for<'v> Fn(&'v Value, usize) -> Option<&'v Value>,
+    ) -> Option<Vec<Value>> {
+        let mut any = false;
+        let mut refined = Vec::with_capacity(parts.len());
+        for (k, part) in parts.iter().enumerate() {
+            let of_states: Option<Vec<&Value>> = states.iter().map(|value| part_of(value, k)).collect();
+            let better = of_states.and_then(|values| self.refined(part, &values));
+            any |= better.is_some();
+            refined.push(better.unwrap_or_else(|| (*part).clone()));
+        }
+        any.then_some(refined)
+    }
+
+    /// A value of an enum of which the states agree on the variant.
+    fn refined_choice(&self, joined: &Choice, states: &[&Value]) -> Option<Value> {
+        let choice_of = |value: &Value| match value {
+            Value::Enum(choice) if choice.ty == joined.ty => self.known_variant(choice),
+            _ => None,
+        };
+        let (first, others) = states.split_first()?;
+        let variant = choice_of(first)?;
+        if others.iter().any(|other| choice_of(other) != Some(variant)) {
+            return None;
+        }
+        let fields = joined.fields(variant)?;
+        let parts: Vec<&Value> = fields.iter().map(|(_, value)| value).collect();
+        let refined = self.refined_parts(&parts, states, |value, k| match value {
+            Value::Enum(choice) => choice.fields(variant)?.get(k).map(|(_, part)| part),
+            _ => None,
+        });
+        if refined.is_none() && self.known_variant(joined) == Some(variant) {
+            return None;
+        }
+        let refined = refined.unwrap_or_else(|| parts.into_iter().cloned().collect());
+        let names = fields.iter().map(|(name, _)| name.clone());
+        let mut held = vec![None; joined.held.len()];
+        held[variant] = Some(names.zip(refined).collect());
+        Some(Value::Enum(Rc::new(Choice {
+            ty: joined.ty.clone(),
+            tag: Tag::Known(variant),
+            held,
+        })))
+    }
+
+    /// Whether two scopes hold the same compile-time constants, and no constant where the other holds none. What is decided at
+    /// compile time is decided alike in both.
+    pub fn as_known(&self, a: &Scope, b: &Scope) -> bool {
+        a.len() == b.len() && (0..a.len()).all(|slot| self.value_as_known(a.at(slot).1, b.at(slot).1))
+    }
+
+    fn value_as_known(&self, a: &Value, b: &Value) -> bool {
+        let all =
+            |a: &[Value], b: &[Value]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| self.value_as_known(a, b));
+        match (a, b) {
+            _ if shares(a, b) => true,
+            (Value::Node(a), Value::Node(b)) => self.node_as_known(*a, *b),
+            (
+                Value::Struct { ty, fields },
+                Value::Struct {
+                    ty: other,
+                    fields: others,
+                },
+            ) => {
+                let mut pairs = fields.iter().zip(others.iter());
+                ty == other && pairs.all(|((_, a), (_, b))| self.value_as_known(a, b))
+            }
+            (Value::Tuple(a), Value::Tuple(b)) => all(a, b),
+            (Value::Array(a), Value::Array(b)) => all(a, b),
+            (Value::Enum(a), Value::Enum(b)) => {
+                let held = |choice: &Choice| choice.held.iter().map(Option::is_some).collect::<Vec<_>>();
+                let mut pairs = a.all().zip(b.all());
+                a.ty == b.ty
+                    && self.known_variant(a) == self.known_variant(b)
+                    && held(a) == held(b)
+                    && pairs.all(|((_, a), (_, b))| self.value_as_known(a, b))
+            }
+            _ => a == b,
+        }
+    }
+
+    fn node_as_known(&self, a: NodeId, b: NodeId) -> bool {
+        let graph = self.builder.graph();
+        let (x, y) = (graph.node(a), graph.node(b));
+        match (&x.op, &y.op) {
+            _ if a == b => true,
+            // Parts of these are read as they were put in.
+            (Op::Compose, Op::Compose) | (Op::MakeArray, Op::MakeArray) => {
+                let mut pairs = x.args.iter().zip(y.args.iter());
+                x.ty == y.ty && x.args.len() == y.args.len() && pairs.all(|(a, b)| self.node_as_known(*a, *b))
+            }
+            (Op::Const(_), _) | (_, Op::Const(_)) => false,
+            _ => x.ty == y.ty && !x.ty.is_array(),
+        }
+    }
+}
+
+/// Whether two values are one and the same, as far as that is quick to say.
+fn shares(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Node(a), Value::Node(b)) => a == b,
+        (Value::Int(a), Value::Int(b)) => a == b,
+        (Value::Array(a), Value::Array(b)) => Rc::ptr_eq(a, b),
+        (Value::Struct { fields: a, .. }, Value::Struct { fields: b, .. }) => Rc::ptr_eq(a, b),
+        (Value::Enum(a), Value::Enum(b)) => Rc::ptr_eq(a, b),
+        _ => false,
+    }
+}
