@@ -49,6 +49,11 @@ pub fn against_rustc(options: &Options) -> Result<(), String> {
         total.into_inner().expect("no thread panicked"),
         failures.into_inner().expect("no thread panicked"),
     );
+    let outliers = total.works.outliers();
+    for outlier in &outliers {
+        println!("work: {outlier}");
+    }
+    let failures = failures + outliers.len() as u64;
     for (what, reasons) in [("refused", &total.refused), ("not Rust", &total.unusable)] {
         let mut reasons: Vec<_> = reasons.iter().collect();
         reasons.sort_by_key(|(_, reason)| std::cmp::Reverse(reason.kernels));

@@ -1,5 +1,6 @@
 //! One kernel in every form, against what rustc's program computes.
 
+use super::works::Works;
 use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, Form, is_internal, same};
 use std::collections::BTreeMap;
@@ -90,6 +91,8 @@ pub struct Tally {
     pub refused: BTreeMap<String, Reason>,
     /// Texts that rustc refuses, by the error: mistakes of the maker.
     pub unusable: BTreeMap<String, Reason>,
+    /// Work of compiling each kernel to each form.
+    pub works: Works,
 }
 
 impl Tally {
@@ -100,6 +103,7 @@ impl Tally {
         self.written += other.written;
         self.panics += other.panics;
         self.empty += other.empty;
+        self.works.merge(&other.works);
         for (why, reason) in &other.refused {
             Reason::note(&mut self.refused, why.clone(), reason.kernels, reason.seed);
         }
@@ -134,10 +138,26 @@ pub enum NotRun {
 ///
 /// The generator refuses it, or the interpreter cannot run it.
 pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Given, NotRun> {
+    worked(kernel, form, world).map(|(given, _)| given)
+}
+
+/// As [`interpret`], with the work of compiling the kernel.
+fn worked(kernel: &Kernel, form: Form, world: &World) -> Result<(Given, u64), NotRun> {
     let compiled = kernel
         .compile(&form.settings())
         .map_err(|errors| NotRun::Refused(errors.diagnostics[0].message.clone()))?;
-    computed::<f32>(&compiled, world).map_err(NotRun::Failed)
+    let given = computed::<f32>(&compiled, world).map_err(NotRun::Failed)?;
+    Ok((given, compiled.work))
+}
+
+/// Work of a kernel that is refused for its size.
+const REFUSED: u64 = 20_000_000;
+
+/// Whether an error says that a kernel takes too much.
+fn is_of_size(message: &str) -> bool {
+    ["unrolls to more than", "takes more than"]
+        .iter()
+        .any(|part| message.contains(part))
 }
 
 /// Compares what every form gives with what the native program does; what was seen is added to the tally.
@@ -148,12 +168,18 @@ pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Given, No
 pub fn compare(text: &Text, world: &World, native: &Given, tally: &mut Tally) -> Result<(), Difference> {
     let kernel = Kernel::from_text("random.rs", &text.file(), "k");
     for form in FORMS {
-        let run = || interpret(&kernel, *form, world);
+        let run = || worked(&kernel, *form, world);
         let found = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
         let found = match found.map_err(|panic| Difference::Panicked(said(&*panic)))? {
-            Ok(found) => found,
+            Ok((found, work)) => {
+                tally.works.add(text.source.len(), work, text.seed, form);
+                found
+            }
             Err(NotRun::Refused(why)) if is_internal(&why) => return Err(Difference::Internal(*form, why)),
             Err(NotRun::Refused(why)) => {
+                if is_of_size(&why) {
+                    tally.works.add(text.source.len(), REFUSED, text.seed, form);
+                }
                 Reason::note(&mut tally.refused, why, 1, text.seed);
                 return Ok(());
             }

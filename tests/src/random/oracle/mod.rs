@@ -10,6 +10,7 @@ mod interface;
 mod reduce;
 mod rustc;
 pub mod same;
+pub mod works;
 mod world;
 
 pub use batch::run;
