@@ -7,7 +7,7 @@ use crate::table;
 use serde_json::{Map, Value, json};
 use straightline_codegen::emit::Target;
 use straightline_codegen::passes::{Gathered, Sharing};
-use straightline_codegen::{Compiled, EmitOptions, ReadOrder};
+use straightline_codegen::{Compiled, EmitOptions, ReadOrder, Unroll};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
@@ -286,10 +286,26 @@ fn print_loops(compiled: &Compiled) {
     out!("{}", table::render(&["Loop", "unroll", "copies", "operations"], &loops));
     for report in &compiled.loops {
         if let Some(reason) = &report.reason {
-            outln!("`{}` was unrolled: {reason}", report.path());
+            let became = match report.unroll {
+                Unroll::Full => "was unrolled",
+                _ => "was left in the shader",
+            };
+            outln!("`{}` {became}: {reason}", report.path());
         }
     }
+    let most = compiled.loops.iter().max_by_key(|report| report.copies);
+    if let Some(report) = most.filter(|r| r.copies >= MANY_COPIES && matches!(r.unroll, Unroll::Partial(_))) {
+        let (path, unroll) = (report.path(), report.unroll);
+        outln!(
+            "`{path}` is written {} times: the factors of loops in loops multiply; give one to this loop alone: `--unroll none --unroll-loop {path}={}`",
+            report.copies,
+            unroll.to_string().trim_start_matches("partial(").trim_end_matches(')')
+        );
+    }
 }
+
+/// Copies of a loop's body after which a factor was meant for fewer loops.
+const MANY_COPIES: u64 = 64;
 
 fn row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
     vec![
