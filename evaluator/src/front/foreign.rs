@@ -47,6 +47,36 @@ fn method_of(name: &str, of: &str) -> bool {
     name.split_once("::").is_some_and(|(ty, _)| ty == of)
 }
 
+/// Whether a path may be that of a function by its last segment alone: of one in a module, which functions are found without. What
+/// stands behind a type, or in a module of the standard library, is none.
+pub fn is_by_last(path: &[String]) -> bool {
+    let [.., of, name] = path else {
+        return path.len() == 1;
+    };
+    let of_rust = match of.as_str() {
+        "array" => name == "from_fn",
+        "mem" => matches!(name.as_str(), "swap" | "replace" | "take"),
+        "cmp" => matches!(name.as_str(), "min" | "max"),
+        of => is_prelude_type(of),
+    };
+    !of_rust && !of.starts_with(char::is_uppercase)
+}
+
+/// Types of the prelude that a host binds.
+pub fn is_resource(name: &str) -> bool {
+    let others = [
+        "Sampler",
+        "ComparisonSampler",
+        "Buffer",
+        "AtomicBuffer",
+        "StorageBuffer",
+        "StorageTexture",
+        "Shared",
+        "AtomicShared",
+    ];
+    TextureType::named(name).is_some() || others.contains(&name)
+}
+
 /// Types of Rust, of glam and of the prelude, which the evaluator knows by their names.
 pub fn is_prelude_type(name: &str) -> bool {
     let vector = ["Vec", "IVec", "UVec", "BVec", "Mat"];
@@ -55,18 +85,10 @@ pub fn is_prelude_type(name: &str) -> bool {
             .is_some_and(|n| matches!(n, "2" | "3" | "4" | "3A"))
     };
     vector.iter().any(numbered)
-        || TextureType::named(name).is_some()
+        || is_resource(name)
         || matches!(
             name,
-            "Sampler"
-                | "ComparisonSampler"
-                | "Buffer"
-                | "AtomicBuffer"
-                | "StorageBuffer"
-                | "StorageTexture"
-                | "Quad"
-                | "Shared"
-                | "AtomicShared"
+            "Quad"
                 | "bool"
                 | "char"
                 | "str"
