@@ -35,7 +35,8 @@ fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
 
 /// Removes variables that nothing reads with what is assigned to them, branches without statements, and tables.
 pub fn remove(module: &mut Module<'_>) {
-    loop {
+    // Each turn but the last takes a statement away, and the first may take only tables.
+    for _ in 0..=crate::emit::ast::count(&module.body) + 1 {
         let uses = uses(module);
         let is_used = |var: VarId| uses[var.0 as usize] > 0;
         let mut removed = false;
