@@ -1,6 +1,7 @@
 //! Which function of a file is its kernel, where nobody names it.
 
 use super::foreign::is_resource;
+use super::raw::unraw;
 use crate::diagnostic::Diagnostic;
 use std::collections::BTreeSet;
 
@@ -16,7 +17,7 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
     if super::depth::check(0, &text).is_err() {
         return Ok(wanted.to_owned());
     }
-    let Ok(file) = syn::parse_file(&text) else {
+    let Ok(file) = super::raw::parse_file(&text) else {
         return Ok(wanted.to_owned());
     };
     let of_resources = structures_of_resources(&file.items);
@@ -37,7 +38,8 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
             Takes::Other => {}
         }
     }
-    if of_pixels.iter().chain(&of_numbers).any(|name| *name == wanted) {
+    let name = |ident: &syn::Ident| unraw(&ident.to_string()).to_owned();
+    if of_pixels.iter().chain(&of_numbers).any(|ident| name(ident) == wanted) {
         return Ok(wanted.to_owned());
     }
     let found = if of_pixels.is_empty() { of_numbers } else { of_pixels };
@@ -45,16 +47,16 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
         return Err(Box::new(no_kernel(&functions, wanted, path)));
     };
     if others.is_empty() {
-        return Ok(first.to_string());
+        return Ok(name(first));
     }
-    let names: Vec<String> = found.iter().map(|name| format!("`{name}`")).collect();
+    let names: Vec<String> = found.iter().map(|ident| format!("`{}`", name(ident))).collect();
     let what = format!(
         "`{path}` has several functions that may be its kernel: {}",
         names.join(", ")
     );
     let mut error = Diagnostic::at(super::place(0, first.span()), what)
         .label("one of them")
-        .help(format!("name one of them: `{path}::{first}`"));
+        .help(format!("name one of them: `{path}::{}`", name(first)));
     for other in others {
         error = error.other(super::place(0, other.span()), "another");
     }
@@ -64,7 +66,9 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
 /// The error of a file that has no kernel.
 fn no_kernel(functions: &[&syn::ItemFn], wanted: &str, path: &str) -> Diagnostic {
     let what = format!("`{path}` has no public function that takes and gives what a kernel does");
-    let private = functions.iter().find(|f| f.sig.ident == wanted && !is_public(f));
+    let private = functions
+        .iter()
+        .find(|f| unraw(&f.sig.ident.to_string()) == wanted && !is_public(f));
     match private {
         Some(function) => Diagnostic::at(super::place(0, function.sig.ident.span()), what)
             .label("private")

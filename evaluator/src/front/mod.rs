@@ -27,6 +27,7 @@ mod options;
 mod parts;
 mod pattern;
 mod purposes;
+mod raw;
 mod reach;
 mod recursive;
 mod scan;
@@ -45,6 +46,7 @@ use ::std::sync::Arc;
 pub use expr::INFERRED;
 pub use foreign::{is_by_last, is_prelude_type};
 pub use kernels::kernel_of;
+pub use raw::{raw, unraw};
 pub use scan::{assigned, breaks, children, mentioned_in};
 pub use traits::is_of_rust;
 pub use tree::Library;
@@ -74,7 +76,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
             errors.push(*error);
             continue;
         }
-        match syn::parse_file(&text) {
+        match raw::parse_file(&text) {
             Ok(parsed) => syntax.push((index as u32, parsed)),
             Err(error) => errors.push(syntax_error(index as u32, &text, &error)),
         }
@@ -93,7 +95,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
         Ok(mut parsed) => items.file(std::FILE, &mut parsed),
         Err(error) => return Err(Errors::of(syntax_error(std::FILE, "", &error))),
     }
-    let mut parsed = items.lower(entry).map_err(|found| Errors::new(found, files))?;
+    let mut parsed = items.lower(&raw(entry)).map_err(|found| Errors::new(found, files))?;
     parsed.library.purposes = purposes::of(&parsed.library);
     Ok(parsed)
 }
