@@ -1,6 +1,6 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
-use super::ast::{Module, Stmt, StmtKind, VarId, Variable};
+use super::ast::{self, Expr, Module, Stmt, StmtKind, VarId, Variable};
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
@@ -236,6 +236,7 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
         taken.extend(OF_GROUPS.map(str::to_owned));
     }
     taken.extend(resources.names().map(str::to_owned));
+    rename_functions(module, &taken);
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
     let mut scopes = Scopes {
         variables: &mut module.variables,
@@ -253,6 +254,43 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
         scopes.leave(declared);
     }
     scopes.block(&module.body);
+}
+
+/// Gives functions of the module's other names where theirs are those of something else at module scope.
+fn rename_functions(module: &mut Module<'_>, taken: &HashSet<String>) {
+    let mut names: HashMap<String, String> = HashMap::new();
+    for function in &module.functions {
+        let mut name = function.name.clone();
+        while taken.contains(&name) {
+            name.push_str("_of");
+        }
+        if name != function.name {
+            names.insert(function.name.clone(), name);
+        }
+    }
+    if names.is_empty() {
+        return;
+    }
+    let mut rename = |mut expr: Expr| {
+        if let ast::Op::Function(name) = &mut expr.op
+            && let Some(other) = names.get(name)
+        {
+            name.clone_from(other);
+        }
+        expr
+    };
+    let bodies = module.functions.iter_mut().map(|function| &mut function.body);
+    for stmt in bodies.flatten().chain(&mut module.body) {
+        stmt.rewrite(&mut rename);
+    }
+    for (_, value) in &mut module.tables {
+        value.rewrite_in_place(&mut rename);
+    }
+    for function in &mut module.functions {
+        if let Some(name) = names.get(&function.name) {
+            function.name.clone_from(name);
+        }
+    }
 }
 
 /// Names in scopes: what is declared in a block is free again after it.
