@@ -127,6 +127,17 @@ pub struct Division {
     pub positive: bool,
 }
 
+/// What is known of the arguments of a function of floats whose edges a shader may have to keep by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Domain {
+    /// No component of the first argument is a NaN or below 0; it may be -0.
+    pub not_negative: bool,
+    /// Every component of the first argument is greater than 0, and normal.
+    pub positive: bool,
+    /// Of a remainder, the quotient is less than 2048.
+    pub bounded: bool,
+}
+
 /// What an expression does with its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Op {
@@ -134,6 +145,8 @@ pub enum Op {
     Ir(ir::Op),
     /// A division or remainder of integers.
     Division(BinaryOp, Division),
+    /// A function of floats whose arguments may lie where drivers depart from it.
+    Guarded(ir::Op, Domain),
     /// A conversion. `fits` says of integers that every precision has finite numbers as large, of floats that the target type has
     /// an integer for each of them.
     Convert {

@@ -216,15 +216,14 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Binary(op), [x, y], ty))
             }
             "powi" if ty.is_float() => match self.known_int(a) {
-                Some(n @ 1..=64) => Some(self.power(x, n)),
-                _ => {
-                    return Err(Diagnostic::at(
-                        span,
-                        "the power of `powi` must be a compile-time constant from 1 to 64",
-                    )
-                    .label("a runtime value, or another number")
-                    .help("write `powf`, which takes any power of what is not negative")
-                    .into());
+                Some(n) => Some(self.power(x, n)),
+                None => {
+                    return Err(
+                        Diagnostic::at(span, "the power of `powi` must be a compile-time constant")
+                            .label("a runtime value")
+                            .help("write `powf`, which takes runtime powers: `x.powf(n as f32)`")
+                            .into(),
+                    );
                 }
             },
             "dot" if float_vector => {
@@ -264,22 +263,24 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `x` to a power of at least 1 by squares, the lowest first, as Rust multiplies.
-    fn power(&mut self, x: NodeId, mut n: i64) -> NodeId {
+    /// `x` to a power by squares, the lowest first, as Rust multiplies; for a negative power the reciprocal of that.
+    fn power(&mut self, x: NodeId, n: i64) -> NodeId {
         let ty = self.ty(x);
-        let (mut square, mut power) = (x, None);
-        loop {
-            if n % 2 == 1 {
-                power = Some(match power {
-                    None => square,
-                    Some(power) => self.builder.add(Op::Binary(BinaryOp::Mul), [power, square], ty),
-                });
+        let one = self.builder.f32(1.0);
+        let one = self.splat(one, ty.components());
+        let (mut square, mut power, mut left) = (x, one, n.unsigned_abs());
+        while left > 0 {
+            if left % 2 == 1 {
+                power = self.builder.add(Op::Binary(BinaryOp::Mul), [power, square], ty);
             }
-            n /= 2;
-            match power {
-                Some(power) if n == 0 => return power,
-                _ => square = self.builder.add(Op::Binary(BinaryOp::Mul), [square, square], ty),
+            left /= 2;
+            if left > 0 {
+                square = self.builder.add(Op::Binary(BinaryOp::Mul), [square, square], ty);
             }
+        }
+        match n < 0 {
+            true => self.builder.add(Op::Binary(BinaryOp::Div), [one, power], ty),
+            false => power,
         }
     }
 

@@ -233,7 +233,7 @@ pub enum UnaryOp {
     Round,
     Trunc,
     Fract,
-    /// Between 0 and 1; of a NaN a number.
+    /// Between 0 and 1; of a NaN 0, of -0 too.
     Saturate,
     Sqrt,
     InverseSqrt,

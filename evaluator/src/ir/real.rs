@@ -62,14 +62,17 @@ macro_rules! real {
                     Abs => x.abs(),
                     Sign if x > 0.0 => 1.0,
                     Sign if x < 0.0 => -1.0,
-                    Sign => x * 0.0,
+                    // A zero keeps its sign; a NaN has none.
+                    Sign if x == 0.0 => x,
+                    Sign => 0.0,
                     Floor => x.floor(),
                     Ceil => x.ceil(),
                     Round => x.round_ties_even(),
                     Trunc => x.trunc(),
                     Fract => x - x.floor(),
-                    // Not `clamp`, which gives a NaN back.
-                    Saturate => x.min(1.0).max(0.0),
+                    // Not `clamp`, which returns a NaN: it is 0 here, as in hardware.
+                    Saturate if x > 0.0 => x.min(1.0),
+                    Saturate => 0.0,
                     Sqrt => x.sqrt(),
                     InverseSqrt => 1.0 / x.sqrt(),
                     Cbrt => x.cbrt(),

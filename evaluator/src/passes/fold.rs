@@ -3,7 +3,7 @@
 //! Each rule rewrites towards fewer or simpler nodes and says why it is exact where that is not plain. What may
 //! change a rounding, a NaN or the sign of a zero has no place here.
 
-use super::ranges;
+use super::{edges, ranges};
 use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith, usize_value};
 
 /// The exact rules.
@@ -17,6 +17,7 @@ impl Rules for Exact {
             .or_else(|| ranges::within(b.graph(), op, args, ty))
             .or_else(|| ranges::clamp(b, op, args, ty))
             .or_else(|| ranges::compared(b, op, args))
+            .or_else(|| edges::at_constants(b, op, args, ty))
             .or_else(|| algebra(b, op, args))
             .or_else(|| exchanged(b, op, args, ty))
     }

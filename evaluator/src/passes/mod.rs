@@ -4,6 +4,7 @@
 
 mod coordinates;
 mod count;
+mod edges;
 mod fast;
 mod floor;
 mod fold;

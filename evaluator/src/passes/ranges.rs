@@ -30,7 +30,7 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
             let x = f32::from_bits(*lane);
             x.is_nan() || x.is_sign_positive()
         }),
-        Op::Unary(UnaryOp::Abs | UnaryOp::Exp | UnaryOp::Exp2) => true,
+        Op::Unary(UnaryOp::Abs | UnaryOp::Exp | UnaryOp::Exp2 | UnaryOp::Saturate) => true,
         Op::Unary(UnaryOp::Sqrt | UnaryOp::InverseSqrt) | Op::Tally(_) | Op::Splat | Op::Extract(_) => known(0),
         // A sum of such values is one; so is their product, their quotient, and the square of anything.
         Op::Binary(BinaryOp::Mul) if node.args[0] == node.args[1] => true,

@@ -45,23 +45,24 @@ pub fn round<T: Floats>(x: T) -> T {
     x.map(f32::round_ties_even)
 }
 
-/// 1, -1, or 0 for 0, where `f32::signum` has no 0. Of a NaN, a NaN.
+/// 1, -1, or `x` itself where that is a zero, where `f32::signum` has no 0. Of a NaN, 0.
 pub fn sign<T: Floats>(x: T) -> T {
     x.map(|x| {
         if x > 0.0 {
             1.0
         } else if x < 0.0 {
             -1.0
+        } else if x.is_nan() {
+            0.0
         } else {
-            x * 0.0
+            x
         }
     })
 }
 
-/// `x` between 0 and 1.
-#[allow(clippy::manual_clamp)] // of a NaN this gives a number, as in the graph
+/// `x` between 0 and 1. Of a NaN, 0, as GPUs have it.
 pub fn saturate<T: Floats>(x: T) -> T {
-    x.map(|x| x.min(1.0).max(0.0))
+    x.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 })
 }
 
 /// `1 / sqrt(x)`.
@@ -84,7 +85,7 @@ pub fn step(edge: f32, x: f32) -> f32 {
     if x < edge { 0.0 } else { 1.0 }
 }
 
-/// 0 up to `low`, 1 from `high`, a cubic between: `t * t * (3 - 2 * t)`.
+/// 0 up to `low`, 1 from `high`, a cubic between: `t * t * (3 - 2 * t)`. Where `low` equals `high`, 0 up to it and 1 beyond.
 pub fn smoothstep<T: Floats>(low: f32, high: f32, x: T) -> T {
     x.map(|x| {
         let t = saturate((x - low) / (high - low));

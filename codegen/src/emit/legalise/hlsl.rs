@@ -1,8 +1,8 @@
 //! HLSL: what it has no operator for, what it leaves open, and arrays, which it sets element by element.
 
 use super::{
-    Rule, below_32, both, by_component, componentwise, guarded, inside, is_non_finite, is_simple, take, to_integer,
-    zeros,
+    Rule, below_32, both, by_component, componentwise, guarded, guards::unequal, inside, is_non_finite, is_simple,
+    rewrite_functions, take, to_integer, zeros,
 };
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::print::hlsl_type;
@@ -10,6 +10,7 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites a module for HLSL.
 pub fn legalise(module: &mut Module<'_>) {
+    rewrite_functions(module, rule);
     module.rewrite(&mut rule);
     let body = std::mem::take(&mut module.body);
     module.body = {
@@ -115,9 +116,10 @@ fn unary(op: UnaryOp, expr: Expr) -> Expr {
 }
 
 fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
-    use BinaryOp::{And, Or, Rem, Shl, Shr};
+    use BinaryOp::{And, Ne, Or, Rem, Shl, Shr};
     let bools = expr.ty.kind() == Some(Scalar::Bool);
     match op {
+        Ne => unequal(expr),
         Rem if expr.ty.is_float() => {
             expr.op = Op::Call("fmod");
             expr

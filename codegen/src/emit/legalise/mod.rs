@@ -3,6 +3,7 @@
 //! Each language has its rule, which sees every expression after its arguments and gives what stands for it.
 
 mod glsl;
+mod guards;
 mod half;
 mod hlsl;
 mod wgsl;
@@ -10,40 +11,51 @@ mod zeroed;
 
 use super::ast::{Division, Expr, Function, Module, Op, StmtKind, Ty};
 use super::resources::Resources;
-use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type};
+
+use guards::Overloads;
 
 pub use half::half;
 
 /// Rewrites a module for WGSL.
 pub fn wgsl(module: &mut Module<'_>) {
-    // One name is that of one function.
-    let name = |ty: Ty| match ty.is_scalar() {
-        true => "cube_root".to_owned(),
-        false => format!("cube_root_{}", super::print::wgsl_type(ty)),
-    };
-    module.rewrite(&mut |module, expr| {
-        let name = name(expr.ty);
-        cube_root(module, expr, &name)
-    });
+    module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::None));
     wgsl::legalise(module);
 }
 
 /// Rewrites a module for GLSL, for Vulkan or for OpenGL.
 pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
     zeroed::begin(module, resources);
-    module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
-    module.rewrite(&mut if vulkan { glsl::vulkan } else { glsl::opengl });
+    let overloads = match vulkan {
+        true => Overloads::Vectors,
+        false => Overloads::Scalars,
+    };
+    module.rewrite(&mut |module, expr| guards::expand(module, expr, overloads));
+    let rule: Rule = if vulkan { glsl::vulkan } else { glsl::opengl };
+    rewrite_functions(module, rule);
+    module.rewrite(&mut { rule });
 }
 
 /// Rewrites a module for HLSL.
 pub fn hlsl(module: &mut Module<'_>, resources: &Resources) {
     zeroed::begin(module, resources);
-    module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
+    module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::Scalars));
     hlsl::legalise(module);
 }
 
 /// A rule of a language.
 type Rule = fn(&mut Module<'_>, Expr) -> Expr;
+
+/// Rewrites the functions that the module has so far.
+fn rewrite_functions(module: &mut Module<'_>, rule: Rule) {
+    for k in 0..module.functions.len() {
+        let mut body = std::mem::take(&mut module.functions[k].body);
+        for stmt in &mut body {
+            stmt.rewrite(&mut |expr| rule(module, expr));
+        }
+        module.functions[k].body = body;
+    }
+}
 
 /// A selection by component: value if it holds, value if not.
 fn choose(condition: Expr, yes: Expr, no: Expr) -> Expr {
@@ -90,29 +102,6 @@ fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
             expr.ty,
         ),
     }
-}
-
-/// The cube root, for which no shader language has a function, by a power, which none has of negative numbers.
-fn cube_root(module: &mut Module<'_>, mut expr: Expr, name: &str) -> Expr {
-    if !matches!(expr.op, Op::Ir(ir::Op::Unary(UnaryOp::Cbrt))) {
-        return expr;
-    }
-    let ty = expr.ty;
-    expr.op = module.function(name, ty, |module| {
-        let x = module.variable("x", ty);
-        let unary = |op, x| Expr::new(Op::Ir(ir::Op::Unary(op)), vec![x], ty);
-        let third = Expr::splat(ty, (1.0_f32 / 3.0).to_bits());
-        let power = unary(UnaryOp::Abs, module.read(x)).binary(BinaryOp::Pow, third);
-        let root = unary(UnaryOp::Sign, module.read(x)).binary(BinaryOp::Mul, power);
-        Function {
-            comment: "The real root, of negative numbers too.".to_owned(),
-            name: name.to_owned(),
-            params: vec![x],
-            result: ty,
-            body: vec![StmtKind::Return(Some(root)).into()],
-        }
-    });
-    expr
 }
 
 /// A function that converts floats to integers as Rust does: to the nearest integer there is, and a NaN to 0. Where the language

@@ -1,6 +1,6 @@
 //! WGSL: counts of shifts, conversions that saturate, constants that are not finite.
 
-use super::{below_32, by_component, is_non_finite, to_integer};
+use super::{below_32, by_component, guards::unequal, is_non_finite, to_integer};
 use crate::emit::ast::{Block, Expr, Module, Op, StmtKind, Ty, VarId};
 use crate::emit::print::wgsl_type;
 use std::collections::BTreeMap;
@@ -11,14 +11,31 @@ type Specials = BTreeMap<u32, [VarId; 2]>;
 
 /// Rewrites a module for WGSL.
 pub fn legalise(module: &mut Module<'_>) {
-    let mut specials = Specials::new();
-    module.rewrite(&mut |module, expr| {
-        if is_non_finite(&expr) {
-            let half = expr.ty.half;
-            return by_component(&expr, |bits| non_finite(module, &mut specials, bits, half));
+    for k in 0..module.functions.len() {
+        let mut body = std::mem::take(&mut module.functions[k].body);
+        let mut specials = Specials::new();
+        for stmt in &mut body {
+            stmt.rewrite(&mut |expr| finite_rule(module, &mut specials, expr));
         }
-        rule(module, expr)
-    });
+        module.functions[k].body = declared(module, specials, body);
+    }
+    let mut specials = Specials::new();
+    module.rewrite(&mut |module, expr| finite_rule(module, &mut specials, expr));
+    let body = std::mem::take(&mut module.body);
+    module.body = declared(module, specials, body);
+}
+
+/// The rule of WGSL, which has no literals of infinities and NaN.
+fn finite_rule(module: &mut Module<'_>, specials: &mut Specials, expr: Expr) -> Expr {
+    if is_non_finite(&expr) {
+        let half = expr.ty.half;
+        return by_component(&expr, |bits| non_finite(module, specials, bits, half));
+    }
+    rule(module, expr)
+}
+
+/// A block after the variables that hold infinities and NaN.
+fn declared<'g>(module: &mut Module<'g>, specials: Specials, mut block: Block<'g>) -> Block<'g> {
     let mut body: Block<'_> = Vec::new();
     for (bits, [value, variable]) in specials {
         let comment = "A variable, since no constant may be an infinity or a NaN.";
@@ -30,8 +47,8 @@ pub fn legalise(module: &mut Module<'_>) {
         body.push(StmtKind::Var(variable, Some(word)).into());
         body.push(StmtKind::Let(value, read).into());
     }
-    body.append(&mut module.body);
-    module.body = body;
+    body.append(&mut block);
+    body
 }
 
 fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
@@ -48,6 +65,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
             expr.args.push(below_32(count));
             expr
         }
+        Op::Ir(ir::Op::Binary(BinaryOp::Ne)) => unequal(expr),
         // WGSL's own conversion goes to the nearest integer that an `f32` has too, which is not the largest one, and leaves NaN
         // open.
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && expr.ty.is_integer() => {

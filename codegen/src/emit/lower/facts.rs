@@ -1,8 +1,9 @@
 //! What is known of operands, so that the text need not guard what cannot happen.
 
-use crate::emit::ast::Division;
-use straightline_evaluator::ir::{Graph, NodeId, Op, Scalar, Type};
+use crate::emit::ast::{Division, Domain};
+use straightline_evaluator::ir::{BinaryOp, Graph, NodeId, Op, Scalar, Type, UnaryOp};
 use straightline_evaluator::passes::{bounds, component_bounds, float_bounds};
+use straightline_evaluator::policy::Math;
 
 /// What is known of the operands of an integer division.
 pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
@@ -20,6 +21,89 @@ pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
         defined,
         positive: positive(x) && positive(y),
     }
+}
+
+/// What is known of the arguments of a function of floats, if they may lie where drivers depart from it; with fast mathematics
+/// none is taken to lie there. A power that is a product always is one.
+pub fn domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
+    let node = graph.node(id);
+    if !node.ty.is_float() || node.ty.is_array() {
+        return None;
+    }
+    let all = |id: NodeId, holds: &dyn Fn(f32, f32) -> bool| {
+        let mut lanes = 0..graph.ty(id).components();
+        lanes.all(|k| float_bounds(graph, id, k).is_some_and(|(low, high)| holds(low, high)))
+    };
+    let within = |id: NodeId, size: f32| all(id, &|low, high| low >= -size && high <= size);
+    let known = |id: NodeId| within(id, f32::INFINITY);
+    let positive = |id: NodeId| all(id, &|low, _| low >= f32::MIN_POSITIVE);
+    let not_negative = |id: NodeId| all(id, &|low, _| low >= 0.0);
+    let first = *node.args.first()?;
+    let domain = Domain {
+        positive: positive(first),
+        not_negative: not_negative(first),
+        bounded: false,
+    };
+    let guarded = match node.op {
+        Op::Binary(BinaryOp::Pow) => return power(graph, node.args[0], node.args[1], domain, math),
+        Op::Unary(UnaryOp::Cbrt) => return Some(domain),
+        _ if math == Math::Fast => false,
+        Op::Binary(BinaryOp::Rem) => return remainder(graph, node.args[0], node.args[1]),
+        Op::Binary(BinaryOp::Atan2) => !(domain.positive && known(node.args[1])),
+        Op::Unary(UnaryOp::Log | UnaryOp::Log2) => !domain.positive,
+        Op::Unary(UnaryOp::Sinh | UnaryOp::Cosh | UnaryOp::Tanh) => !within(first, 40.0),
+        Op::Unary(UnaryOp::Fract) => !within(first, f32::MAX),
+        Op::Unary(UnaryOp::Atan) => !known(first),
+        _ => false,
+    };
+    guarded.then_some(domain)
+}
+
+/// As [`domain`], of a power.
+fn power(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Option<Domain> {
+    let lanes = usize::from(graph.ty(y).components());
+    let constant = |id: NodeId| {
+        let bits = graph.constant(id)?;
+        let same = bits[..lanes].iter().all(|lane| *lane == bits[0]);
+        same.then(|| f32::from_bits(bits[0]))
+    };
+    let finite = || {
+        let within = |k| float_bounds(graph, y, k).is_some_and(|(low, high)| low >= f32::MIN && high <= f32::MAX);
+        (0..lanes as u8).all(within)
+    };
+    let simple = match constant(y) {
+        // A product, or a root.
+        Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n.abs()) => return Some(domain),
+        Some(y) if y.abs() == 0.5 && domain.not_negative => return Some(domain),
+        // A driver has 2^-127y at 0, which is as small as a rounding of 1.
+        Some(y) if y.is_finite() => domain.positive || (domain.not_negative && y >= 0.2),
+        _ => domain.positive && (finite() || constant(x).is_some_and(|x| x != 1.0)),
+    };
+    (math == Math::Exact && !simple).then_some(domain)
+}
+
+/// As [`domain`], of a remainder. A power of two from 1 on makes none of the roundings.
+fn remainder(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
+    let lanes = graph.ty(y).components();
+    let is_power = |bits: u32| f32::from_bits(bits).abs() >= 1.0 && bits & 0x007f_ffff == 0 && bits << 1 < 0xff00_0000;
+    if graph
+        .constant(y)
+        .is_some_and(|bits| bits[..usize::from(lanes)].iter().all(|bits| is_power(*bits)))
+    {
+        return None;
+    }
+    let quotient = |k: u8| {
+        let (low, high) = float_bounds(graph, x, k)?;
+        let (least, most) = float_bounds(graph, y, k)?;
+        let smallest = if least > 0.0 { least } else { -most };
+        let largest = low.abs().max(high.abs());
+        (smallest >= f32::MIN_POSITIVE).then_some(largest / smallest)
+    };
+    let bounded = (0..lanes).all(|k| quotient(k).is_some_and(|q| q < 2000.0));
+    Some(Domain {
+        bounded,
+        ..Domain::default()
+    })
 }
 
 /// Whether every value of a node has its like in the type `to`: for a float an integer where it is cut off, for an integer a

@@ -283,7 +283,10 @@ impl<'g> Lowering<'g> {
                 args = vec![texel];
                 Op::Swizzle((0..node.ty.components()).collect())
             }
-            op => Op::Ir(op.clone()),
+            op => match facts::domain(graph, id, self.compiled.policy.math) {
+                Some(domain) => Op::Guarded(op.clone(), domain),
+                None => Op::Ir(op.clone()),
+            },
         };
         if matches!(op, Op::Var(_)) {
             args.clear();

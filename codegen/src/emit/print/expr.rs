@@ -11,6 +11,7 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
     match &expr.op {
         Op::Ir(op) => operation(l, op, expr, args),
         Op::Division(op, _) => infix(l, *op, Scalar::I32, args),
+        Op::Guarded(..) => unreachable!("guards are functions"),
         Op::Convert { .. } => match (&expr.args[0].op, expr.ty.shape) {
             (Op::Ir(ir::Op::BufferLen(buffer)), Type::U32) => l.unsigned_length(*buffer),
             _ => Text::call(&l.ty(expr.ty), &all),

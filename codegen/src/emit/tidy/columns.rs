@@ -41,6 +41,7 @@ impl Columns<'_> {
             Op::Index { .. } => args + 2,
             Op::Construct | Op::Convert { .. } => call(wgsl_type(expr.ty).len()),
             Op::Division(..) => args + 3 + parentheses(expr),
+            Op::Guarded(..) => call(10),
             Op::Builtin(_) => 20,
             Op::Any | Op::All => call(3),
             Op::Choose => call(6),

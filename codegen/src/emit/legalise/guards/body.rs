@@ -1,0 +1,139 @@
+//! A function's statements, written value by value.
+
+use crate::emit::ast::{Block, Expr, Module, Op, StmtKind, Ty, VarId};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+
+/// The body of a function that is being written, of one type of floats.
+pub struct Body<'m, 'g> {
+    module: &'m mut Module<'g>,
+    /// The type of its floats.
+    pub ty: Ty,
+    statements: Block<'g>,
+}
+
+impl<'m, 'g> Body<'m, 'g> {
+    pub fn new(module: &'m mut Module<'g>, ty: Ty) -> Self {
+        Body {
+            module,
+            ty,
+            statements: Vec::new(),
+        }
+    }
+
+    pub fn into_statements(self) -> Block<'g> {
+        self.statements
+    }
+
+    /// A number in every component.
+    pub fn number(&self, x: f32) -> Expr {
+        Expr::splat(self.ty, x.to_bits())
+    }
+
+    /// A pattern of bits in every component.
+    pub fn word(&self, bits: u32) -> Expr {
+        Expr::new(Op::Hex(bits), Vec::new(), self.ty.of(Scalar::U32))
+    }
+
+    /// Names a value.
+    pub fn declare(&mut self, name: &str, value: Expr) -> Expr {
+        let var = self.module.variable(name, value.ty);
+        self.statements.push(StmtKind::Let(var, value).into());
+        self.module.read(var)
+    }
+
+    /// A variable that is assigned again.
+    pub fn variable(&mut self, name: &str, value: Expr) -> VarId {
+        let var = self.module.variable(name, value.ty);
+        self.statements.push(StmtKind::Var(var, Some(value)).into());
+        var
+    }
+
+    /// The value of a variable.
+    pub fn read(&self, var: VarId) -> Expr {
+        self.module.read(var)
+    }
+
+    /// Gives a variable another value.
+    pub fn assign(&mut self, var: VarId, value: Expr) {
+        let place = self.module.read(var);
+        self.statements.push(StmtKind::Assign(place, None, value).into());
+    }
+
+    /// Repeats what `round` writes, at most `most` times, until the condition holds that it returns.
+    pub fn repeat(&mut self, most: u32, round: impl FnOnce(&mut Self) -> Expr) {
+        let counter = self.module.variable("step", Type::I32);
+        let outer = std::mem::take(&mut self.statements);
+        let done = round(self);
+        let mut body = std::mem::replace(&mut self.statements, outer);
+        body.push(
+            StmtKind::If {
+                condition: done,
+                then: vec![StmtKind::Break.into()],
+                otherwise: Vec::new(),
+            }
+            .into(),
+        );
+        let end = Expr::splat(Type::I32, most);
+        self.statements.push(
+            StmtKind::For {
+                counter,
+                start: Expr::splat(Type::I32, 0),
+                end,
+                body,
+            }
+            .into(),
+        );
+    }
+
+    /// The bits of a float.
+    pub fn bits(&self, x: &Expr) -> Expr {
+        x.clone().bits_as(self.ty.of(Scalar::U32))
+    }
+
+    /// The bits of a float without its sign.
+    pub fn size_bits(&self, x: &Expr) -> Expr {
+        self.bits(x).binary(BinaryOp::And, self.word(0x7fff_ffff))
+    }
+
+    /// Whether a float is a NaN. By bits: a compiler may take for granted that there is none.
+    pub fn is_nan(&self, x: &Expr) -> Expr {
+        self.size_bits(x).binary(BinaryOp::Gt, self.word(0x7f80_0000))
+    }
+
+    /// Whether a float's sign bit is set.
+    pub fn has_sign(&self, x: &Expr) -> Expr {
+        self.bits(x).binary(BinaryOp::Ge, self.word(0x8000_0000))
+    }
+
+    /// A positive float with the sign bit of another.
+    pub fn with_sign_of(&self, size: Expr, of: &Expr) -> Expr {
+        let sign = self.bits(of).binary(BinaryOp::And, self.word(0x8000_0000));
+        self.bits(&size).binary(BinaryOp::Or, sign).bits_as(self.ty)
+    }
+}
+
+/// An operation on one float.
+pub fn unary(op: UnaryOp, x: &Expr) -> Expr {
+    Expr::new(Op::Ir(ir::Op::Unary(op)), vec![x.clone()], x.ty)
+}
+
+/// An operation on two values.
+pub fn binary(x: &Expr, op: BinaryOp, y: &Expr) -> Expr {
+    x.clone().binary(op, y.clone())
+}
+
+/// Both of two conditions.
+pub fn and(x: Expr, y: Expr) -> Expr {
+    x.binary(BinaryOp::And, y)
+}
+
+/// One of two conditions.
+pub fn or(x: Expr, y: Expr) -> Expr {
+    x.binary(BinaryOp::Or, y)
+}
+
+/// The opposite of a condition.
+pub fn not(x: Expr) -> Expr {
+    let ty = x.ty;
+    Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Not)), vec![x], ty)
+}

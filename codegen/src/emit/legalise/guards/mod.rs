@@ -1,0 +1,137 @@
+//! Functions of floats at the edges of their domains, where drivers depart from the kernel language: each by a function of the
+//! shader's own that holds on every driver, or by fewer operations where these do.
+//!
+//! `docs/semantics.md` has the table of edges that these functions keep. Only what [`super::super::lower`] could not prove to lie
+//! inside a function's domain comes here.
+
+mod body;
+mod hyperbolic;
+mod power;
+mod remainder;
+mod simple;
+
+use super::{componentwise, is_leaf};
+use crate::emit::ast::{Domain, Expr, Function, Module, Op, StmtKind, Ty};
+use crate::emit::print::wgsl_type;
+use body::Body;
+use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
+
+pub use simple::unequal;
+
+/// How a language calls one function for several types.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overloads {
+    /// One name is that of one function: those of vectors have their type in it.
+    None,
+    /// Functions of several types share a name, and choices are made component by component.
+    Vectors,
+    /// Functions of several types share a name, and choices are made between scalars.
+    Scalars,
+}
+
+/// A function to be written: its name, what it is for, how many arguments it takes, and what it returns.
+struct Guard {
+    name: String,
+    comment: &'static str,
+    arguments: &'static [&'static str],
+    /// A loop in it goes by scalars.
+    scalar: bool,
+    value: Box<dyn Fn(&mut Body<'_, '_>, &[Expr]) -> Expr>,
+}
+
+/// The expression without guarded operations: a call of a function, or another expression.
+pub fn expand(module: &mut Module<'_>, expr: Expr, overloads: Overloads) -> Expr {
+    let Op::Guarded(op, domain) = expr.op.clone() else {
+        return expr;
+    };
+    let ty = expr.ty;
+    if ty.half {
+        // By way of `f32`, which holds every `f16`: bits are looked at.
+        let full = ty.full();
+        let args = expr.args.into_iter().map(|arg| match arg.as_constant() {
+            Some(bits) => Expr::constant(full, *bits),
+            None => arg.to(full),
+        });
+        let guarded = Expr::new(Op::Guarded(op, domain), args.collect(), full);
+        return expand(module, guarded, overloads).to(ty);
+    }
+    let mut args = expr.args;
+    if let Some(shorter) = simple::inline(&op, domain, &args, ty) {
+        return shorter;
+    }
+    let guard = guard(&op, domain, &args);
+    args.truncate(guard.arguments.len());
+    let called = call(module, &guard, ty, overloads);
+    Expr::new(called, args, ty)
+}
+
+/// The function that stands for an operation.
+fn guard(op: &ir::Op, domain: Domain, args: &[Expr]) -> Guard {
+    match op {
+        ir::Op::Binary(BinaryOp::Pow) => power::guard(domain, args),
+        ir::Op::Binary(BinaryOp::Atan2) => simple::angle(),
+        ir::Op::Binary(BinaryOp::Rem) => remainder::guard(domain),
+        ir::Op::Unary(op @ (UnaryOp::Log | UnaryOp::Log2)) => simple::logarithm(*op),
+        ir::Op::Unary(op @ (UnaryOp::Sinh | UnaryOp::Cosh | UnaryOp::Tanh)) => hyperbolic::guard(*op),
+        ir::Op::Unary(UnaryOp::Fract) => simple::fraction(),
+        ir::Op::Unary(UnaryOp::Atan) => simple::arc_tangent(),
+        ir::Op::Unary(UnaryOp::Cbrt) => power::cube_root(),
+        other => unreachable!("{other:?} has no edges"),
+    }
+}
+
+/// Adds a function for a type, and those that it calls.
+fn call(module: &mut Module<'_>, guard: &Guard, ty: Ty, overloads: Overloads) -> Op {
+    let by_scalars = guard.scalar || overloads == Overloads::Scalars;
+    if !by_scalars || ty.is_scalar() {
+        let name = match overloads == Overloads::None && !ty.is_scalar() {
+            true => format!("{}_{}", guard.name, wgsl_type(ty)),
+            false => guard.name.clone(),
+        };
+        return module.function(&name, ty, |module| function(module, guard, &name, ty));
+    }
+    let scalar = call(module, guard, ty.element_of().into(), overloads);
+    match overloads {
+        Overloads::None => {
+            let name = format!("{}_{}", guard.name, wgsl_type(ty));
+            by_component(module, guard, scalar, &name, ty)
+        }
+        _ => componentwise(module, scalar, ty),
+    }
+}
+
+fn function<'g>(module: &mut Module<'g>, guard: &Guard, name: &str, ty: Ty) -> Function<'g> {
+    let params: Vec<_> = guard.arguments.iter().map(|name| module.variable(*name, ty)).collect();
+    let args: Vec<Expr> = params.iter().map(|param| module.read(*param)).collect();
+    let mut body = Body::new(module, ty);
+    let value = (guard.value)(&mut body, &args);
+    let mut body = body.into_statements();
+    body.push(StmtKind::Return(Some(value)).into());
+    Function {
+        comment: guard.comment.to_owned(),
+        name: name.to_owned(),
+        params,
+        result: ty,
+        body,
+    }
+}
+
+/// A function of vectors that calls one of scalars for each component, under another name.
+fn by_component<'g>(module: &mut Module<'g>, guard: &Guard, scalar: Op, name: &str, ty: Ty) -> Op {
+    module.function(name, ty, |module: &mut Module<'g>| {
+        let params: Vec<_> = guard.arguments.iter().map(|name| module.variable(*name, ty)).collect();
+        let component = |k: u8| {
+            let part = |param| Expr::new(Op::Swizzle(vec![k]), vec![Expr::var(param, ty)], ty.element_of());
+            let parts = params.iter().map(|param| part(*param)).collect();
+            Expr::new(scalar.clone(), parts, ty.element_of())
+        };
+        let all = Expr::new(Op::Construct, (0..ty.components()).map(component).collect(), ty);
+        Function {
+            comment: guard.comment.to_owned(),
+            name: name.to_owned(),
+            params: params.clone(),
+            result: ty,
+            body: vec![StmtKind::Return(Some(all)).into()],
+        }
+    })
+}

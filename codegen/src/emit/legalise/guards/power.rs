@@ -1,0 +1,140 @@
+//! Powers. Drivers compute `exp2(y * log2(x))`, which is a NaN or `|x|^y` where `x` is negative, and anything at 0 and at a NaN.
+
+use super::Guard;
+use super::body::{Body, and, binary, not, or, unary};
+use crate::emit::ast::{Domain, Expr};
+use crate::emit::legalise::choose;
+use straightline_evaluator::ir::{BinaryOp, UnaryOp};
+
+/// The largest integral power that is a product.
+pub const MOST: f32 = 64.0;
+
+/// An exponent that is the same constant in all components.
+pub fn exponent(args: &[Expr]) -> Option<f32> {
+    let bits = args[1].as_constant()?;
+    let lanes = usize::from(args[1].ty.components());
+    let first = bits[0];
+    bits[..lanes]
+        .iter()
+        .all(|lane| *lane == first)
+        .then(|| f32::from_bits(first))
+}
+
+/// The integer that an exponent is, if the power is a product.
+pub fn product_of(exponent: f32) -> Option<i32> {
+    let integral = exponent.fract() == 0.0 && (1.0..=MOST).contains(&exponent.abs());
+    integral.then_some(exponent as i32)
+}
+
+/// The function for a power.
+pub fn guard(domain: Domain, args: &[Expr]) -> Guard {
+    if let Some(n) = exponent(args).and_then(product_of) {
+        return product(n);
+    }
+    match domain.positive {
+        true => Guard {
+            name: "positive_power".to_owned(),
+            comment: "x to the power y, of what is greater than 0: drivers have no power of 1 whose exponent is infinite.",
+            arguments: &["x", "y"],
+            scalar: false,
+            value: Box::new(|b, args| {
+                let one = binary(&args[0], BinaryOp::Eq, &b.number(1.0));
+                choose(one, b.number(1.0), binary(&args[0], BinaryOp::Pow, &args[1]))
+            }),
+        },
+        false => Guard {
+            name: "power".to_owned(),
+            comment: "x to the power y, of 0 and of negative numbers too, which drivers leave open.",
+            arguments: &["x", "y"],
+            scalar: false,
+            value: Box::new(power),
+        },
+    }
+}
+
+fn power(b: &mut Body<'_, '_>, args: &[Expr]) -> Expr {
+    let [x, y] = [&args[0], &args[1]];
+    let size = b.declare("size", unary(UnaryOp::Abs, x));
+    let whole = binary(&unary(UnaryOp::Trunc, y), BinaryOp::Eq, y);
+    let whole = b.declare("is_whole", whole);
+    let half = b.declare("half_of_y", binary(y, BinaryOp::Mul, &b.number(0.5)));
+    let even = binary(&unary(UnaryOp::Trunc, &half), BinaryOp::Eq, &half);
+    let odd = b.declare("is_odd", and(whole.clone(), not(even)));
+    let below = binary(y, BinaryOp::Lt, &b.number(0.0));
+    let of_zero = choose(below, b.number(f32::INFINITY), b.number(0.0));
+    let is_zero = binary(&size, BinaryOp::Eq, &b.number(0.0));
+    let raised = choose(is_zero, of_zero, binary(&size, BinaryOp::Pow, y));
+    let raised = b.declare("raised", raised);
+    let negative = and(odd, b.has_sign(x));
+    let signed = b.declare("signed", choose(negative, unary(UnaryOp::Neg, &raised), raised));
+    let of_one = and(
+        binary(&size, BinaryOp::Eq, &b.number(1.0)),
+        binary(&b.size_bits(y), BinaryOp::Eq, &b.word(0x7f80_0000)),
+    );
+    let x_is_one = binary(x, BinaryOp::Eq, &b.number(1.0));
+    let y_is_zero = binary(y, BinaryOp::Eq, &b.number(0.0));
+    let is_one = b.declare("is_one", or(or(y_is_zero, x_is_one), of_one));
+    let root = and(binary(x, BinaryOp::Lt, &b.number(0.0)), not(whole));
+    let root = and(root, binary(&b.size_bits(x), BinaryOp::Lt, &b.word(0x7f80_0000)));
+    let undefined = b.declare("is_undefined", or(or(b.is_nan(x), b.is_nan(y)), root));
+    let defined = choose(undefined, b.number(f32::NAN), signed);
+    choose(is_one, b.number(1.0), defined)
+}
+
+/// A power by squares, the lowest first; for a negative exponent the reciprocal of that.
+fn product(n: i32) -> Guard {
+    let name = match n {
+        2 => "square".to_owned(),
+        3 => "cube".to_owned(),
+        _ if n > 0 => format!("power_{n}"),
+        _ => format!("power_minus_{}", n.unsigned_abs()),
+    };
+    Guard {
+        name,
+        comment: "A power as a product, of negative numbers too.",
+        arguments: &["x"],
+        scalar: false,
+        value: Box::new(move |b, args| {
+            let (mut square, mut squared, mut left) = (args[0].clone(), 1, n.unsigned_abs());
+            let mut power: Option<Expr> = None;
+            loop {
+                if left % 2 == 1 {
+                    power = Some(match power {
+                        None => square.clone(),
+                        Some(power) => power.binary(BinaryOp::Mul, square.clone()),
+                    });
+                }
+                left /= 2;
+                if left == 0 {
+                    break;
+                }
+                squared *= 2;
+                square = b.declare(&format!("x_{squared}"), binary(&square, BinaryOp::Mul, &square));
+            }
+            let power = power.unwrap_or(square);
+            match n < 0 {
+                true => b.number(1.0).binary(BinaryOp::Div, power),
+                false => power,
+            }
+        }),
+    }
+}
+
+/// The cube root, for which no shader language has a function, by a power, which none has of negative numbers.
+pub fn cube_root() -> Guard {
+    Guard {
+        name: "cube_root".to_owned(),
+        comment: "The real root, of negative numbers too.",
+        arguments: &["x"],
+        scalar: false,
+        value: Box::new(|b, args| {
+            let size = unary(UnaryOp::Abs, &args[0]);
+            let third = b.number(1.0 / 3.0);
+            let power = b.declare("power", binary(&size, BinaryOp::Pow, &third));
+            let root = b.with_sign_of(power, &args[0]);
+            // Zeros and NaN are their own roots.
+            let other = binary(&size, BinaryOp::Gt, &b.number(0.0));
+            choose(other, root, args[0].clone())
+        }),
+    }
+}

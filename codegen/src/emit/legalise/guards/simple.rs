@@ -1,0 +1,119 @@
+//! Short guards, and expressions that need none.
+
+use super::body::{binary, not, unary};
+use super::{Guard, is_leaf, power};
+use crate::emit::ast::{Domain, Expr, Op, Ty};
+use crate::emit::legalise::choose;
+use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
+
+/// A shorter expression with the same edges, where there is one.
+pub fn inline(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr> {
+    if *op != ir::Op::Binary(BinaryOp::Pow) {
+        return None;
+    }
+    let x = &args[0];
+    let exponent = power::exponent(args)?;
+    if exponent == -1.0 {
+        return Some(Expr::splat(ty, 1.0_f32.to_bits()).binary(BinaryOp::Div, x.clone()));
+    }
+    if exponent == 2.0 && is_leaf(x) {
+        return Some(binary(x, BinaryOp::Mul, x));
+    }
+    match exponent {
+        0.5 if domain.not_negative => Some(unary(UnaryOp::Sqrt, x)),
+        -0.5 if domain.positive => Some(unary(UnaryOp::InverseSqrt, x)),
+        // Of -0 too it is infinite.
+        -0.5 if domain.not_negative => Some(unary(UnaryOp::InverseSqrt, &unary(UnaryOp::Abs, x))),
+        _ => None,
+    }
+}
+
+/// Logarithms, which some drivers have finite at 0, of negative numbers and of a NaN.
+pub fn logarithm(op: UnaryOp) -> Guard {
+    let name = match op {
+        UnaryOp::Log2 => "binary_logarithm",
+        _ => "natural_logarithm",
+    };
+    Guard {
+        name: name.to_owned(),
+        comment: "The logarithm, which of 0 is -infinity, and a NaN of negative numbers.",
+        arguments: &["x"],
+        scalar: false,
+        value: Box::new(move |b, args| {
+            let x = &args[0];
+            let zero = binary(x, BinaryOp::Eq, &b.number(0.0));
+            let none = choose(zero, b.number(f32::NEG_INFINITY), b.number(f32::NAN));
+            let positive = binary(x, BinaryOp::Gt, &b.number(0.0));
+            choose(positive, unary(op, x), none)
+        }),
+    }
+}
+
+/// `x - floor(x)`, which is a NaN of an infinity.
+pub fn fraction() -> Guard {
+    Guard {
+        name: "fraction".to_owned(),
+        comment: "What lies above the integer below x: a NaN of what is not finite.",
+        arguments: &["x"],
+        scalar: false,
+        value: Box::new(|_, args| binary(&args[0], BinaryOp::Sub, &unary(UnaryOp::Floor, &args[0]))),
+    }
+}
+
+/// The arc tangent, which a driver has 0 of a NaN.
+pub fn arc_tangent() -> Guard {
+    Guard {
+        name: "arc_tangent".to_owned(),
+        comment: "atan(x), of a NaN too.",
+        arguments: &["x"],
+        scalar: false,
+        value: Box::new(|b, args| {
+            let x = &args[0];
+            choose(not(b.is_nan(x)), unary(UnaryOp::Atan, x), x.clone())
+        }),
+    }
+}
+
+/// The angle of a point, by an arc tangent between 0 and 1: drivers leave open what `atan2` is at the origin, of zeros below 0 and
+/// of infinities.
+pub fn angle() -> Guard {
+    Guard {
+        name: "angle".to_owned(),
+        comment: "atan2(y, x), at the origin, of -0 and of infinities too.",
+        arguments: &["y", "x"],
+        scalar: false,
+        value: Box::new(|b, args| {
+            let [y, x] = [&args[0], &args[1]];
+            let height = b.declare("height", unary(UnaryOp::Abs, y));
+            let width = b.declare("width", unary(UnaryOp::Abs, x));
+            let steep = b.declare("is_steep", binary(&height, BinaryOp::Gt, &width));
+            let shorter = b.declare("shorter", choose(steep.clone(), width.clone(), height.clone()));
+            let longer = b.declare("longer", choose(steep.clone(), height, width));
+            // Of equal sides 1, and 0 at the origin.
+            let equal = binary(&shorter, BinaryOp::Eq, &longer);
+            let slope = choose(
+                equal,
+                unary(UnaryOp::Sign, &longer),
+                binary(&shorter, BinaryOp::Div, &longer),
+            );
+            let slope = b.declare("slope", slope);
+            let within = b.declare("within", unary(UnaryOp::Atan, &slope));
+            let right = b.number(std::f32::consts::FRAC_PI_2).binary(BinaryOp::Sub, within.clone());
+            let above = b.declare("above", choose(steep, right, within));
+            let behind = binary(&b.number(std::f32::consts::PI), BinaryOp::Sub, &above);
+            let above = b.declare("above", choose(b.has_sign(x), behind, above));
+            let signed = b.with_sign_of(above, y);
+            choose(b.is_nan(&slope), slope, signed)
+        }),
+    }
+}
+
+/// Whether floats differ, which a NaN does from everything: `!=` is false of a NaN on some drivers, and `==` on none.
+pub fn unequal(mut expr: Expr) -> Expr {
+    let is_ne = expr.op == Op::Ir(ir::Op::Binary(BinaryOp::Ne));
+    if !is_ne || !expr.args[0].ty.is_float() {
+        return expr;
+    }
+    expr.op = Op::Ir(ir::Op::Binary(BinaryOp::Eq));
+    not(expr)
+}
