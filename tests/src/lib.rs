@@ -6,6 +6,7 @@
 pub use straightline_testbed::oracle::quads;
 pub mod bare;
 pub mod compilers;
+pub mod edges;
 pub mod gl;
 pub mod impatient;
 pub mod passthrough;

@@ -239,7 +239,7 @@ fn a_driver_computes_each_operation_as_wgsl_and_as_glsl() {
         .shaders(&texts, Ways::Languages)
         .unwrap_or_else(|why| panic!("{why}"));
     for world in 0..2 {
-        let world = World::new(world);
+        let world = World::for_drivers(world);
         let natives = oracle::run(&rustc, &texts, &world).unwrap_or_else(|why| panic!("{why}"));
         for ((text, shaders), native) in texts.iter().zip(&shaders).zip(natives) {
             let native = native.unwrap_or_else(|why| panic!("{text}\n{why}"));

@@ -113,7 +113,7 @@ fn shaders_agree_with_rustc() {
     let texts: Vec<Text> = (SEED..SEED + 40)
         .map(|seed| make(seed, Features::exact_on_drivers()))
         .collect();
-    let world = World::new(SEED);
+    let world = World::for_drivers(SEED);
     let natives = oracle::run(&rustc, &texts, &world).unwrap_or_else(|why| panic!("{why}"));
     let shaders = driver.shaders(&texts, Ways::Forms);
     let shaders = shaders.unwrap_or_else(|why| panic!("{why}"));

@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::enums::Choice;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Generic, Type as SourceType};
+use crate::front::tree::{Expr, ExprKind, Generic, Type as SourceType};
 use crate::ir::{Scalar, Type};
 use std::rc::Rc;
 
@@ -43,9 +43,16 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::array(elements))
             }
-            (Some(SourceType::Array(element, _)), Value::Array(elements)) => {
+            (Some(SourceType::Array(element, len)), Value::Array(elements)) => {
+                check_length(len.as_deref(), elements.len(), span)?;
                 let each = elements.iter().map(|e| self.ascribe(e.clone(), Some(element), span));
                 Ok(Value::array(each.collect::<Eval<_>>()?))
+            }
+            (Some(SourceType::Array(_, len)), Value::Node(id)) => {
+                if let Type::Array { len: found, .. } = self.ty(id) {
+                    check_length(len.as_deref(), found as usize, span)?;
+                }
+                Ok(Value::Node(id))
             }
             (Some(SourceType::Tuple(types)), Value::Tuple(parts)) if types.len() == parts.len() => {
                 let each = parts
@@ -133,5 +140,21 @@ impl Evaluator<'_> {
             Value::Poison => Ok(value),
             other => Err(Diagnostic::at(span, format!("{} where `{name}` is stated", other.describe())).into()),
         }
+    }
+}
+
+/// Refuses an array of another length than is stated, where that is a number.
+fn check_length(stated: Option<&Expr>, found: usize, span: Span) -> Eval<()> {
+    let Some(ExprKind::Int(stated, _)) = stated.map(|stated| &stated.kind) else {
+        return Ok(());
+    };
+    match usize::try_from(*stated) == Ok(found) {
+        true => Ok(()),
+        false => Err(
+            Diagnostic::at(span, format!("an array of {found} where one of {stated} is stated"))
+                .label("of another length")
+                .help(format!("give it {stated} elements, or state `; {found}]`"))
+                .into(),
+        ),
     }
 }

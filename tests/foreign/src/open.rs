@@ -44,7 +44,14 @@ pub fn instance(entry: &Entry, extensions: &[&CStr]) -> Result<ash::Instance, St
     unsafe { entry.create_instance(&info, None) }.map_err(|e| format!("no instance: {e}"))
 }
 
+/// wgpu has no Vulkan there.
+#[cfg(target_vendor = "apple")]
+pub fn adapter(_: Entry) -> Result<wgpu::Adapter, String> {
+    Err("wgpu runs no driver of Vulkan on this system".to_owned())
+}
+
 /// The one adapter of wgpu on a driver.
+#[cfg(not(target_vendor = "apple"))]
 pub fn adapter(entry: Entry) -> Result<wgpu::Adapter, String> {
     use wgpu::hal::vulkan;
     let flags = wgpu::InstanceFlags::empty();

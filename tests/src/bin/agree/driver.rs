@@ -22,7 +22,7 @@ pub fn on_driver(options: &Options) -> Result<(), String> {
         let seeds = *start..(start + options.batch).min(end);
         let texts: Vec<_> = seeds.map(|seed| make(seed, features)).collect();
         let number = options.world.unwrap_or(*start);
-        let world = World::new(number);
+        let world = World::for_drivers(number);
         let (mut compared, mut failures) = (Compared::default(), 0);
         let natives = oracle::run(&rustc, &texts, &world)?;
         let shaders = driver.shaders(&texts, options.ways)?;

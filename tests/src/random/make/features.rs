@@ -42,6 +42,8 @@ pub enum Feature {
     Coarse,
     /// Ranges that end at the largest numbers.
     Edges,
+    /// Floats at which functions change their ways: infinities, the largest ones, and of what is `Coarse` NaN and subnormal numbers.
+    Extremes,
     /// `Option`, enums that hold values, blocks with labels and loops that give values.
     Choices,
     /// Traits, operators of structures.
@@ -81,6 +83,7 @@ pub const ALL: &[Feature] = &[
     Feature::Options,
     Feature::Coarse,
     Feature::Edges,
+    Feature::Extremes,
     Feature::Choices,
     Feature::Traits,
     Feature::Plain,

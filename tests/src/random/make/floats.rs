@@ -2,9 +2,30 @@
 
 use super::types::Ty;
 use super::{Feature, Maker, Want};
+use crate::edges;
+
+/// A float as Rust has it.
+fn extreme(x: f32) -> String {
+    match x {
+        _ if x.is_nan() => "f32::NAN".to_owned(),
+        f32::INFINITY => "f32::INFINITY".to_owned(),
+        f32::NEG_INFINITY => "f32::NEG_INFINITY".to_owned(),
+        f32::MAX => "f32::MAX".to_owned(),
+        f32::MIN => "f32::MIN".to_owned(),
+        f32::MIN_POSITIVE => "f32::MIN_POSITIVE".to_owned(),
+        _ if x.is_sign_negative() => format!("({x:?})"),
+        _ => format!("{x:?}"),
+    }
+}
 
 impl Maker {
     pub(super) fn float_literal(&mut self) -> String {
+        if self.on(Feature::Extremes) && self.random.once_in(8) {
+            return extreme(match self.on(Feature::Coarse) {
+                true => self.random.pick(&edges::FLOATS),
+                false => self.random.pick(&edges::of_drivers()),
+            });
+        }
         let text = match self.random.below(10) {
             0 => "0.0".to_owned(),
             1 => "1.0".to_owned(),

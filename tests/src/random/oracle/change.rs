@@ -79,14 +79,15 @@ pub fn judge_changed(
     Ok((counts, lenient))
 }
 
-/// The text without functions and constants that nothing mentions: those may hold anything.
+/// The text without functions, constants and traits that nothing mentions: those may hold anything.
 fn reached(source: &str) -> String {
     let mut lines: Vec<&str> = source.lines().collect();
     loop {
         let gone = lines.iter().enumerate().find_map(|(k, line)| {
             let start = line.trim_start();
-            let name = start.strip_prefix("fn ").or_else(|| start.strip_prefix("const "))?;
-            let name = &name[..name.find(['(', '<', ':'])?];
+            let item = ["fn ", "const ", "trait "];
+            let name = item.iter().find_map(|item| start.strip_prefix(item))?;
+            let name = &name[..name.find(['(', '<', ':', ' '])?];
             let word = |text: &str| {
                 text.match_indices(name).any(|(at, _)| {
                     let before = text[..at]
@@ -110,10 +111,13 @@ fn reached(source: &str) -> String {
         match gone {
             Some(gone) => drop(lines.drain(gone)),
             None => {
+                let before = lines.len();
                 if !calls_the_trait(&lines) {
                     lines.retain(|line| !line.starts_with("impl Tr for"));
                 }
-                return lines.join("\n") + "\n";
+                if lines.len() == before {
+                    return lines.join("\n") + "\n";
+                }
             }
         }
     }

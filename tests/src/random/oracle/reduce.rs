@@ -29,7 +29,7 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
 
 /// The smallest text found with which a driver does not do what rustc's program does, in the same form and manner.
 pub fn reduce_on_driver(rustc: &Rustc, driver: &Driver, ways: Ways, text: &Text, world: u64) -> Text {
-    let inputs = World::new(world);
+    let inputs = World::for_drivers(world);
     let off = |text: &Text, native: &Given| {
         let shaders = driver.shaders(std::slice::from_ref(text), ways).ok()?;
         driver

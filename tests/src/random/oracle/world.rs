@@ -4,6 +4,7 @@
 mod resources;
 
 use super::given::Texel;
+use crate::edges;
 use crate::random::Random;
 use resources::Resources;
 use std::fmt::Write;
@@ -30,13 +31,25 @@ pub struct World {
 }
 
 impl World {
-    /// The inputs of a seed. All floats are multiples of 1/64 below 16, so that sums and products of a few are exact.
+    /// The inputs of a seed. One float in eight is one at which functions change their ways; the others are multiples of 1/64 below
+    /// 16, so that sums and products of a few are exact. World 0 has those alone.
     pub fn new(seed: u64) -> World {
+        World::with(seed, if seed == 0 { &[] } else { &edges::FLOATS })
+    }
+
+    /// The inputs of a seed without what drivers may take for another number: NaN and subnormal numbers.
+    pub fn for_drivers(seed: u64) -> World {
+        World::with(seed, &edges::of_drivers())
+    }
+
+    /// The inputs of a seed, some of them out of `edges`.
+    fn with(seed: u64, edges: &[f32]) -> World {
         let mut random = Random(seed ^ 0x77_6f72_6c64);
         let mut number = || match random.below(8) {
             0 => 0.0,
             1 => random.between(-3, 3) as f32,
             2 => random.between(-5, 5) as f32 + 0.5,
+            3 if !edges.is_empty() => random.pick(edges),
             _ => random.between(-1000, 1000) as f32 / 64.0,
         };
         let texels = (0..SIZE[0] * SIZE[1]).map(|_| [number(), number(), number(), number()]);

@@ -1,0 +1,52 @@
+//! Floats at which functions change their ways: what tables and random kernels try.
+
+/// Zeros, ones and their neighbours, halves, where exponentials end, where integers end, the largest and the smallest numbers, and
+/// what is no number.
+#[rustfmt::skip]
+pub const FLOATS: [f32; 48] = [
+    0.0, -0.0,
+    1.0, -1.0, 0.999_999_94, -0.999_999_94, 1.000_000_1, -1.000_000_1,
+    0.5, -0.5, 0.499_999_97, 0.500_000_06, 1.5, -1.5, 2.5,
+    2.0, -2.0, 3.0, -3.0, 10.0, -10.0,
+    // pi / 2, pi.
+    1.570_796_4, 3.141_592_7, -3.141_592_7,
+    // The end of exp, of sinh, of exp2, and of their subnormal results.
+    88.8, -88.8, 104.0, -104.0, 128.0, -126.0, -1000.0,
+    // 2^23 - 0.5, 2^24, the ends of i32 and u32.
+    8_388_607.5, 16_777_216.0, 2_147_483_500.0, 2_147_483_600.0, -2_147_483_600.0, 4_294_967_300.0,
+    // A square that overflows, and the largest numbers.
+    2.0e19, f32::MAX, f32::MIN,
+    // The smallest number, and subnormal ones.
+    f32::MIN_POSITIVE, 1.175_494_2e-38, 5.9e-39, -5.9e-39, 1.0e-45,
+    f32::INFINITY, f32::NEG_INFINITY, f32::NAN,
+];
+
+/// Those that every driver has: no NaN and no subnormal number, which shading languages leave open.
+pub fn of_drivers() -> Vec<f32> {
+    FLOATS
+        .into_iter()
+        .filter(|x| !x.is_nan() && !x.is_subnormal())
+        .collect()
+}
+
+/// Those that stand for the others where all of them would be too many.
+#[rustfmt::skip]
+pub const FEW: [f32; 16] = [
+    0.0, -0.0, 1.0, -1.0, 0.5, 2.0, -3.0, 3.0, -104.0, 2.0e19, f32::MAX, -5.9e-39, 1.570_796_4, f32::INFINITY, f32::NEG_INFINITY, f32::NAN,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::{FEW, FLOATS};
+
+    #[test]
+    fn differ() {
+        for (k, x) in FLOATS.iter().enumerate() {
+            assert!(
+                FLOATS[..k].iter().all(|y| x.to_bits() != y.to_bits()),
+                "{x} stands twice"
+            );
+        }
+        assert!(FEW.iter().all(|x| FLOATS.iter().any(|y| x.to_bits() == y.to_bits())));
+    }
+}
