@@ -133,7 +133,9 @@ fn by_component(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> NodeId {
 
 fn components(b: &mut Builder<'_>, id: NodeId, ty: Type) -> Vec<NodeId> {
     let part = Type::scalar(Scalar::F32);
-    (0..ty.components()).map(|k| b.add(Op::Extract(k), [id], part)).collect()
+    (0..ty.components())
+        .map(|k| b.add(Op::Extract(k), [id], part))
+        .collect()
 }
 
 fn splat(b: &mut Builder<'_>, value: f32, ty: Type) -> NodeId {

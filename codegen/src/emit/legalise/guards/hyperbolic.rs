@@ -11,8 +11,14 @@ const LARGE: f32 = 10.0;
 /// The function for a hyperbolic function.
 pub fn guard(op: UnaryOp) -> Guard {
     let (name, comment) = match op {
-        UnaryOp::Sinh => ("hyperbolic_sine", "sinh(x), which is finite a little longer than exp(x)."),
-        UnaryOp::Cosh => ("hyperbolic_cosine", "cosh(x), which is finite a little longer than exp(x)."),
+        UnaryOp::Sinh => (
+            "hyperbolic_sine",
+            "sinh(x), which is finite a little longer than exp(x).",
+        ),
+        UnaryOp::Cosh => (
+            "hyperbolic_cosine",
+            "cosh(x), which is finite a little longer than exp(x).",
+        ),
         _ => ("hyperbolic_tangent", "tanh(x), where exp(x) is infinite too."),
     };
     Guard {

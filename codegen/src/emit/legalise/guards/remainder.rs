@@ -16,7 +16,10 @@ const STEPS: u32 = 28;
 /// The function for a remainder: without a loop where the quotient is known to be small.
 pub fn guard(domain: Domain) -> Guard {
     let (name, comment): (_, &'static str) = match domain.bounded {
-        true => ("short_remainder", "x % y without a rounding, where x / y is less than 2048."),
+        true => (
+            "short_remainder",
+            "x % y without a rounding, where x / y is less than 2048.",
+        ),
         false => ("remainder", "x % y without a rounding: most quotients take one step."),
     };
     Guard {
@@ -48,8 +51,14 @@ fn remainder(b: &mut Body<'_, '_>, x: &Expr, y: &Expr, bounded: bool) -> Expr {
 /// What a divisor leaves of a number that is less than 2048 times as large, without a rounding.
 fn less(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
     let rest = b.declare("rest", rest);
-    let quotient = b.declare("quotient", unary(UnaryOp::Trunc, &binary(&rest, BinaryOp::Div, &divisor)));
-    let upper = b.bits(&divisor).binary(BinaryOp::And, b.word(0xffff_f000)).bits_as(b.ty);
+    let quotient = b.declare(
+        "quotient",
+        unary(UnaryOp::Trunc, &binary(&rest, BinaryOp::Div, &divisor)),
+    );
+    let upper = b
+        .bits(&divisor)
+        .binary(BinaryOp::And, b.word(0xffff_f000))
+        .bits_as(b.ty);
     let upper = b.declare("upper_bits", upper);
     let lower = binary(&divisor, BinaryOp::Sub, &upper);
     let left = rest

@@ -98,7 +98,9 @@ pub fn angle() -> Guard {
             );
             let slope = b.declare("slope", slope);
             let within = b.declare("within", unary(UnaryOp::Atan, &slope));
-            let right = b.number(std::f32::consts::FRAC_PI_2).binary(BinaryOp::Sub, within.clone());
+            let right = b
+                .number(std::f32::consts::FRAC_PI_2)
+                .binary(BinaryOp::Sub, within.clone());
             let above = b.declare("above", choose(steep, right, within));
             let behind = binary(&b.number(std::f32::consts::PI), BinaryOp::Sub, &above);
             let above = b.declare("above", choose(b.has_sign(x), behind, above));
