@@ -227,3 +227,101 @@ fn a_model_is_seen_from_where_it_is_asked() {
         &["old.gltf", "glTF 1.0"],
     );
 }
+
+/// The options that docs/sraa.md recommends, on what `capture` places by planes.
+#[test]
+fn the_recommended_options_run_on_a_placed_capture() {
+    let folder = scratch("capture-by-planes");
+    let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let recommended = [
+        "mask=branch",
+        "variation=within",
+        "metric=planes-normals",
+        "difference=relative",
+        "depth-scale=10",
+        "search=five",
+        "unseen=0.003",
+        "search-threshold=0.004",
+    ];
+    let sets: Vec<&str> = recommended.iter().flat_map(|option| ["--set", option]).collect();
+    let db = |by: &[&str], name: &str| {
+        let (frame, picture) = (path(name), path("out.png"));
+        let capture = [
+            "capture",
+            "--scene",
+            "railings",
+            "--size",
+            "160x90",
+            "--shading",
+            "placed",
+            "--reference",
+            "16",
+            "--out",
+            &frame,
+        ];
+        finishes(&[&capture[..], by].concat());
+        let resolve = [
+            "resolve",
+            "--capture",
+            &frame,
+            "--out",
+            &picture,
+            "--reference",
+            "--json",
+        ];
+        let said = finishes(&[&resolve[..], &sets].concat());
+        let said: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+        assert_eq!(said["warnings"], serde_json::json!([]));
+        said["psnr_db"].as_f64().expect("a number")
+    };
+    let (planes, asked, depths) = (
+        db(&[], "planes"),
+        db(&["--placed-by", "planes"], "asked"),
+        db(&["--placed-by", "depths"], "depths"),
+    );
+    println!("{planes:.2} dB placed by planes, {depths:.2} by depths");
+    assert!(
+        planes == asked && planes > depths,
+        "{planes} dB by planes, {asked} asked for, {depths} by depths"
+    );
+    let (listed, out) = ("-0.3,0.1,0.3,-0.1", path("listed"));
+    let words = [
+        "capture",
+        "--size",
+        "32x18",
+        "--pattern",
+        listed,
+        "--shading",
+        "placed",
+        "--out",
+        &out,
+    ];
+    finishes(&words);
+    fails(&[&words[..], &["--placed-by", "planes"]].concat(), 1, &["pattern"]);
+    let centred = ["capture", "--size", "32x18", "--placed-by", "planes", "--out", &out];
+    fails(&centred, 2, &["--shading placed", "--shading is centre"]);
+}
+
+#[test]
+fn a_capture_with_y_upside_down_is_warned_of() {
+    let folder = scratch("capture-upside-down");
+    let frame = folder.join("frame").to_string_lossy().into_owned();
+    finishes(&["capture", "--scene", "creases", "--size", "96x54", "--out", &frame]);
+    let description = format!("{frame}/capture.json");
+    let text = std::fs::read_to_string(&description).expect("a description");
+    let mut json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    for sample in json["samples"].as_array_mut().expect("samples") {
+        sample[1] = serde_json::json!(-sample[1].as_f64().expect("a number"));
+    }
+    let out = folder.join("out.png").to_string_lossy().into_owned();
+    let resolve = ["resolve", "--capture", &frame, "--out", &out, "--executor", "cpu"];
+    let warned = |resolve: &[&str]| {
+        let resolved = straightline(resolve);
+        assert!(resolved.status.success());
+        String::from_utf8_lossy(&resolved.stderr).into_owned()
+    };
+    assert_eq!(warned(&resolve), "");
+    std::fs::write(&description, json.to_string()).expect("written");
+    let said = warned(&resolve);
+    assert!(said.contains("warning: ") && said.contains("y upside down"), "{said}");
+}

@@ -451,3 +451,79 @@ fn buffers_that_a_kernel_writes_are_written_as_text() {
     run("picture.png", &["gives no picture, and writes bins: say NAME=FILE.csv"]);
     run("bins=bins.png", &["neither .csv nor .txt"]);
 }
+
+/// Gives a NaN, which `--check-finite` refuses, where the texture is not `level`.
+const DATA: &str = "pub fn data(depth: &Frame<f32>, level: f32, pixel: IVec2) -> Vec4 {\n    let right = if (depth.load(pixel) - level).abs() < 0.002 { 1.0 } else { 0.0 };\n    Vec4::splat(right / right)\n}\n";
+
+/// The same of a colour.
+const COLOR: &str = "pub fn colour(color: &Frame<Vec4>, level: f32, pixel: IVec2) -> Vec4 {\n    let right = if (color.load(pixel).y - level).abs() < 0.002 { 1.0 } else { 0.0 };\n    Vec4::splat(right / right)\n}\n";
+
+#[test]
+fn a_png_is_data_or_a_colour_as_the_texture_says_or_the_command() {
+    let folder = scratch("run-transfer");
+    let grey = write(
+        &folder,
+        "grey.rs",
+        "pub fn grey(pixel: IVec2) -> Vec4 {\n    Vec4::splat(0.5).with_w(1.0)\n}\n",
+    );
+    let picture = folder.join("grey.png").display().to_string();
+    let made = [
+        "run",
+        grey.as_str(),
+        "--size",
+        "4x4",
+        "--executor",
+        "cpu",
+        "--out",
+        picture.as_str(),
+    ];
+    assert!(straightline(&made).status.success());
+    let (data, color) = (write(&folder, "data.rs", DATA), write(&folder, "colour.rs", COLOR));
+    let out = folder.join("out.png").display().to_string();
+    // 188 of 255 in the file, which is half as bright as white.
+    let (stored, light) = (188.0 / 255.0, 0.503);
+    for (kernel, end, level, says) in [
+        (&data, "", stored, "read as it is"),
+        (&data, ",linear", stored, ""),
+        (&data, ",srgb", light, ""),
+        (&color, "", light, "read as sRGB"),
+        (&color, ",linear", stored, ""),
+        (&color, ",srgb", light, ""),
+    ] {
+        let (input, level) = (format!("{picture}{end}"), format!("level={level}"));
+        let ran = straightline(&[
+            "run",
+            kernel,
+            "--input",
+            &input,
+            "--uniform",
+            &level,
+            "--executor",
+            "cpu",
+            "--check-finite",
+            "--out",
+            &out,
+        ]);
+        let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+        assert!(ran.status.success(), "{kernel} {input} {level}: {said}");
+        assert!(
+            said.contains(says) && (!says.is_empty() || !said.contains("read as")),
+            "{said}"
+        );
+    }
+    let exr = folder.join("grey.exr").display().to_string();
+    fails(
+        &[
+            "run",
+            &color,
+            "--input",
+            &format!("{exr},srgb"),
+            "--uniform",
+            "level=1",
+            "--out",
+            &out,
+        ],
+        2,
+        &["`,srgb` is of a PNG", "grey.exr"],
+    );
+}

@@ -335,3 +335,32 @@ fn compilers_are_compared_and_recorded() {
         &["navi99", "navi21"],
     );
 }
+
+/// A uniform without a default.
+const BRIGHTER: &str = "pub fn brighter(color: &Frame<Vec4>, gain: f32, pixel: IVec2) -> Vec4 {\n    let mut sum = Vec4::ZERO;\n    for x in -1..=1 {\n        sum += color.load(pixel + ivec2(x, 0));\n    }\n    gain * sum\n}\n";
+
+#[test]
+fn uniforms_of_a_studied_kernel_are_said() {
+    let folder = scratch("study-uniforms");
+    let kernel = write(&folder, "brighter.rs", BRIGHTER);
+    let out = folder.join("out").display().to_string();
+    let words = [
+        "study", "loops", "--size", "16x16", "--rounds", "1", "--out", &out, "--from", &kernel,
+    ];
+    for (more, value) in [(&[][..], "gain = 1"), (&["--uniform", "gain=2.5"][..], "gain = 2.5")] {
+        let said = finishes(&[&words[..], more].concat());
+        assert!(
+            said.contains(&format!("brighter: on the test card with {value}\n")),
+            "{said}"
+        );
+        let record = std::fs::read_to_string(format!("{out}/loops.json")).expect("a record");
+        assert!(record.contains(&format!("the test card with {value}\"")), "{record}");
+        let page = std::fs::read_to_string(format!("{out}/report.html")).expect("a page");
+        assert!(
+            page.contains(&format!("On the test card with {value}.")),
+            "no {value} on the page"
+        );
+    }
+    fails(&[&words[..], &["--uniform", "gian=2"]].concat(), 2, &["uniform `gian`"]);
+    fails(&[&words[..], &["--uniform", "gain=much"]].concat(), 2, &["gain"]);
+}

@@ -55,6 +55,7 @@ const SRAA: &[SourceFile] = &[
     source!("sraa/demodulate.rs"),
     source!("sraa/extra.rs"),
     source!("sraa/history.rs"),
+    source!("sraa/lobes.rs"),
     source!("sraa/pattern.rs"),
     source!("sraa/gbuffer.rs"),
     source!("sraa/view.rs"),

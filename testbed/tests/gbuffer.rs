@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 use straightline_codegen::{Kernel, Settings};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample};
+use straightline_testbed::encode::{DepthEncoding, DepthStorage};
 use straightline_testbed::execute::interpret;
-use straightline_testbed::gbuffer::{self, GBufferError};
+use straightline_testbed::gbuffer::{self, GBufferError, Misplaced};
 use straightline_testbed::oracle::{self, SraaParams};
 use straightline_testbed::render::{self, CpuRenderer, Renderer};
 use straightline_testbed::scene::{NAMES, Scene};
@@ -151,4 +152,106 @@ fn several_shading_samples_are_captured_and_filtered() {
     let (plain, once, twice) = (psnr(&one.color), psnr(&filtered(&one)), psnr(&filtered(&two)));
     println!("{plain:.2} dB without, {once:.2} dB with one shading sample, {twice:.2} dB with two");
     assert!(plain < once && once < twice);
+}
+
+/// Ground and walls at many depths.
+fn ground() -> Capture {
+    let renderer = CpuRenderer::new(&Scene::named("terrain").expect("a scene"), uvec2(96, 54)).expect("a renderer");
+    let samples = gbuffer::samples("latin4").expect("a pattern");
+    render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture")
+}
+
+#[test]
+fn sample_offsets_that_are_stated_wrongly_show() {
+    type Wrong = fn(Vec2) -> Vec2;
+    let cases: [(Wrong, Option<Misplaced>); 5] = [
+        (|at| at, None),
+        (|at| Vec2::new(at.x, -at.y), Some(Misplaced::FlippedY)),
+        (|at| Vec2::new(-at.x, at.y), Some(Misplaced::FlippedX)),
+        (|at| -at, Some(Misplaced::Flipped)),
+        (|at| Vec2::new(at.y, at.x), Some(Misplaced::Exchanged)),
+    ];
+    for scene in ["roof", "creases"] {
+        let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), uvec2(96, 54)).expect("a renderer");
+        for shading in [ShadingSample::Centre, ShadingSample::Sample(0)] {
+            let samples = gbuffer::samples("latin4").expect("a pattern");
+            let right = render::capture(&renderer, &samples, shading).expect("a capture");
+            for (wrong, expected) in cases {
+                let mut stated = right.clone();
+                stated.samples.iter_mut().for_each(|at| *at = wrong(*at));
+                assert_eq!(gbuffer::misplaced(&stated), expected, "{scene} {:?}", stated.shading);
+            }
+        }
+    }
+}
+
+#[test]
+fn depth_in_steps_is_told_from_depth_in_floats() {
+    let capture = ground();
+    let planes = |more: &[(&str, &str)]| {
+        let recommended = [
+            ("metric", "planes-normals"),
+            ("difference", "relative"),
+            ("depth-scale", "10"),
+            ("search", "five"),
+            ("search-threshold", "0.004"),
+        ];
+        options(&[&recommended[..], more].concat())
+    };
+    let stored = |of: &dyn Fn(f64) -> f64| {
+        let layer = |layer: &Frame<f32>| {
+            let texels = layer
+                .texels()
+                .iter()
+                .map(|z| if *z < 1.0e6 { of(f64::from(*z)) as f32 } else { *z });
+            Frame::new(layer.size(), texels.collect())
+        };
+        Capture {
+            depth: FrameLayers::new(capture.depth.layers().iter().map(layer).collect()),
+            ..capture.clone()
+        }
+    };
+    let sixteen_bits = |near: f64| {
+        let encoding = DepthEncoding::Perspective { near, far: 100.0 };
+        move |z: f64| encoding.decode(DepthStorage::Unorm16.round(encoding.encode(z)))
+    };
+    assert_eq!(gbuffer::coarse(&capture, &planes(&[])), None);
+    assert_eq!(
+        gbuffer::coarse(&capture, &planes(&[("depth", "reversed-infinite")])),
+        None
+    );
+    let coarse = gbuffer::coarse(&stored(&sixteen_bits(0.05)), &planes(&[])).expect("16 bits are coarse");
+    assert!(coarse.share > 0.2 && coarse.least > coarse.threshold, "{coarse:?}");
+    let half = |z: f64| half::f16::from_f64(z).to_f64();
+    let coarse = gbuffer::coarse(&stored(&half), &planes(&[])).expect("half floats are coarse");
+    assert!((1.0e-3..=3.0e-2).contains(&coarse.least), "{coarse:?}");
+    // In 32 bits a near plane far before everything is.
+    let mut near = capture.clone();
+    near.camera.as_mut().expect("a camera").near = 1.0e-4;
+    assert!(gbuffer::coarse(&near, &planes(&[("depth", "perspective")])).is_some());
+    assert_eq!(gbuffer::coarse(&near, &planes(&[("depth", "reversed")])), None);
+    assert_eq!(
+        gbuffer::coarse(&stored(&half), &options(&[("metric", "normals")])),
+        None
+    );
+}
+
+#[test]
+fn normals_of_a_map_are_told_from_those_of_geometry() {
+    for scene in ["roof", "grooves", "creases"] {
+        let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), uvec2(96, 54)).expect("a renderer");
+        let samples = gbuffer::samples("latin4").expect("a pattern");
+        let mut capture = render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture");
+        assert_eq!(gbuffer::bent_normals(&capture), None, "{scene}");
+        let bumps =
+            |(k, n): (usize, &Vec3)| (*n + 0.2 * Vec3::new((k as f32).sin(), (1.7 * k as f32).cos(), 0.0)).normalize();
+        let layer =
+            |layer: &Frame<Vec3>| Frame::new(layer.size(), layer.texels().iter().enumerate().map(bumps).collect());
+        let normals = capture.normal.as_ref().expect("normals").layers().iter().map(layer);
+        capture.normal = Some(FrameLayers::new(normals.collect()));
+        assert!(
+            gbuffer::bent_normals(&capture).is_some_and(|share| share > 0.5),
+            "{scene}"
+        );
+    }
 }

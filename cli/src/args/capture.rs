@@ -1,7 +1,7 @@
 //! Arguments of `capture`, `resolve` and `compare`, and what is rendered by any command that has a choice.
 
 use super::{AdapterArgs, Executor, OptionArgs, StageArg, size};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use std::path::PathBuf;
 use straightline_codegen::shorten;
@@ -35,6 +35,15 @@ impl ViewArgs {
     }
 }
 
+/// What tells surfaces apart where shading is placed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PlacedByArg {
+    /// Planes and normals: metric=planes-normals difference=relative depth-scale=10 unseen=0.003
+    Planes,
+    /// Depths and normals: difference=relative depth-scale=3
+    Depths,
+}
+
 #[derive(Debug, Args)]
 pub struct CaptureArgs {
     #[command(flatten)]
@@ -50,6 +59,10 @@ pub struct CaptureArgs {
     /// in --shaded
     #[arg(long, value_name = "WHERE", default_value = "centre")]
     pub shading: String,
+    /// With --shading placed: what tells surfaces apart, as the options of docs/sraa.md have it. By default planes, where the pattern has a
+    /// name
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub placed_by: Option<PlacedByArg>,
     /// With --shading listed: the geometry samples that are shaded, counted from 0: one, two or four
     #[arg(long, value_name = "SAMPLES", value_delimiter = ',')]
     pub shaded: Vec<usize>,

@@ -28,7 +28,7 @@ use absent::{
     AbsentArgs as BudgetArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs, AbsentArgs as StudyArgs,
     AbsentArgs as TuneArgs,
 };
-pub use capture::{CaptureArgs, CompareArgs, ResolveArgs, ViewArgs};
+pub use capture::{CaptureArgs, CompareArgs, PlacedByArg, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
 pub use kernel::{KernelArgs, OptionArgs};
 pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};

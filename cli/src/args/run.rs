@@ -21,7 +21,8 @@ pub struct GivenArgs {
     /// PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture. Files given for a texture with
     /// layers, in order, are its layers; those of a cube its six faces +X, -X, +Y, -Y, +Z, -Z; those of a volume its slices. A
     /// volume may also be a .cube table, or one picture of its slices side by side. Texels of integers are the numbers of a PNG
-    /// as they are stored.
+    /// as they are stored. For a texture of one or two components a PNG is data, its numbers from 0 to 1 as they are, else a colour in
+    /// sRGB; FILE,linear and FILE,srgb say otherwise, and normals in a PNG need FILE,linear.
     #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
     pub input: Vec<String>,
     /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times

@@ -83,6 +83,10 @@ pub struct LoopsArgs {
     /// The same kernel hand-written with its loops, reading the same by the same names: one for each --from, in order
     #[arg(long, value_name = "KERNEL", requires = "from")]
     pub by_hand: Vec<String>,
+    /// Value of a uniform of the kernels of --from: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times. One without a
+    /// default is 1 otherwise
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = super::pair, requires = "from")]
+    pub uniform: Vec<(String, String)>,
     /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,

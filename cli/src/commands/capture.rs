@@ -1,10 +1,12 @@
 //! `capture`: a scene or a model as the frame that `resolve` reads.
 
-use crate::args::CaptureArgs;
+use crate::args::{CaptureArgs, PlacedByArg};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
-use straightline_testbed::render;
+use straightline_testbed::capture::ShadingSample;
+use straightline_testbed::gbuffer;
+use straightline_testbed::render::{self, PlacedBy};
 
 /// Renders and writes a capture, or nothing.
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
@@ -13,10 +15,15 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     }
     let samples = scene::pattern(&args.pattern)?;
     let shading = scene::shading(&args.shading, &args.shaded)?;
+    let placed_by = placed_by(args, &shading)?;
     let world = scene::viewed(&args.view)?;
     let gpu = Gpu::open(&args.adapter)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, args.size)?;
-    let mut capture = render::capture(renderer.as_ref(), &samples, shading).map_err(Failure::of)?;
+    let capture = match placed_by {
+        Some(by) => render::capture_placed(renderer.as_ref(), &samples, by),
+        None => render::capture(renderer.as_ref(), &samples, shading),
+    };
+    let mut capture = capture.map_err(Failure::of)?;
     if args.albedo {
         render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::of)?;
     }
@@ -30,4 +37,21 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     capture.write(&args.out).map_err(Failure::of)?;
     outln!("{}", args.out.display());
     Ok(())
+}
+
+/// What shading is placed by, if it is placed: planes, unless depths are asked for or it is not known where samples lie.
+fn placed_by(args: &CaptureArgs, shading: &ShadingSample) -> Result<Option<PlacedBy>, Failure> {
+    match (shading, args.placed_by) {
+        (ShadingSample::Placed, Some(PlacedByArg::Planes)) => Ok(Some(PlacedBy::Planes)),
+        (ShadingSample::Placed, Some(PlacedByArg::Depths)) => Ok(Some(PlacedBy::Depths)),
+        (ShadingSample::Placed, None) => match gbuffer::PATTERNS.contains(&args.pattern.as_str()) {
+            true => Ok(Some(PlacedBy::Planes)),
+            false => Ok(Some(PlacedBy::Depths)),
+        },
+        (_, Some(_)) => Err(Failure::Usage(format!(
+            "--placed-by is of --shading placed, and --shading is {}",
+            args.shading
+        ))),
+        (_, None) => Ok(None),
+    }
 }

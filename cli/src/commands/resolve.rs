@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
+use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Kernel, files};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::Capture;
@@ -23,6 +24,10 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     let settings = with_capture(&args.options, &capture)?;
     let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
     let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
+    let warnings = warnings(&capture, &compiled.options);
+    for warning in &warnings {
+        errln!("warning: {warning}");
+    }
     let (resolved, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
@@ -36,7 +41,37 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     };
     let errors = args.reference.then(|| errors(&capture, &resolved)).transpose()?;
     picture::write(&args.out, &resolved).map_err(Failure::of)?;
-    report(args, &compiled, &by, &resolved, errors)
+    report(args, &compiled, &by, &resolved, errors, &warnings)
+}
+
+/// What makes a picture worse than it need be, and shows in the capture.
+fn warnings(capture: &Capture, options: &BTreeMap<String, String>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(misplaced) = gbuffer::misplaced(capture) {
+        warnings.push(misplaced.words().to_owned());
+    }
+    let by_planes = options.get("metric").is_some_and(|metric| metric == "planes-normals");
+    if let Some(share) = gbuffer::bent_normals(capture).filter(|_| by_planes) {
+        warnings.push(format!(
+            "{:.0} % of the normals stand off the planes of the depths, as those of normal maps do: write the normals of the geometry, or use \
+             metric=depth",
+            100.0 * share
+        ));
+    }
+    if let Some(coarse) = gbuffer::coarse(capture, options) {
+        warnings.push(format!(
+            "depth is too coarse: {:.0} % of the samples on even ground are off their plane by what counts as more than {}, {:.1e}, and a tenth \
+             by {:.1e} and more; store depth in 32 bits, reversed, move the near plane away, or set a lower depth-scale or higher thresholds",
+            100.0 * coarse.share,
+            match coarse.option {
+                "tau" => "1 / tau",
+                option => option,
+            },
+            coarse.threshold,
+            coarse.least
+        ));
+    }
+    warnings
 }
 
 fn report(
@@ -45,12 +80,13 @@ fn report(
     by: &str,
     resolved: &Frame<Vec4>,
     errors: Option<(f64, f64)>,
+    warnings: &[String],
 ) -> Result<(), Failure> {
     let bad = metrics::non_finite(resolved);
     if args.json {
         let mut out = json!({
             "out": args.out, "executor": by, "options": compiled.options,
-            "size": resolved.size().to_array(), "non_finite_pixels": bad,
+            "size": resolved.size().to_array(), "non_finite_pixels": bad, "warnings": warnings,
         });
         if let Some((before, after)) = errors {
             out["psnr_1x_db"] = json!(before);

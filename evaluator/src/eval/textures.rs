@@ -46,6 +46,7 @@ impl Evaluator<'_> {
             kind: of.kind,
             scalar,
             components,
+            declared: components,
             framed: of.framed,
         });
         Ok(Some(Value::Texture(textures.len() as u32 - 1)))

@@ -138,6 +138,7 @@ impl Reader {
             kind,
             scalar: kind_of_number,
             components: number(components)?,
+            declared: number(components)?,
             framed: size == "frame",
         });
         Ok(())

@@ -103,6 +103,8 @@ pub struct Texture {
     pub scalar: Scalar,
     /// Components of a texel that the kernel uses, 1 to 4.
     pub components: u8,
+    /// Components of a texel by its type in the kernel, 1 to 4: data rather than a colour below 3.
+    pub declared: u8,
     /// Whether it has the output's size; else it has one of its own.
     pub framed: bool,
 }

@@ -31,6 +31,7 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
             kind: TextureKind::Flat,
             scalar: Scalar::F32,
             components: varying.ty.components(),
+            declared: varying.ty.components(),
             framed: true,
         });
     }

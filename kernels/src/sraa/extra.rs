@@ -145,7 +145,7 @@ fn shading_sample(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> Place {
 /// What is seen at a geometry sample.
 fn sampled(cfg: &Sraa, seen: &Seen, at: Place) -> Sample {
     let surface = surface(cfg, seen.gbuffer, seen.view, seen.pixel, at);
-    Sample::new(seen.view, surface, seen.pixel, at.at)
+    Sample::new(cfg, seen.view, surface, seen.pixel, at.at)
 }
 
 /// How different the surface at a tap is from a sample's.

@@ -3,7 +3,7 @@
 use super::metric::Metric;
 use super::options::{Guards, Sraa};
 use super::pattern::Place;
-use super::view::View;
+use super::view::{Projection, View};
 use crate::normals::{folded, unit};
 use crate::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::prelude::*;
 pub enum Depth {
     /// Along the view direction, in scene units; infinite where there is no geometry.
     Linear,
-    /// As projected: 0 at the near plane, 1 at the far plane.
+    /// As projected, by either projection: 0 at the near plane, 1 at the far plane.
     Perspective,
     /// As projected with near and far swapped: 1 at the near plane, 0 at the far plane.
     Reversed,
@@ -192,13 +192,15 @@ impl Sraa {
 /// Depth along the view direction, in scene units.
 fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
     let (near, far) = (view.near, view.far);
-    let depth = match cfg.depth {
-        Depth::Linear => stored,
+    let depth = match (cfg.projection, cfg.depth) {
+        (_, Depth::Linear) => stored,
+        (Projection::Parallel, Depth::Perspective) => near + (far - near) * stored,
+        (Projection::Parallel, _) => far - (far - near) * stored,
         // 1 - stored is exact near the far plane, where far - stored * (far - near) would cancel; and of an infinite far
         // plane the share is 0.
-        Depth::Perspective => near / ((1.0 - stored) + near / far * stored),
-        Depth::Reversed => near / (stored + near / far * (1.0 - stored)),
-        Depth::ReversedInfinite => near / if stored > SHORTEST { stored } else { SHORTEST },
+        (_, Depth::Perspective) => near / ((1.0 - stored) + near / far * stored),
+        (_, Depth::Reversed) => near / (stored + near / far * (1.0 - stored)),
+        (_, Depth::ReversedInfinite) => near / if stored > SHORTEST { stored } else { SHORTEST },
     };
     match cfg.guards {
         Guards::Fallback | Guards::None => depth.min(DEEPEST),

@@ -6,7 +6,7 @@
 //! nothing, so that what was hidden, or has moved away, leaves no trace.
 
 use super::demodulate::{Demodulate, Paint};
-use super::gbuffer::{DEEPEST, Normals, Surface};
+use super::gbuffer::{DEEPEST, Depth, Normals, Surface};
 use super::metric::{FAR, Metric, Sample, distance};
 use super::options::{Guards, Mask, Normalisation, Resolve, Sraa};
 use super::pattern::{Place, Shading};
@@ -138,7 +138,7 @@ pub(super) fn earlier_tap(cfg: &Sraa, inputs: &Inputs, place: Place, frame: usiz
             at: first - motion + step.as_vec2(),
             ..place
         },
-        seen: seen(cfg, inputs.history.history_surface.load(there, frame), moved.z),
+        seen: seen(cfg, inputs, inputs.history.history_surface.load(there, frame), moved.z),
         is_there: known && inside,
     }
 }
@@ -167,8 +167,12 @@ fn is_inside(pixel: IVec2, size: IVec2) -> bool {
 }
 
 /// The surface in a texel of an earlier frame, as it is compared with those of this one; `deeper` is by how much it was deeper then.
-fn seen(cfg: &Sraa, texel: Vec4, deeper: f32) -> Surface {
-    let depth = texel.w - deeper;
+fn seen(cfg: &Sraa, inputs: &Inputs, texel: Vec4, deeper: f32) -> Surface {
+    let depth = match cfg.depth {
+        Depth::Linear | Depth::ReversedInfinite => texel.w - deeper,
+        // The sky, infinite there, is as deep as the far plane in this frame.
+        Depth::Perspective | Depth::Reversed => nearer(cfg, texel.w - deeper, inputs.view.far),
+    };
     Surface {
         depth: match cfg.guards {
             Guards::Fallback | Guards::None => depth.min(DEEPEST),
@@ -184,6 +188,20 @@ fn seen(cfg: &Sraa, texel: Vec4, deeper: f32) -> Surface {
             (Normals::Unorm, Metric::DepthNormals | Metric::Normals) if !cfg.renormalise => 0.5 * texel.xyz() + 0.5,
             _ => texel.xyz(),
         },
+    }
+}
+
+/// The smaller of the two; if the first is not a number, the second.
+fn nearer(cfg: &Sraa, depth: f32, far: f32) -> f32 {
+    match cfg.guards {
+        Guards::Fallback | Guards::None => depth.min(far),
+        Guards::Inline => {
+            if depth < far {
+                depth
+            } else {
+                far
+            }
+        }
     }
 }
 

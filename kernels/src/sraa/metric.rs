@@ -1,8 +1,8 @@
 //! What tells two surfaces apart (paper §3.2, Table 1).
 
-use super::gbuffer::{Normals, Surface};
+use super::gbuffer::{Depth, Normals, Surface};
 use super::options::{Guards, Mask, Normalisation, Sraa, Turn};
-use super::view::View;
+use super::view::{Projection, View};
 use crate::prelude::*;
 
 /// What tells two surfaces apart, from the dearest to the cheapest.
@@ -41,10 +41,15 @@ pub enum Plane {
 pub(super) struct Sample {
     surface: Surface,
     plane: Tilt,
-    /// Ray through the centre of the pixel that is filtered, and what is added for each pixel to the right and down.
+    /// Ray through the centre of the pixel that is filtered, and what is added for each pixel to the right and down: to the ray, or of
+    /// projection=parallel to where it begins.
     rays: [Vec3; 3],
     /// From the centre of the pixel that is filtered, in pixels, y down.
     at: Vec2,
+    /// Square of the normal's length: 1, or 0 where nothing is drawn.
+    square: f32,
+    /// Of metric=planes-normals: whether a surface is drawn there.
+    is_drawn: bool,
 }
 
 /// How a plane is tilted, as rays see it: how much of the way along a ray to depth 1 is along the normal.
@@ -60,18 +65,69 @@ struct Tilt {
 
 impl Sample {
     /// The sample at which `surface` is seen, `at` from the centre of `pixel`.
-    pub(super) fn new(view: &View, surface: Surface, pixel: IVec2, at: Vec2) -> Sample {
-        let rays = [view.ray(pixel), view.ray_right, view.ray_down];
+    pub(super) fn new(cfg: &Sraa, view: &View, surface: Surface, pixel: IVec2, at: Vec2) -> Sample {
+        let ray = match cfg.projection {
+            Projection::Perspective => view.ray(pixel),
+            Projection::Parallel => view.ray_forward,
+        };
+        let rays = [ray, view.ray_right, view.ray_down];
+        let n = surface.normal;
+        let square = n.x * n.x + n.y * n.y + n.z * n.z;
+        let is_drawn = is_drawn(cfg, view, &surface, square);
+        let plane = Tilt::new(&rays, n);
         Sample {
             surface,
-            plane: Tilt::new(&rays, surface.normal),
+            plane: if is_drawn { plane } else { Tilt::BY_DEPTH },
             rays,
             at,
+            square,
+            is_drawn,
         }
     }
 }
 
+/// Square of a normal's length below which it is none: renderers clear normals to 0.
+const LEAST_SQUARE: f32 = 1.0 / 4096.0;
+
+/// The same above which a normal that is stored as 0.5 + 0.5 n is none: of a texel of zeros it is 3.
+const MOST_SQUARE: f32 = 2.0;
+
+/// Linear depth, or share of the far plane's, from which on nothing is drawn.
+const BACKDROP: f32 = 1.0e20;
+const NEAR_FAR: f32 = 0.999;
+
+/// Whether a surface is drawn there, of metric=planes-normals. Where none is, there is no plane to measure from, and depths are compared. Normals
+/// that were cleared to anything else than 0 are told by depth: in world space such a sky would not be even.
+fn is_drawn(cfg: &Sraa, view: &View, surface: &Surface, square: f32) -> bool {
+    match cfg.metric {
+        Metric::PlanesNormals => {
+            let deepest = match cfg.depth {
+                Depth::Linear | Depth::ReversedInfinite => BACKDROP,
+                Depth::Perspective | Depth::Reversed => match cfg.projection {
+                    Projection::Perspective => NEAR_FAR * view.far,
+                    Projection::Parallel => view.near + NEAR_FAR * (view.far - view.near),
+                },
+            };
+            let has_normal = match cfg.normals {
+                Normals::Float => square >= LEAST_SQUARE,
+                Normals::Unorm if cfg.renormalise => true,
+                Normals::Unorm => square >= LEAST_SQUARE && square <= MOST_SQUARE,
+                Normals::Octahedral | Normals::Packed => true,
+            };
+            surface.depth < deepest && has_normal
+        }
+        Metric::DepthNormals | Metric::Normals | Metric::Depth => true,
+    }
+}
+
 impl Tilt {
+    /// Of no plane: distances from it are differences in depth.
+    const BY_DEPTH: Tilt = Tilt {
+        along: 1.0,
+        right: 0.0,
+        down: 0.0,
+    };
+
     /// Of the plane with a normal.
     fn new(rays: &[Vec3; 3], normal: Vec3) -> Tilt {
         Tilt {
@@ -140,7 +196,7 @@ fn number(cfg: &Sraa, apart: f32) -> f32 {
 
 /// σp |(pₜ - pₛ)·nₛ|, or of nₜ. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is
 /// (zₜ - zₛ) rₜ·nₛ + zₛ (rₜ - rₛ)·nₛ, where rₜ - rₛ is exact: the points' own coordinates would cancel. From the tap's plane
-/// it is the same with the two exchanged.
+/// it is the same with the two exchanged. Of a parallel projection rays are alike, and what they begin at is apart instead.
 fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let away = at - sample.at;
     let deeper = tap.depth - sample.surface.depth;
@@ -150,16 +206,21 @@ fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
             let plane = &sample.plane;
             let along = plane.along + at.x * plane.right + at.y * plane.down;
             let aside = away.x * plane.right + away.y * plane.down;
-            match cfg.difference {
-                Difference::Absolute => deeper * along + sample.surface.depth * aside,
-                Difference::Relative => deeper / nearest * along + aside,
+            match (cfg.projection, cfg.difference) {
+                (Projection::Parallel, _) => deeper * plane.along + aside,
+                (_, Difference::Absolute) => deeper * along + sample.surface.depth * aside,
+                (_, Difference::Relative) => deeper / nearest * along + aside,
             }
         }
         Plane::Tap => {
             let plane = Tilt::new(&sample.rays, tap.normal);
             let along = plane.along + sample.at.x * plane.right + sample.at.y * plane.down;
             let aside = away.x * plane.right + away.y * plane.down;
-            let off = deeper * along + tap.depth * aside;
+            let off = match cfg.projection {
+                Projection::Parallel => deeper * plane.along + aside,
+                Projection::Perspective => deeper * along + tap.depth * aside,
+            };
+            let off = if sample.is_drawn { off } else { deeper };
             match cfg.difference {
                 Difference::Absolute => off,
                 Difference::Relative => off / nearest,
@@ -177,7 +238,8 @@ fn deeper(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
     }
 }
 
-/// 1 - a·b of two normals.
+/// 1 - a·b of two normals, as a·a - a·b: of a sample where nothing is drawn it is 0, and its depth alone counts. A tap with a normal of 0
+/// differs by 1 from every surface.
 fn turned(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
     let (a, b) = (sample.surface.normal, tap.normal);
     let turn = a - b;
@@ -189,7 +251,7 @@ fn turned(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
         _ => match cfg.turn {
             Turn::Chord => 0.5 * turn.dot(turn),
             // Term by term, each of which a GPU fuses with the last.
-            Turn::Cosine => 1.0 - a.x * b.x - a.y * b.y - a.z * b.z,
+            Turn::Cosine => sample.square - a.x * b.x - a.y * b.y - a.z * b.z,
         },
     }
 }

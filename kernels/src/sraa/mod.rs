@@ -9,6 +9,7 @@ mod demodulate;
 mod extra;
 mod gbuffer;
 mod history;
+mod lobes;
 mod metric;
 mod options;
 mod pattern;
@@ -21,6 +22,7 @@ use colors::{color, is_kept, own_color};
 use demodulate::{may_count, paint, weighed};
 use gbuffer::surface;
 use history::{own_tap, remembered, shift};
+use lobes::within_range;
 use metric::{FAR, Sample, distance};
 use pattern::{Place, tent};
 use placed::shaded_place;
@@ -35,7 +37,7 @@ pub use metric::{Difference, Metric, Plane};
 pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn, Variation};
 pub use pattern::{Pattern, Shading};
 pub use placed::sraa_place;
-pub use view::View;
+pub use view::{Projection, View};
 
 /// What a pixel is filtered from.
 struct Inputs<'a> {
@@ -128,6 +130,8 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     // The same times what reflects light at the samples that a tap counts for, and times what reflects direct light.
     let mut reflected = [Vec3::ZERO; TAPS];
     let mut lit = [Vec3::ZERO; TAPS];
+    // How much of each tap is in the samples that the pixel is made of, whatever their sign.
+    let mut used = [0.0; TAPS];
     let mut unseen = 0;
     let mut past = Searched::NOTHING;
     for sample in 0..cfg.reconstructed() {
@@ -193,6 +197,9 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             for tap in 0..TAPS {
                 if reaches(cfg, place, cfg.tap(tap, SIDE)) {
                     weights[tap] += tap_weights[tap] * scale;
+                    if cfg.has_lobes() {
+                        used[tap] += tap_weights[tap] * scale.abs();
+                    }
                     if cfg.demodulate != Demodulate::None {
                         reflected[tap] += tap_weights[tap] * scale * own.albedo;
                     }
@@ -210,10 +217,11 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     }
     // Read by what demodulates alone.
     let paints = (&reflected, &lit);
-    match cfg.guards {
+    let mean = match cfg.guards {
         Guards::Inline => mean_of_kept(cfg, inputs, &weights, paints, SIDE, apart),
         Guards::Fallback | Guards::None => mean(cfg, inputs, &weights, paints, SIDE, apart),
-    }
+    };
+    within_range(cfg, inputs, &used, SIDE, mean)
 }
 
 /// The mean of the taps' colours that may count, and of those of unseen samples.
@@ -332,7 +340,7 @@ fn variation_one_by_one(cfg: &Sraa, inputs: &Inputs) -> f32 {
 /// What is seen at a geometry sample.
 fn geometry_sample(cfg: &Sraa, inputs: &Inputs, place: Place) -> Sample {
     let seen = surface(cfg, inputs.gbuffer, inputs.view, inputs.pixel, place);
-    Sample::new(inputs.view, seen, inputs.pixel, place.at)
+    Sample::new(cfg, inputs.view, seen, inputs.pixel, place.at)
 }
 
 /// How different the surface at a tap is from that at a geometry sample; of the sample itself, 0.

@@ -6,6 +6,7 @@ use super::demodulate::Demodulate;
 use super::gbuffer::{Depth, Layout, Normals};
 use super::metric::{Difference, Metric, Plane};
 use super::pattern::{Pattern, Shading};
+use super::view::Projection;
 
 options! {
     /// What an SRAA filter is made of.
@@ -26,6 +27,8 @@ options! {
         pub difference: Difference = Difference::Absolute,
         /// Of metric=planes-normals: from whose plane a distance is measured.
         pub plane: Plane = Plane::Sample,
+        /// How the camera projects.
+        pub projection: Projection = Projection::Perspective,
         /// How the G-buffer holds depth.
         pub depth: Depth = Depth::Linear,
         /// How the G-buffer holds normals.
@@ -124,9 +127,10 @@ pub enum Resolve {
     Tent,
     /// A Gaussian over the same, its standard deviation half of that.
     Gaussian,
-    /// Mitchell and Netravali's cubic (1988), which goes below zero, over the same.
+    /// Mitchell and Netravali's cubic (1988), which goes below zero, over the same. No component leaves the range of the colours that the
+    /// samples are made of.
     Mitchell,
-    /// A sinc windowed by another, two lobes each way, over the same.
+    /// A sinc windowed by another, two lobes each way, over the same; kept within the same range.
     Lanczos,
 }
 
@@ -174,8 +178,8 @@ pub enum NonFinite {
 /// How far apart two normals are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// 1 - a·b: three operations, and of normals of length 1 the same to a rounding. Normals that are compared alone are
-    /// compared by their chord even so: a cleared texel, of length 0, would be as far from itself as from anything.
+    /// a·a - a·b: three operations, and of normals of length 1 the same as 1 - a·b to a rounding. A cleared normal at the sample, of
+    /// length 0, does not count, and at a tap differs by 1.
     Cosine,
     /// ½|a - b|²: exactly 0 for the same normal, whatever its length. For half precision, and for normals that are not of
     /// length 1.

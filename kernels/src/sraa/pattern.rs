@@ -175,6 +175,7 @@ impl Sraa {
                 "search needs resolve=box, one shading sample a pixel and normalisation=shifted"
             );
         }
+        self.check_projection();
         self.check_extra();
         self.check_demodulate();
         self.check_history();

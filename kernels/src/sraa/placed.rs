@@ -50,7 +50,7 @@ fn first_unseen(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, own: &
     for sample in 0..cfg.samples() {
         let place = cfg.geometry_sample(IVec2::ZERO, sample);
         let seen = surface(cfg, gbuffer, view, pixel, place);
-        let sampled = Sample::new(view, seen, pixel, place.at);
+        let sampled = Sample::new(cfg, view, seen, pixel, place.at);
         let mut nearest = FAR;
         for k in 0..9 {
             nearest = nearest.min(from_centre(cfg, gbuffer, view, pixel, &sampled, neighbour(k, 3)));
@@ -71,7 +71,7 @@ fn from_centre(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, sample:
 /// What is seen at the centre of the pixel at `at`.
 fn centre(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, at: IVec2) -> Sample {
     let place = cfg.centre(at);
-    Sample::new(view, surface(cfg, gbuffer, view, pixel, place), pixel, place.at)
+    Sample::new(cfg, view, surface(cfg, gbuffer, view, pixel, place), pixel, place.at)
 }
 
 /// Where the shading sample `tap` lies: where the image says, if it does. Its weight by distance is that of its pixel's centre

@@ -76,6 +76,7 @@ pub fn further() -> Result<Vec<Asking>, Errors> {
                 kernel,
                 by_hand: Err("its loops are those of the default".to_owned()),
                 input: Input::Roof,
+                uniforms: Vec::new(),
             },
             slang,
         }

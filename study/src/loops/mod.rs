@@ -184,7 +184,7 @@ fn measured(
     let forms = KernelForms {
         kernel: subject.name.clone(),
         options: subject.options.clone(),
-        input: truth::name(subject.input),
+        input: truth::name(subject, &forms.full, &inputs),
         forms: measured,
         absent: forms.absent,
     };

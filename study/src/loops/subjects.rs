@@ -36,6 +36,8 @@ pub struct Subject {
     pub by_hand: Result<ByHand, String>,
     /// What it is run on.
     pub input: Input,
+    /// Values of uniforms; those without a default are 1 else.
+    pub uniforms: Vec<(String, Vec<f64>)>,
 }
 
 /// Why nothing was written by hand.
@@ -81,6 +83,7 @@ pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
             kernel: Kernel::builtin(name)?,
             by_hand: Err("its loops run over lists, and are written out in every form".to_owned()),
             input: Input::TestCard,
+            uniforms: Vec::new(),
         });
     }
     for filter in FILTERS {
@@ -95,6 +98,7 @@ pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
             kernel: Kernel::from_text(filter.path, filter.text, filter.name),
             by_hand: by_hand.ok_or_else(|| NOTHING_TO_GAIN.to_owned()),
             input: Input::TestCard,
+            uniforms: Vec::new(),
         });
     }
     if quick {
@@ -115,6 +119,7 @@ fn sraa(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
             options,
         }),
         input: Input::Roof,
+        uniforms: Vec::new(),
     })
 }
 
@@ -131,6 +136,7 @@ impl Subject {
             kernel,
             by_hand: by_hand.ok_or_else(|| "none was given with --by-hand".to_owned()),
             input: Input::TestCard,
+            uniforms: Vec::new(),
         }
     }
 }

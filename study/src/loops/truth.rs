@@ -38,7 +38,14 @@ impl<'a> Truth<'a> {
     pub fn inputs(&mut self, subject: &Subject, full: &Compiled) -> Result<Inputs, LoopsError> {
         match subject.input {
             // A compute invocation has a whole quad, and reads as a texture what a fragment shader interpolates.
-            Input::TestCard => Ok(test_inputs(&full.in_blocks().graph, self.size)),
+            Input::TestCard => {
+                let mut inputs = test_inputs(&full.in_blocks().graph, self.size);
+                for (name, lanes) in &subject.uniforms {
+                    inputs.uniforms.retain(|(known, _)| known != name);
+                    inputs = inputs.uniform(name, lanes);
+                }
+                Ok(inputs)
+            }
             Input::Roof => {
                 let pattern = full.options.get("pattern").cloned().unwrap_or_default();
                 let known = self.captures.iter().position(|(name, _)| *name == pattern);
@@ -63,11 +70,24 @@ impl<'a> Truth<'a> {
     }
 }
 
-/// What a record says of an input.
-pub fn name(input: Input) -> String {
-    match input {
+/// What a record says of an input: what it is, and of the test card the values of uniforms that were given, or have no default.
+pub fn name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
+    match subject.input {
         Input::Roof => format!("the scene `{SCENE}`"),
-        Input::TestCard => "the test card".to_owned(),
+        Input::TestCard => {
+            let uniforms = full.graph.uniforms.iter();
+            let stated = uniforms.filter_map(|uniform| {
+                let given = subject.uniforms.iter().any(|(name, _)| *name == uniform.name);
+                let (_, lanes) = inputs.uniforms.iter().find(|(name, _)| *name == uniform.name)?;
+                let lanes: Vec<String> = lanes.iter().map(f64::to_string).collect();
+                (given || uniform.default.is_none()).then(|| format!("{} = {}", uniform.name, lanes.join(",")))
+            });
+            let stated: Vec<String> = stated.collect();
+            match stated.is_empty() {
+                true => "the test card".to_owned(),
+                false => format!("the test card with {}", stated.join(", ")),
+            }
+        }
     }
 }
 

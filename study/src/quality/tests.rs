@@ -14,6 +14,7 @@ const CAMERA: Camera = Camera {
     target: [0.0, 0.0, -1.0],
     up: [0.0, 1.0, 0.0],
     vertical_fov: 1.0,
+    parallel_height: None,
     near: 0.1,
 };
 

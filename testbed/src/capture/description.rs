@@ -44,15 +44,16 @@ pub enum NormalSpace {
 
 impl NormalSpace {
     /// The rays of a camera through a picture of `size` pixels, in this space: from the eye to depth 1 through the upper left
-    /// corner, and how they change from pixel to pixel to the right and down.
+    /// corner, and how they change from pixel to pixel to the right and down. Of a parallel projection the first is the way to depth 1 along
+    /// all rays, and the others are the ways from ray to ray.
     pub fn rays(self, camera: &Camera, size: UVec2) -> [Vec3; 3] {
         let extent = camera.half_extent(size);
         let step = 2.0 * extent / size.as_vec2();
-        let rays = [
-            vec3(-extent.x, extent.y, -1.0),
-            vec3(step.x, 0.0, 0.0),
-            vec3(0.0, -step.y, 0.0),
-        ];
+        let first = match camera.parallel_height {
+            Some(_) => Vec3::NEG_Z,
+            None => vec3(-extent.x, extent.y, -1.0),
+        };
+        let rays = [first, vec3(step.x, 0.0, 0.0), vec3(0.0, -step.y, 0.0)];
         match self {
             NormalSpace::View => rays,
             // The inverse of a rotation is its transpose.
@@ -158,6 +159,9 @@ impl Description {
                 problem,
             })
         };
+        if let Some(problem) = self.camera.and_then(|camera| camera.check_projection().err()) {
+            return value("camera", problem);
+        }
         if self.depth != LINEAR {
             return Err(CaptureError::DepthEncoding {
                 path: path.to_owned(),
@@ -272,6 +276,20 @@ mod tests {
     }
 
     #[test]
+    fn a_parallel_camera_has_a_height_and_no_angle() {
+        let text = documented().replace("\"vertical_fov\": 1.0472", "\"parallel_height\": 6.0");
+        let description = parse(&text).unwrap();
+        let camera = description.camera.unwrap();
+        assert_eq!(camera.parallel_height, Some(6.0));
+        let size = UVec2::new(64, 32);
+        let [forward, right, down] = NormalSpace::View.rays(&camera, size);
+        assert_eq!(forward, Vec3::NEG_Z);
+        // Six units for 32 rows of square pixels.
+        assert!((right - 6.0 / 32.0 * Vec3::X).length() < 1.0e-6 && (down + 6.0 / 32.0 * Vec3::Y).length() < 1.0e-6);
+        assert_eq!(parse(&description.to_json().unwrap()).unwrap(), description);
+    }
+
+    #[test]
     fn rays_of_the_world_are_those_of_the_view_turned() {
         let camera = Camera {
             position: [3.0, 2.0, 1.0],
@@ -332,6 +350,12 @@ mod tests {
             ),
             ("\"centre\"", "\"corner\"", &["corner", "line 5 column"]),
             ("\"near\"", "\"nearest\"", &["unknown field `nearest`", "line 9 column"]),
+            (
+                "\"vertical_fov\": 1.0472",
+                "\"parallel_height\": -2.0",
+                &["camera", "parallel_height is -2", "above 0"],
+            ),
+            ("\"vertical_fov\": 1.0472, ", "", &["camera", "angle is 0 radians"]),
             ("\"linear\"", "\"reversed-z\"", &["`reversed-z`", "`linear`"]),
         ] {
             let message = broken(from, to);

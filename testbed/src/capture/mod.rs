@@ -112,9 +112,17 @@ impl Capture {
     }
 
     /// The rays through the pixels, in the space that normals are in: from the eye to depth 1 through the picture's upper left
-    /// corner, and how they change from pixel to pixel to the right and down. `None` without a camera.
+    /// corner, and how they change from pixel to pixel to the right and down. `None` without a camera, and of a parallel projection.
     pub fn rays(&self) -> Option<[Vec3; 3]> {
-        self.camera.map(|camera| self.normal_space.rays(&camera, self.size))
+        let camera = self.camera.filter(|camera| camera.parallel_height.is_none())?;
+        Some(self.normal_space.rays(&camera, self.size))
+    }
+
+    /// Of a parallel projection the way along its rays to depth 1, in the space that normals are in, and the ways from pixel to pixel to
+    /// the right and down.
+    pub fn parallel_rays(&self) -> Option<[Vec3; 3]> {
+        let camera = self.camera.filter(|camera| camera.parallel_height.is_some())?;
+        Some(self.normal_space.rays(&camera, self.size))
     }
 }
 

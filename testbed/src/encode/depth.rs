@@ -24,6 +24,20 @@ pub enum DepthEncoding {
         /// Linear depth of 1.
         near: f64,
     },
+    /// A parallel projection's: 0 at `near`, 1 at `far`, in even steps.
+    Parallel {
+        /// Linear depth of 0.
+        near: f64,
+        /// Linear depth of 1.
+        far: f64,
+    },
+    /// The same the other way round.
+    ParallelReversed {
+        /// Linear depth of 1.
+        near: f64,
+        /// Linear depth of 0.
+        far: f64,
+    },
 }
 
 /// In how many bits a number is stored.
@@ -46,6 +60,8 @@ impl DepthEncoding {
             DepthEncoding::Perspective { near, far } => (far * (depth - near) / (depth * (far - near))).clamp(0.0, 1.0),
             DepthEncoding::Reversed { near, far } => (near * (far - depth) / (depth * (far - near))).clamp(0.0, 1.0),
             DepthEncoding::InfiniteReversed { near } => (near / depth).clamp(0.0, 1.0),
+            DepthEncoding::Parallel { near, far } => ((depth - near) / (far - near)).clamp(0.0, 1.0),
+            DepthEncoding::ParallelReversed { near, far } => ((far - depth) / (far - near)).clamp(0.0, 1.0),
         }
     }
 
@@ -57,6 +73,8 @@ impl DepthEncoding {
             DepthEncoding::Perspective { near, far } => near * far / (far - stored * (far - near)),
             DepthEncoding::Reversed { near, far } => near * far / (near + stored * (far - near)),
             DepthEncoding::InfiniteReversed { near } => near / stored,
+            DepthEncoding::Parallel { near, far } => near + stored * (far - near),
+            DepthEncoding::ParallelReversed { near, far } => far - stored * (far - near),
         }
     }
 }

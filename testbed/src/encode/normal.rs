@@ -17,8 +17,11 @@ pub enum NormalEncoding {
 
 impl NormalEncoding {
     /// The components of the texel: floats as they are, unorms as the 0 to 1 that a shader reads. An octahedral one has
-    /// two, and 0.
+    /// two, and 0. Of no normal, 0, as where nothing is drawn, every component is 0: as renderers clear them.
     pub fn encode(self, normal: [f64; 3]) -> [f64; 3] {
+        if normal == [0.0; 3] {
+            return normal;
+        }
         match self {
             NormalEncoding::Float => normal.map(|c| f64::from(c as f32)),
             NormalEncoding::Rgb8 => normal.map(|c| unorm(0.5 * c + 0.5, 8)),
@@ -52,6 +55,9 @@ fn octahedral(normal: [f64; 3], bits: u32) -> [f64; 3] {
 /// Onto the octahedron |x| + |y| + |z| = 1, its lower half folded out to the corners of the square from -1 to 1.
 pub(super) fn unfolded([x, y, z]: [f64; 3]) -> [f64; 2] {
     let size = x.abs() + y.abs() + z.abs();
+    if size == 0.0 {
+        return [0.0; 2];
+    }
     let [x, y] = [x / size, y / size];
     if z < 0.0 { folded(x, y) } else { [x, y] }
 }

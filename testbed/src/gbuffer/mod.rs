@@ -1,5 +1,7 @@
 //! What an SRAA shader reads, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
+mod coarse;
+mod offsets;
 mod pattern;
 mod space;
 
@@ -10,9 +12,11 @@ use glam::{UVec2, UVec4, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
+pub use coarse::{Coarse, coarse};
+pub use offsets::{Misplaced, misplaced};
 pub(crate) use pattern::pattern_of;
 pub use pattern::{PATTERNS, sampled_at, samples};
-pub use space::has_planes;
+pub use space::{bent_normals, has_planes};
 
 /// Why a capture cannot feed a shader.
 #[derive(Debug, thiserror::Error)]
@@ -42,6 +46,14 @@ pub enum GBufferError {
         other: &'static str,
         /// Share of those that are off in that, in percent.
         other_off: f64,
+    },
+    /// The options are for another projection than the capture's.
+    #[error("the capture's camera is {found}, and the shader is for projection={asked}: set projection={found}")]
+    Projection {
+        /// The camera's.
+        found: &'static str,
+        /// That of the options.
+        asked: String,
     },
     /// The options ask for samples that the capture does not have.
     #[error("the shader needs {needed} geometry samples a pixel, and the capture has {found}")]
@@ -81,6 +93,14 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             what: "further shading samples",
             option: "extra=true".to_owned(),
             help: "use extra=false; `straightline study error` has renderers that shade some",
+        });
+    }
+    let projection = option(options, "projection", "perspective");
+    let found = pattern::projection_of(capture);
+    if capture.camera.is_some() && projection != found {
+        return Err(GBufferError::Projection {
+            found,
+            asked: projection.to_owned(),
         });
     }
     let metric = option(options, "metric", "depth-normals");
@@ -165,20 +185,21 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
     let inputs = inputs
         .uniform("near", &[f64::from(planes.x)])
         .uniform("far", &[f64::from(planes.y)]);
-    match (capture.rays(), metric) {
-        (Some(rays), _) => {
-            if metric == "planes-normals" {
-                space::check(capture)?;
-            }
-            Ok(with_rays(inputs, rays))
+    if metric == "planes-normals" {
+        if capture.camera.is_none() {
+            return Err(GBufferError::Missing {
+                what: "camera",
+                option: "metric=planes-normals".to_owned(),
+                help: "write `camera` into capture.json, or use metric=depth-normals",
+            });
         }
-        (None, "planes-normals") => Err(GBufferError::Missing {
-            what: "camera",
-            option: "metric=planes-normals".to_owned(),
-            help: "write `camera` into capture.json, or use metric=depth-normals",
-        }),
-        (None, _) => Ok(inputs),
+        space::check(capture)?;
     }
+    Ok(match (capture.rays(), capture.parallel_rays()) {
+        (Some(rays), _) => with_rays(inputs, "ray_corner", rays),
+        (None, Some(rays)) => with_rays(inputs, "ray_forward", rays),
+        (None, None) => inputs,
+    })
 }
 
 /// Where each pixel is shaded, as the binding `place` has it.
@@ -196,11 +217,16 @@ fn needed_of<T: Clone>(found: &Option<T>, what: &'static str, demodulate: &str) 
     })
 }
 
-/// With the rays through the pixels of the whole picture.
-fn with_rays(inputs: Inputs, [corner, right, down]: [Vec3; 3]) -> Inputs {
+/// With the rays through the pixels of the whole picture, of which the first is called `name`; the other projection's is 0.
+fn with_rays(inputs: Inputs, name: &str, [first, right, down]: [Vec3; 3]) -> Inputs {
     let numbers = |v: Vec3| v.to_array().map(f64::from);
+    let other = match name {
+        "ray_corner" => "ray_forward",
+        _ => "ray_corner",
+    };
     inputs
-        .uniform("ray_corner", &numbers(corner))
+        .uniform(name, &numbers(first))
+        .uniform(other, &[0.0; 3])
         .uniform("ray_right", &numbers(right))
         .uniform("ray_down", &numbers(down))
         .uniform("origin", &[0.0, 0.0])
@@ -229,7 +255,10 @@ fn planes(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Vec2,
 
 fn depth_encoding(options: &BTreeMap<String, String>, planes: Vec2) -> DepthEncoding {
     let (near, far) = (f64::from(planes.x), f64::from(planes.y));
+    let is_parallel = option(options, "projection", "perspective") == "parallel";
     match option(options, "depth", "linear") {
+        "perspective" if is_parallel => DepthEncoding::Parallel { near, far },
+        "reversed" if is_parallel => DepthEncoding::ParallelReversed { near, far },
         "perspective" => DepthEncoding::Perspective { near, far },
         "reversed" => DepthEncoding::Reversed { near, far },
         "reversed-infinite" => DepthEncoding::InfiniteReversed { near },

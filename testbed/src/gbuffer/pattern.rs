@@ -50,6 +50,14 @@ pub(crate) fn pattern_of(offsets: &[Vec2]) -> Option<Pattern> {
     name_of(offsets).and_then(named)
 }
 
+/// The projection of a capture's camera, by the name of its option; without a camera the default.
+pub(super) fn projection_of(capture: &Capture) -> &'static str {
+    match capture.camera.and_then(|camera| camera.parallel_height) {
+        Some(_) => "parallel",
+        None => "perspective",
+    }
+}
+
 /// The options of SRAA that say where `capture` was sampled.
 pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
     let mut options = match name_of(&capture.samples) {
@@ -60,6 +68,9 @@ pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
             vec![("pattern", "listed".to_owned()), ("offsets", numbers.join(","))]
         }
     };
+    if projection_of(capture) == "parallel" {
+        options.push(("projection", "parallel".to_owned()));
+    }
     match &capture.shading {
         ShadingSample::Centre => options.push(("shading", "centre".to_owned())),
         ShadingSample::Placed => options.push(("shading", "placed".to_owned())),

@@ -11,6 +11,9 @@ const OFF: f32 = 0.087;
 /// The least share of normals that are off at which a space is doubted.
 const MANY: f64 = 0.05;
 
+/// The least share at which normals are taken for those of shading.
+const BENT: f64 = 0.15;
+
 /// How many times fewer normals must be off in the other space to be taken for those of that.
 const FEWER: f64 = 2.0;
 
@@ -41,6 +44,17 @@ pub(super) fn check(capture: &Capture) -> Result<(), GBufferError> {
     }
 }
 
+/// Share of the normals on even ground that stand off the planes of the depths, if it is so large that normals must be those of shading,
+/// bent by a map.
+pub fn bent_normals(capture: &Capture) -> Option<f64> {
+    let off = off_planes(capture)?;
+    let own = match capture.normal_space {
+        NormalSpace::View => off[0],
+        NormalSpace::World => off[1],
+    };
+    (own > BENT).then_some(own)
+}
+
 /// Whether planes can be told from depths and normals: both are there, with a camera, and in the space that the capture says.
 pub fn has_planes(capture: &Capture) -> bool {
     capture.camera.is_some() && capture.normal.is_some() && check(capture).is_ok()
@@ -50,26 +64,37 @@ pub fn has_planes(capture: &Capture) -> bool {
 /// without normals or camera, or where nothing is even.
 fn off_planes(capture: &Capture) -> Option<[f64; 2]> {
     let camera = capture.camera?;
-    let [corner, right, down] = NormalSpace::View.rays(&camera, capture.size);
+    let [first, right, down] = NormalSpace::View.rays(&camera, capture.size);
+    let parallel = camera.parallel_height.is_some();
     let to_world = Mat3::from_mat4(camera.view()).transpose();
     let layer = *capture.shaded_layers().first()?;
     let normals = capture.normal.as_ref()?.layers()[layer].texels();
     let depths = capture.depth.layers()[layer].texels();
     let UVec2 { x: width, y: height } = capture.size;
     let place = |x: u32, y: u32| (y * width + x) as usize;
-    let point = |x: u32, y: u32| (corner + (x as f32 + 0.5) * right + (y as f32 + 0.5) * down) * depths[place(x, y)];
+    let point = |x: u32, y: u32| {
+        let (aside, depth) = ((x as f32 + 0.5) * right + (y as f32 + 0.5) * down, depths[place(x, y)]);
+        match parallel {
+            true => aside + first * depth,
+            false => (first + aside) * depth,
+        }
+    };
     let even = |before: usize, at: usize, after: usize| {
-        let of = |k: usize| 1.0 / depths[k];
+        let of = |k: usize| if parallel { depths[k] } else { 1.0 / depths[k] };
         let seen = [before, at, after]
             .into_iter()
-            .all(|k| depths[k] > 0.0 && depths[k] < SKY_DEPTH);
+            .all(|k| depths[k].is_finite() && (parallel || depths[k] > 0.0) && depths[k] < SKY_DEPTH);
         let bend = (of(before) + of(after) - 2.0 * of(at)).abs();
-        seen && bend <= EVEN[0] * of(at) + EVEN[1] * (of(after) - of(before)).abs()
+        seen && bend <= EVEN[0] * of(at).abs() + EVEN[1] * (of(after) - of(before)).abs()
     };
     let (mut sums, mut count) = ([0u64; 2], 0u64);
     for y in 1..height.saturating_sub(1) {
         for x in 1..width.saturating_sub(1) {
             let at = place(x, y);
+            // Where nothing is drawn, or no normal is known, there is none that could be off.
+            if normals[at].length_squared() < 0.25 {
+                continue;
+            }
             if !even(at - 1, at, at + 1) || !even(at - width as usize, at, at + width as usize) {
                 continue;
             }

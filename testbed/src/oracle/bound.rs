@@ -13,8 +13,8 @@
 
 use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
-    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Plane, Search,
-    SraaParams, Tap, bounded, is_finite, turned,
+    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Plane, Projection,
+    Search, SraaParams, Tap, bounded, is_finite, turned,
 };
 use crate::execute::Inputs;
 use rayon::prelude::*;
@@ -219,6 +219,10 @@ impl Definition<'_> {
             shares.retain(|s| is_finite(&s.color));
         }
         let filtered = of_mean(&shares, skip, rounding) + undecided;
+        // Within a range that is known a colour is off by no more than it is out of it.
+        if self.params.has_lobes() && !self.is_range_decided(pixel) {
+            return f64::INFINITY;
+        }
         let own = self.own_color(pixel);
         if self.params.mask == Mask::None || (skip && !is_finite(&own)) {
             return filtered;
@@ -235,6 +239,11 @@ impl Definition<'_> {
         }
         let apart = shares.iter().flat_map(|s| (0..4).map(|k| (s.color[k] - own[k]).abs()));
         filtered + kept + apart.fold(0.0, f64::max)
+    }
+
+    /// Whether it is plain which colours' range a pixel is brought into.
+    fn is_range_decided(&self, pixel: [i32; 2]) -> bool {
+        self.within_range(pixel, [0.0; 4]).1
     }
 
     fn reach(
@@ -372,12 +381,17 @@ impl Definition<'_> {
             }
             _ => scaled(step, step_off),
         };
+        let drawn = self.gbuffer.is_drawn(&s);
         let by_normal = || {
             let each = rs.normal + rt.normal;
             if self.params.by_cosine() {
                 let products: f64 = (0..3).map(|axis| (s.normal[axis] * t.normal[axis]).abs()).sum();
                 let sizes: f64 = (0..3).map(|axis| s.normal[axis].abs() + t.normal[axis].abs()).sum();
-                let off = each * sizes + 3.0 * each * each + 6.0 * u * (1.0 + products) + 4.0 * rounding.smallest;
+                let (square, size) = s.normal.iter().fold((0.0, 0.0), |(square, size), axis| {
+                    (square + axis * axis, size + axis.abs())
+                });
+                let reading = each * sizes + 2.0 * rs.normal * size + 6.0 * each * each;
+                let off = reading + 6.0 * u * (square + products) + 4.0 * rounding.smallest;
                 return Range::around(turned(self.params, s.normal, t.normal), off);
             }
             let turn = [0, 1, 2].map(|axis| s.normal[axis] - t.normal[axis]);
@@ -390,13 +404,23 @@ impl Definition<'_> {
             Range::around(value, off)
         };
         let by_plane = || {
+            if !drawn {
+                return by_depth();
+            }
             let (s, t, rs, step) = match self.params.plane {
                 Plane::Sample => (&s, &t, &rs, step),
                 Plane::Tap => (&t, &s, &rt, -step),
             };
             let ray = |axis: usize| t.ray[axis].abs() + s.ray[axis].abs();
             let along: f64 = (0..3).map(|axis| t.ray[axis] * s.normal[axis]).sum();
-            let aside: f64 = (0..3).map(|axis| (t.ray[axis] - s.ray[axis]) * s.normal[axis]).sum();
+            let aside: f64 = (0..3)
+                .map(|axis| (t.base[axis] - s.base[axis] + t.ray[axis] - s.ray[axis]) * s.normal[axis])
+                .sum();
+            // Of a parallel projection it is the same at any depth.
+            let (far, far_off) = match self.params.projection {
+                Projection::Perspective => (s.depth.abs(), rs.depth * s.depth.abs()),
+                Projection::Parallel => (1.0, 0.0),
+            };
             let sizes: f64 = (0..3).map(|axis| ray(axis) * s.normal[axis].abs()).sum();
             let [_, right, down] = self.gbuffer.rays().unwrap_or_default();
             let away = [0, 1].map(|axis| (self.place(tap)[axis] - self.place(at)[axis]).abs());
@@ -412,11 +436,15 @@ impl Definition<'_> {
             );
             let off = step.abs() * along_off
                 + step_off * (along.abs() + along_off)
-                + s.depth.abs() * aside_off
-                + rs.depth * s.depth.abs() * (aside.abs() + aside_off)
-                + 4.0 * u * ((step * along).abs() + (s.depth * aside).abs());
+                + far * aside_off
+                + far_off * (aside.abs() + aside_off)
+                + 4.0 * u * ((step * along).abs() + (far * aside).abs());
             // The definition takes the difference of two points; it is this sum.
-            scaled(-step * along + s.depth * aside, off)
+            let far = match self.params.projection {
+                Projection::Perspective => s.depth,
+                Projection::Parallel => 1.0,
+            };
+            scaled(-step * along + far * aside, off)
         };
         match self.params.metric {
             Metric::PlanesNormals => by_plane().max(by_normal()),

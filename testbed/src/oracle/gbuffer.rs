@@ -1,7 +1,7 @@
 //! What the images of a shader's inputs say, decoded in double precision.
 
 use super::bound::Rounding;
-use super::{Demodulate, Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
+use super::{Demodulate, Depth, Layout, Metric, Normals, OracleError, Projection, Shading, SraaParams};
 use crate::execute::Inputs;
 use glam::UVec4;
 use std::borrow::Cow;
@@ -13,8 +13,17 @@ pub struct Point {
     pub depth: f64,
     /// Unit normal.
     pub normal: [f64; 3],
-    /// From the eye to depth 1.
+    /// Where its ray begins, at depth 0: the eye, or of a parallel projection a place of the picture.
+    pub base: [f64; 3],
+    /// From there to depth 1.
     pub ray: [f64; 3],
+}
+
+impl Point {
+    /// Its coordinate along an axis.
+    pub fn axis(&self, axis: usize) -> f64 {
+        self.base[axis] + self.depth * self.ray[axis]
+    }
 }
 
 /// More than any depth, by definition of the filter: a sky is as deep as any other, and so is what is no number.
@@ -28,6 +37,16 @@ const BRIGHTEST: f64 = 65504.0;
 
 /// Normals that are shorter are divided by this, by definition of the filter: a cleared texel is no normal.
 const NO_NORMAL: f64 = 0.01;
+
+/// The square of a normal's length is no less, by definition of the filter.
+const LEAST_SQUARE: f64 = 1.0 / 4096.0;
+
+/// That of 2 t - 1 is no more, by definition of the filter: of a texel of zeros it is 3.
+const MOST_SQUARE: f64 = 2.0;
+
+/// Depth from which on nothing is drawn, and the share of the far plane's, by definition of the filter.
+const BACKDROP: f64 = 1.0e20;
+const NEAR_FAR: f64 = 0.999;
 
 /// How far a point may be read from where it is.
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,6 +78,8 @@ pub struct GBuffer<'a> {
     depth: Option<Stored<'a>>,
     normal: Option<Stored<'a>>,
     rays: Option<[[f64; 3]; 3]>,
+    /// Of a parallel projection: all rays.
+    forward: Option<[f64; 3]>,
     origin: [f64; 2],
     planes: [f64; 2],
 }
@@ -134,11 +155,19 @@ impl<'a> GBuffer<'a> {
             }
         };
         let rays = match params.metric {
+            // Where the picture lies makes no difference of a parallel projection.
             Metric::PlanesNormals => Some([
-                vector(inputs, "ray_corner")?,
+                match params.projection {
+                    Projection::Perspective => vector(inputs, "ray_corner")?,
+                    Projection::Parallel => [0.0; 3],
+                },
                 vector(inputs, "ray_right")?,
                 vector(inputs, "ray_down")?,
             ]),
+            _ => None,
+        };
+        let forward = match (params.metric, params.projection) {
+            (Metric::PlanesNormals, Projection::Parallel) => Some(vector(inputs, "ray_forward")?),
             _ => None,
         };
         let number = |name: &str| vector::<1>(inputs, name).map(|[value]| value);
@@ -161,6 +190,7 @@ impl<'a> GBuffer<'a> {
             depth,
             normal,
             rays,
+            forward,
             origin: vector(inputs, "origin").unwrap_or([0.0; 2]),
             planes,
         })
@@ -233,16 +263,26 @@ impl<'a> GBuffer<'a> {
         let normal = self.normal.as_ref().map_or([0.0, 0.0, 1.0], |stored| {
             self.decoded(self.texel(stored, pixel, sample))
         });
-        let ray = self.ray(ray_at);
-        Point { depth, normal, ray }
+        let [base, ray] = self.ray(ray_at);
+        Point {
+            depth,
+            normal,
+            base,
+            ray,
+        }
     }
 
-    /// From the eye to depth 1 through a place of these inputs, in pixels from their corner; 0 where no metric asks.
-    pub(super) fn ray(&self, place: [f64; 2]) -> [f64; 3] {
-        self.rays.map_or([0.0; 3], |[corner, right, down]| {
+    /// Where the ray through a place of these inputs, in pixels from their corner, begins, and the way from there to depth 1; 0 where no
+    /// metric asks.
+    pub(super) fn ray(&self, place: [f64; 2]) -> [[f64; 3]; 2] {
+        let through = self.rays.map_or([0.0; 3], |[corner, right, down]| {
             let at = [0, 1].map(|axis| place[axis] + self.origin[axis]);
             [0, 1, 2].map(|axis| corner[axis] + at[0] * right[axis] + at[1] * down[axis])
-        })
+        });
+        match self.forward {
+            Some(forward) => [through, forward],
+            None => [[0.0; 3], through],
+        }
     }
 
     /// A unit vector as normals are compared that are not read from the G-buffer; any where the metric compares none.
@@ -250,6 +290,43 @@ impl<'a> GBuffer<'a> {
         match self.normal {
             Some(_) => normal,
             None => [0.0, 0.0, 1.0],
+        }
+    }
+
+    /// Whether a surface is drawn at a geometry sample, by a metric that measures from planes.
+    pub(super) fn is_drawn(&self, point: &Point) -> bool {
+        let square: f64 = point.normal.iter().map(|axis| axis * axis).sum();
+        let params = self.params;
+        if params.metric != Metric::PlanesNormals {
+            return true;
+        }
+        let has_normal = match params.normals {
+            Normals::Float => square >= LEAST_SQUARE,
+            Normals::Unorm if params.as_stored() => (LEAST_SQUARE..=MOST_SQUARE).contains(&square),
+            Normals::Unorm | Normals::Octahedral | Normals::Packed => true,
+        };
+        point.depth < self.backdrop() && has_normal
+    }
+
+    /// Linear depth from which on nothing is drawn.
+    pub(super) fn backdrop(&self) -> f64 {
+        match self.params.depth {
+            Depth::Linear | Depth::ReversedInfinite => BACKDROP,
+            Depth::Perspective | Depth::Reversed => {
+                let [near, far] = self.planes;
+                match self.params.projection {
+                    Projection::Perspective => NEAR_FAR * far,
+                    Projection::Parallel => near + NEAR_FAR * (far - near),
+                }
+            }
+        }
+    }
+
+    /// Linear depth that is infinite in earlier frames, as this frame has it.
+    pub(super) fn deepest(&self) -> f64 {
+        match self.params.depth {
+            Depth::Linear | Depth::ReversedInfinite => f64::INFINITY,
+            Depth::Perspective | Depth::Reversed => self.planes[1],
         }
     }
 
@@ -279,6 +356,10 @@ impl<'a> GBuffer<'a> {
             let [near, far] = self.planes;
             // (stored / depth) d depth / d stored, of the definitions below.
             let condition = match self.params.depth {
+                Depth::Perspective | Depth::Reversed if self.params.projection == Projection::Parallel => {
+                    // Each product and sum is rounded, and small depths are differences of large numbers.
+                    (value.abs() + 4.0) * (far - near).abs().max(near.abs()) / depth.abs().max(f64::MIN_POSITIVE)
+                }
                 Depth::Linear | Depth::ReversedInfinite => 1.0,
                 Depth::Perspective | Depth::Reversed => value * depth / near * (1.0 - near / far),
             };
@@ -292,7 +373,11 @@ impl<'a> GBuffer<'a> {
             } else {
                 0.0
             };
-            reading.depth = read * condition.abs() + decoding + packed;
+            let rounded = match self.params.projection {
+                Projection::Perspective => read,
+                Projection::Parallel => read + unit,
+            };
+            reading.depth = rounded * condition.abs() + decoding + packed;
         }
         if let Some(stored) = &self.normal {
             let texel = self.texel(stored, pixel, sample);
@@ -340,6 +425,8 @@ impl<'a> GBuffer<'a> {
         let whole = 1.0 / (1.0 - near / far);
         match self.params.depth {
             Depth::Linear => stored,
+            Depth::Perspective if self.params.projection == Projection::Parallel => near + stored * (far - near),
+            Depth::Reversed if self.params.projection == Projection::Parallel => near + (1.0 - stored) * (far - near),
             Depth::Perspective => near / (1.0 - stored / whole),
             Depth::Reversed => near / (1.0 - (1.0 - stored) / whole),
             Depth::ReversedInfinite => near / if stored > SHORTEST { stored } else { SHORTEST },

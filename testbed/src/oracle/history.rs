@@ -96,13 +96,16 @@ impl Definition<'_> {
                         continue;
                     }
                     let [nx, ny, nz, depth] = texel(frame.surface, [column, row]);
-                    let depth = depth - deeper;
+                    // The sky is as deep as the far plane.
+                    let depth = (depth - deeper).min(self.gbuffer.deepest());
+                    let [base, ray] = self
+                        .gbuffer
+                        .ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis]));
                     let seen = Point {
                         depth: if depth.abs() < DEEPEST { depth } else { DEEPEST },
                         normal: self.gbuffer.compared([nx, ny, nz]),
-                        ray: self
-                            .gbuffer
-                            .ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis])),
+                        base,
+                        ray,
                     };
                     taps.push(Tap {
                         at: ([column - pixel[0], row - pixel[1]], usize::MAX),

@@ -10,6 +10,10 @@
 //! share rₛ in the pixel. mₛₜ is the difference of the two surfaces (paper §3.2). Beyond the border the nearest pixel's
 //! surfaces and colours are repeated.
 //!
+//! A sample at which nothing is drawn, with a normal of 0 or as deep as the far plane, differs from others by its depth alone.
+//!
+//! Where some rₛ are below 0, C(p) is brought into the range of the colours that it is made of.
+//!
 //! Where shading is placed, the surface of a tap is that at the sample which an image names, and its distance on the screen
 //! that of its pixel's centre. Where albedo is known at samples, colour(t) is light times the albedo at t, and what s takes of it the
 //! same light times the albedo at s; where shadow is too, of the direct light the share at s instead of that at t. What of the colour does
@@ -32,11 +36,12 @@ use crate::execute::Inputs;
 use gbuffer::{DEEPEST, GBuffer, Light, Point};
 use history::History;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 pub use extra::extra;
 pub use params::{
     Demodulate, Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError,
-    Pattern, Plane, Resolve, Search, Shading, SraaParams, Turn, Variation,
+    Pattern, Plane, Projection, Resolve, Search, Shading, SraaParams, Turn, Variation,
 };
 pub use place::{Placed, place};
 
@@ -59,6 +64,9 @@ const FAR: f64 = 16.0;
 
 /// Weights that sum to no more are none, by definition of the filter.
 const EPSILON: f64 = 1.0e-30;
+
+/// Of a tap's colour that is to count in the range of a pixel, so much at least is in its samples, by definition of the filter.
+const LEAST_USED: f64 = 1.0e-6;
 
 /// The least depth that another is divided by, by definition of the filter.
 const NEAREST: f64 = 1.0e-30;
@@ -127,6 +135,8 @@ impl<'a> Definition<'a> {
             NonFinite::Spread => color.map(|axis| axis / shares),
             NonFinite::Skip => self.without_bad(pixel),
         };
+        let (color, is_sure) = self.within_range(pixel, color);
+        sure &= is_sure;
         if self.params.mask != Mask::None {
             let own = self.own_color(pixel);
             let threshold = self.params.mask_threshold;
@@ -166,6 +176,45 @@ impl<'a> Definition<'a> {
         } else {
             [0.0; 4]
         }
+    }
+
+    /// `color`, where samples may count less than nothing, with each component within the range of the finite colours that some of is in
+    /// the samples: a millionth at least. Where light is painted anew, with none below 0. And whether 32 bits decide so too.
+    fn within_range(&self, pixel: [i32; 2], color: [f64; 4]) -> ([f64; 4], bool) {
+        if !self.params.has_lobes() {
+            return (color, true);
+        }
+        if self.params.demodulate != Demodulate::None {
+            return (color.map(|axis| if axis < 0.0 { 0.0 } else { axis }), true);
+        }
+        let total: f64 = self.reconstructed().iter().map(|(_, share)| share).sum();
+        let mut used: BTreeMap<([i32; 2], usize), (f64, [f64; 4])> = BTreeMap::new();
+        for (at, share) in self.reconstructed() {
+            let taps = self.taps(pixel, at);
+            let weights = self.weights(&taps);
+            let sum = self.total(&weights);
+            for (tap, weight) in taps.iter().zip(weights) {
+                let entry = used.entry(tap.at).or_insert((0.0, tap.color));
+                entry.0 += (share / total * weight / sum).abs();
+            }
+        }
+        let sure = used
+            .values()
+            .all(|(used, _)| (used - LEAST_USED).abs() > 0.05 * LEAST_USED);
+        let counts = |(used, color): &&(f64, [f64; 4])| *used > LEAST_USED && is_finite(color);
+        let counted: Vec<[f64; 4]> = used.values().filter(counts).map(|(_, color)| *color).collect();
+        if counted.is_empty() || !is_finite(&color) {
+            return (color, sure);
+        }
+        let within = |axis: usize| {
+            let least = counted.iter().map(|color| color[axis]).fold(f64::INFINITY, f64::min);
+            let most = counted
+                .iter()
+                .map(|color| color[axis])
+                .fold(f64::NEG_INFINITY, f64::max);
+            color[axis].clamp(least, most)
+        };
+        ([0, 1, 2, 3].map(within), sure)
     }
 
     /// Geometry samples that have a share in the pixel: relative pixel and number, and the share.
@@ -418,13 +467,17 @@ impl<'a> Definition<'a> {
             _ => sample.depth - tap.depth,
         };
         let depths = || scale * step.abs();
+        let is_drawn = self.gbuffer.is_drawn(sample);
         let normal = match self.params.plane {
             Plane::Sample => sample.normal,
             Plane::Tap => tap.normal,
         };
         let plane = || {
+            if !is_drawn {
+                return depths();
+            }
             let apart: f64 = (0..3)
-                .map(|axis| (tap.depth * tap.ray[axis] - sample.depth * sample.ray[axis]) * normal[axis])
+                .map(|axis| (tap.axis(axis) - sample.axis(axis)) * normal[axis])
                 .sum();
             scale * apart.abs()
         };
@@ -438,10 +491,11 @@ impl<'a> Definition<'a> {
     }
 }
 
-/// How far apart two normals are.
+/// How far apart the normal `b` is from that of a sample, `a`; by cosine no more than 0 from a sample of which the normal is 0, as where
+/// nothing is drawn.
 fn turned(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
     if params.by_cosine() {
-        1.0 - (0..3).map(|axis| a[axis] * b[axis]).sum::<f64>()
+        (0..3).map(|axis| a[axis] * (a[axis] - b[axis])).sum()
     } else {
         (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>() / 2.0
     }

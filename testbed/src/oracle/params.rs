@@ -90,6 +90,16 @@ choices! {
 }
 
 choices! {
+    /// How the camera projects.
+    Projection {
+        /// From an eye.
+        Perspective = "perspective",
+        /// Along one direction.
+        Parallel = "parallel",
+    }
+}
+
+choices! {
     /// How depth is held.
     Depth {
         /// Along the view direction, in scene units.
@@ -146,7 +156,7 @@ choices! {
 choices! {
     /// How far apart two normals are.
     Turn {
-        /// 1 - a·b.
+        /// a·a - a·b, of unit vectors 1 - a·b.
         Cosine = "cosine",
         /// ½|a - b|².
         Chord = "chord",
@@ -252,6 +262,8 @@ pub struct SraaParams {
     pub metric: Metric,
     /// What a difference in depth counts as.
     pub difference: Difference,
+    /// How the camera projects.
+    pub projection: Projection,
     /// How depth is held.
     pub depth: Depth,
     /// How normals are held.
@@ -321,6 +333,7 @@ impl Default for SraaParams {
             shaded: Vec::new(),
             metric: Metric::DepthNormals,
             difference: Difference::Absolute,
+            projection: Projection::Perspective,
             depth: Depth::Linear,
             normals: Normals::Float,
             layout: Layout::Layers,
@@ -412,6 +425,7 @@ impl SraaParams {
             "shaded" => self.shaded = numbers(option, value)?,
             "metric" => self.metric = choice(option, value, Metric::ALL, Metric::name)?,
             "difference" => self.difference = choice(option, value, Difference::ALL, Difference::name)?,
+            "projection" => self.projection = choice(option, value, Projection::ALL, Projection::name)?,
             "depth" => self.depth = choice(option, value, Depth::ALL, Depth::name)?,
             "normals" => self.normals = choice(option, value, Normals::ALL, Normals::name)?,
             "layout" => self.layout = choice(option, value, Layout::ALL, Layout::name)?,
@@ -470,9 +484,14 @@ impl SraaParams {
         self.normals == Normals::Unorm && !self.renormalise
     }
 
-    /// Whether normals are compared by 1 - a·b, which of the same normal is 0 only as far as its length is 1.
+    /// Whether normals are compared by a·a - a·b.
     pub(super) fn by_cosine(&self) -> bool {
         self.turn == Turn::Cosine && self.metric != Metric::Normals && !self.as_stored()
+    }
+
+    /// Whether samples may count less than nothing.
+    pub(super) fn has_lobes(&self) -> bool {
+        matches!(self.resolve, Resolve::Mitchell | Resolve::Lanczos)
     }
 
     /// Offsets of the geometry samples from the pixel's centre, in pixels, y down.

@@ -118,6 +118,23 @@ pub fn read(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     }
 }
 
+/// The same, but the numbers of a PNG are taken as they are, 0 to 1: as of data, such as depths and normals, not of colours.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_linear(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    match Format::of(path)? {
+        Format::Png => png::decode_linear(path),
+        Format::Exr => exr::read_color(path, None),
+    }
+}
+
+/// Whether a file is read as sRGB by [`read`], and as it is by [`read_linear`].
+pub fn is_png(path: &Path) -> bool {
+    matches!(Format::of(path), Ok(Format::Png))
+}
+
 /// Reads the numbers of a PNG as they are stored, 0 to 255 or to 65535; components that it lacks are 0, and alpha the largest.
 ///
 /// # Errors

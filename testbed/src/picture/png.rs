@@ -36,6 +36,13 @@ pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     Ok(stored.frame(|[r, g, b, a]| from_srgb(Vec4::new(r as f32, g as f32, b as f32, a as f32) / most)))
 }
 
+/// Reads a PNG file as numbers from 0 to 1, in even steps.
+pub(super) fn decode_linear(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    let stored = Stored::read(path)?;
+    let most = stored.most() as f32;
+    Ok(stored.frame(|[r, g, b, a]| Vec4::new(r as f32, g as f32, b as f32, a as f32) / most))
+}
+
 /// Reads the numbers of a PNG file as they are stored.
 pub(super) fn integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
     let stored = Stored::read(path)?;

@@ -128,6 +128,7 @@ impl Surfaces {
             ray_corner,
             ray_right,
             ray_down,
+            ray_forward: Vec3::ZERO,
             origin: IVec2::ZERO,
             near: 1.0,
             far: 1.0,

@@ -39,6 +39,7 @@ fn plane(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
             target: [0.0, 1.0, -1.0],
             up: [0.0, 1.0, 0.0],
             vertical_fov: 1.0,
+            parallel_height: None,
             near: 0.1,
         },
         ..builtin()

@@ -15,8 +15,13 @@ pub struct Camera {
     pub target: [f32; 3],
     /// A world-space vector that points upwards in the picture; not along the view direction.
     pub up: [f32; 3],
-    /// Angle between the picture's upper and lower edge in radians, above 0 and below π.
+    /// Angle between the picture's upper and lower edge in radians, above 0 and below π; of no meaning with `parallel_height`.
+    #[serde(default)]
     pub vertical_fov: f32,
+    /// Of a parallel (orthographic) projection: the distance between the picture's upper and lower edge in scene units, above 0. Captures
+    /// may have such a camera, scenes not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parallel_height: Option<f32>,
     /// Linear depth before which nothing is drawn, in scene units, above 0.
     pub near: f32,
 }
@@ -36,9 +41,12 @@ impl Camera {
         Mat4::from_translation(shift.extend(0.0)) * perspective_infinite_reverse(self.vertical_fov, aspect, self.near)
     }
 
-    /// Half the width and height of what is seen at linear depth 1, in scene units.
+    /// Half the width and height of what is seen at linear depth 1, in scene units; of a parallel projection at any depth.
     pub fn half_extent(&self, size: UVec2) -> Vec2 {
-        let tangent = (0.5 * self.vertical_fov).tan();
+        let tangent = match self.parallel_height {
+            Some(height) => 0.5 * height,
+            None => (0.5 * self.vertical_fov).tan(),
+        };
         vec2(tangent * size.x as f32 / size.y as f32, tangent)
     }
 
@@ -67,6 +75,7 @@ impl Camera {
             target: centre.into(),
             up: [0.0, 1.0, 0.0],
             vertical_fov,
+            parallel_height: None,
             near: 0.01 * radius,
         }
     }
@@ -82,16 +91,31 @@ impl Camera {
         if (target - position).cross(up).length_squared() <= 0.0 {
             return Err("the camera's view direction is nothing, or its up vector points along it".to_owned());
         }
-        if !(self.vertical_fov > 0.0 && self.vertical_fov < std::f32::consts::PI) {
-            return Err(format!(
-                "the camera's angle is {} radians, not above 0 and below π",
-                self.vertical_fov
-            ));
+        if self.parallel_height.is_some() {
+            return Err("a scene is drawn in perspective: its camera has no `parallel_height`".to_owned());
         }
+        self.check_projection()?;
         if !(self.near > 0.0 && self.near < SKY_DEPTH) {
             return Err(format!(
                 "the camera's near plane is at {}, not above 0 and below {SKY_DEPTH}",
                 self.near
+            ));
+        }
+        Ok(())
+    }
+
+    /// Reports an angle of view or a height that no picture has.
+    pub(crate) fn check_projection(&self) -> Result<(), String> {
+        if let Some(height) = self.parallel_height {
+            return match height > 0.0 && height.is_finite() {
+                true => Ok(()),
+                false => Err(format!("the camera's parallel_height is {height}, not above 0")),
+            };
+        }
+        if !(self.vertical_fov > 0.0 && self.vertical_fov < std::f32::consts::PI) {
+            return Err(format!(
+                "the camera's angle is {} radians, not above 0 and below π",
+                self.vertical_fov
             ));
         }
         Ok(())
@@ -143,6 +167,7 @@ mod tests {
         target: [1.0, 2.0, -7.0],
         up: [0.0, 1.0, 0.0],
         vertical_fov: 1.0,
+        parallel_height: None,
         near: 0.1,
     };
 
@@ -202,6 +227,7 @@ mod tests {
         assert!(refused(|camera| camera.target = camera.position).contains("direction"));
         assert!(refused(|camera| camera.up = [0.0, 0.0, 1.0]).contains("up"));
         assert!(refused(|camera| camera.vertical_fov = f32::NAN).contains("angle"));
+        assert!(refused(|camera| camera.parallel_height = Some(4.0)).contains("perspective"));
         assert!(refused(|camera| camera.near = 0.0).contains("near"));
         assert!(refused(|camera| camera.position[1] = f32::INFINITY).contains("finite"));
     }

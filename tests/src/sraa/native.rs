@@ -5,7 +5,7 @@ use glam::{UVec2, Vec3, ivec2, vec2};
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite,
-    Normalisation, Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, Variation, View, sraa,
+    Normalisation, Normals, Pattern, Plane, Projection, Resolve, Search, Shading, Sraa, Turn, Variation, View, sraa,
 };
 use straightline_testbed::execute::Inputs;
 
@@ -54,6 +54,9 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         }
         "difference" => {
             cfg.difference = one_of!(value, Difference: "absolute" => Absolute, "relative" => Relative);
+        }
+        "projection" => {
+            cfg.projection = one_of!(value, Projection: "perspective" => Perspective, "parallel" => Parallel);
         }
         "depth" => {
             cfg.depth = one_of!(value, Depth: "linear" => Linear, "perspective" => Perspective, "reversed" => Reversed,
@@ -212,6 +215,7 @@ pub fn view(inputs: &Inputs) -> View {
         ray_corner: vector("ray_corner"),
         ray_right: vector("ray_right"),
         ray_down: vector("ray_down"),
+        ray_forward: vector("ray_forward"),
         origin: ivec2(origin[0] as i32, origin[1] as i32),
         near: lanes("near")[0] as f32,
         far: lanes("far")[0] as f32,

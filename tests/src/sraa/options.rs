@@ -94,6 +94,9 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     if is("normals", "packed") && (is("metric", "normals") || is("metric", "depth")) {
         return Some("a packed texel holds more than this metric reads");
     }
+    if is("projection", "parallel") && (is("difference", "relative") || is("depth", "reversed-infinite")) {
+        return Some("a parallel projection has no eye to be far from, and a far plane");
+    }
     let alone = ["normals", "depth"].iter().any(|metric| is("metric", metric));
     if is("layout", "split") && (is("normals", "packed") || alone) {
         return Some("there is nothing to split");

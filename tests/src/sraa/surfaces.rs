@@ -50,6 +50,7 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
             target: [0.0, 0.0, -1.0],
             up: [0.0, 1.0, 0.0],
             vertical_fov: 1.0,
+            parallel_height: (value(options, "projection", "perspective") == "parallel").then_some(6.0),
             near: 0.1,
         }),
         color: colors(&mut random, size),
@@ -82,12 +83,45 @@ fn places_of(random: &mut Random, size: UVec2, layers: usize) -> Frame<u32> {
 
 /// What a shader with these options reads.
 pub fn inputs(options: &Options, size: UVec2, seed: u64) -> Inputs {
-    let capture = capture(options, size, seed);
+    inputs_of(&capture(options, size, seed), options, seed)
+}
+
+/// A capture as a renderer leaves it that clears its buffers: where nothing is drawn normals are 0, and depth is `depth` if that is given.
+pub fn cleared(mut capture: Capture, depth: Option<f32>) -> Capture {
+    let normals = capture.normal.take().expect("normals");
+    let bare = |layer: usize| -> Vec<bool> {
+        let depths = capture.depth.layers()[layer].texels().iter();
+        depths.map(|depth| *depth >= SKY_DEPTH).collect()
+    };
+    let layers = normals.layers().iter().enumerate().map(|(layer, normals)| {
+        let texels = normals.texels().iter().zip(bare(layer));
+        Frame::new(
+            normals.size(),
+            texels.map(|(n, bare)| if bare { Vec3::ZERO } else { *n }).collect(),
+        )
+    });
+    capture.normal = Some(FrameLayers::new(layers.collect()));
+    if let Some(depth) = depth {
+        let layers = capture.depth.layers().iter().map(|depths| {
+            let texels = depths.texels().iter();
+            Frame::new(
+                depths.size(),
+                texels.map(|z| if *z >= SKY_DEPTH { depth } else { *z }).collect(),
+            )
+        });
+        capture.depth = FrameLayers::new(layers.collect());
+    }
+    capture
+}
+
+/// What a shader with these options reads of a capture of them.
+pub fn inputs_of(capture: &Capture, options: &Options, seed: u64) -> Inputs {
+    let size = capture.size;
     let compiled = compiled(options, Unroll::Full).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));
     let mut alone = compiled.options;
     alone.remove("history");
     alone.remove("extra");
-    let inputs = gbuffer::inputs(&capture, &alone).unwrap_or_else(|error| panic!("{options:?}: {error}"));
+    let inputs = gbuffer::inputs(capture, &alone).unwrap_or_else(|error| panic!("{options:?}: {error}"));
     let mut random = Random(seed ^ 0x5eed);
     let inputs = inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect());
     let inputs = match value(options, "extra", "false") {

@@ -1,5 +1,6 @@
 //! What a kernel is given to read: pictures, layers of captures, numbers.
 
+use super::transfer::{self, Transfer};
 use super::values;
 use crate::args::{Executor, GivenArgs, StageArg};
 use crate::failure::Failure;
@@ -25,12 +26,20 @@ pub fn inputs(given: &GivenArgs, stage: StageArg, compiled: &Compiled) -> Result
     let mut inputs = Inputs::default();
     for text in &given.input {
         let (texture, path) = texture_and_path(&compiled, text)?;
+        let (path, asked) = transfer::of(path);
         for path in paths(path) {
             match texture.scalar {
                 Scalar::F32 => {
-                    for picture in pictures(path, texture)? {
+                    let transfer = transfer::decided(asked, texture, path)?;
+                    for picture in pictures(path, texture, transfer)? {
                         put(&mut inputs.images, texture, picture)?;
                     }
+                }
+                _ if asked == Some(Transfer::Srgb) => {
+                    return Err(Failure::Usage(format!(
+                        "the texels of `{}` are integers, read as they are stored: leave `,srgb` out",
+                        texture.name
+                    )));
                 }
                 _ => {
                     let picture = picture::read_integers(Path::new(path)).map_err(Failure::of)?;
@@ -138,7 +147,7 @@ fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'
 
 /// The pictures of a file for a texture: a picture; the layer that FILE:LAYER names; or of an EXR file of layers without a
 /// colour, all of them where the texture takes several.
-fn pictures(path: &str, texture: &Texture) -> Result<Vec<Frame<Vec4>>, Failure> {
+fn pictures(path: &str, texture: &Texture, transfer: Transfer) -> Result<Vec<Frame<Vec4>>, Failure> {
     if !Path::new(path).exists()
         && let Some((file, layer)) = path.rsplit_once(':')
         && file.to_ascii_lowercase().ends_with(".exr")
@@ -154,7 +163,11 @@ fn pictures(path: &str, texture: &Texture) -> Result<Vec<Frame<Vec4>>, Failure> 
     }
     let layers = picture::layers(path).map_err(Failure::of)?;
     if layers.is_empty() {
-        return Ok(vec![picture::read(path).map_err(Failure::of)?]);
+        let read = match transfer {
+            Transfer::Srgb => picture::read(path),
+            Transfer::Linear => picture::read_linear(path),
+        };
+        return Ok(vec![read.map_err(Failure::of)?]);
     }
     if layers.len() > 1 && !takes_several(texture) {
         return Err(Failure::Usage(format!(

@@ -2,7 +2,8 @@
 
 pub mod inputs;
 mod outputs;
-mod values;
+mod transfer;
+pub mod values;
 
 use crate::args::{Executor, RunArgs};
 use crate::failure::Failure;

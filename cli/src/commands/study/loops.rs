@@ -2,13 +2,14 @@
 
 use super::{ProgressBars, circumstances};
 use crate::args::{CommonArgs, LoopsArgs};
+use crate::commands::run::values;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::table;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
-use straightline_codegen::{Kernel, files};
+use straightline_codegen::{Kernel, Settings, files, shorten};
 use straightline_study::loops::{LoopsError, Setup, Studied, Subject, study, subjects};
 use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
@@ -20,7 +21,8 @@ const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.
 pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let subjects = chosen(common, &args.from, &args.by_hand)?;
+    let mut subjects = chosen(common, &args.from, &args.by_hand)?;
+    set_uniforms(&mut subjects, &args.uniform)?;
     if let Some(folder) = &args.pictures {
         files::try_folder(folder).map_err(Failure::of)?;
     }
@@ -64,6 +66,31 @@ pub fn chosen(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Resul
         own.push(Subject::own(Kernel::locate(kernel)?, by_hand));
     }
     Ok(own)
+}
+
+/// Gives each kernel the uniforms that it has of those asked for, each of which some kernel must have.
+fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<(), Failure> {
+    let mut found = vec![false; asked.len()];
+    for subject in subjects.iter_mut() {
+        if asked.is_empty() {
+            break;
+        }
+        let compiled = subject.kernel.compile(&Settings::default())?;
+        for ((name, text), found) in asked.iter().zip(&mut found) {
+            if let Some(uniform) = compiled.graph.uniforms.iter().find(|uniform| uniform.name == *name) {
+                let lanes = values::uniform(name, uniform.ty, text)?;
+                subject.uniforms.push((name.clone(), lanes));
+                *found = true;
+            }
+        }
+    }
+    match found.iter().position(|found| !found) {
+        Some(k) => Err(Failure::Usage(format!(
+            "no kernel of --from has a uniform `{}`",
+            shorten(&asked[k].0)
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// What a kernel gets wrong is shown with its place.
@@ -118,6 +145,9 @@ fn print(record: &LoopsRecord) {
     ];
     out!("{}", table::render(&head, &rows));
     outln!("\nspeedup: over the looped form, median of the rounds (a tenth were below, a tenth above)");
+    for kernel in record.kernels.iter().filter(|kernel| kernel.input.contains(" = ")) {
+        outln!("{}: on {}", kernel.kernel, kernel.input);
+    }
     for kernel in &record.kernels {
         for (kind, why) in &kernel.absent {
             outln!("{}, {}: {why}", kernel.kernel, kind.words());

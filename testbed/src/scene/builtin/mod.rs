@@ -51,6 +51,7 @@ pub fn builtin() -> Scene {
             target: [0.75, 3.0, -1.5],
             up: [0.0, 1.0, 0.0],
             vertical_fov: 0.72,
+            parallel_height: None,
             near: 0.1,
         },
     }

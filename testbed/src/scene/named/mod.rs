@@ -115,6 +115,7 @@ fn outdoors(mesh: Mesh, position: Vec3, target: Vec3, fov: f32) -> Scene {
             target: target.into(),
             up: [0.0, 1.0, 0.0],
             vertical_fov: fov.to_radians(),
+            parallel_height: None,
             near: 0.1,
         },
     }

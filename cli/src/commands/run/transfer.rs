@@ -1,0 +1,59 @@
+//! What the numbers of a PNG mean: colours in sRGB, or data as they are.
+
+use crate::failure::Failure;
+use std::path::Path;
+use straightline_codegen::ir::Texture;
+use straightline_testbed::picture;
+
+/// How the numbers of a PNG become those of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transfer {
+    /// They are colours in sRGB, made linear; alpha is as it is.
+    Srgb,
+    /// They are as they are, from 0 to 1.
+    Linear,
+}
+
+/// The file, or files, of `--input`, and the transfer that is asked for behind them: `FILE,linear`. A file of such a name is one.
+pub fn of(path: &str) -> (&str, Option<Transfer>) {
+    let ends = [(",linear", Transfer::Linear), (",srgb", Transfer::Srgb)];
+    let found = ends
+        .into_iter()
+        .find_map(|(end, transfer)| Some((path.strip_suffix(end)?, transfer)));
+    match found {
+        Some((file, transfer)) if !Path::new(path).exists() => (file, Some(transfer)),
+        _ => (path, None),
+    }
+}
+
+/// What is asked for, or what the texture's type says: one or two components are data, three or four a colour. Where a PNG is read as
+/// sRGB without being asked, says so.
+pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result<Transfer, Failure> {
+    let is_png = picture::is_png(Path::new(path));
+    match asked {
+        Some(Transfer::Srgb) if !is_png => Err(Failure::Usage(format!(
+            "`,srgb` is of a PNG, and `{path}` is none: its numbers are read as they are"
+        ))),
+        Some(transfer) => Ok(transfer),
+        None if texture.declared <= 2 => {
+            if is_png {
+                errln!(
+                    "note: `{}` is no colour, so {path} is read as it is, from 0 to 1; as sRGB it is --input {}={path},srgb",
+                    texture.name,
+                    texture.name
+                );
+            }
+            Ok(Transfer::Linear)
+        }
+        None => {
+            if is_png {
+                errln!(
+                    "note: {path} is read as sRGB; if `{}` is data, as normals are: --input {}={path},linear",
+                    texture.name,
+                    texture.name
+                );
+            }
+            Ok(Transfer::Srgb)
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Whether depth is held in steps that a metric takes for edges.
+
+use super::{depth_encoding, option, planes};
+use crate::capture::Capture;
+use crate::encode::{DepthEncoding, DepthStorage};
+use crate::scene::SKY_DEPTH;
+use glam::{UVec2, Vec2};
+use std::collections::BTreeMap;
+
+/// Depth in steps that count as differences of surfaces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coarse {
+    /// Share of the samples on even ground whose depth is off its plane by what counts as more than `threshold`.
+    pub share: f64,
+    /// The smallest threshold of the options.
+    pub threshold: f64,
+    /// Name of the option that it is; `tau` is its reciprocal.
+    pub option: &'static str,
+    /// As what nine of ten of these samples count at most: thresholds should not be below.
+    pub least: f64,
+}
+
+/// How often a depth occurs on average at least, where depths lie in steps: of those in whole floats nearly all are different.
+const REPEATED: usize = 2;
+
+/// Ground is even where neighbours are no farther off than this share of the depth.
+const EVEN: f64 = 0.05;
+
+/// Share of the samples from which on it is worth a word.
+const MANY: f64 = 0.1;
+
+/// Whether depths, as a shader with these options reads them, lie in steps that its metric takes for more than its smallest threshold in
+/// many samples; `None` if not, and of a metric that reads none.
+pub fn coarse(capture: &Capture, options: &BTreeMap<String, String>) -> Option<Coarse> {
+    if option(options, "metric", "depth-normals") == "normals" {
+        return None;
+    }
+    let encoding = depth_encoding(options, planes(capture, options).ok()?);
+    let number = |name: &str, default: f64| option(options, name, "").parse().unwrap_or(default);
+    let scale = number("depth-scale", 1.0);
+    let relative = option(options, "difference", "absolute") == "relative";
+    let (name, threshold) = smallest_threshold(options, number);
+    let layers = read(capture, encoding);
+    if !in_steps(&layers) {
+        return None;
+    }
+    let unit = |depth: f64| if relative { depth.abs().max(1.0e-30) } else { 1.0 };
+    let off = off_planes(capture, &layers);
+    let mut differences: Vec<f64> = off.into_iter().map(|(depth, off)| scale * off / unit(depth)).collect();
+    differences.sort_by(f64::total_cmp);
+    let within = differences.partition_point(|difference| *difference <= threshold);
+    let share = 1.0 - within as f64 / differences.len().max(1) as f64;
+    let least = *differences.get(differences.len() * 9 / 10)?;
+    (share > MANY).then_some(Coarse {
+        share,
+        threshold,
+        option: name,
+        least,
+    })
+}
+
+/// Whether the same depths occur again and again.
+fn in_steps(layers: &[Vec<f64>]) -> bool {
+    let drawn = layers.iter().flatten().filter(|depth| depth.is_finite());
+    let mut depths: Vec<u64> = drawn.map(|depth| depth.to_bits()).collect();
+    let all = depths.len();
+    depths.sort_unstable();
+    depths.dedup();
+    all >= REPEATED * depths.len()
+}
+
+/// Depths of samples on even ground, and by how much they are off the plane through their pixel and its neighbours.
+fn off_planes(capture: &Capture, layers: &[Vec<f64>]) -> Vec<(f64, f64)> {
+    let Some(layer) = capture.shaded_layers().first().copied() else {
+        return Vec::new();
+    };
+    let origin = capture.samples.get(layer).copied().unwrap_or(Vec2::ZERO);
+    let parallel = capture.camera.is_some_and(|camera| camera.parallel_height.is_some());
+    let value = |depth: f64| if parallel { depth } else { 1.0 / depth };
+    let UVec2 { x: width, y: height } = capture.size;
+    let own = &layers[layer];
+    let mut off = Vec::new();
+    for y in 1..height.saturating_sub(1) {
+        for x in 1..width.saturating_sub(1) {
+            let at = (y * width + x) as usize;
+            let depth = own[at];
+            let near = |other: f64| (other - depth).abs() <= EVEN * depth.abs();
+            let [left, right] = [own[at - 1], own[at + 1]];
+            let [above, below] = [own[at - width as usize], own[at + width as usize]];
+            if ![left, right, above, below].into_iter().all(near) {
+                continue;
+            }
+            let slope = [0.5 * (value(right) - value(left)), 0.5 * (value(below) - value(above))];
+            for (sample, offset) in capture
+                .samples
+                .iter()
+                .enumerate()
+                .filter(|(sample, _)| *sample != layer)
+            {
+                let away = *offset - origin;
+                let plane = value(value(depth) + f64::from(away.x) * slope[0] + f64::from(away.y) * slope[1]);
+                let found = layers[sample][at];
+                if near(found) {
+                    off.push((depth, (found - plane).abs()));
+                }
+            }
+        }
+    }
+    off
+}
+
+/// The least difference that changes what a filter does, and the option that says so.
+fn smallest_threshold(options: &BTreeMap<String, String>, number: impl Fn(&str, f64) -> f64) -> (&'static str, f64) {
+    let mut all = vec![("tau", 1.0 / number("tau", 500.0).max(1.0e-30))];
+    if option(options, "mask", "none") != "none" {
+        all.push(("mask-threshold", number("mask-threshold", 0.002)));
+    }
+    if option(options, "search", "none") != "none" {
+        all.push(("search-threshold", number("search-threshold", 0.05)));
+    }
+    let smallest = all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    smallest.unwrap_or(("tau", f64::INFINITY))
+}
+
+/// Linear depths of every layer, as a shader reads them; not a number where nothing is drawn.
+fn read(capture: &Capture, encoding: DepthEncoding) -> Vec<Vec<f64>> {
+    let stored = |depth: f32| match depth.is_finite() && depth < SKY_DEPTH {
+        true => encoding.decode(DepthStorage::Float32.round(encoding.encode(f64::from(depth)))),
+        false => f64::NAN,
+    };
+    let layers = capture.depth.layers().iter();
+    layers
+        .map(|layer| layer.texels().iter().map(|depth| stored(*depth)).collect())
+        .collect()
+}
