@@ -23,6 +23,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use straightline_evaluator::diagnostic::Errors;
+use straightline_evaluator::front::raw;
 use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 
@@ -279,7 +280,7 @@ impl KernelConfig {
         let kernel = self.sources.iter().fold(kernel, |kernel, path| kernel?.with_file(path));
         let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
         let name = self.name.clone().unwrap_or_else(|| kernel.name().to_owned());
-        if syn::parse_str::<syn::Ident>(&name).is_err() {
+        if syn::parse_str::<syn::Ident>(&raw(&name)).is_err() {
             return Err(Error::of(Problem::Name(name)));
         }
         let mut settings = self.settings.clone();

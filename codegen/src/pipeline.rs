@@ -173,7 +173,7 @@ impl Kernel {
             text: text.to_owned(),
         };
         Kernel {
-            name: function.to_owned(),
+            name: front::unraw(function).to_owned(),
             builtin: None,
             summary: String::new(),
             files: Arc::new(vec![file]),

@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use straightline_codegen::emit::comment;
 use straightline_codegen::{OptionInfo, OptionKind};
-use straightline_manifest::{BindingKind, Extent, LanguageKind, Manifest, SamplerType};
+use straightline_manifest::{BindingKind, Extent, LanguageBinding, LanguageKind, Manifest, SamplerType};
 
 /// All that a template is given.
 #[derive(Clone, Debug, Serialize)]
@@ -51,6 +51,8 @@ pub struct Context {
 pub struct TextureContext {
     /// Name in the kernel.
     pub name: String,
+    /// Name in the shaders: that of the kernel, unless a language or the engine has a use for that.
+    pub spelled: String,
     /// Group and number of WGSL.
     pub binding: u32,
     /// `2d`, `2d-array`, `3d`, `cube` or `multisampled`.
@@ -88,8 +90,8 @@ pub struct UniformContext {
     pub name: String,
     /// Purpose in the kernel's words, harmless in a comment of any language; or nothing.
     pub docs: String,
-    /// Name where it lies in no block: that of the kernel, unless the shader has a use for that.
-    pub loose: String,
+    /// Name in the shaders: that of the kernel, unless a language or the engine has a use for that.
+    pub spelled: String,
     /// Type in WGSL.
     pub wgsl: String,
     /// Type in GLSL.
@@ -115,6 +117,8 @@ pub struct UniformContext {
 /// The buffer of uniforms.
 #[derive(Clone, Debug, Serialize)]
 pub struct BlockContext {
+    /// Its name: `parameters`, unless the kernel has a use for that.
+    pub name: String,
     /// Number in WGSL.
     pub binding: u32,
     /// Bytes.
@@ -184,8 +188,10 @@ pub struct ArgumentContext {
 pub struct ReadContext {
     /// Its name.
     pub name: String,
-    /// The texture.
+    /// The texture, in the kernel.
     pub texture: String,
+    /// The texture beside the shader.
+    pub spelled: String,
     /// `load`, `sample` or `size`.
     pub does: &'static str,
 }
@@ -200,6 +206,7 @@ pub fn textures(manifest: &Manifest) -> Vec<TextureContext> {
             ..
         } => Some(TextureContext {
             name: binding.name.clone(),
+            spelled: spelled_texture(manifest, &binding.name),
             binding: binding.binding,
             shape: fits::shape(*dimension),
             view_dimension: match fits::shape(*dimension) {
@@ -218,6 +225,21 @@ pub fn textures(manifest: &Manifest) -> Vec<TextureContext> {
         _ => None,
     });
     each.collect()
+}
+
+/// A texture's name in the shader, or beside it where functions of the host's read it.
+fn spelled_texture(manifest: &Manifest, name: &str) -> String {
+    let stands_for = |b: &&LanguageBinding| match b.kind {
+        LanguageKind::Texture | LanguageKind::Function => b.of.as_deref() == Some(name),
+        LanguageKind::CombinedSampler => b.texture.as_deref() == Some(name),
+        _ => false,
+    };
+    let found = manifest.language_bindings.iter().find(stands_for);
+    let spelled = found.map(|b| match (b.kind, &b.texture) {
+        (LanguageKind::Function, Some(texture)) => texture,
+        _ => &b.name,
+    });
+    spelled.map_or(name, String::as_str).to_owned()
 }
 
 /// The texture that is filtered.
@@ -251,7 +273,7 @@ pub fn samplers(manifest: &Manifest) -> Vec<SamplerContext> {
 /// Uniforms of a manifest, with what the kernel's options say of them.
 pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformContext>, Option<BlockContext>) {
     let block = manifest.bindings.iter().find_map(|binding| match &binding.kind {
-        BindingKind::Uniform { size, fields, .. } => Some((binding.binding, *size, fields)),
+        BindingKind::Uniform { size, fields, .. } => Some((binding, *size, fields)),
         _ => None,
     });
     let Some((binding, size, fields)) = block else {
@@ -267,13 +289,12 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             _ => [None, None],
         };
         let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, scalar)));
-        let loose = manifest
-            .language_bindings
-            .iter()
-            .find(|b| b.kind == LanguageKind::Uniform && b.of.as_ref() == Some(&field.name));
+        let is_uniform = |kind: LanguageKind| matches!(kind, LanguageKind::Uniform | LanguageKind::Member);
+        let mut bindings = manifest.language_bindings.iter();
+        let spelled = bindings.find(|b| is_uniform(b.kind) && b.of.as_ref() == Some(&field.name));
         UniformContext {
             name: field.name.clone(),
-            loose: loose.map_or(&field.name, |b| &b.name).clone(),
+            spelled: spelled.map_or(&field.name, |b| &b.name).clone(),
             docs: option.map(|option| comment(&option.docs)).unwrap_or_default(),
             wgsl: field.ty.to_string(),
             glsl: spelling::glsl(field.ty),
@@ -287,7 +308,12 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             max,
         }
     });
-    (each.collect(), Some(BlockContext { binding, size }))
+    let block = BlockContext {
+        name: binding.name.clone(),
+        binding: binding.binding,
+        size,
+    };
+    (each.collect(), Some(block))
 }
 
 /// Outputs of a manifest.
@@ -356,6 +382,7 @@ pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> Shader
     let reads = reads.map(|b| ReadContext {
         name: b.name.clone(),
         texture: b.of.clone().unwrap_or_default(),
+        spelled: b.texture.clone().unwrap_or_default(),
         does: match b.name.split('_').next() {
             Some("load") => "load",
             Some("sample") => "sample",

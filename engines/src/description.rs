@@ -1,7 +1,7 @@
 //! What `engine.toml` says of an engine.
 
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use straightline_codegen::EmitOptions;
 use straightline_codegen::emit::{Reads, Target};
 use straightline_manifest::{BindingKind, Form, Manifest, Origin, Stage};
@@ -20,6 +20,10 @@ pub struct Description {
     pub tried: Tried,
     /// The shaders that templates put in, by the name that they have there.
     pub shaders: BTreeMap<String, ShaderDescription>,
+    /// Names that the templates, the engine and its language have uses for, which nothing in a shader is called: words, and
+    /// `p3d_*` or `*Sampler` for all that begin or end so. Those of the shaders' languages need not be listed.
+    #[serde(default)]
+    pub words: BTreeSet<String>,
     /// What the engine can bind.
     #[serde(default)]
     pub limits: Limits,

@@ -132,7 +132,7 @@ impl Engine {
             return Err(Unfit::Limits(why));
         }
         let each = self.description.shaders.iter().map(|(name, description)| {
-            let shader = Shader::of(description, request, &manifest)?;
+            let shader = Shader::of(&self.description, description, request, &manifest)?;
             Ok((name.clone(), shader))
         });
         each.collect()
@@ -144,7 +144,7 @@ impl Engine {
         let mut context = Context {
             name: name.clone(),
             kernel: compiled.kernel.clone(),
-            class: spelling::class(name),
+            class: spelling::class(name, &self.description.words),
             title: comment(&spelling::title(name)),
             summary: comment(&compiled.summary),
             generator: String::new(),
@@ -207,13 +207,22 @@ struct Shader {
 
 impl Shader {
     /// `bound` is the manifest of the kernel for any engine.
-    fn of(description: &ShaderDescription, request: &Request<'_>, bound: &Manifest) -> Result<Shader, Unfit> {
+    fn of(
+        engine: &Description,
+        description: &ShaderDescription,
+        request: &Request<'_>,
+        bound: &Manifest,
+    ) -> Result<Shader, Unfit> {
         let unknown = |why: String| Unfit::Limits(why);
         let options = description.options().map_err(unknown)?;
         let mut options = options
             .precision(request.precision)
             .accept_loss(request.accept_loss)
             .format(request.format);
+        options.reserved.clone_from(&engine.words);
+        // A host has one name for a thing, whichever of its shaders runs.
+        let languages = engine.shaders.values().map(|shader| shader.target().map_err(unknown));
+        options.clear_of = languages.collect::<Result<_, _>>()?;
         options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));
         let emitted = request.compiled.emit(&options)?;
         let target = description.target().map_err(unknown)?;

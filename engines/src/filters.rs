@@ -1,5 +1,6 @@
 //! Filters that templates have beside those of tera: how a text becomes part of another language.
 
+use crate::spelling::spelled_out;
 use crate::words;
 use tera::{Kwargs, State, Tera, TeraResult};
 
@@ -11,6 +12,9 @@ pub fn register(tera: &mut Tera) {
     tera.register_filter("c_string", |text: &str, _: Kwargs, _: &State| c_string(text));
     tera.register_filter("python_string", |text: &str, _: Kwargs, _: &State| python_string(text));
     tera.register_filter("comment", comment);
+    tera.register_filter("js_key", |name: &str, _: Kwargs, _: &State| js_key(name));
+    tera.register_filter("rust_name", |name: &str, _: Kwargs, _: &State| rust_name(name));
+    tera.register_filter("identifier", |name: &str, _: Kwargs, _: &State| identifier(name));
     tera.register_filter("quoted", |text: &str, _: Kwargs, _: &State| quoted(text));
     tera.register_filter("parameter", |text: &str, _: Kwargs, _: &State| parameter(text));
     tera.register_filter("markdown", |text: &str, _: Kwargs, _: &State| words::markdown(text));
@@ -46,6 +50,36 @@ fn c_string(text: &str) -> String {
 /// Between three quotation marks of Python.
 fn python_string(text: &str) -> String {
     text.replace('\\', "\\\\").replace('"', "\\\"")
+}
+
+/// A name as a key of an object in JavaScript. All are, but one that sets what the object inherits from.
+fn js_key(name: &str) -> String {
+    match name {
+        "__proto__" => "[\"__proto__\"]".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+/// Keywords of Rust, of which none but `Self`, `self`, `super` and `crate` cannot be a name of a kernel's.
+const KEYWORDS: [&str; 48] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",
+    "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod", "move",
+    "mut", "override", "priv", "pub", "ref", "return", "static", "struct", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// A name as Rust writes it: `r#type`.
+fn rust_name(name: &str) -> String {
+    match KEYWORDS.contains(&name) {
+        true => format!("r#{name}"),
+        false => name.to_owned(),
+    }
+}
+
+/// A name of files as an identifier of C.
+fn identifier(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    spelled_out(name).chars().map(letter).collect()
 }
 
 /// Every line behind a mark: `{{ text | comment(mark="//") }}`.

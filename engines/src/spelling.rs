@@ -1,5 +1,7 @@
 //! How languages spell the types that a manifest names in WGSL's words.
 
+use std::collections::BTreeSet;
+use straightline_codegen::emit::is_among;
 use straightline_manifest::{Dimension, SampleType, Scalar, ValueType};
 
 /// A number or a vector in GLSL: `vec2f` is `vec2`.
@@ -71,12 +73,26 @@ pub fn number(value: f64, scalar: Scalar) -> String {
     }
 }
 
-/// `joint_bilateral` as `JointBilateral`.
-pub fn class(name: &str) -> String {
-    let words = name
+/// `joint_bilateral` as `JointBilateral`: a name in every language, and none of an engine's `words`.
+pub fn class(name: &str, words: &BTreeSet<String>) -> String {
+    let name = spelled_out(name);
+    let parts = name
         .split(|c: char| !c.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty());
-    words.map(capitalised).collect()
+    let class: String = parts.map(capitalised).collect();
+    match class.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_among(words, &class) {
+        true => class,
+        false => format!("Kernel{class}"),
+    }
+}
+
+/// A name in letters of ASCII: `é` is `ue9`.
+pub fn spelled_out(name: &str) -> String {
+    let each = name.chars().map(|c| match c.is_ascii() {
+        true => c.to_string(),
+        false => format!("u{:x}", u32::from(c)),
+    });
+    each.collect()
 }
 
 /// `joint_bilateral` as `Joint bilateral`.
@@ -120,7 +136,11 @@ mod tests {
 
     #[test]
     fn names_are_made_of_words() {
+        let words = BTreeSet::from(["Plugin".to_owned()]);
+        let class = |name: &str| class(name, &words);
         assert_eq!(class("joint_bilateral_upsampling"), "JointBilateralUpsampling");
+        assert_eq!((class("plugin").as_str(), class("é").as_str()), ("KernelPlugin", "Ue9"));
+        assert_eq!(class("_2d"), "Kernel2d");
         assert_eq!(title("joint_bilateral"), "Joint bilateral");
     }
 }

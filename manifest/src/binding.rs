@@ -11,11 +11,26 @@ pub struct Binding {
     pub group: u32,
     /// Binding number in the group.
     pub binding: u32,
-    /// The name in the kernel's source; also the name in the shader.
+    /// The name in the kernel's source, and in the text unless [`LanguageBinding`] says another; of a uniform buffer, which no
+    /// kernel names, the generator's.
     pub name: String,
     /// What must be bound.
     #[serde(flatten)]
     pub kind: BindingKind,
+}
+
+impl Binding {
+    /// Whether it is the rectangle of a shader that filters one: a uniform buffer called [`REGION`], `region_`, `region_2`, ...
+    pub fn is_region(&self) -> bool {
+        let is_mark = |rest: &str| {
+            rest.is_empty()
+                || rest
+                    .strip_prefix('_')
+                    .is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()))
+        };
+        // No kernel names a uniform buffer.
+        matches!(self.kind, BindingKind::Uniform { .. }) && self.name.strip_prefix(REGION).is_some_and(is_mark)
+    }
 }
 
 /// What must be bound at a [`Binding`].
@@ -68,7 +83,8 @@ pub enum BindingKind {
     },
 }
 
-/// Name of the uniform buffer of a shader that filters a rectangle of the image: see [`region_fields`].
+/// Name of the uniform buffer of a shader that filters a rectangle of the image: see [`region_fields`]. Where the kernel has a
+/// use for the name it is followed by an underscore or a number: see [`Binding::is_region`].
 pub const REGION: &str = "region";
 
 /// Fields of the uniform buffer [`REGION`]: the rectangle's upper left pixel in the inputs, its size, and its upper left
@@ -296,7 +312,7 @@ pub struct LanguageBinding {
     /// field of a uniform struct. Not of what this language alone needs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
-    /// Of a combined sampler, the texture.
+    /// Of a combined sampler, the texture; of a function, the name that the texture can have beside it in the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<String>,
     /// Of a combined sampler, the sampler; without one it is read texel by texel: give it a sampler for the nearest texel, and
@@ -324,6 +340,8 @@ pub enum LanguageKind {
     UniformBuffer,
     /// A uniform that lies in no buffer, or a number that is a parameter.
     Uniform,
+    /// A member of the uniform buffer, listed where it has another name in the text.
+    Member,
     /// The image that is written.
     StorageTexture,
     /// A function of the host's that reads a texture: it stands before the shader's.

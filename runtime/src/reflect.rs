@@ -24,14 +24,14 @@ pub(crate) fn check(plan: &Plan, wgsl: &str) -> Result<(), Error> {
     };
     entry_point(plan, &module).map_err(mismatch)?;
     for input in &plan.inputs {
-        check_input(&module, input).map_err(mismatch)?;
+        check_input(plan, &module, input).map_err(mismatch)?;
     }
     for uniform in plan.uniform_structs() {
-        check_uniform(&module, uniform).map_err(mismatch)?;
+        check_uniform(plan, &module, uniform).map_err(mismatch)?;
     }
     for output in &plan.outputs {
         if let Some((group, binding)) = output.place {
-            check_storage(&module, &output.name, group, binding, output.format).map_err(mismatch)?;
+            check_storage(plan, &module, &output.name, group, binding, output.format).map_err(mismatch)?;
         }
     }
     nothing_else(plan, &module).map_err(mismatch)
@@ -156,8 +156,15 @@ fn scalar_kind(format: Format) -> ScalarKind {
     }
 }
 
-/// The variable at a place, which must be called `name`.
-fn variable<'m>(module: &'m Module, name: &str, group: u32, binding: u32) -> Result<&'m GlobalVariable, String> {
+/// The variable at a place, which must be called `name`, as the text spells it.
+fn variable<'m>(
+    plan: &Plan,
+    module: &'m Module,
+    name: &str,
+    group: u32,
+    binding: u32,
+) -> Result<&'m GlobalVariable, String> {
+    let name = plan.in_text(name, binding);
     let at_place = |v: &GlobalVariable| {
         v.binding
             .as_ref()
@@ -177,8 +184,8 @@ fn variable<'m>(module: &'m Module, name: &str, group: u32, binding: u32) -> Res
     }
 }
 
-fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
-    let variable = variable(module, &plan.name, plan.group, plan.binding)?;
+fn check_input(whole: &Plan, module: &Module, plan: &InputPlan) -> Result<(), String> {
+    let variable = variable(whole, module, &plan.name, plan.group, plan.binding)?;
     let found = &module.types[variable.ty].inner;
     let (fits, wanted) = match &plan.kind {
         InputKind::Texture(texture) => {
@@ -264,8 +271,15 @@ fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> b
         }
 }
 
-fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: Format) -> Result<(), String> {
-    let variable = variable(module, name, group, binding)?;
+fn check_storage(
+    plan: &Plan,
+    module: &Module,
+    name: &str,
+    group: u32,
+    binding: u32,
+    format: Format,
+) -> Result<(), String> {
+    let variable = variable(plan, module, name, group, binding)?;
     let wanted = TypeInner::Image {
         dim: naga::ImageDimension::D2,
         arrayed: false,
@@ -292,8 +306,8 @@ fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: 
     Err(format!("`{name}` is not a `texture_storage_2d<{format}, write>`"))
 }
 
-fn check_uniform(module: &Module, plan: &UniformPlan) -> Result<(), String> {
-    let variable = variable(module, &plan.name, plan.group, plan.binding)?;
+fn check_uniform(whole: &Plan, module: &Module, plan: &UniformPlan) -> Result<(), String> {
+    let variable = variable(whole, module, &plan.name, plan.group, plan.binding)?;
     let name = &plan.name;
     let TypeInner::Struct { members, span } = &module.types[variable.ty].inner else {
         return Err(format!("`{name}` is not a struct"));
@@ -305,7 +319,10 @@ fn check_uniform(module: &Module, plan: &UniformPlan) -> Result<(), String> {
         return Err(format!("`{name}` takes {span} bytes, the manifest says {}", plan.size));
     }
     for field in &plan.fields {
-        let Some(member) = members.iter().find(|m| m.name.as_deref() == Some(&field.name)) else {
+        let Some(member) = members
+            .iter()
+            .find(|m| m.name.as_deref() == Some(whole.member_in_text(&field.name)))
+        else {
             return Err(format!("`{name}` has no member `{}`", field.name));
         };
         if member.offset != field.offset {
@@ -319,10 +336,11 @@ fn check_uniform(module: &Module, plan: &UniformPlan) -> Result<(), String> {
             return Err(format!("`{name}.{}` is not of type {}", field.name, field.ty));
         }
     }
-    match members
-        .iter()
-        .find(|m| plan.fields.iter().all(|f| m.name.as_deref() != Some(&f.name)))
-    {
+    match members.iter().find(|m| {
+        plan.fields
+            .iter()
+            .all(|f| m.name.as_deref() != Some(whole.member_in_text(&f.name)))
+    }) {
         None => Ok(()),
         Some(member) => {
             let member = member.name.as_deref().unwrap_or("<unnamed>");

@@ -1,6 +1,6 @@
 struct Scene<'a> {
     color: &'a Frame<Vec4>,
-    sharp: bool,
+    sharp: usize,
 }
 
 pub fn k(scene: &Scene, pixel: IVec2) -> Vec4 {

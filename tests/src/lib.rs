@@ -11,5 +11,6 @@ pub mod impatient;
 pub mod passthrough;
 pub mod random;
 pub mod readme;
+pub mod renamed;
 pub mod sraa;
 pub mod texts;

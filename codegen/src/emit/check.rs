@@ -18,13 +18,15 @@ pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]
     let mut text = text.replace("#extension GL_KHR_shader_subgroup_quad : require\n", "");
     for (k, (name, shape)) in compared.iter().enumerate() {
         let sampler = super::resources::SAMPLER;
+        // A text of so many letters does not have as many names.
+        let mut names = (0..=text.len()).map(|n| format!("{name}_texels{n}"));
+        let shown = names.find(|shown| !text.contains(shown)).unwrap_or_default();
         text = text.replace(
             &format!("sampler{shape}({name}, {sampler})"),
-            &format!("sampler{shape}({name}_texels, {sampler})"),
+            &format!("sampler{shape}({shown}, {sampler})"),
         );
         let binding = 1000 + k;
-        let other =
-            format!("#version 450\nlayout(set = 0, binding = {binding}) uniform texture{shape} {name}_texels;\n");
+        let other = format!("#version 450\nlayout(set = 0, binding = {binding}) uniform texture{shape} {shown};\n");
         text = text.replacen("#version 450\n", &other, 1);
     }
     let text = &text;

@@ -1,9 +1,10 @@
 //! What the entry point is called.
 
 use super::error::EmitError;
-use super::names::{self, LONGEST, Words};
 use super::options::EmitOptions;
+use super::spelled::is_own;
 use super::target::Target;
+use super::words::{LONGEST, Words, identifier, is_among};
 use straightline_evaluator::shorten;
 
 /// The name of a kernel's entry point or function: the one that is asked for, or else the kernel's, changed where shading
@@ -14,7 +15,7 @@ use straightline_evaluator::shorten;
 /// The name that is asked for is none in a language that is written.
 pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, EmitError> {
     let Some(name) = &options.entry else {
-        return Ok(names::entry_point(kernel));
+        return Ok(entry_point(kernel, options));
     };
     match why_not(name, options) {
         None => Ok(name.clone()),
@@ -23,6 +24,19 @@ pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, EmitError> {
             name: shorten(name),
             why,
         }),
+    }
+}
+
+/// The entry point of a kernel: its name, changed where a shading language or an engine would not take it.
+fn entry_point(kernel: &str, options: &EmitOptions) -> String {
+    let name = identifier(kernel);
+    let is_word = |name: &str| {
+        let languages = [Words::Wgsl, Words::Glsl, Words::Hlsl];
+        is_own(name) || is_among(&options.reserved, name) || languages.iter().any(|language| language.reserve(name))
+    };
+    match is_word(&name) {
+        true => format!("{name}_kernel"),
+        false => name,
     }
 }
 
@@ -54,9 +68,8 @@ fn why_not(name: &str, options: &EmitOptions) -> Option<String> {
     if let Some((.., language)) = languages.into_iter().find(|(written, is_word, _)| *written && *is_word) {
         return Some(format!("is a word of {language}"));
     }
-    let of_hlsl = ["size_of_", "len_of_"].iter().any(|prefix| name.starts_with(prefix)) || name.ends_with("_buffer");
     // GLSL alone has a use for `main`, and names it there.
-    if (names::is_own(name) && !(name == "main" && whole)) || (of_hlsl && is_written(Target::Hlsl)) {
+    if is_own(name) && !(name == "main" && whole) {
         return Some("is a name that the shader itself has a use for".to_owned());
     }
     None

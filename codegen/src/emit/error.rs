@@ -172,17 +172,13 @@ pub enum EmitError {
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"
     )]
     Workgroup(u32, u32),
-    /// A binding, a uniform or an output whose name cannot be one in every language.
-    #[error("`{kernel}` calls an {what} `{name}`, which {why}: give {} another name", if *.what == "input" { "the parameter" } else { "the field" })]
-    Name {
+    /// More names of one kind than a text can have.
+    #[error("`{kernel}` has a million names like `{name}`: give them other names")]
+    Names {
         /// The kernel.
         kernel: String,
-        /// `input` or `output`.
-        what: &'static str,
-        /// The input or output, cut if it is long.
+        /// What they begin with, cut if it is long.
         name: String,
-        /// What is wrong with the name.
-        why: &'static str,
     },
     /// Binding numbers, registers or a group that the shader cannot have.
     #[error("`{kernel}` cannot be bound so: {what}; {help}")]

@@ -4,6 +4,7 @@
 
 use super::error::EmitError;
 use super::resources::Resources;
+use super::spelled::Derived;
 use super::target::Target;
 use super::text::Text;
 use crate::compiled::Compiled;
@@ -45,8 +46,13 @@ pub struct HostFunction {
 }
 
 impl HostFunction {
-    /// Its name: `load_color`, `size_of_color`.
-    pub fn name(self, resources: &Resources) -> String {
+    /// Its name in a text: `load_color`, `size_of_color`.
+    pub fn name(self, resources: &Resources) -> &str {
+        resources.derived(Derived::Host(self))
+    }
+
+    /// The name that it has unless something else does.
+    pub fn default_name(self, resources: &Resources) -> String {
         format!("{}{}", self.what.prefix(), self.texture(resources))
     }
 
@@ -108,7 +114,7 @@ pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
         return None;
     }
     let function = HostFunction::of(op)?;
-    Some(Text::call(&function.name(resources), &args.iter().collect::<Vec<_>>()))
+    Some(Text::call(function.name(resources), &args.iter().collect::<Vec<_>>()))
 }
 
 /// Whether functions of the host's can give all that a kernel reads.

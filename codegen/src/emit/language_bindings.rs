@@ -1,38 +1,71 @@
 //! What each language binds, by its own numbers, registers and names; of functions, what they take.
 
 use super::Target;
-use super::print::{LOOSE_REGION, loose};
+use super::error::EmitError;
+use super::print::LOOSE_REGION;
 use super::resources::{Resources, SAMPLER, UNIFORMS};
 use straightline_manifest::{LanguageBinding, LanguageKind as Kind, REGION, Stage};
 
 impl Resources {
-    /// All that the languages that are written bind. WGSL and SPIR-V bind what the manifest's `bindings` and `output` say.
-    pub fn language_bindings(&self) -> Vec<LanguageBinding> {
+    /// All that the languages that are written bind. WGSL and SPIR-V bind what the manifest's `bindings` and `outputs` say, and
+    /// list what has another name in the text.
+    ///
+    /// # Errors
+    ///
+    /// As [`Resources::spelled`].
+    pub fn language_bindings(&self) -> Result<Vec<LanguageBinding>, EmitError> {
         let mut all = Vec::new();
         for target in &self.options.targets {
             let mut list = List {
                 language: target.to_string(),
                 bindings: Vec::new(),
             };
-            let hlsl = self.for_hlsl();
+            let spelled = self.spelled(*target)?;
             match target {
-                Target::Hlsl if self.options.is_function() => hlsl.parameters(self, *target, &mut list),
-                _ if self.options.is_function() => self.parameters(self, *target, &mut list),
-                Target::Wgsl | Target::Spirv => {}
-                Target::Hlsl => hlsl.registers(self, &mut list),
-                Target::Glsl450 => self.sets(&mut list),
-                Target::Msl => self.indices(&mut list),
-                _ => self.units(*target, &mut list),
+                _ if self.options.is_function() => spelled.parameters(self, *target, &mut list),
+                Target::Wgsl | Target::Spirv => spelled.renamed(self, &mut list),
+                Target::Hlsl => spelled.registers(self, &mut list),
+                Target::Glsl450 => spelled.sets(self, &mut list),
+                Target::Msl => spelled.indices(self, &mut list),
+                _ => spelled.units(self, *target, &mut list),
             }
             all.append(&mut list.bindings);
         }
-        all
+        Ok(all)
+    }
+
+    /// WGSL and SPIR-V: the bindings with another name in the text. As below, `self` has the names there, and `original` those
+    /// of the manifest.
+    fn renamed(&self, original: &Resources, list: &mut List) {
+        self.each(original, |kind, _, name, of, binding| {
+            if name != of {
+                let bound = list.add(kind, name, Some(of));
+                (bound.group, bound.binding) = (Some(self.places.group()), Some(binding));
+            }
+        });
+        if self.options.stage == Stage::Fragment {
+            for ((varying, of), location) in self.varyings.iter().zip(&original.varyings).zip(0..) {
+                if varying.name != of.name {
+                    list.add(Kind::Varying, &varying.name, Some(&of.name)).location = Some(location);
+                }
+            }
+        }
+        self.members(original, list);
+    }
+
+    /// Members of the uniform buffer with another name in the text.
+    fn members(&self, original: &Resources, list: &mut List) {
+        for (uniform, of) in self.uniforms.iter().zip(&original.uniforms) {
+            if uniform.name != of.name {
+                list.add(Kind::Member, &uniform.name, Some(&of.name));
+            }
+        }
     }
 
     /// Vulkan's GLSL: numbers in a descriptor set.
-    fn sets(&self, list: &mut List) {
+    fn sets(&self, original: &Resources, list: &mut List) {
         let group = Some(self.places.group());
-        self.each(self, |kind, _, name, of, binding| {
+        self.each(original, |kind, _, name, of, binding| {
             let bound = list.add(kind, name, Some(of));
             (bound.group, bound.binding) = (group, Some(binding));
         });
@@ -41,10 +74,11 @@ impl Resources {
             (bound.group, bound.binding) = (group, Some(self.sampler_binding()));
             bound.what = Some("any sampler: texels are named with one, and not filtered".to_owned());
         }
-        self.interpolated(list, self, true);
+        self.interpolated(list, original, true);
+        self.members(original, list);
     }
 
-    /// HLSL: registers. `self` has the names there, and `original` those of the manifest.
+    /// HLSL: registers.
     fn registers(&self, original: &Resources, list: &mut List) {
         self.each(original, |kind, class, name, of, binding| {
             let register = self.places.register(class, binding);
@@ -53,11 +87,12 @@ impl Resources {
             bound.space = register.space.filter(|space| *space != 0);
         });
         self.interpolated(list, original, true);
+        self.members(original, list);
     }
 
     /// Metal: indices of textures, buffers and samplers.
-    fn indices(&self, list: &mut List) {
-        self.each(self, |kind, _, name, of, binding| {
+    fn indices(&self, original: &Resources, list: &mut List) {
+        self.each(original, |kind, _, name, of, binding| {
             list.add(kind, name, Some(of)).binding = Some(binding);
         });
         if !self.read_buffers.is_empty() {
@@ -65,52 +100,56 @@ impl Resources {
             bound.binding = Some(self.sizes_binding());
             bound.what = Some("one u32 for each storage buffer, in order of binding: its length in bytes".to_owned());
         }
-        self.interpolated(list, self, true);
+        self.interpolated(list, original, true);
+        self.members(original, list);
     }
 
     /// The languages of OpenGL: units, where the version numbers them, and names.
-    fn units(&self, target: Target, list: &mut List) {
+    fn units(&self, original: &Resources, target: Target, list: &mut List) {
         let numbered = matches!(target, Target::Glsl430 | Target::Essl310);
-        self.combined_samplers(numbered, list);
+        self.combined_samplers(original, numbered, list);
         for (k, binding) in &self.read_buffers {
-            let name = &self.buffer(*k).name;
-            list.add(Kind::StorageBuffer, name, Some(name)).binding = Some(*binding);
+            let [name, of] = [self, original].map(|r| &r.buffer(*k).name);
+            list.add(Kind::StorageBuffer, name, Some(of)).binding = Some(*binding);
         }
-        for output in self.outputs.iter().filter(|output| output.binding.is_some()) {
-            list.add(Kind::StorageTexture, &output.name, Some(&output.name)).binding = output.binding;
+        for (output, of) in self.outputs.iter().zip(&original.outputs) {
+            if output.binding.is_some() {
+                list.add(Kind::StorageTexture, &output.name, Some(&of.name)).binding = output.binding;
+            }
         }
-        for uniform in &self.uniforms {
-            list.add(Kind::Uniform, &loose(&uniform.name), Some(&uniform.name));
+        for (uniform, of) in self.uniforms.iter().zip(&original.uniforms) {
+            list.add(Kind::Uniform, &uniform.name, Some(&of.name));
         }
         if self.options.region {
             for (name, of) in LOOSE_REGION {
                 list.add(Kind::Uniform, name, Some(of));
             }
         }
-        self.interpolated(list, self, numbered);
+        self.interpolated(list, original, numbered);
     }
 
-    fn combined_samplers(&self, numbered: bool, list: &mut List) {
+    fn combined_samplers(&self, original: &Resources, numbered: bool, list: &mut List) {
         for one in &self.combined {
             let alone = self.combined.iter().filter(|c| c.texture == one.texture).count() == 1;
-            let bound = list.add(Kind::CombinedSampler, &self.combined_name(*one), None);
+            let bound = list.add(Kind::CombinedSampler, self.combined_name(*one), None);
             // Two samplers of one texture have two units, which the host numbers.
             bound.binding = self.texture_binding(one.texture).filter(|_| numbered && alone);
-            bound.texture = Some(self.texture(one.texture).name.clone());
-            bound.sampler = one.sampler.map(|sampler| self.sampler(sampler).name.clone());
+            bound.texture = Some(original.texture(one.texture).name.clone());
+            bound.sampler = one.sampler.map(|sampler| original.sampler(sampler).name.clone());
         }
     }
 
-    /// What a function takes, in order. `self` has the names in its language, and `original` those of the manifest.
+    /// What a function takes, in order.
     fn parameters(&self, original: &Resources, target: Target, list: &mut List) {
         if self.options.calls_host() {
             for function in &self.host {
                 let of = function.texture(original);
-                let bound = list.add(Kind::Function, &function.name(self), Some(of));
+                let bound = list.add(Kind::Function, function.name(self), Some(of));
+                bound.texture = Some(function.texture(self).to_owned());
                 bound.what = Some(function.gives().to_owned());
             }
         } else if Target::OPENGL.contains(&target) {
-            self.combined_samplers(false, list);
+            self.combined_samplers(original, false, list);
         } else {
             self.each(original, |kind, _, name, of, _| {
                 if kind != Kind::UniformBuffer {
@@ -125,7 +164,7 @@ impl Resources {
         list.add(Kind::Position, "position", None);
         self.interpolated(list, original, false);
         for (uniform, of) in self.uniforms.iter().zip(&original.uniforms) {
-            list.add(Kind::Uniform, &loose(&uniform.name), Some(&of.name));
+            list.add(Kind::Uniform, &uniform.name, Some(&of.name));
         }
     }
 
@@ -158,10 +197,10 @@ impl Resources {
             }
         }
         if let Some(binding) = self.uniform_binding() {
-            see(Kind::UniformBuffer, 'b', UNIFORMS, UNIFORMS, binding);
+            see(Kind::UniformBuffer, 'b', UNIFORMS, &self.own_names.uniforms, binding);
         }
         if let Some(binding) = self.region_binding() {
-            see(Kind::UniformBuffer, 'b', REGION, REGION, binding);
+            see(Kind::UniformBuffer, 'b', REGION, &self.own_names.region, binding);
         }
     }
 }

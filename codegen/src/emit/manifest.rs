@@ -1,13 +1,14 @@
 //! What a host is told of a shader: the manifest.
 
+use super::error::EmitError;
 use super::layout::value_type;
 use super::print::GENERATOR;
-use super::resources::{BoundTexture, Resources, UNIFORMS};
+use super::resources::{BoundTexture, Resources};
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION,
-    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION_SIZE,
+    SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
@@ -20,7 +21,11 @@ impl Resources {
     }
 
     /// The manifest of the shader, without what is only known of its texts.
-    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Manifest {
+    ///
+    /// # Errors
+    ///
+    /// As [`Resources::spelled`].
+    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Result<Manifest, EmitError> {
         let mut bindings = Vec::new();
         let group = self.places.group();
         let mut add = |binding: u32, name: &str, kind: BindingKind| {
@@ -67,7 +72,7 @@ impl Resources {
             bindings.push(Binding {
                 group,
                 binding,
-                name: UNIFORMS.to_owned(),
+                name: self.own_names.uniforms.clone(),
                 kind: BindingKind::Uniform {
                     buffer_type: BufferType::Uniform,
                     size: self.uniform_size,
@@ -79,7 +84,7 @@ impl Resources {
             bindings.push(Binding {
                 group,
                 binding,
-                name: REGION.to_owned(),
+                name: self.own_names.region.clone(),
                 kind: BindingKind::Uniform {
                     buffer_type: BufferType::Uniform,
                     size: REGION_SIZE,
@@ -99,7 +104,7 @@ impl Resources {
             format: output.format,
             ty: value_type(output.ty),
         });
-        Manifest {
+        Ok(Manifest {
             schema: SCHEMA,
             generator: GENERATOR.to_owned(),
             kernel: compiled.kernel.clone(),
@@ -115,14 +120,14 @@ impl Resources {
             features: self.features(),
             varyings: self.varyings().collect(),
             bindings,
-            language_bindings: self.language_bindings(),
+            language_bindings: self.language_bindings()?,
             outputs: outputs.collect(),
             options: compiled.options.clone(),
             counts: counts.clone(),
             files: Default::default(),
             hashes: Default::default(),
             tuned: None,
-        }
+        })
     }
 }
 

@@ -27,8 +27,8 @@ mod places;
 mod print;
 mod prose;
 mod register;
-mod renamed;
 mod resources;
+mod spelled;
 mod spirv;
 mod target;
 mod text;
@@ -39,7 +39,6 @@ mod words;
 
 use crate::compiled::Compiled;
 use std::borrow::Cow;
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::{Graph, Invocation, Op};
@@ -55,6 +54,7 @@ pub use options::{EmitOptions, Reads};
 pub use prose::comment;
 pub use register::Register;
 pub use target::Target;
+pub use words::is_among;
 
 /// One shader in the languages asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -234,7 +234,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         compiled,
         resources: &resources,
         tree: &tree,
-        wgsl: OnceCell::new(),
+        wgsl: Wgsl::new(&tree, &resources)?,
     };
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
@@ -242,7 +242,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
     let module = shader.validated(&counts)?;
     let words = module.spirv(&resources)?;
     counts.basic_blocks = spirv::basic_blocks(&words);
-    let mut manifest = resources.manifest(compiled, &counts);
+    let mut manifest = resources.manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
     for target in &options.targets {
         within_limits(compiled, statements, limits::exceeded(0))?;
@@ -256,7 +256,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
                 shader.glsl(*target, &counts)?.into_bytes()
             }
             Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
-            Target::Hlsl => shader.hlsl(&counts).into_bytes(),
+            Target::Hlsl => shader.hlsl(&counts)?.into_bytes(),
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 return Err(EmitError::Derivatives {
                     kernel: compiled.kernel.clone(),
@@ -291,8 +291,31 @@ struct Shader<'s, 'g> {
     compiled: &'s Compiled,
     resources: &'s resources::Resources,
     tree: &'s ast::Module<'g>,
-    /// Its WGSL without header, once it has been written.
-    wgsl: OnceCell<print::Printed>,
+    wgsl: Wgsl,
+}
+
+/// The WGSL of a shader without its header.
+struct Wgsl {
+    /// What it binds, as it is spelled there.
+    resources: resources::Resources,
+    text: print::Printed,
+}
+
+impl Wgsl {
+    fn new(tree: &ast::Module<'_>, resources: &resources::Resources) -> Result<Wgsl, EmitError> {
+        let resources = resources.spelled(Target::Wgsl)?;
+        let mut tree = tree.clone();
+        legalise::wgsl(&mut tree);
+        names::assign(&mut tree, &resources, Target::Wgsl)?;
+        let text = print::Printed::new(&print::Wgsl { resources: &resources }, &tree);
+        Ok(Wgsl { resources, text })
+    }
+
+    /// The whole text.
+    fn under(&self, header: &[String]) -> String {
+        let resources = &self.resources;
+        self.text.under(&print::Wgsl { resources }, header)
+    }
 }
 
 impl Shader<'_, '_> {
@@ -309,20 +332,12 @@ impl Shader<'_, '_> {
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
         let (tree, _) = tree(self.compiled, &whole);
-        let wgsl = print::module(
-            &print::Wgsl { resources: &whole },
-            &for_wgsl(&tree, &whole),
-            &print::header(self.compiled, counts, &whole),
-        );
+        let wgsl = Wgsl::new(&tree, &whole)?.under(&print::header(self.compiled, counts, &whole));
         translate::Module::parse_wgsl(kernel, &wgsl)
     }
 
     fn own_wgsl(&self, counts: &Counts) -> String {
-        let resources = self.resources;
-        let language = print::Wgsl { resources };
-        let printed = || print::Printed::new(&language, &for_wgsl(self.tree, resources));
-        let header = print::header(self.compiled, counts, resources);
-        self.wgsl.get_or_init(printed).under(&language, &header)
+        self.wgsl.under(&print::header(self.compiled, counts, self.resources))
     }
 
     fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {
@@ -333,7 +348,7 @@ impl Shader<'_, '_> {
                 Precision::F32 => wgsl.clone(),
                 Precision::F16 => format!("enable f16;\n{wgsl}"),
             };
-            let read = enabled + &host::stubs(self.resources);
+            let read = enabled + &host::stubs(&self.wgsl.resources);
             translate::Module::parse_wgsl(&self.compiled.kernel, &read)?;
         }
         Ok(match options.enable_subgroups && self.resources.subgroups {
@@ -343,12 +358,12 @@ impl Shader<'_, '_> {
     }
 
     fn glsl(&self, target: Target, counts: &Counts) -> Result<String, EmitError> {
-        let resources = self.resources;
+        let resources = &self.resources.spelled(target)?;
         let mut tree = self.tree.clone();
-        legalise::glsl(&mut tree, self.resources, target == Target::Glsl450);
-        let language = print::Glsl::new(resources, target);
-        names::assign(&mut tree, resources, names::Words::Glsl, &language.names());
-        let glsl = print::module(&language, &tree, &print::header(self.compiled, counts, resources));
+        legalise::glsl(&mut tree, resources, target == Target::Glsl450);
+        names::assign(&mut tree, resources, target)?;
+        let header = print::header(self.compiled, counts, self.resources);
+        let glsl = print::module(&print::Glsl::new(resources, target), &tree, &header);
         // naga reads no other GLSL, no text without `main`, and no atomic operations.
         if target == Target::Glsl450 && !resources.options.is_function() && !self.compiled.graph.has_effects() {
             let compared = resources.compared();
@@ -357,27 +372,14 @@ impl Shader<'_, '_> {
         Ok(glsl)
     }
 
-    fn hlsl(&self, counts: &Counts) -> String {
+    fn hlsl(&self, counts: &Counts) -> Result<String, EmitError> {
         let mut tree = self.tree.clone();
         legalise::hlsl(&mut tree, self.resources);
-        let resources = self.resources.for_hlsl();
-        let language = print::Hlsl::new(&resources, &tree);
-        names::assign(&mut tree, &resources, names::Words::Hlsl, &language.names());
-        print::module(&language, &tree, &print::header(self.compiled, counts, &resources))
+        let resources = self.resources.spelled(Target::Hlsl)?;
+        names::assign(&mut tree, &resources, Target::Hlsl)?;
+        let header = print::header(self.compiled, counts, self.resources);
+        Ok(print::module(&print::Hlsl::new(&resources, &tree), &tree, &header))
     }
-}
-
-/// The tree as WGSL is written of it.
-fn for_wgsl<'g>(tree: &ast::Module<'g>, resources: &resources::Resources) -> ast::Module<'g> {
-    let mut tree = tree.clone();
-    legalise::wgsl(&mut tree);
-    names::assign(
-        &mut tree,
-        resources,
-        names::Words::Wgsl,
-        &print::Wgsl { resources }.names(),
-    );
-    tree
 }
 
 /// What stands between a directive and a text that begins with another, or with its header.

@@ -1,175 +1,13 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
-use super::ast::{Module, Stmt, StmtKind, VarId, Variable};
-use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
+use super::ast::{Expr, Module, Stmt, StmtKind, VarId, Variable};
+use super::error::EmitError;
+use super::resources::Resources;
+use super::spelled::is_own;
+use super::target::Target;
+use super::words::{Reserved, Words, free, identifier, numbered};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
-use straightline_manifest::REGION;
-
-/// Names that the text around a kernel's body has uses for.
-const OWN: [&str; 11] = [
-    UNIFORMS,
-    SAMPLER,
-    OUTPUT,
-    REGION,
-    "Parameters",
-    "Region",
-    "main",
-    "frame",
-    "pixel",
-    "id",
-    "position",
-];
-
-/// Whether the text around a kernel has a use for a name.
-pub fn is_own(name: &str) -> bool {
-    OWN.contains(&name) || OF_REGIONS.contains(&name) || OF_GROUPS.contains(&name)
-}
-
-/// Names that it has uses for where the shader filters a rectangle, or writes another row than that of its pixel.
-const OF_REGIONS: [&str; 2] = ["within", "place"];
-
-/// Names that it has uses for where invocations are those of a workgroup.
-const OF_GROUPS: [&str; 3] = ["local_id", "group_id", "local_index"];
-
-/// Longer names are cut, or refused where hosts use them.
-pub const LONGEST: usize = 255;
-
-/// A language whose words names stay clear of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Words {
-    /// WGSL, and what naga makes of it.
-    Wgsl,
-    /// GLSL of every version.
-    Glsl,
-    /// HLSL.
-    Hlsl,
-}
-
-impl Words {
-    /// Whether a word has a meaning of its own in the language, or in what is written there beside the kernel.
-    pub fn reserve(self, word: &str) -> bool {
-        use naga::keywords::wgsl;
-        let own =
-            ["whole_quotient", "whole_remainder"].contains(&word) || word.starts_with("cube_root") || converts(word);
-        own || word.starts_with("__")
-            || match self {
-                Words::Wgsl => wgsl::RESERVED.contains(&word) || wgsl::BUILTIN_IDENTIFIER_SET.contains(word),
-                Words::Glsl => super::words::GLSL.contains(&word) || is_glsl_type(word) || word.starts_with("gl_"),
-                Words::Hlsl => super::words::HLSL.contains(&word) || is_hlsl_type(word),
-            }
-    }
-}
-
-/// Whether a word is like the names of functions that convert: `to_vec2i`, `to_uint`.
-fn converts(word: &str) -> bool {
-    word.strip_prefix("to_").is_some_and(|ty| {
-        ["i32", "u32", "int", "uint"].contains(&ty)
-            || ["vec", "ivec", "uvec"].iter().any(|vector| ty.starts_with(vector))
-    })
-}
-
-/// Whether a word has a meaning of its own in a language that the shader is always written in.
-fn is_reserved(word: &str) -> bool {
-    Words::Wgsl.reserve(word) || Words::Glsl.reserve(word)
-}
-
-/// Types of HLSL that come in families: `float4x3`, `uint2`, `min16float`.
-fn is_hlsl_type(word: &str) -> bool {
-    let bare = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
-    let scalar = [
-        "float",
-        "int",
-        "uint",
-        "bool",
-        "half",
-        "double",
-        "dword",
-        "min16float",
-        "min16int",
-        "min12int",
-    ];
-    let opaque = ["sampler", "texture", "Texture", "RWTexture", "SamplerState"];
-    let dimension = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit()) || rest.starts_with("CUBE");
-    scalar.contains(&bare) || opaque.iter().any(|o| word.strip_prefix(o).is_some_and(dimension))
-}
-
-/// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
-fn is_glsl_type(word: &str) -> bool {
-    let is_type = |bare: &str| {
-        let numbered = |prefix: &str| {
-            bare.strip_prefix(prefix)
-                .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-        };
-        let opaque = ["sampler", "image", "texture", "subpassInput"];
-        let is_opaque = |prefix: &&str| {
-            let rest = bare.strip_prefix(prefix);
-            let kinds = ["1D", "2D", "3D", "Cube", "Buffer", "Shadow", "MS"];
-            let whole = *prefix != "image";
-            rest.is_some_and(|rest| (whole && rest.is_empty()) || kinds.iter().any(|kind| rest.starts_with(kind)))
-        };
-        numbered("vec") || numbered("mat") || opaque.iter().any(is_opaque)
-    };
-    is_type(word) || word.strip_prefix(['i', 'u', 'b', 'd']).is_some_and(is_type)
-}
-
-/// Why a name that hosts use, of an input or a uniform, can be none in every language; names are not changed behind a host's
-/// back. Uniforms are fields, and have only the name of the struct that holds them to stay clear of.
-pub fn refused(name: &str, entry: &str, is_field: bool, has_place: bool, in_group: bool) -> Option<&'static str> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let own = OWN.contains(&name)
-        || name == entry
-        || (has_place && OF_REGIONS.contains(&name))
-        || (in_group && OF_GROUPS.contains(&name));
-    if is_reserved(name) {
-        Some("is a word of WGSL or GLSL")
-    } else if name == UNIFORMS || (own && !is_field) {
-        Some("is a name that the shader itself has a use for")
-    } else if name.len() > LONGEST {
-        Some("is longer than the 255 letters that every compiler takes")
-    } else if !name.chars().all(plain) || name.starts_with(|c: char| c.is_ascii_digit()) {
-        Some("has other letters than those of ASCII, which GLSL does not take")
-    } else if name.contains("__") || name == "_" {
-        Some("has two underscores in a row, which GLSL keeps for itself")
-    } else {
-        None
-    }
-}
-
-/// The entry point of a kernel: its name, changed where shading languages would not take it.
-pub fn entry_point(kernel: &str) -> String {
-    let name = identifier(kernel.strip_prefix("r#").unwrap_or(kernel));
-    if is_reserved(&name) || Words::Hlsl.reserve(&name) || OWN.contains(&name.as_str()) {
-        format!("{name}_kernel")
-    } else {
-        name
-    }
-}
-
-/// A name as an identifier of every language: `é` becomes `ue9`, and what is very long is cut.
-fn identifier(name: &str) -> String {
-    let mut out = String::new();
-    for c in name.chars() {
-        if c.is_ascii_alphanumeric() || c == '_' {
-            out.push(c);
-        } else if !c.is_ascii() {
-            out += &format!("u{:x}", u32::from(c));
-        } else {
-            out.push('_');
-        }
-    }
-    while out.contains("__") {
-        // GLSL keeps two underscores in a row for itself.
-        out = out.replace("__", "_");
-    }
-    out.truncate(LONGEST / 2);
-    let out = out.trim_start_matches('_');
-    if out.is_empty() || out.starts_with(|c: char| c.is_ascii_digit()) || out.starts_with("gl_") {
-        format!("v_{out}")
-    } else {
-        out.to_owned()
-    }
-}
 
 /// What values are to be called: by the variables of the kernel's source and the counters of the loops that they were made in.
 pub struct Wanted {
@@ -223,92 +61,135 @@ impl Wanted {
     }
 }
 
-/// Gives the variables of a module names that differ from each other and from all `others` in their scope, and are no words of
-/// the language.
-pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, others: &[String]) {
-    let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
-    taken.extend(others.iter().cloned());
-    taken.insert(resources.entry.clone());
-    if resources.options.has_place() {
-        taken.extend(OF_REGIONS.map(str::to_owned));
-    }
-    if resources.group.is_some() {
-        taken.extend(OF_GROUPS.map(str::to_owned));
-    }
-    taken.extend(resources.names().map(str::to_owned));
+/// Gives the variables of a module names that differ from each other and from all others in their scope, and are no words of
+/// the language. `resources` are spelled for the target.
+///
+/// # Errors
+///
+/// There are a million names like one of them.
+pub fn assign(module: &mut Module<'_>, resources: &Resources, target: Target) -> Result<(), EmitError> {
+    let mut taken: HashSet<String> = resources.taken(target).into_iter().collect();
+    rename_functions(module, &resources.kernel, &taken)?;
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
     let mut scopes = Scopes {
+        kernel: &resources.kernel,
         variables: &mut module.variables,
-        words,
+        language: Words::of(target),
+        reserved: Reserved::new(target, &resources.options),
         taken,
         numbers: HashMap::new(),
     };
     // Tables are seen by all; what a function declares is its own.
     for (var, _) in &module.tables {
-        scopes.declare(*var);
+        scopes.declare(*var)?;
     }
     for function in &module.functions {
-        let declared: Vec<String> = function.params.iter().map(|param| scopes.declare(*param)).collect();
-        scopes.block(&function.body);
-        scopes.leave(declared);
+        let declared: Result<Vec<String>, EmitError> =
+            function.params.iter().map(|param| scopes.declare(*param)).collect();
+        scopes.block(&function.body)?;
+        scopes.leave(declared?);
     }
-    scopes.block(&module.body);
+    scopes.block(&module.body)
+}
+
+/// Gives functions beside the entry point other names where the kernel has a use for theirs.
+fn rename_functions(module: &mut Module<'_>, kernel: &str, taken: &HashSet<String>) -> Result<(), EmitError> {
+    let mut renamed: HashMap<String, String> = HashMap::new();
+    for function in &module.functions {
+        if taken.contains(&function.name) && !renamed.contains_key(&function.name) {
+            let is_taken = |name: &str| {
+                taken.contains(name)
+                    || module.functions.iter().any(|other| other.name == name)
+                    || renamed.values().any(|other| other == name)
+            };
+            let other = free(kernel, &function.name, is_taken)?;
+            renamed.insert(function.name.clone(), other);
+        }
+    }
+    if renamed.is_empty() {
+        return Ok(());
+    }
+    let mut functions = std::mem::take(&mut module.functions);
+    let mut rule = |mut expr: Expr| {
+        if let super::ast::Op::Function(name) = &mut expr.op
+            && let Some(other) = renamed.get(name)
+        {
+            name.clone_from(other);
+        }
+        expr
+    };
+    for function in &mut functions {
+        if let Some(other) = renamed.get(&function.name) {
+            function.name.clone_from(other);
+        }
+        function.body.iter_mut().for_each(|stmt| stmt.rewrite(&mut rule));
+    }
+    module.rewrite(&mut |_, expr| rule(expr));
+    module.functions = functions;
+    Ok(())
 }
 
 /// Names in scopes: what is declared in a block is free again after it.
 struct Scopes<'m> {
+    kernel: &'m str,
     variables: &'m mut [Variable],
-    words: Words,
+    language: Words,
+    reserved: Reserved,
     taken: HashSet<String>,
     /// By name, the number below which all are taken.
     numbers: HashMap<String, u32>,
 }
 
 impl Scopes<'_> {
-    fn block(&mut self, block: &[Stmt<'_>]) {
+    fn block(&mut self, block: &[Stmt<'_>]) -> Result<(), EmitError> {
         let mut declared = Vec::new();
         for stmt in block {
             match stmt.kind {
-                StmtKind::Let(var, _) | StmtKind::Var(var, _) => declared.push(self.declare(var)),
+                StmtKind::Let(var, _) | StmtKind::Var(var, _) => declared.push(self.declare(var)?),
                 StmtKind::For { counter, .. } => {
-                    let name = self.declare(counter);
-                    stmt.blocks().into_iter().for_each(|inner| self.block(inner));
-                    match self.words {
+                    let name = self.declare(counter)?;
+                    for inner in stmt.blocks() {
+                        self.block(inner)?;
+                    }
+                    match self.language {
                         // A counter of HLSL lives until the end of the block around its loop.
                         Words::Hlsl => declared.push(name),
                         Words::Wgsl | Words::Glsl => self.leave(vec![name]),
                     }
                 }
-                _ => stmt.blocks().into_iter().for_each(|inner| self.block(inner)),
-            }
-        }
-        self.leave(declared);
-    }
-
-    /// Gives a variable its name. The entry point's own are named as they are.
-    fn declare(&mut self, var: VarId) -> String {
-        let variable = &mut self.variables[var.0 as usize];
-        if var <= VarId::PLACE {
-            return variable.name.clone();
-        }
-        // naga keeps a digit at the end of a name for its own suffixes.
-        let base = identifier(&variable.name);
-        let mut name = match self.words.reserve(&base) {
-            true => format!("{base}_value"),
-            false => base.clone(),
-        };
-        if !self.taken.insert(name.clone()) {
-            let k = self.numbers.entry(base.clone()).or_insert(2);
-            loop {
-                name = format!("{base}_{k}");
-                *k += 1;
-                if self.taken.insert(name.clone()) {
-                    break;
+                _ => {
+                    for inner in stmt.blocks() {
+                        self.block(inner)?;
+                    }
                 }
             }
         }
+        self.leave(declared);
+        Ok(())
+    }
+
+    /// Gives a variable its name. The entry point's own are named as they are.
+    fn declare(&mut self, var: VarId) -> Result<String, EmitError> {
+        let variable = &mut self.variables[var.0 as usize];
+        if var <= VarId::PLACE {
+            return Ok(variable.name.clone());
+        }
+        // naga keeps a digit at the end of a name for its own suffixes.
+        let base = identifier(&variable.name);
+        let mut name = match self.reserved.has(&base) {
+            true => format!("{base}_value"),
+            false => base.clone(),
+        };
+        let is_taken = |name: &str| self.taken.contains(name) || self.reserved.has(name);
+        if is_taken(&name) {
+            let from = self.numbers.get(&base).copied().unwrap_or(2);
+            let (numbered, next) = numbered(self.kernel, &base, from, is_taken)?;
+            self.numbers.insert(base, next);
+            name = numbered;
+        }
+        self.taken.insert(name.clone());
         self.variables[var.0 as usize].name.clone_from(&name);
-        name
+        Ok(name)
     }
 
     fn leave(&mut self, declared: Vec<String>) {

@@ -50,10 +50,16 @@ pub struct EmitOptions {
     pub group: u32,
     /// Binding numbers, 0 to 999, by name: of textures, samplers and buffers, of `parameters`, the uniform buffer, of
     /// `destination`, the output, of `region`, and of the sampler `unfiltered` that GLSL 4.50 has. All else takes the lowest
-    /// numbers that are free, in order.
+    /// numbers that are free, in order. An output that has the name of an input is `output.NAME`; where a kernel has a use for
+    /// one of the names that no kernel gives, that is `parameters_`, `region_` or `unfiltered_`.
     pub bindings: Vec<(String, u32)>,
     /// Registers of HLSL by name; by default each is numbered as its binding.
     pub registers: Vec<(String, Register)>,
+    /// Words that no name in a text may be, beside those of its language: those that the text which it is put into has a use for. `gl_*` is every
+    /// word that begins so, `*Sampler` every one that ends so.
+    pub reserved: BTreeSet<String>,
+    /// Languages whose words names stay clear of too, so that a host can have one name for several texts.
+    pub clear_of: BTreeSet<Target>,
     /// Name of the entry point or function; by default the kernel's. That of a whole GLSL is `main`.
     pub entry: Option<String>,
     /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
@@ -85,6 +91,8 @@ impl EmitOptions {
             group: 0,
             bindings: Vec::new(),
             registers: Vec::new(),
+            reserved: BTreeSet::new(),
+            clear_of: BTreeSet::new(),
             entry: None,
             enable_subgroups: false,
             unbounded_loops: false,

@@ -3,7 +3,6 @@
 use super::error::EmitError;
 use super::options::EmitOptions;
 use super::register::{LAST_BINDING, LAST_GROUP, Register};
-use super::resources::SAMPLER;
 use super::target::Target;
 use std::collections::BTreeMap;
 use straightline_evaluator::shorten;
@@ -31,12 +30,18 @@ pub struct Places {
 
 impl Places {
     /// Numbers for what is `bound`, in order; the last of them may be the sampler that one language has. `outputs` is what the
-    /// shader gives, which a fragment shader does not bind.
+    /// shader gives, which a fragment shader does not bind, and `sampler` the name of the sampler that GLSL 4.50 alone has.
     ///
     /// # Errors
     ///
     /// What is wrong with the numbers and registers that were asked for.
-    pub fn new(kernel: &str, options: &EmitOptions, bound: &[Named], outputs: &[&str]) -> Result<Places, EmitError> {
+    pub fn new(
+        kernel: &str,
+        options: &EmitOptions,
+        bound: &[Named],
+        outputs: &[String],
+        sampler: &str,
+    ) -> Result<Places, EmitError> {
         let refused = |what: String, help: String| EmitError::Place {
             kernel: kernel.to_owned(),
             what,
@@ -61,7 +66,7 @@ impl Places {
             group: options.group,
             ..Places::default()
         };
-        let unknown = |name: &str| unknown(options, bound, outputs, name);
+        let unknown = |name: &str| unknown(options, bound, outputs, sampler, name);
         for (name, number) in &options.bindings {
             if let Some((what, help)) = unknown(name) {
                 return Err(refused(what, help));
@@ -90,7 +95,7 @@ impl Places {
             }
         }
         places.fill(bound);
-        let registers = places.registers(options, bound, &unknown);
+        let registers = places.registers(options, bound, sampler, &unknown);
         places.registers = registers.map_err(|(what, help)| refused(what, help))?;
         Ok(places)
     }
@@ -120,6 +125,7 @@ impl Places {
         &self,
         options: &EmitOptions,
         bound: &[Named],
+        sampler: &str,
         unknown: &dyn Fn(&str) -> Option<(String, String)>,
     ) -> Result<BTreeMap<u32, Register>, (String, String)> {
         let mut given = BTreeMap::new();
@@ -130,8 +136,8 @@ impl Places {
             return Err((what, "add the language hlsl, or leave the register out".to_owned()));
         }
         for (name, register) in &options.registers {
-            if name == SAMPLER {
-                let what = format!("only GLSL 4.50 has the sampler `{SAMPLER}`, and it has no registers");
+            if name == sampler {
+                let what = format!("only GLSL 4.50 has the sampler `{sampler}`, and it has no registers");
                 return Err((what, "leave the register out".to_owned()));
             }
             if let Some(error) = unknown(name) {
@@ -164,7 +170,7 @@ impl Places {
                 return Err((format!("`{name}` is given two registers"), "give it one".to_owned()));
             }
         }
-        let in_hlsl = || bound.iter().filter(|b| b.name != SAMPLER);
+        let in_hlsl = || bound.iter().filter(|b| b.name != sampler);
         let register = |b: &Named| {
             let number = self.number(&b.name);
             let default = self.default_register(b.class, number);
@@ -223,7 +229,13 @@ fn no_places(options: &EmitOptions) -> Option<String> {
 }
 
 /// Why a name is that of nothing bound, and what helps.
-fn unknown(options: &EmitOptions, bound: &[Named], outputs: &[&str], name: &str) -> Option<(String, String)> {
+fn unknown(
+    options: &EmitOptions,
+    bound: &[Named],
+    outputs: &[String],
+    sampler: &str,
+    name: &str,
+) -> Option<(String, String)> {
     if bound.iter().any(|b| b.name == name) {
         return None;
     }
@@ -233,8 +245,8 @@ fn unknown(options: &EmitOptions, bound: &[Named], outputs: &[&str], name: &str)
         let what = format!("`{name}` is the colour of a fragment shader, and has location {location}");
         return Some((what, "leave it out, or emit for compute".to_owned()));
     }
-    if name == SAMPLER && !options.targets.contains(&Target::Glsl450) {
-        let what = format!("only GLSL 4.50 has the sampler `{SAMPLER}`, and it is not written");
+    if name == sampler && !options.targets.contains(&Target::Glsl450) {
+        let what = format!("only GLSL 4.50 has the sampler `{sampler}`, and it is not written");
         return Some((what, "add the language glsl450, or leave it out".to_owned()));
     }
     let known: Vec<&str> = bound.iter().map(|b| b.name.as_str()).collect();

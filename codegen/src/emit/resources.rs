@@ -6,9 +6,11 @@ use super::host::{self, HostFunction};
 use super::layout::{layout, value_type};
 use super::outputs::BoundOutput;
 use super::places::{Named, Places};
+use super::spelled::Derived;
 use super::target::Target;
+use super::words::free;
 use crate::compiled::Compiled;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::ir::{
     Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Target as Picture, Texture,
     Type, Uniform, Varying,
@@ -22,6 +24,8 @@ pub const UNIFORMS: &str = "parameters";
 pub const SAMPLER: &str = "unfiltered";
 /// Name of what is written by a kernel that gives one value.
 pub const OUTPUT: &str = straightline_evaluator::ir::Target::ALONE;
+/// Mark before the name of an output that has the name of an input, where one list has both: `output.depth`.
+pub const OF_OUTPUT: &str = "output.";
 /// Name of the structure of several outputs.
 pub const OUTPUTS: &str = "Outputs";
 
@@ -41,7 +45,7 @@ pub struct BoundTexture {
 }
 
 /// A texture and the sampler that it is read by, which are one in OpenGL; no sampler for texels and sizes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Combined {
     /// The texture's index in the graph.
     pub texture: u32,
@@ -49,11 +53,28 @@ pub struct Combined {
     pub sampler: Option<u32>,
 }
 
+/// Host-facing names of what no kernel names: the usual ones, unless the kernel has a use for them.
+#[derive(Clone, Debug)]
+pub struct OwnNames {
+    /// The uniform buffer: [`UNIFORMS`].
+    pub uniforms: String,
+    /// The uniform buffer of a rectangle: [`REGION`].
+    pub region: String,
+    /// The sampler of GLSL 4.50 that filters nothing: [`SAMPLER`].
+    pub sampler: String,
+}
+
 /// A shader's bindings.
 #[derive(Clone, Debug)]
 pub struct Resources {
+    /// Name of the kernel.
+    pub(super) kernel: String,
     /// Name of the entry point or function.
     pub entry: String,
+    /// What hosts call that which no kernel names.
+    pub own_names: OwnNames,
+    /// In one language: names that are made of others.
+    pub(super) derived: BTreeMap<Derived, String>,
     /// What it gives for each pixel.
     pub outputs: Vec<BoundOutput>,
     /// Where everything is bound.
@@ -208,54 +229,10 @@ impl Resources {
             .filter(|(k, _)| used(*k as u32))
             .map(|(_, u)| u)
             .collect();
-        let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
-        let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let uses = |k: u32| ops.iter().any(|op| op.memory() == Some(Memory::Shared(k)));
         let used_shared: Vec<u32> = (0..graph.shared.len() as u32).filter(|k| uses(*k)).collect();
-        let names = names.chain(used_shared.iter().map(|k| &graph.shared[*k as usize].name));
-        let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::entry::name(&compiled.kernel, options)?;
-        let names = names.chain(graph.varyings.iter().map(|v| &v.name));
-        let structures = read_buffers
-            .iter()
-            .filter_map(|(k, _)| match &graph.buffers[*k as usize].element {
-                Element::Struct(structure) => Some(structure),
-                Element::Value(_) => None,
-            });
-        let fields = structures.clone().flat_map(|structure| &structure.fields);
         let mut outputs: Vec<BoundOutput> = graph.pictures().map(|t| BoundOutput::new(t, options.format)).collect();
-        let mut names = names
-            .chain(structures.map(|structure| &structure.name))
-            .map(|name| (name, false))
-            .chain(fields.map(|field| (&field.name, true)))
-            .chain(outputs.iter().filter(|o| o.name != OUTPUT).map(|o| (&o.name, false)))
-            .chain(uniforms.iter().map(|u| (&u.name, true)));
-        if options.entry.is_some()
-            && let Some((name, _)) = names.clone().find(|(name, is_field)| **name == entry && !is_field)
-        {
-            return Err(EmitError::Entry {
-                kernel: kernel(),
-                name: name.clone(),
-                why: "is the name of an input".to_owned(),
-            });
-        }
-        let refused = |(name, is_field): (&String, bool)| {
-            let why = super::names::refused(name, &entry, is_field, options.has_place(), group.is_some())?;
-            Some((name.clone(), why))
-        };
-        if let Some((name, why)) = names.find_map(refused) {
-            let what = match outputs.iter().any(|output| output.name == name) {
-                true => "output",
-                false => "input",
-            };
-            let name = shortened(&name);
-            return Err(EmitError::Name {
-                kernel: kernel(),
-                what,
-                name,
-                why,
-            });
-        }
         let subgroups = ops.iter().any(|op| matches!(op, Op::Message(_)));
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
         let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
@@ -278,25 +255,43 @@ impl Resources {
                 .iter()
                 .map(|(k, _)| named('s', &graph.samplers[*k as usize].name)),
         );
+        let mut all_bound: Vec<Named> = all_bound.collect();
+        // An output may have the name of an input.
+        let is_input = |name: &String| all_bound.iter().any(|bound| bound.name == *name);
+        let given: Vec<String> = outputs
+            .iter()
+            .map(|output| match is_input(&output.name) {
+                true => format!("{OF_OUTPUT}{}", output.name),
+                false => output.name.clone(),
+            })
+            .collect();
+        let own = |name: &str| {
+            free(&compiled.kernel, name, |name| {
+                all_bound.iter().any(|bound| bound.name == name) || given.iter().any(|output| output == name)
+            })
+        };
+        let own_names = OwnNames {
+            uniforms: own(UNIFORMS)?,
+            region: own(REGION)?,
+            sampler: own(SAMPLER)?,
+        };
+        if compute {
+            all_bound.extend(given.iter().map(|name| named('u', name)));
+        }
         let own = [
-            (!fields.is_empty(), 'b', UNIFORMS),
-            (options.region, 'b', REGION),
+            (!fields.is_empty(), 'b', &own_names.uniforms),
+            (options.region, 'b', &own_names.region),
             (
                 !read.is_empty() && options.targets.contains(&Target::Glsl450),
                 's',
-                SAMPLER,
+                &own_names.sampler,
             ),
         ];
         let own = own.into_iter().filter(|(is_bound, ..)| *is_bound);
-        let written = outputs.iter().filter(|_| compute).map(|o| named('u', &o.name));
-        let all_bound = all_bound.chain(written);
-        let all_bound: Vec<Named> = all_bound
-            .chain(own.map(|(_, class, name)| named(class, name)))
-            .collect();
-        let given: Vec<&str> = outputs.iter().map(|o| o.name.as_str()).collect();
-        let places = Places::new(&compiled.kernel, options, &all_bound, &given)?;
-        for output in outputs.iter_mut().filter(|_| compute) {
-            output.binding = Some(places.number(&output.name));
+        all_bound.extend(own.map(|(_, class, name)| named(class, name)));
+        let places = Places::new(&compiled.kernel, options, &all_bound, &given, &own_names.sampler)?;
+        for (output, name) in outputs.iter_mut().zip(&given).filter(|_| compute) {
+            output.binding = Some(places.number(name));
         }
         for bound in &mut read {
             bound.binding = places.number(&graph.textures[bound.index as usize].name);
@@ -316,7 +311,10 @@ impl Resources {
             false => Vec::new(),
         };
         let resources = Resources {
+            kernel: kernel(),
             entry,
+            own_names,
+            derived: BTreeMap::new(),
             outputs,
             places,
             options: options.clone(),
@@ -380,14 +378,6 @@ impl Resources {
             }
         }
         all
-    }
-
-    /// Names of the structures of buffers that are read.
-    pub fn structure_names(&self) -> Vec<String> {
-        self.structures()
-            .iter()
-            .map(|structure| structure.name.clone())
-            .collect()
     }
 
     /// The class of a buffer's registers in HLSL, by its index in the graph.
@@ -499,17 +489,17 @@ impl Resources {
 
     /// Binding number of the uniform buffer, if there is one.
     pub fn uniform_binding(&self) -> Option<u32> {
-        (!self.fields.is_empty()).then(|| self.places.number(UNIFORMS))
+        (!self.fields.is_empty()).then(|| self.places.number(&self.own_names.uniforms))
     }
 
     /// Binding number of the rectangle's uniform buffer, if there is one.
     pub fn region_binding(&self) -> Option<u32> {
-        self.options.region.then(|| self.places.number(REGION))
+        self.options.region.then(|| self.places.number(&self.own_names.region))
     }
 
     /// Binding number of the sampler that only GLSL 4.50 has.
     pub fn sampler_binding(&self) -> u32 {
-        self.places.number(SAMPLER)
+        self.places.number(&self.own_names.sampler)
     }
 
     /// What the fields of a region are.
@@ -544,12 +534,10 @@ impl Resources {
     }
 
     /// The name of a combined sampler: that of the texture, unless that is read in several ways.
-    pub fn combined_name(&self, one: Combined) -> String {
-        let texture = &self.texture(one.texture).name;
-        let first = self.combined.iter().find(|other| other.texture == one.texture);
-        match one.sampler {
-            Some(sampler) if first != Some(&one) => format!("{texture}_{}", self.sampler(sampler).name),
-            _ => texture.clone(),
+    pub fn combined_name(&self, one: Combined) -> &str {
+        match self.derived.get(&Derived::Combined(one)) {
+            Some(name) => name,
+            None => &self.texture(one.texture).name,
         }
     }
 
@@ -567,13 +555,5 @@ fn class(buffer: &Buffer) -> char {
     match buffer.access {
         Access::Read => 't',
         Access::Write | Access::Atomic => 'u',
-    }
-}
-
-/// A name as a message shows it.
-fn shortened(name: &str) -> String {
-    match name.char_indices().nth(40) {
-        Some((end, _)) => format!("{}...", &name[..end]),
-        None => name.to_owned(),
     }
 }

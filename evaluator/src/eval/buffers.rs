@@ -4,6 +4,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, Type as SourceType};
+use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{Access, BinaryOp, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
 
@@ -38,7 +39,7 @@ impl Evaluator<'_> {
             .help("elements of a `StorageBuffer` are f32, i32, u32, or vectors of 2 or 4 of them")
             .into());
         }
-        self.unused_name(name, span)?;
+        let name = &*self.input_name(name);
         self.elements.extend(args.first().cloned());
         let buffers = &mut self.builder.graph_mut().buffers;
         buffers.push(Buffer {
@@ -70,16 +71,13 @@ impl Evaluator<'_> {
             if fields.is_empty() {
                 return Err(refused());
             }
-            let twice = (1..fields.len()).find(|k| fields[..*k].iter().any(|(name, _)| *name == fields[*k].0));
-            if let Some(k) = twice {
-                let message = format!("two fields of `{of}` are called `{}`", fields[k].0);
-                return Err(Diagnostic::at(span, message)
-                    .label("of this type")
-                    .note("fields of a structure inside another are called by both names, joined by `_`")
-                    .help("rename one")
-                    .into());
+            // Fields of a structure inside another are called by both names, which may be those of another field.
+            let mut named: Vec<(String, Type)> = Vec::new();
+            for (name, ty) in fields {
+                let name = self.free_name(&name, &|name| named.iter().any(|(other, _)| other == name));
+                named.push((name, ty));
             }
-            return Ok(Element::Struct(Structure::new(of.clone(), fields)));
+            return Ok(Element::Struct(Structure::new(unraw(of).to_owned(), named)));
         }
         match value_named(of).filter(|ty| ty.components() != 3) {
             Some(ty) => Ok(Element::Value(ty)),
@@ -100,8 +98,8 @@ impl Evaluator<'_> {
         let inner = |field: &str| match name {
             // Of a tuple structure.
             "" if field.starts_with(|c: char| c.is_ascii_digit()) => format!("part_{field}"),
-            "" => field.to_owned(),
-            outer => format!("{outer}_{field}"),
+            "" => unraw(field).to_owned(),
+            outer => format!("{outer}_{}", unraw(field)),
         };
         let refused = || -> Exit {
             Diagnostic::at(span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))

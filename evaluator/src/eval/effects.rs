@@ -88,7 +88,7 @@ impl Evaluator<'_> {
             .help("texels are f32, i32, u32, or vectors of them")
             .into());
         };
-        self.unused_name(name, span)?;
+        let name = &*self.input_name(name);
         let images = &mut self.builder.graph_mut().images;
         images.push(Target {
             name: name.to_owned(),

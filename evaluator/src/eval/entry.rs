@@ -5,8 +5,9 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
+use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
-use crate::ir::{Invocation, NodeId, Op, Part, Scalar, Type};
+use crate::ir::{BinaryOp, Invocation, NodeId, Op, Part, Scalar, Type};
 use std::collections::BTreeMap;
 
 impl Evaluator<'_> {
@@ -31,6 +32,7 @@ impl Evaluator<'_> {
                     .into(),
             );
         };
+        self.parameters = self.names_of_parameters(&function.params);
         let mut options = BTreeMap::new();
         let mut args = Vec::new();
         for Param { name, ty, span, .. } in &function.params {
@@ -45,7 +47,10 @@ impl Evaluator<'_> {
             args.push(self.parameter(name, ty.bare(), *span, settings, &mut options)?);
         }
         let of_group = matches!(self.builder.graph().invocation, Invocation::Group(_));
-        let pixel = function.params.iter().find(|param| param.name == "pixel");
+        let is_pixel = |param: &&Param| {
+            param.name == "pixel" && matches!(param.ty.bare(), SourceType::Name(of, _) if of == "IVec2")
+        };
+        let pixel = function.params.iter().find(is_pixel);
         if let (true, Some(pixel)) = (of_group, pixel) {
             let error = Diagnostic::at(pixel.span, "a kernel of workgroups has a pixel for each thread")
                 .label("of which thread?")
@@ -71,6 +76,25 @@ impl Evaluator<'_> {
         let value = self.loaded(value, function.span)?;
         let outputs = self.results(&value, function)?;
         Ok((outputs, options, function.docs.clone()))
+    }
+
+    /// Names of parameters, and of the fields of those that are structures, with how often each is one.
+    fn names_of_parameters(&self, params: &[Param]) -> BTreeMap<String, usize> {
+        let library = self.library;
+        let mut names = BTreeMap::new();
+        let mut add = |name: &str| *names.entry(unraw(name).to_owned()).or_default() += 1;
+        for param in params {
+            let of = match param.ty.bare() {
+                SourceType::Name(of, _) => of.as_str(),
+                _ => "",
+            };
+            match library.structs.get(of) {
+                _ if library.options.contains_key(of) => {}
+                Some(structure) => structure.fields.iter().for_each(|(field, ..)| add(field)),
+                None => add(&param.name),
+            }
+        }
+        names
     }
 
     fn parameter(
@@ -107,9 +131,15 @@ impl Evaluator<'_> {
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
             let ty = ty.bare();
-            let value = match self.resource(field, ty, *at)? {
+            // Where several structures have such a field, it is called by both names.
+            let is_one = self.parameters.get(unraw(field)).is_none_or(|times| *times == 1);
+            let known = match is_one {
+                true => field.to_string(),
+                false => self.part_name(name, field),
+            };
+            let value = match self.resource(&known, ty, *at)? {
                 Some(value) => Some(value),
-                None => self.uniform_part(field, ty, *at)?,
+                None => self.uniform_part(&known, ty, *at)?,
             };
             let Some(value) = value else {
                 return Err(
@@ -136,7 +166,7 @@ impl Evaluator<'_> {
                 let mut elements = Vec::new();
                 let count = self.known_length(len)?;
                 for k in 0..count {
-                    let own = format!("{name}_{k}");
+                    let own = self.part_name(name, &k.to_string());
                     match self.uniform_part(&own, element, span)? {
                         Some(element) => elements.push(element),
                         None => return Ok(None),
@@ -145,7 +175,7 @@ impl Evaluator<'_> {
                     let added = self.builder.graph_mut().uniforms.last_mut();
                     if let Some(uniform) = added.filter(|uniform| uniform.name == own) {
                         uniform.part = Some(Part {
-                            of: name.to_owned(),
+                            of: unraw(name).to_owned(),
                             index: k,
                             count,
                             columns: false,
@@ -157,7 +187,7 @@ impl Evaluator<'_> {
             SourceType::Name(of, _) if library.structs.contains_key(of) => {
                 let mut fields = Vec::new();
                 for (field, ty, at) in &library.structs[of].fields {
-                    match self.uniform_part(&format!("{name}_{field}"), ty, *at)? {
+                    match self.uniform_part(&self.part_name(name, field), ty, *at)? {
                         Some(value) => fields.push((field.clone(), value)),
                         None => return Ok(None),
                     }
@@ -188,18 +218,22 @@ impl Evaluator<'_> {
             "f32" => Type::F32,
             "i32" => Type::I32,
             "u32" => Type::U32,
+            "bool" => {
+                let set = self.uniform(&self.input_name(name), Type::U32, None);
+                let zero = Value::Node(self.builder.constant(Type::U32, [0; 4]));
+                return self.binary(BinaryOp::Ne, &set, &zero, span).map(Some);
+            }
             other => match (vector_type(other), super::matrix::size(other)) {
                 (Some((kind, lanes)), _) => Type::value(kind, lanes),
                 (None, Some(n)) => {
                     // Columns in a row are a matrix in memory, in WGSL and in GLSL.
                     let mut columns = Vec::new();
                     for (index, axis) in (0..).zip(super::matrix::axes(n)) {
-                        let own = format!("{name}_{axis}");
-                        self.unused_name(&own, span)?;
+                        let own = self.part_name(name, axis);
                         let column = self.uniform(&own, Type::value(Scalar::F32, n), None);
                         if let Some(uniform) = self.builder.graph_mut().uniforms.last_mut() {
                             uniform.part = Some(Part {
-                                of: name.to_owned(),
+                                of: unraw(name).to_owned(),
                                 index,
                                 count: n.into(),
                                 columns: true,
@@ -212,7 +246,7 @@ impl Evaluator<'_> {
                 (None, None) => return Ok(None),
             },
         };
-        self.unused_name(name, span)?;
+        let name = &*self.input_name(name);
         Ok(Some(self.uniform(name, ty, None)))
     }
 }

@@ -95,6 +95,7 @@ pub fn evaluate(
 ) -> Result<Evaluated, Errors> {
     let mut unrolled: HashMap<Span, Diagnostic> = HashMap::new();
     let mut steps = 0;
+    let entry = &*crate::front::raw(entry);
     loop {
         let mut evaluator = Evaluator::new(library, files, policy);
         // After some attempts all at once, so that a wrong kernel is told so in time.
@@ -138,7 +139,8 @@ pub fn evaluate(
                 Err(Errors::new(evaluator.errors, files))
             }
             Err(_) => Err(Errors::of(Diagnostic::new(format!(
-                "`{entry}` does not end with a value"
+                "`{}` does not end with a value",
+                crate::front::unraw(entry)
             )))),
         };
     }
@@ -198,6 +200,8 @@ struct Evaluator<'a> {
     sites: u32,
     /// Whether the threads of a workgroup run what is being evaluated.
     in_phase: bool,
+    /// Names of the kernel's parameters and of the fields of those that are structures, and how often each is one.
+    parameters: BTreeMap<String, usize>,
     /// Types of the elements of buffers, by buffer.
     elements: Vec<crate::front::tree::Type>,
     /// Steps of work, those of earlier attempts at the kernel counted.
@@ -244,6 +248,7 @@ impl<'a> Evaluator<'a> {
             scope: Scope::default(),
             counters: Arc::default(),
             calls: Vec::new(),
+            parameters: BTreeMap::new(),
             errors: Vec::new(),
             named: VecDeque::new(),
             consts: HashMap::new(),

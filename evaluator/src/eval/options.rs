@@ -4,8 +4,8 @@ use super::Evaluator;
 use super::enums::Choice;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Errors, File};
-use crate::front::Library;
 use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
+use crate::front::{Library, unraw};
 use crate::ir::{Op, Scalar, Type, Uniform};
 use crate::policy::Policy;
 use crate::shorten::shorten;
@@ -61,7 +61,7 @@ const UNIFORM: &str = "uniform";
 
 /// The options of the kernel `entry`, in order of declaration.
 pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Result<Vec<OptionInfo>, Errors> {
-    let policy = Policy::default();
+    let (entry, policy) = (&*crate::front::raw(entry), Policy::default());
     let mut evaluator = Evaluator::new(library, files, &policy);
     let mut infos = Vec::new();
     let fields = fields(library, entry);
@@ -201,7 +201,7 @@ impl Evaluator<'_> {
             return Err(only_numbers(field));
         }
         Ok(OptionInfo {
-            name: field.name.replace('_', "-"),
+            name: unraw(&field.name).replace('_', "-"),
             docs: field.docs.clone(),
             kind,
             default,
@@ -229,7 +229,7 @@ impl Evaluator<'_> {
             return Err(only_numbers(field));
         }
         Ok(OptionInfo {
-            name: field.name.replace('_', "-"),
+            name: unraw(&field.name).replace('_', "-"),
             docs: field.docs.clone(),
             kind: OptionKind::List {
                 len: match field.ty.bare() {
@@ -368,7 +368,11 @@ impl Evaluator<'_> {
                     _ => Scalar::F32,
                 };
                 if text == UNIFORM {
-                    return Ok(self.uniform(&field.name, Type::scalar(kind), info.default.parse().ok()));
+                    return Ok(self.uniform(
+                        &self.option_name(&field.name),
+                        Type::scalar(kind),
+                        info.default.parse().ok(),
+                    ));
                 }
                 // An `f32` is compared with the bounds as the `f32` that it becomes: 0.001 is not below 0.001f32.
                 let held = |n: f64| match kind {

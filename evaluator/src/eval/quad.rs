@@ -43,7 +43,7 @@ impl Evaluator<'_> {
                 );
             }
         };
-        self.unused_name(name, span)?;
+        let name = &*self.input_name(name);
         let varyings = &mut self.builder.graph_mut().varyings;
         varyings.push(Varying {
             name: name.to_owned(),

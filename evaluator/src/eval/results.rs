@@ -4,6 +4,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Function;
+use crate::front::unraw;
 use crate::ir::{Invocation, NodeId, Scalar, Target, Type};
 
 /// Colour attachments that WebGPU promises.
@@ -21,13 +22,7 @@ impl Evaluator<'_> {
                 Value::Poison => return Err(Exit::Noted),
                 _ => return Err(self.no_target(&name, &part, at)),
             };
-            if name != Target::ALONE {
-                self.unused_name(&name, at).map_err(|_| {
-                    let what = format!("an input and a value that the kernel gives are both called `{name}`");
-                    let error = Diagnostic::at(at, what).label("the value that is given");
-                    Exit::from(error.help("bindings go by name: rename one"))
-                })?;
-            }
+            let name = self.output_name(&name, &targets);
             let ty = self.ty(id);
             targets.push(Target { name, ty });
             results.push(id);
@@ -47,6 +42,14 @@ impl Evaluator<'_> {
         }
         self.builder.graph_mut().targets = targets;
         Ok(results)
+    }
+
+    /// A name for a value that the kernel gives: its field's, unless a picture that the kernel writes has it.
+    fn output_name(&self, name: &str, targets: &[Target]) -> String {
+        let images = &self.builder.graph().images;
+        self.free_name(unraw(name), &|name| {
+            images.iter().chain(targets).any(|target| target.name == name)
+        })
     }
 
     /// The values that go to targets, with their names and places in the source.

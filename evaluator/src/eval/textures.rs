@@ -39,7 +39,7 @@ impl Evaluator<'_> {
         let Some((scalar, components)) = texel else {
             return Err(no_texels(name, of, args, span));
         };
-        self.unused_name(name, span)?;
+        let name = &*self.input_name(name);
         let textures = &mut self.builder.graph_mut().textures;
         textures.push(Texture {
             name: name.to_owned(),

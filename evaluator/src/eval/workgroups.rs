@@ -138,7 +138,7 @@ impl Evaluator<'_> {
                 .help("share fewer elements, or vectors of fewer components")
                 .into());
         }
-        self.unused_name(name, span)?;
+        let name = &*self.input_name(name);
         let shared = &mut self.builder.graph_mut().shared;
         shared.push(Shared {
             name: name.to_owned(),

@@ -180,8 +180,7 @@ impl Items {
     }
 
     /// Notes an item's errors, and what its text mentions.
-    pub(super) fn note(&mut self, name: &str, text: TokenStream, mut check: Check) {
-        check.raw_names(text.clone());
+    pub(super) fn note(&mut self, name: &str, text: TokenStream, check: Check) {
         self.mentions.add(name, text);
         self.blame(name, check.errors());
     }

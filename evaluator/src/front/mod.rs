@@ -25,6 +25,7 @@ mod options;
 mod parts;
 mod pattern;
 mod purposes;
+mod raw;
 mod reach;
 mod recursive;
 mod scan;
@@ -41,6 +42,7 @@ use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
 
 pub use foreign::is_prelude_type;
+pub use raw::{raw, unraw};
 pub use scan::{assigned, breaks, children, mentioned_in};
 pub use traits::is_of_rust;
 pub use tree::Library;
@@ -68,7 +70,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
             errors.push(*error);
             continue;
         }
-        match syn::parse_file(&text) {
+        match raw::parse_file(&text) {
             Ok(parsed) => syntax.push((index as u32, parsed)),
             Err(error) => errors.push(syntax_error(index as u32, &error)),
         }
@@ -87,7 +89,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
         Ok(mut parsed) => items.file(std::FILE, &mut parsed),
         Err(error) => return Err(Errors::of(syntax_error(std::FILE, &error))),
     }
-    let mut parsed = items.lower(entry).map_err(|found| Errors::new(found, files))?;
+    let mut parsed = items.lower(&raw(entry)).map_err(|found| Errors::new(found, files))?;
     parsed.library.purposes = purposes::of(&parsed.library);
     Ok(parsed)
 }
@@ -100,9 +102,9 @@ pub fn kernel_of(text: &str, wanted: &str) -> String {
 fn only_public_function(text: &str, wanted: &str) -> Option<String> {
     let text = without_head(text);
     depth::check(0, &text).ok()?;
-    let file = syn::parse_file(&text).ok()?;
+    let file = raw::parse_file(&text).ok()?;
     let functions = file.items.iter().filter_map(|item| match item {
-        syn::Item::Fn(function) => Some((function.sig.ident.to_string(), &function.vis)),
+        syn::Item::Fn(function) => Some((unraw(&function.sig.ident.to_string()).to_owned(), &function.vis)),
         _ => None,
     });
     if functions.clone().any(|(name, _)| name == wanted) {

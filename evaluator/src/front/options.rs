@@ -99,7 +99,6 @@ impl Items {
                 if let Some(k) = (0..syntax.fields.len()).find(twice) {
                     check.twice(&syntax.fields[k].name);
                 }
-                check.raw_names(mac.tokens.clone());
                 self.mentions.add(&name, mac.tokens.clone());
                 self.duplicates.extend(check.errors());
                 let fields = syntax.fields.iter().map(|field| {

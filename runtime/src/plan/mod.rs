@@ -5,8 +5,8 @@ mod binding;
 use crate::uniforms::UniformValue;
 use crate::{Error, ResourceKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, Output, Part, REGION,
-    REGION_SIZE, SampleType, SamplerType, Scalar, Stage, ValueType, Varying, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, Output, Part, REGION_SIZE,
+    SampleType, SamplerType, Scalar, Stage, ValueType, Varying, ViewDimension, region_fields,
 };
 
 /// What to bind where. Every number in it has been checked, except against the device.
@@ -27,6 +27,8 @@ pub(crate) struct Plan {
     pub(crate) varyings: Vec<Varying>,
     /// In the order of their locations.
     pub(crate) outputs: Vec<OutputPlan>,
+    /// Names that the text spells otherwise.
+    pub(crate) spelled: Vec<Spelled>,
 }
 
 /// A resource that the caller gives by name.
@@ -123,6 +125,15 @@ pub(crate) struct OutputPlan {
     pub(crate) format: Format,
 }
 
+/// A name of the kernel's that the text spells otherwise.
+#[derive(Debug)]
+pub(crate) struct Spelled {
+    of: String,
+    /// Number of a binding; none of a member of the uniform struct.
+    binding: Option<u32>,
+    name: String,
+}
+
 impl Plan {
     /// Reads `manifest`, refusing one that contradicts itself.
     pub(crate) fn new(manifest: &Manifest) -> Result<Self, Error> {
@@ -149,6 +160,7 @@ impl Plan {
             stage: stage(manifest).map_err(|problem| bad("output".to_owned(), problem))?,
             varyings: varyings(manifest).map_err(|problem| bad("varyings".to_owned(), problem))?,
             outputs: Vec::new(),
+            spelled: spelled(manifest),
         };
         for (location, source) in (0..).zip(&manifest.outputs) {
             let read = output(manifest, source, location);
@@ -219,7 +231,7 @@ impl Plan {
                 require(*size > 0 && size % 16 == 0, || {
                     format!("{size} bytes, not a multiple of 16")
                 })?;
-                if name == REGION {
+                if source.is_region() {
                     let fits = *fields == region_fields() && *size == REGION_SIZE;
                     require(fits, || "its fields are not those of a region".to_owned())?;
                 }
@@ -234,7 +246,7 @@ impl Plan {
                     size: *size,
                     fields,
                 };
-                if uniform.name == REGION {
+                if source.is_region() {
                     require(self.region.is_none(), || "it is listed twice".to_owned())?;
                     self.region = Some(uniform);
                 } else {
@@ -250,6 +262,18 @@ impl Plan {
             kind,
         });
         Ok(())
+    }
+
+    /// What the text calls a binding or an output.
+    pub(crate) fn in_text<'p>(&'p self, name: &'p str, binding: u32) -> &'p str {
+        let of = |one: &&Spelled| one.binding == Some(binding) && one.of == name;
+        self.spelled.iter().find(of).map_or(name, |one| &one.name)
+    }
+
+    /// What the text calls a member of the uniform struct.
+    pub(crate) fn member_in_text<'p>(&'p self, name: &'p str) -> &'p str {
+        let of = |one: &&Spelled| one.binding.is_none() && one.of == name;
+        self.spelled.iter().find(of).map_or(name, |one| &one.name)
     }
 
     /// What an error calls an output: nothing where it is the only one.
@@ -307,6 +331,22 @@ impl Plan {
         }
         Ok(())
     }
+}
+
+/// The names that the WGSL has in place of the kernel's.
+fn spelled(manifest: &Manifest) -> Vec<Spelled> {
+    let named = manifest
+        .language_bindings
+        .iter()
+        .filter(|b| b.language == "wgsl" && b.location.is_none());
+    let each = named.filter_map(|b| {
+        Some(Spelled {
+            of: b.of.clone()?,
+            binding: b.binding,
+            name: b.name.clone(),
+        })
+    });
+    each.collect()
 }
 
 /// The stage of `manifest`.

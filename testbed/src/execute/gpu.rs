@@ -7,7 +7,7 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, REGION, SamplerType, UniformField};
+use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, SamplerType, UniformField};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,
@@ -601,7 +601,7 @@ fn uniforms(manifest: &Manifest, inputs: &Inputs) -> Vec<(String, UniformValue)>
     let mut uniforms = Vec::new();
     for binding in &manifest.bindings {
         if let BindingKind::Uniform { fields, .. } = &binding.kind
-            && binding.name != REGION
+            && !binding.is_region()
         {
             for field in fields {
                 if let Some(numbers) = Inputs::find(&inputs.uniforms, &field.name) {

@@ -77,14 +77,18 @@ fn essl(text: &str) -> Result<(), String> {
 
 /// glslang on GLSL of OpenGL.
 fn opengl(text: &str, ending: &str) -> Result<(), String> {
-    use std::sync::atomic::{AtomicU32, Ordering};
-    static NEXT: AtomicU32 = AtomicU32::new(0);
-    let number = NEXT.fetch_add(1, Ordering::Relaxed);
-    let path = temporary(&format!("{number}.{ending}"));
+    let path = temporary(&format!("{}.{ending}", number()));
     std::fs::write(&path, text).map_err(|e| e.to_string())?;
     let read = compilers::opengl(&path);
     std::fs::remove_file(&path).map_err(|e| e.to_string())?;
     read
+}
+
+/// A number for a file that no other has.
+fn number() -> u32 {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static NEXT: AtomicU32 = AtomicU32::new(0);
+    NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 fn temporary(name: &str) -> PathBuf {
@@ -101,12 +105,12 @@ fn wgsl(text: &str) -> Result<(), String> {
 
 /// A C compiler on the header, with all its warnings.
 fn c(files: &Files) -> Result<(), String> {
-    let (name, text) = files.iter().find(|(name, _)| name.ends_with(".h")).ok_or("no header")?;
-    let function = name.trim_end_matches(".h");
+    let (_, text) = files.iter().find(|(name, _)| name.ends_with(".h")).ok_or("no header")?;
+    let function = between(text, "static const char ", "_vertex[]")?;
     let uses = format!(
         "int main(void) {{ return {function}_vertex[0] + {function}_fragment[0] + !{function}_samplers[0].name; }}\n"
     );
-    let path = temporary("header.c");
+    let path = temporary(&format!("{}.c", number()));
     std::fs::write(&path, format!("{text}{text}{uses}")).map_err(|e| e.to_string())?;
     let flags = [
         "-std=c99",

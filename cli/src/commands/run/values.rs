@@ -6,6 +6,10 @@ use straightline_codegen::shorten;
 
 /// The components of a uniform: as many numbers as it has, or one for all of them.
 pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
+    // A boolean is a number in the buffer.
+    if let (true, Ok(set)) = (ty == Type::U32, text.parse::<bool>()) {
+        return Ok(vec![f64::from(u8::from(set))]);
+    }
     let numbers = numbers(name, ty, text)?;
     let components = ty.components() as usize;
     if numbers.len() == components || numbers.len() == 1 {

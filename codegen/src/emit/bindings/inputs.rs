@@ -2,7 +2,7 @@
 
 use super::{identifier, parameters};
 use quote::format_ident;
-use straightline_manifest::{Binding, BindingKind, Dimension, Element, Extent, SampleType, SamplerType};
+use straightline_manifest::{Binding, BindingKind, Dimension, Element, Extent, Manifest, SampleType, SamplerType};
 
 /// A field of `Inputs`.
 pub struct Input {
@@ -13,7 +13,7 @@ pub struct Input {
 }
 
 impl Input {
-    pub fn of(binding: &Binding) -> Option<Input> {
+    pub fn of(binding: &Binding, manifest: &Manifest) -> Option<Input> {
         let (docs, ty) = match &binding.kind {
             BindingKind::Texture {
                 components,
@@ -59,7 +59,7 @@ impl Input {
                     Element::Value(ty) => format!("A storage buffer of `{ty}`, {stride} bytes each, at least one."),
                     Element::Structure(name) => format!(
                         "A storage buffer of [`{}`], {stride} bytes each, at least one.",
-                        parameters::structure_name(name)
+                        parameters::structure_name(manifest, name)
                     ),
                 },
                 "Buffer",

@@ -33,7 +33,7 @@ pub fn bindings(modules: &[Module<'_>]) -> String {
 }
 
 fn module(module: &Module<'_>) -> TokenStream {
-    let name = format_ident!("{}", module.name);
+    let name = identifier(module.name);
     let manifest = module.manifest;
     let docs: Vec<String> = documentation(module).iter().map(|line| spaced(line)).collect();
     let constants = constants(module);
@@ -47,7 +47,11 @@ fn module(module: &Module<'_>) -> TokenStream {
             }
         };
     }
-    let inputs: Vec<Input> = manifest.bindings.iter().filter_map(Input::of).collect();
+    let inputs: Vec<Input> = manifest
+        .bindings
+        .iter()
+        .filter_map(|binding| Input::of(binding, manifest))
+        .collect();
     let fields = inputs.iter().map(|input| {
         let (Input { name, ty, .. }, docs) = (input, spaced(&input.docs));
         quote! { #[doc = #docs] pub #name: &'a wgpu::#ty }
@@ -69,7 +73,7 @@ fn module(module: &Module<'_>) -> TokenStream {
     quote! {
         #(#[doc = #docs])*
         // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
-        #[allow(dead_code, non_snake_case, clippy::trivially_copy_pass_by_ref)]
+        #[allow(dead_code, non_camel_case_types, non_snake_case, uncommon_codepoints, clippy::trivially_copy_pass_by_ref)]
         pub mod #name {
             use straightline_runtime::{Error, Resource, wgpu};
 

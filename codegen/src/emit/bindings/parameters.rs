@@ -3,12 +3,12 @@
 use super::{identifier, spaced};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use straightline_manifest::{BindingKind, Element, Manifest, REGION, Scalar, UniformField, ValueType};
+use straightline_manifest::{BindingKind, Element, Manifest, Scalar, UniformField, ValueType};
 
 /// The struct `Parameters` with what belongs to it, and the methods that set it.
 pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
-        BindingKind::Uniform { fields, size, .. } if b.name != REGION => Some((fields.as_slice(), *size)),
+        BindingKind::Uniform { fields, size, .. } if !b.is_region() => Some((fields.as_slice(), *size)),
         _ => None,
     });
     match uniforms {
@@ -35,22 +35,68 @@ pub fn elements(manifest: &Manifest) -> TokenStream {
         {
             made.push(name);
             let docs = " An element of a storage buffer, as it lies there.";
-            all.extend(structure(&structure_name(name), docs, fields, *stride));
+            all.extend(structure(&structure_name(manifest, name), docs, fields, *stride));
         }
     }
     all
 }
 
+/// Names of types that the module has uses for, those of the prelude among them.
+const TYPES: [&str; 30] = [
+    "Bound",
+    "BoundDraw",
+    "Clone",
+    "Copy",
+    "Debug",
+    "Default",
+    "Draw",
+    "Eq",
+    "Error",
+    "From",
+    "Inputs",
+    "Into",
+    "IntoIterator",
+    "Iterator",
+    "Option",
+    "Parameters",
+    "PartialEq",
+    "Pass",
+    "Resource",
+    "Result",
+    "Targets",
+    "bool",
+    "core",
+    "f32",
+    "i32",
+    "str",
+    "straightline_runtime",
+    "u32",
+    "u8",
+    "wgpu",
+];
+
 /// The name of a structure that a buffer holds: its own, unless the module has another use for it.
-pub fn structure_name(element: &str) -> String {
-    match element {
-        "Inputs" | "Targets" | "Parameters" | "Pass" | "Bound" | "Error" | "Resource" => format!("{element}Element"),
-        other => other.to_owned(),
+pub fn structure_name(manifest: &Manifest, element: &str) -> String {
+    if !TYPES.contains(&element) {
+        return element.to_owned();
     }
+    let is_structure = |name: &str| {
+        manifest.bindings.iter().any(|binding| {
+            matches!(&binding.kind, BindingKind::Buffer { element: Element::Structure(other), .. } if other == name)
+        })
+    };
+    let mut name = format!("{element}Element");
+    // Each turn leaves a structure of the shader behind.
+    for _ in &manifest.bindings {
+        if is_structure(&name) {
+            name.push('_');
+        }
+    }
+    name
 }
 
 fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenStream {
-    let of = format_ident!("{of}");
+    let of = identifier(of);
     let of_docs = docs;
     let mut members = Vec::new();
     let mut pads = Vec::new();
@@ -169,13 +215,27 @@ fn argument(fields: &[UniformField], k: usize) -> proc_macro2::Ident {
     free(fields, &format!("value_{k}"))
 }
 
-/// A name that no field has.
+/// A name that no field has: `wanted`, with underscores behind it where fields have it without.
 fn free(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident {
     let mut name = wanted.to_owned();
-    while fields.iter().any(|field| field.name == name) {
-        name.push('_');
+    // Each turn leaves a field behind.
+    for _ in fields {
+        if fields.iter().any(|field| field.name == name) {
+            name.push('_');
+        }
     }
     format_ident!("{name}")
+}
+
+/// The method that sets a value: `set_NAME`, unless that sets all of them.
+fn setter(fields: &[UniformField], name: &str) -> proc_macro2::Ident {
+    match name {
+        "parameters" => {
+            let name = free(fields, "parameters_");
+            format_ident!("set_{name}")
+        }
+        _ => format_ident!("set_{name}"),
+    }
 }
 
 /// Bytes that no value fills, as a field of their own.
@@ -201,7 +261,7 @@ fn setters(fields: &[UniformField]) -> TokenStream {
             return None;
         }
         seen.push(name);
-        let setter = format_ident!("set_{name}");
+        let setter = setter(fields, name);
         let docs = spaced(&format!("Sets `{name}` from the next submission on."));
         let columns = match ty {
             ValueType::Matrix { .. } => quote! { #[doc = " Columns first."] },

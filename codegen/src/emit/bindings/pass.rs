@@ -4,7 +4,7 @@ use super::inputs::Input;
 use super::{identifier, spaced};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use straightline_manifest::{Manifest, REGION};
+use straightline_manifest::{Binding, Manifest};
 
 /// How inputs and uniforms are taken and passed on.
 pub struct Given {
@@ -61,7 +61,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
         setters,
     } = given;
     let (target_ty, target) = (&targets.ty, &targets.given);
-    let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
+    let region = manifest.bindings.iter().any(Binding::is_region).then(|| {
         quote! {
             /// Binds the shader for a rectangle: from `region.first` of `inputs` to `region.place` of the target.
             ///

@@ -3,7 +3,6 @@
 
 use super::glsl::{self, Glsl};
 use super::hlsl::{self, Hlsl, buffer_declared, sampler_declared, texture_declared};
-use super::loose;
 use super::wgsl::{self, Wgsl};
 use crate::emit::resources::SAMPLER;
 
@@ -25,7 +24,7 @@ impl Wgsl<'_> {
         let uniforms = r
             .uniforms
             .iter()
-            .map(|u| format!("{}: {}", loose(&u.name), wgsl::type_name(u.ty.into())));
+            .map(|u| format!("{}: {}", u.name, wgsl::type_name(u.ty.into())));
         let all = textures.chain(samplers).chain(["position: vec2f".to_owned()]);
         let all: Vec<String> = all.chain(varyings).chain(uniforms).collect();
         format!("fn {}({}) -> {} {{", r.entry, all.join(", "), self.result_type())
@@ -59,7 +58,7 @@ impl Glsl<'_> {
         all.push("vec2 position".to_owned());
         all.extend(r.varyings.iter().map(|v| glsl::declared(&v.name, v.ty.into())));
         let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
-        all.extend(uniforms.map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
+        all.extend(uniforms.map(|u| glsl::declared(&u.name, u.ty.into())));
         format!("{} {}({}) {{", self.result_type(), r.entry, all.join(", "))
     }
 }
@@ -73,7 +72,7 @@ impl Hlsl<'_> {
         let samplers = r.used_samplers.iter().map(|(k, _)| sampler_declared(r, *k));
         let varyings = r.varyings.iter().map(|v| hlsl::declared(&v.name, v.ty.into()));
         let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
-        let uniforms = uniforms.map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
+        let uniforms = uniforms.map(|u| hlsl::declared(&u.name, u.ty.into()));
         let bound = textures.chain(buffers).chain(samplers);
         // Where the host's functions read textures, none is given.
         let bound = bound.filter(|_| !r.options.calls_host());

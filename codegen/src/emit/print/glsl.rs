@@ -8,7 +8,8 @@ use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::host;
-use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
+use crate::emit::resources::{Resources, SAMPLER, UNIFORMS};
+use crate::emit::spelled::Derived;
 use straightline_evaluator::ir::{
     self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
 };
@@ -63,34 +64,7 @@ impl<'a> Glsl<'a> {
         let same = of_texture().find(|one| one.sampler == sampler);
         let plain = || of_texture().find(|one| one.sampler.is_none_or(|s| !r.sampler(s).comparison));
         let found = same.or_else(plain).or_else(|| of_texture().next());
-        Text::name(found.map_or_else(String::new, |one| r.combined_name(*one)))
-    }
-
-    /// Names at module scope that this language adds.
-    pub fn names(&self) -> Vec<String> {
-        let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
-        match self.vulkan() {
-            true if self.is_function() => uniforms.chain([self.resources.outputs_type()]).collect(),
-            true => {
-                let structures = self.resources.structure_names();
-                structures.into_iter().chain([OUTPUTS.to_owned()]).collect()
-            }
-            false => {
-                let combined = self
-                    .resources
-                    .combined
-                    .iter()
-                    .map(|one| self.resources.combined_name(*one));
-                let host = self.resources.host.iter().map(|f| f.name(self.resources));
-                combined
-                    .chain(uniforms)
-                    .chain(host)
-                    .chain(LOOSE_REGION.map(|(name, _)| name.to_owned()))
-                    .chain(self.resources.structure_names())
-                    .chain([self.resources.outputs_type()])
-                    .collect()
-            }
-        }
+        Text::name(found.map_or("", |one| r.combined_name(*one)))
     }
 
     /// A texture to take texels of, or the size.
@@ -144,7 +118,7 @@ impl<'a> Glsl<'a> {
     pub(super) fn buffers(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
-            let name = &r.buffer(*k).name;
+            let (name, block) = (&r.buffer(*k).name, r.derived(Derived::Block(*k)));
             let element = match &r.buffer(*k).element {
                 Element::Value(ty) => type_name((*ty).into()),
                 Element::Struct(structure) => structure.name.clone(),
@@ -155,7 +129,7 @@ impl<'a> Glsl<'a> {
                 Access::Write => "writeonly ",
                 Access::Atomic => "",
             };
-            format!("{layout}{qualifier}buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
+            format!("{layout}{qualifier}buffer {block} {{ {element} elements[]; }} {name};\n")
         });
         let structures = r.structures().into_iter().map(|structure| {
             let fields = structure
@@ -214,14 +188,6 @@ impl Glsl<'_> {
     }
 }
 
-/// A uniform that lies in no block.
-pub fn loose(name: &str) -> String {
-    match crate::emit::names::is_own(name) {
-        true => format!("parameter_{name}"),
-        false => name.to_owned(),
-    }
-}
-
 impl Language for Glsl<'_> {
     fn ty(&self, ty: Ty) -> String {
         type_name(ty)
@@ -277,7 +243,7 @@ impl Language for Glsl<'_> {
         }
         let zero = Text::name("0");
         match op {
-            ir::Op::Uniform(k) if !self.vulkan() || self.is_function() => Text::name(loose(self.resources.uniform(*k))),
+            ir::Op::Uniform(k) if !self.vulkan() || self.is_function() => Text::name(self.resources.uniform(*k)),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {

@@ -3,10 +3,11 @@
 mod declarations;
 
 use super::expr::{float, integer, unsigned};
-use super::{Language, Text, commented, loose};
+use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::host;
-use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
+use crate::emit::resources::{Resources, UNIFORMS};
+use crate::emit::spelled::{Derived, VARIABLE};
 use declarations::{fields, structures};
 use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
@@ -58,18 +59,6 @@ impl<'a> Hlsl<'a> {
         Hlsl { resources, sizes }
     }
 
-    /// Names at module scope, or of parameters, that this language adds.
-    pub fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
-        names.extend(self.resources.structure_names());
-        names.extend([self.resources.outputs_type(), VARIABLE.to_owned(), OUTPUTS.to_owned()]);
-        names.extend(self.resources.host.iter().map(|f| f.name(self.resources)));
-        if self.is_function() {
-            names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
-        }
-        names
-    }
-
     fn is_function(&self) -> bool {
         self.resources.options.is_function()
     }
@@ -85,18 +74,17 @@ impl<'a> Hlsl<'a> {
         };
         let name = Text::name(name);
         let given = self.is_function().then_some(&name);
-        Text::call(&self.size_of(size), &given.into_iter().collect::<Vec<_>>())
+        Text::call(self.size_of(size), &given.into_iter().collect::<Vec<_>>())
     }
 
-    fn size_of(&self, size: Size) -> String {
-        let name = |texture: u32| &self.resources.texture(texture).name;
-        match size {
-            Size::Texture(texture) => format!("size_of_{}", name(texture)),
-            Size::Levels(texture) => format!("levels_of_{}", name(texture)),
-            Size::Layers(texture) => format!("layers_of_{}", name(texture)),
-            Size::Buffer(buffer) => format!("len_of_{}", self.resources.buffer(buffer).name),
-            Size::Output => format!("size_of_{}", self.resources.sized_output()),
-        }
+    fn size_of(&self, size: Size) -> &str {
+        self.resources.derived(match size {
+            Size::Texture(texture) => Derived::Size(texture),
+            Size::Levels(texture) => Derived::Levels(texture),
+            Size::Layers(texture) => Derived::Layers(texture),
+            Size::Buffer(buffer) => Derived::Length(buffer),
+            Size::Output => Derived::OutputSize,
+        })
     }
 
     /// A function that asks for a size: the language gives it by way of variables.
@@ -144,7 +132,14 @@ impl<'a> Hlsl<'a> {
             variables.push("levels");
         }
         let ty = result.split('(').next().unwrap_or_default();
-        let arguments: Vec<&str> = level.into_iter().chain(variables.iter().copied()).collect();
+        // A variable would stand before what is asked where both have one name.
+        let apart = |text: &str| match variables.contains(&what) {
+            true => text.replace(what, &format!("{what}_of_it")),
+            false => text.to_owned(),
+        };
+        let result = apart(result);
+        let variables: Vec<String> = variables.iter().map(|variable| apart(variable)).collect();
+        let arguments: Vec<&str> = level.into_iter().chain(variables.iter().map(String::as_str)).collect();
         format!(
             "{ty} {name}({taken}) {{\n    uint {};\n    {what}.GetDimensions({});\n    return {result};\n}}\n",
             variables.join(", "),
@@ -218,7 +213,7 @@ impl Language for Hlsl<'_> {
         let r = self.resources;
         let zero = Text::name("0");
         match op {
-            ir::Op::Uniform(k) if self.is_function() => Text::name(loose(r.uniform(*k))),
+            ir::Op::Uniform(k) if self.is_function() => Text::name(r.uniform(*k)),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform(*k))),
             ir::Op::Varying(k) => Text::name(r.varying(*k)),
             ir::Op::TextureSize(texture) => self.ask(Size::Texture(*texture)),
@@ -527,6 +522,3 @@ impl Hlsl<'_> {
         }
     }
 }
-
-/// The variable that holds several outputs.
-const VARIABLE: &str = "outputs";

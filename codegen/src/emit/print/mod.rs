@@ -13,7 +13,7 @@ use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Stmt, StmtKind, Ty
 use super::text::{Binds, Text, wrapped_comment};
 use straightline_evaluator::ir::{self, Scalar, UnaryOp};
 
-pub use glsl::{GATHER, Glsl, LENGTH, LOOSE_REGION, MESSAGES, loose};
+pub use glsl::{GATHER, Glsl, LENGTH, LOOSE_REGION, MESSAGES};
 pub use header::{GENERATOR, header};
 pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;

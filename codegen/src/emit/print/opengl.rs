@@ -1,6 +1,6 @@
 //! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, loose, sampler_of};
+use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, sampler_of};
 use crate::emit::Target;
 use crate::emit::resources::Combined;
 
@@ -49,7 +49,7 @@ impl Glsl<'_> {
             out.push('\n');
         }
         for uniform in &r.uniforms {
-            out += &format!("uniform {};\n", declared(&loose(&uniform.name), uniform.ty.into()));
+            out += &format!("uniform {};\n", declared(&uniform.name, uniform.ty.into()));
         }
         if r.options.region {
             out += &format!("\n{}\n", r.region_comment());

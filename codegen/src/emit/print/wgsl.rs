@@ -1,11 +1,11 @@
 //! WGSL as WebGPU and wgpu read it.
 
 use super::expr::{float, integer, unsigned};
-use super::{Language, Text, commented, loose};
+use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::host;
 use crate::emit::outputs::{BoundOutput, one};
-use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
+use crate::emit::resources::{Resources, UNIFORMS};
 use std::fmt::Write;
 use straightline_evaluator::ir::{
     self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type,
@@ -29,23 +29,6 @@ impl Wgsl<'_> {
     fn count(&self, function: &str, texture: u32) -> Text {
         let name = Text::name(self.resources.texture(texture).name.as_str());
         Text::call("i32", &[&Text::call(function, &[&name])])
-    }
-}
-
-impl Wgsl<'_> {
-    /// Names at module scope that this language adds, or of parameters that are fields of a uniform struct otherwise.
-    pub fn names(&self) -> Vec<String> {
-        match self.resources.options.is_function() {
-            true => {
-                let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
-                let host = self.resources.host.iter().map(|f| f.name(self.resources));
-                uniforms.chain(host).chain([self.resources.outputs_type()]).collect()
-            }
-            false => {
-                let structures = self.resources.structure_names();
-                structures.into_iter().chain([OUTPUTS.to_owned()]).collect()
-            }
-        }
     }
 }
 
@@ -85,7 +68,7 @@ impl Language for Wgsl<'_> {
             return call;
         }
         match op {
-            ir::Op::Uniform(k) if self.leads() => Text::name(loose(self.resources.uniform(*k))),
+            ir::Op::Uniform(k) if self.leads() => Text::name(self.resources.uniform(*k)),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {

@@ -91,7 +91,8 @@ impl Inliner<'_> {
         let suits = |value: &Expr, operations: usize| {
             !is_loop || (operations <= 2 && !reads_memory(value) && !value.mentions(|var| written.contains(&var)))
         };
-        loop {
+        // Each turn takes one of them.
+        for _ in 0..=out.len() {
             let mut candidates = Vec::new();
             for expr in stmt.own() {
                 expr.visit(&mut |expr| {

@@ -8,7 +8,7 @@ mod inline;
 mod simplify;
 mod statements;
 
-use super::ast::Module;
+use super::ast::{Module, count};
 use straightline_evaluator::ir::Graph;
 use straightline_evaluator::limits;
 use straightline_evaluator::policy::ReadOrder;
@@ -24,8 +24,8 @@ pub fn tidy(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) {
     breaks::early(&mut module.body);
     // What a loop's early end stood between is one variable now.
     coalesce::coalesce(module);
-    // What was inlined has new neighbours, and what is shorter now may be inlined.
-    loop {
+    // What was inlined has new neighbours, and what is shorter now may be inlined. Each turn but the last takes a statement away.
+    for _ in 0..=count(&module.body) {
         module.rewrite(&mut |_, expr| simplify(expr));
         dead::remove(module);
         if !inline::inline(module, graph, reads) || limits::exceeded(0).is_some() {

@@ -10,7 +10,6 @@ mod parts;
 use super::cfg::Carrier;
 use super::expr::Lower;
 use crate::diagnostic::{Diagnostic, Span};
-use proc_macro2::{TokenStream, TokenTree};
 use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
@@ -74,23 +73,6 @@ impl Check {
                 .label("second definition")
                 .help("modules and functions are not told apart: give it another name"),
         );
-    }
-
-    /// Refuses names such as `r#type`.
-    pub fn raw_names(&mut self, text: TokenStream) {
-        for token in text {
-            match token {
-                TokenTree::Group(group) => self.raw_names(group.stream()),
-                TokenTree::Ident(name) if name.to_string().starts_with("r#") => {
-                    self.refuse(
-                        name.span(),
-                        &format!("the raw identifier `{name}`"),
-                        "give it a name that is no keyword",
-                    );
-                }
-                TokenTree::Ident(_) | TokenTree::Punct(_) | TokenTree::Literal(_) => {}
-            }
-        }
     }
 
     /// A function or method: its signature, then its body.

@@ -1,0 +1,332 @@
+//! Names in one language's text: those of the kernel, where the language takes them, and those that are made of them.
+//!
+//! Hosts know everything by the kernel's names. A name that a text cannot have is spelled otherwise there, and
+//! [`language_bindings`](super::language_bindings) says how.
+
+use super::error::EmitError;
+use super::host::HostFunction;
+use super::print::LOOSE_REGION;
+use super::resources::{Combined, OUTPUT, OUTPUTS, Resources, SAMPLER, UNIFORMS};
+use super::target::Target;
+use super::words::{Reserved, free, is_plain};
+use std::collections::{BTreeMap, BTreeSet};
+use straightline_evaluator::ir::{Element, Structure};
+use straightline_manifest::REGION;
+
+/// Names that the text around a kernel's body has uses for.
+const OWN: [&str; 11] = [
+    UNIFORMS,
+    SAMPLER,
+    REGION,
+    "Parameters",
+    "Region",
+    OUTPUTS,
+    "main",
+    "frame",
+    "pixel",
+    "id",
+    "position",
+];
+
+/// Names that it has uses for where the shader filters a rectangle, or writes another row than that of its pixel.
+const OF_REGIONS: [&str; 2] = ["within", "place"];
+
+/// Names that it has uses for where invocations are those of a workgroup.
+const OF_GROUPS: [&str; 3] = ["local_id", "group_id", "local_index"];
+
+/// The variable that holds several outputs in HLSL.
+pub const VARIABLE: &str = "outputs";
+
+/// Whether the text around a kernel has a use for a name.
+pub fn is_own(name: &str) -> bool {
+    name == OUTPUT || OWN.contains(&name) || OF_REGIONS.contains(&name) || OF_GROUPS.contains(&name)
+}
+
+/// A name that a text needs beside the kernel's. Numbers are indices in the graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Derived {
+    /// HLSL's function that asks for a texture's size.
+    Size(u32),
+    /// HLSL's function that asks for the number of a texture's levels.
+    Levels(u32),
+    /// HLSL's function that asks for the number of a texture's layers.
+    Layers(u32),
+    /// HLSL's function that asks for a buffer's length.
+    Length(u32),
+    /// HLSL's function that asks for the output's size.
+    OutputSize,
+    /// GLSL's block of a buffer.
+    Block(u32),
+    /// OpenGL's texture with one of several samplers.
+    Combined(Combined),
+    /// A function of the host's.
+    Host(HostFunction),
+}
+
+impl Resources {
+    /// The names that are made of others, each with what it would be.
+    fn derived_names(&self, target: Target) -> Vec<(Derived, String)> {
+        let mut all = Vec::new();
+        let calls_host = self.options.calls_host();
+        all.extend(self.host.iter().map(|f| (Derived::Host(*f), f.default_name(self))));
+        if target == Target::Hlsl && !calls_host {
+            for bound in &self.read {
+                let (index, name) = (bound.index, &self.texture(bound.index).name);
+                all.push((Derived::Size(index), format!("size_of_{name}")));
+                all.push((Derived::Levels(index), format!("levels_of_{name}")));
+                all.push((Derived::Layers(index), format!("layers_of_{name}")));
+            }
+            for (k, _) in &self.read_buffers {
+                all.push((Derived::Length(*k), format!("len_of_{}", self.buffer(*k).name)));
+            }
+            all.push((Derived::OutputSize, format!("size_of_{}", self.sized_output())));
+        }
+        if target.is_glsl() {
+            let block = |k: u32| (Derived::Block(k), format!("{}_buffer", self.buffer(k).name));
+            all.extend(self.read_buffers.iter().map(|(k, _)| block(*k)));
+        }
+        if Target::OPENGL.contains(&target) && !calls_host {
+            for one in &self.combined {
+                let first = self.combined.iter().find(|other| other.texture == one.texture);
+                if let Some(sampler) = one.sampler.filter(|_| first != Some(one)) {
+                    let (texture, sampler) = (&self.texture(one.texture).name, &self.sampler(sampler).name);
+                    all.push((Derived::Combined(*one), format!("{texture}_{sampler}")));
+                }
+            }
+        }
+        all
+    }
+
+    /// A name that is made of others.
+    pub fn derived(&self, which: Derived) -> &str {
+        self.derived.get(&which).map_or("", String::as_str)
+    }
+
+    /// Names of a text that are neither the kernel's nor made of them.
+    fn own_names(&self, target: Target) -> BTreeSet<String> {
+        let mut all: BTreeSet<String> = OWN.map(str::to_owned).into();
+        all.extend([self.entry.clone(), self.outputs_type()]);
+        if self.options.has_place() {
+            all.extend(OF_REGIONS.map(str::to_owned));
+        }
+        if self.group.is_some() {
+            all.extend(OF_GROUPS.map(str::to_owned));
+        }
+        if Target::OPENGL.contains(&target) {
+            all.extend(LOOSE_REGION.map(|(name, _)| name.to_owned()));
+        }
+        if target == Target::Hlsl {
+            all.extend([VARIABLE, "Parameters_buffer", "Region_buffer"].map(str::to_owned));
+        }
+        all
+    }
+
+    /// Every name at module scope of a text in a language, and of every parameter: of bindings that are spelled for it.
+    pub fn taken(&self, target: Target) -> BTreeSet<String> {
+        let mut all = self.own_names(target);
+        all.extend(self.names().map(str::to_owned));
+        all.extend(self.structures().iter().map(|structure| structure.name.clone()));
+        all.extend(self.derived.values().cloned());
+        if self.has_loose_uniforms(target) {
+            all.extend(self.uniforms.iter().map(|uniform| uniform.name.clone()));
+        }
+        all.insert(OUTPUT.to_owned());
+        all
+    }
+
+    /// Whether uniforms are names of their own in a text, not members of a structure.
+    fn has_loose_uniforms(&self, target: Target) -> bool {
+        self.options.is_function() || Target::OPENGL.contains(&target)
+    }
+
+    /// The bindings by the names that they have in the text of a language: words of no one, and no two of which are one.
+    ///
+    /// # Errors
+    ///
+    /// There are a million names like one of them.
+    pub fn spelled(&self, target: Target) -> Result<Resources, EmitError> {
+        let mut spelled = self.clone();
+        let reserved = Reserved::new(target, &self.options);
+        let mut scope = Scope {
+            kernel: &self.kernel,
+            reserved: &reserved,
+            taken: self.own_names(target),
+        };
+        let loose = self.has_loose_uniforms(target);
+        let structures = self.structures();
+        // Names that the text can have are kept, whatever stands before them.
+        let mut all: Vec<Given> = Vec::new();
+        all.extend(self.read.iter().map(|bound| Given::Texture(bound.index)));
+        all.extend(self.read_buffers.iter().map(|(k, _)| Given::Buffer(*k)));
+        all.extend(self.used_samplers.iter().map(|(k, _)| Given::Sampler(*k)));
+        all.extend(self.used_shared.iter().map(|k| Given::Shared(*k)));
+        all.extend((0..self.varyings.len()).map(Given::Varying));
+        all.extend((0..self.outputs.len()).map(Given::Output));
+        if loose {
+            all.extend((0..self.uniforms.len()).map(Given::Uniform));
+        }
+        all.extend((0..structures.len()).map(Given::Structure));
+        let names = scope.give(all.iter().map(|given| self.given(*given, &structures)))?;
+        let structures: BTreeMap<&str, (String, Vec<String>)> = structures
+            .iter()
+            .zip(names[names.len() - structures.len()..].iter())
+            .map(|(structure, name)| {
+                let fields = structure.fields.iter().map(|field| field.name.as_str());
+                Ok((
+                    structure.name.as_str(),
+                    (name.clone(), scope.members(target, fields, &[])?),
+                ))
+            })
+            .collect::<Result<_, EmitError>>()?;
+        for buffer in &mut spelled.buffers {
+            if let Element::Struct(structure) = &mut buffer.element
+                && let Some((name, fields)) = structures.get(structure.name.as_str())
+            {
+                rename(structure, name, fields);
+            }
+        }
+        let mut uniforms: BTreeMap<&str, String> = BTreeMap::new();
+        for (given, name) in all.iter().zip(&names) {
+            match *given {
+                Given::Texture(k) => spelled.textures[k as usize].name.clone_from(name),
+                Given::Buffer(k) => spelled.buffers[k as usize].name.clone_from(name),
+                Given::Sampler(k) => spelled.samplers[k as usize].name.clone_from(name),
+                Given::Shared(k) => spelled.shared[k as usize].name.clone_from(name),
+                Given::Varying(k) => spelled.varyings[k].name.clone_from(name),
+                Given::Output(k) => spelled.outputs[k].name.clone_from(name),
+                Given::Uniform(k) => {
+                    uniforms.insert(&self.uniforms[k].name, name.clone());
+                }
+                Given::Structure(_) => {}
+            }
+        }
+        if !loose {
+            // naga's reader of GLSL sees the members of a block beside what else is bound.
+            let seen: &[String] = if target == Target::Glsl450 { &names } else { &[] };
+            let names = scope.members(target, self.uniforms.iter().map(|uniform| uniform.name.as_str()), seen)?;
+            uniforms.extend(self.uniforms.iter().map(|uniform| uniform.name.as_str()).zip(names));
+        }
+        spelled.follow(self, &uniforms);
+        for (which, name) in spelled.derived_names(target) {
+            let name = scope.free(&name)?;
+            spelled.derived.insert(which, name);
+        }
+        Ok(spelled)
+    }
+
+    /// Gives what is listed twice the names that it has in the other list.
+    fn follow(&mut self, original: &Resources, uniforms: &BTreeMap<&str, String>) {
+        let renamed = |name: &mut String| {
+            if let Some(other) = uniforms.get(name.as_str()) {
+                name.clone_from(other);
+            }
+        };
+        self.uniform_names.iter_mut().for_each(renamed);
+        self.uniforms.iter_mut().for_each(|uniform| renamed(&mut uniform.name));
+        self.fields.iter_mut().for_each(|field| renamed(&mut field.name));
+        let varyings = original.varyings.iter().zip(&self.varyings);
+        let varyings: BTreeMap<&str, &str> = varyings
+            .map(|(from, to)| (from.name.as_str(), to.name.as_str()))
+            .collect();
+        for name in &mut self.varying_names {
+            if let Some(other) = varyings.get(name.as_str()) {
+                *name = (*other).to_owned();
+            }
+        }
+        // The pictures that are written at any place are the last of the outputs.
+        let images = self.images.iter_mut().rev().zip(self.outputs.iter().rev());
+        images.for_each(|(image, output)| image.name.clone_from(&output.name));
+    }
+
+    /// The name of something in the kernel.
+    fn given<'r>(&'r self, which: Given, structures: &[&'r Structure]) -> &'r str {
+        match which {
+            Given::Texture(k) => &self.textures[k as usize].name,
+            Given::Buffer(k) => &self.buffers[k as usize].name,
+            Given::Sampler(k) => &self.samplers[k as usize].name,
+            Given::Shared(k) => &self.shared[k as usize].name,
+            Given::Varying(k) => &self.varyings[k].name,
+            Given::Output(k) => &self.outputs[k].name,
+            Given::Uniform(k) => &self.uniforms[k].name,
+            Given::Structure(k) => &structures[k].name,
+        }
+    }
+}
+
+/// Something that the kernel names: an index in the graph, or in a list of [`Resources`].
+#[derive(Clone, Copy)]
+enum Given {
+    Texture(u32),
+    Buffer(u32),
+    Sampler(u32),
+    Shared(u32),
+    Varying(usize),
+    Output(usize),
+    Uniform(usize),
+    Structure(usize),
+}
+
+/// Gives a structure and its fields other names.
+fn rename(structure: &mut Structure, name: &str, fields: &[String]) {
+    name.clone_into(&mut structure.name);
+    for (field, name) in structure.fields.iter_mut().zip(fields) {
+        field.name.clone_from(name);
+    }
+}
+
+/// The names at module scope of a text, as they are given.
+struct Scope<'r> {
+    kernel: &'r str,
+    reserved: &'r Reserved,
+    taken: BTreeSet<String>,
+}
+
+impl Scope<'_> {
+    /// A name for something.
+    fn free(&mut self, name: &str) -> Result<String, EmitError> {
+        let name = free(self.kernel, name, |name| {
+            self.taken.contains(name) || self.reserved.has(name)
+        })?;
+        self.taken.insert(name.clone());
+        Ok(name)
+    }
+
+    /// Names for many: first for those that can keep theirs.
+    fn give<'n>(&mut self, names: impl Iterator<Item = &'n str>) -> Result<Vec<String>, EmitError> {
+        let names: Vec<&str> = names.collect();
+        let mut given: Vec<Option<String>> = Vec::new();
+        for name in &names {
+            let kept = is_plain(name) && !self.reserved.has(name) && self.taken.insert((*name).to_owned());
+            given.push(kept.then(|| (*name).to_owned()));
+        }
+        let each = names.iter().zip(given);
+        each.map(|(name, kept)| kept.map_or_else(|| self.free(name), Ok))
+            .collect()
+    }
+
+    /// Names for the members of a structure, which have a scope of their own, and others than those `seen` beside them.
+    fn members<'n>(
+        &self,
+        target: Target,
+        names: impl Iterator<Item = &'n str>,
+        seen: &[String],
+    ) -> Result<Vec<String>, EmitError> {
+        let names: Vec<&str> = names.collect();
+        // HLSL's padding is numbered by its place. naga reads no GLSL whose block has a member of the block's name.
+        let is_own = |name: &&&str| match name.strip_prefix("padding_") {
+            Some(at) => target == Target::Hlsl && at.bytes().all(|b| b.is_ascii_digit()),
+            None => **name == UNIFORMS,
+        };
+        let mut scope = Scope {
+            kernel: self.kernel,
+            reserved: self.reserved,
+            taken: names
+                .iter()
+                .filter(is_own)
+                .map(|name| (*name).to_owned())
+                .chain(seen.iter().cloned())
+                .collect(),
+        };
+        scope.give(names.into_iter())
+    }
+}

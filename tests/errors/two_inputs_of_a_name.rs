@@ -1,7 +1,0 @@
-struct Scene<'a> {
-    color: &'a Frame<Vec4>,
-}
-
-pub fn k(scene: &Scene, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
-    color.load(pixel)
-}
