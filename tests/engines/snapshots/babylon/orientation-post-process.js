@@ -94,7 +94,6 @@ export class OrientationPostProcess extends PostProcess {
         this.inputs = { };
         this.uniforms = { below: 0.5, };
         this.onApplyObservable.add((effect) => {
-            for (const [name, texture] of Object.entries(this.inputs)) effect.setTexture(name, texture);
             effect.setFloat("below", this.uniforms.below);
         });
     }

@@ -65,8 +65,8 @@ class OrientationFilter:
         if self.quad is None:
             raise RuntimeError("orientation: Panda3D makes no buffer for the scene")
         self.quad.setShader(Shader.make(Shader.SL_GLSL, vertex=VERTEX, fragment=FRAGMENT))
-        self.set(color=self.picture)
-        self.set(below=0.5)
+        self.set(**{"color": self.picture})
+        self.set(**{"below": 0.5})
 
     def set(self, **inputs):
         """Sets textures and uniforms by their names in the kernel."""

@@ -108,8 +108,7 @@ export class OrientationEffect extends PostEffect {
     render(inputTarget, outputTarget, rect) {
         const { scope } = this.device;
         scope.resolve("color").setValue(inputTarget.colorBuffer);
-        for (const [name, texture] of Object.entries(this.inputs)) scope.resolve(name).setValue(texture);
-        for (const [name, value] of Object.entries(this.uniforms)) scope.resolve(name).setValue(value);
+        scope.resolve("below").setValue(this.uniforms.below);
         this.drawQuad(outputTarget, this.shader, rect);
     }
 }

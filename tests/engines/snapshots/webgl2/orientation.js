@@ -72,10 +72,10 @@ export function create(gl) {
             gl.useProgram(program);
             gl.bindVertexArray(vertices);
             TEXTURES.forEach((texture, unit) => {
-                if (!inputs[texture.input]) throw new Error(`orientation: inputs.${texture.input} is missing`);
+                if (!given(inputs, texture.input)) throw new Error(`orientation: inputs.${texture.input} is missing`);
                 gl.activeTexture(gl.TEXTURE0 + unit);
-                gl.bindTexture(gl[TARGETS[texture.input]], inputs[texture.input]);
-                gl.bindSampler(unit, inputs[texture.sampler] ?? samplers[unit]);
+                gl.bindTexture(gl[TARGETS[texture.input]], given(inputs, texture.input));
+                gl.bindSampler(unit, (texture.sampler && given(inputs, texture.sampler)) ?? samplers[unit]);
                 gl.uniform1i(textures[unit], unit);
             });
             UNIFORMS.forEach((uniform, k) => {
@@ -93,6 +93,11 @@ export function create(gl) {
             gl.deleteProgram(program);
         },
     };
+}
+
+// What the caller gives for a name, which may be one that every object has.
+function given(inputs, name) {
+    return inputs[name] === Object.prototype[name] ? undefined : inputs[name];
 }
 
 function sampler(gl, filter) {

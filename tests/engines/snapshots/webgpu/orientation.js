@@ -78,7 +78,7 @@ export function create(device, format) {
             }
             device.queue.writeBuffer(own.parameters.buffer, 0, values.buffer);
             const entries = BINDINGS.map(({ name, layout: { binding } }) => {
-                const resource = inputs[name] ?? own[name];
+                const resource = given(inputs, name) ?? given(own, name);
                 if (!resource) throw new Error(`orientation: inputs.${name} is missing`);
                 return { binding, resource };
             });
@@ -95,4 +95,9 @@ export function create(device, format) {
             own.parameters.buffer.destroy();
         },
     };
+}
+
+// What there is under a name, which may be one that every object has.
+function given(all, name) {
+    return all[name] === Object.prototype[name] ? undefined : all[name];
 }
