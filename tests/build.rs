@@ -61,7 +61,9 @@ fn features() -> Vec<(String, String)> {
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut found = Vec::new();
     // In the order of a page.
-    for name in ["control", "patterns", "closures", "values", "items", "refused"] {
+    for name in [
+        "control", "patterns", "closures", "values", "indices", "items", "refused",
+    ] {
         let path = folder.join(format!("{name}.rs"));
         println!("cargo::rerun-if-changed={}", path.display());
         let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));

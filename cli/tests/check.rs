@@ -117,6 +117,86 @@ fn an_editor_reads_every_error_and_its_place() {
 }
 
 #[test]
+fn a_file_that_cannot_be_read_is_a_message_too() {
+    let output = straightline(&["check", "no/such/lens.rs", "--message-format=json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let messages: Vec<Message> = Message::parse_stream(&output.stdout[..])
+        .map(|m| m.expect("a line"))
+        .collect();
+    let [Message::CompilerMessage(first), Message::BuildFinished(last)] = messages.as_slice() else {
+        panic!("{messages:?}");
+    };
+    assert!(
+        first
+            .message
+            .message
+            .contains("cannot read the kernel file `no/such/lens.rs`"),
+        "{first:?}"
+    );
+    assert!(first.target.src_path.is_absolute() && !last.success);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_of_a_folder_whose_name_is_not_utf8_is_named() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = scratch("check-names");
+    let name = std::ffi::OsStr::from_bytes(b"gr\xf6sser.rs");
+    std::fs::write(Path::new(&folder).join(name), "pub fn k(pixel: IVec2) -> f32 { 1.0 }").expect("a file");
+    let shown = folder.display().to_string();
+    fails(&["check", &shown], 2, &["is not UTF-8", "rename the file"]);
+}
+
+#[test]
+fn an_error_behind_the_graph_stands_at_its_input() {
+    let folder = scratch("check-places");
+    let text = "// the old fn layers read depth wrongly\npub fn layers(depth: &FrameLayers<f32>, layer: u32, pixel: IVec2) -> Vec4 {\n    \
+        Vec4::splat(depth.load(pixel, layer as usize))\n}\n";
+    let kernel = write(&folder, "layers.rs", text);
+    let (found, _) = messages(&["check", &kernel, "--message-format=json"]);
+    let [error] = found.as_slice() else { panic!("{found:?}") };
+    assert!(error.message.contains("whose index is a runtime value"), "{error:?}");
+    assert_eq!(
+        (error.spans[0].line_start, marked(&error.spans[0]).as_str()),
+        (2, "depth"),
+        "{error:?}"
+    );
+    let out = folder.display().to_string();
+    fails(&["emit", &kernel, "--out", &out], 1, &["layers.rs:2:15", "this input"]);
+    // A stage without what the kernel needs is told at the kernel's name.
+    let writes = "// fn writes\npub fn writes(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {\n    \
+        bins.add((color.load(pixel).x * 8.0) as usize, 1);\n}\n";
+    let kernel = write(&folder, "writes.rs", writes);
+    fails(
+        &["emit", &kernel, "--stage", "fragment", "--out", &out],
+        1,
+        &["writes.rs:2:8", "this kernel"],
+    );
+}
+
+#[test]
+fn functions_that_no_kernel_reaches_are_checked_for_their_types() {
+    let folder = scratch("check-others");
+    let kernel = "use straightline_kernels::prelude::*;\n\npub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    // What a kernel does not reach may be outside of its language.
+    let outside =
+        "\nfn printed(x: f32) {\n    println!(\"{x}\");\n}\n\nfn others(x: f32) -> u64 {\n    elsewhere::of(x)\n}\n";
+    let fine = write(&folder, "lens.rs", &format!("{kernel}{outside}"));
+    finishes(&["check", &fine]);
+    let broken = write(
+        &folder,
+        "lens.rs",
+        &format!("{kernel}{outside}\nfn broken() -> f32 {{\n    1\n}}\n"),
+    );
+    let (found, _) = messages(&["check", &broken, "--message-format=json"]);
+    let [error] = found.as_slice() else { panic!("{found:?}") };
+    assert_eq!(
+        (error.message.as_str(), marked(&error.spans[0]).as_str()),
+        ("mismatched types: expected `f32`, found an integer", "1")
+    );
+}
+
+#[test]
 fn notes_help_and_further_places_are_kept() {
     let folder = scratch("check-parts");
     let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let b = color.load(pixel).x.round();\n    Vec4::splat(b)\n}\n";

@@ -29,7 +29,8 @@ use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
 
-/// Compiles kernels of one's own: of each file the function that has the file's name, or else the only public one, with its
+/// Compiles kernels of one's own: of each file the public function that has the file's name, or else the only public one that
+/// takes and gives what a kernel does, with its
 /// options at their defaults. For anything else see [`Config`].
 ///
 /// # Errors
@@ -257,7 +258,8 @@ impl KernelConfig {
         self
     }
 
-    /// Of a file, the function that is the kernel; by default the one with the file's name, or else the only public one.
+    /// Of a file, the function that is the kernel; by default the public one with the file's name, or else the only public one that takes
+    /// and gives what a kernel does.
     pub fn function(mut self, function: &str) -> Self {
         if let Source::File(_, chosen) = &mut self.source {
             *chosen = Some(function.to_owned());
@@ -287,7 +289,13 @@ impl KernelConfig {
             settings.share = settings.share.of_size(size);
         }
         let compiled = kernel.compile(&settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
-        let emitted = compiled.emit(&self.emit).map_err(|e| Error::of(Problem::Emit(e)))?;
+        let emitted = compiled.emit(&self.emit).map_err(|error| {
+            let located = compiled.locate(&error);
+            Error::of(match located.diagnostics[0].span {
+                Some(_) => Problem::Kernel(located),
+                None => Problem::Emit(error),
+            })
+        })?;
         let files = emitted.named(&name);
         Ok(Built {
             name,
@@ -311,7 +319,8 @@ impl Config {
         self
     }
 
-    /// A kernel of one's own: the function that has the file's name, or else the only public one, with its options at their
+    /// A kernel of one's own: the public function that has the file's name, or else the only public one that takes and gives
+    /// what a kernel does, with its options at their
     /// defaults.
     pub fn file(self, path: impl AsRef<Path>) -> Self {
         self.file_with(path, |k| k)

@@ -1,12 +1,12 @@
 //! The stages from text to graph, in order.
 
-use crate::compiled::Compiled;
+use crate::compiled::{Compiled, Places};
 use crate::emit;
 use crate::files;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
-use straightline_evaluator::diagnostic::{Diagnostic, Errors, File};
+use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_evaluator::eval::{self, OptionInfo};
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
@@ -182,12 +182,16 @@ impl Kernel {
         }
     }
 
-    /// A kernel of one's own, from a file. Without `function` it is the one that has the file's name, or else the only public one.
+    /// A kernel of one's own, from a file. Without `function` it is the public function that has the file's name, or else the only
+    /// public one that takes and gives what a kernel does.
     pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
         let shown = path.display().to_string();
         let text = read(path)?;
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
-        let function = function.map_or_else(|| front::kernel_of(&text, stem), str::to_owned);
+        let function = match function {
+            Some(function) => function.to_owned(),
+            None => front::kernel_of(&text, stem, &shown).map_err(|error| Errors::of(*error))?,
+        };
         Ok(Kernel::from_text(&shown, &text, &function))
     }
 
@@ -229,6 +233,21 @@ impl Kernel {
         &self.files
     }
 
+    /// Where the kernel's name stands, or the first line of its file: the place of errors that concern all of it. `None` of an empty file.
+    pub fn place(&self) -> Option<Span> {
+        let library = deep(|| self.library()).ok();
+        let named = library.and_then(|library| library.functions.get(&self.name).map(|function| function.span));
+        named.or_else(|| {
+            let line = self.files.first()?.text.lines().next()?;
+            Some(Span {
+                end: line.len() as u32,
+                line: 1,
+                column: 1,
+                ..Span::default()
+            })
+        })
+    }
+
     /// The kernel's options in order of declaration.
     pub fn options(&self) -> Result<Vec<OptionInfo>, Errors> {
         deep(|| self.described(&*self.library()?).map(|infos| infos.to_vec()))
@@ -248,11 +267,29 @@ impl Kernel {
         deep(|| self.library().map(|library| format!("{library:?}")))
     }
 
+    /// Looks at the types of the functions that the kernel does not reach, as rustc does: what else they hold does not concern it.
+    ///
+    /// # Errors
+    ///
+    /// Every two types in them that do not match, and what is wrong with the kernel's text.
+    pub fn check_others(&self) -> Result<(), Errors> {
+        deep(|| {
+            let Parsed { library, others, .. } = front::parse(&self.files, &self.name)?;
+            let found = infer::mismatches(&library, &others);
+            match found.is_empty() {
+                true => Ok(()),
+                false => Err(Errors::new(found, &self.files)),
+            }
+        })
+    }
+
     fn library(&self) -> Result<Arc<Library>, Errors> {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));
         }
-        let Parsed { mut library, reached } = front::parse(&self.files, &self.name)?;
+        let Parsed {
+            mut library, reached, ..
+        } = front::parse(&self.files, &self.name)?;
         infer::infer(&mut library, &reached).map_err(|found| Errors::new(found, &self.files))?;
         let library = Arc::new(library);
         Ok(Arc::clone(self.library.get_or_init(|| library)))
@@ -461,6 +498,15 @@ impl Kernel {
             limits: settings.limits,
             work: meter.work(),
             time: meter.time(),
+            places: Arc::new(Places {
+                files: Arc::clone(&self.files),
+                // Of a built-in kernel a user's options are wrong, not its text.
+                kernel: self.builtin.is_none().then_some(evaluated.span),
+                inputs: match self.builtin {
+                    Some(_) => Vec::new(),
+                    None => evaluated.inputs.clone(),
+                },
+            }),
         };
         if emit::statements_at_most(&compiled.graph) > settings.budget {
             within_budget(compiled.statements())?;

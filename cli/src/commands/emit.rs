@@ -65,7 +65,9 @@ pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<
     options.region = args.region;
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
-    let emitted = compiled.emit(&options).map_err(Failure::of)?;
+    let emitted = compiled
+        .emit(&options)
+        .map_err(|error| Failure::of_emission(compiled, &error))?;
     write_all(args, compiled, &emitted.named(name))
 }
 

@@ -26,7 +26,9 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         .precision(args.precision)
         .accept_loss(true)
         .targets(targets);
-    let emitted = compiled.emit(&options).map_err(Failure::of)?;
+    let emitted = compiled
+        .emit(&options)
+        .map_err(|error| Failure::of_emission(&compiled, &error))?;
     let machine = args.isa.map(|family| machine::ask(&emitted, family)).transpose()?;
     let bound = bound(&emitted.manifest);
     let features = emitted.manifest.features.join(", ");

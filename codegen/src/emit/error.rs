@@ -243,3 +243,17 @@ pub enum EmitError {
         message: String,
     },
 }
+
+impl EmitError {
+    /// The input that the error is about, if it is about one.
+    pub fn input(&self) -> Option<&str> {
+        match self {
+            EmitError::Image { image, .. } => Some(image),
+            EmitError::Layers { texture, .. } => Some(texture),
+            EmitError::Name {
+                what: "input", name, ..
+            } => Some(name),
+            _ => None,
+        }
+    }
+}

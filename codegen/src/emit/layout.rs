@@ -47,7 +47,7 @@ fn whole(ty: Type, part: &ir::Part) -> ValueType {
 pub fn value_type(ty: Type) -> ValueType {
     let of = match ty.kind() {
         Some(ir::Scalar::I32) => Scalar::I32,
-        Some(ir::Scalar::U32 | ir::Scalar::Bool) => Scalar::U32,
+        Some(ir::Scalar::U32 | ir::Scalar::Usize | ir::Scalar::Bool) => Scalar::U32,
         Some(ir::Scalar::F32) | None => Scalar::F32,
     };
     match ty {

@@ -150,7 +150,7 @@ fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
         },
         sample_type: match texture.scalar {
             Scalar::I32 => SampleType::Sint,
-            Scalar::U32 | Scalar::Bool => SampleType::Uint,
+            Scalar::U32 | Scalar::Usize | Scalar::Bool => SampleType::Uint,
             Scalar::F32 if texture.kind.is_depth() => SampleType::Depth,
             Scalar::F32 if bound.filtered => SampleType::Filterable,
             Scalar::F32 => SampleType::Unfilterable,

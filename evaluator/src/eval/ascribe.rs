@@ -98,7 +98,8 @@ impl Evaluator<'_> {
     fn ascribe_name(&mut self, value: Value, name: &str, span: Span) -> Eval {
         let stated = match name {
             "u32" => Type::U32,
-            "i32" | "usize" => Type::I32,
+            "i32" => Type::I32,
+            "usize" => Type::USIZE,
             "f32" => Type::F32,
             "bool" => Type::BOOL,
             other => match super::call::vector_type(other) {
@@ -110,10 +111,6 @@ impl Evaluator<'_> {
             Value::Int(n) if stated == Type::U32 => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
             Value::Int(_) if name == "usize" => Ok(value),
             Value::Int(n) if stated == Type::I32 => Ok(Value::Node(self.int_node(*n, Scalar::I32, span)?)),
-            // An index is signed in a shader, whatever it was made from.
-            Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => {
-                Ok(Value::Node(self.convert(*id, Scalar::I32)))
-            }
             Value::Node(id) if self.ty(*id) == stated => Ok(value),
             Value::Node(_) | Value::Int(_) => {
                 let found = match &value {

@@ -6,7 +6,7 @@ use super::value::{Captured, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use crate::front::{children, mentioned_in};
-use crate::ir::{NodeId, Op, RegionId};
+use crate::ir::{Graph, NodeId, Op, RegionId};
 use std::collections::{BTreeSet, HashSet};
 
 /// Loops that are left in the shader although they could be unrolled.
@@ -88,8 +88,15 @@ impl Evaluator<'_> {
             read(self.scope.at(slot).1, &mut walk.pending);
         }
         walk.pending.retain(|id| floats || !self.ty(*id).is_float());
-        walk.run(self)
+        walk.run(self.builder.graph(), &self.kept)
     }
+}
+
+/// Loops that could be unrolled, of those that a node depends on.
+pub fn loops_of(graph: &Graph, kept: &Kept, node: NodeId) -> Vec<Span> {
+    let mut walk = Walk::default();
+    walk.pending.push(node);
+    walk.run(graph, kept)
 }
 
 /// All numbers that a value is made of, those that a closure takes along counted.
@@ -115,8 +122,7 @@ struct Walk {
 }
 
 impl Walk {
-    fn run(mut self, e: &Evaluator<'_>) -> Vec<Span> {
-        let graph = e.builder.graph();
+    fn run(mut self, graph: &Graph, kept: &Kept) -> Vec<Span> {
         while let Some(id) = self.pending.pop() {
             if !self.seen.insert(id) {
                 continue;
@@ -124,14 +130,14 @@ impl Walk {
             let node = graph.node(id);
             self.pending.extend(&node.args);
             match (&node.op, node.args.first().map(|owner| &graph.node(*owner).op)) {
-                (Op::Result(k), Some(Op::Loop(region))) => self.enter(e, *region, *k as usize),
+                (Op::Result(k), Some(Op::Loop(region))) => self.enter(graph, kept, *region, *k as usize),
                 (Op::Result(k), Some(Op::If(then, otherwise))) => {
                     for side in [then, otherwise] {
                         self.pending.extend(graph.region(*side).results.get(*k as usize));
                     }
                 }
                 // The first is the counter.
-                (Op::Param(region, k), _) => self.enter(e, *region, (*k as usize).wrapping_sub(1)),
+                (Op::Param(region, k), _) => self.enter(graph, kept, *region, (*k as usize).wrapping_sub(1)),
                 _ => {}
             }
         }
@@ -139,11 +145,11 @@ impl Walk {
     }
 
     /// What a loop carries at a position.
-    fn enter(&mut self, e: &Evaluator<'_>, region: RegionId, k: usize) {
-        let of = e.kept.loops.iter().find(|(known, _)| *known == region);
+    fn enter(&mut self, graph: &Graph, kept: &Kept, region: RegionId, k: usize) {
+        let of = kept.loops.iter().find(|(known, _)| *known == region);
         let span = of.map(|(_, span)| *span);
-        self.found.extend(span.filter(|span| e.kept.avoidable.contains(span)));
-        let region = e.builder.graph().region(region);
+        self.found.extend(span.filter(|span| kept.avoidable.contains(span)));
+        let region = graph.region(region);
         self.pending
             .extend(region.results.get(k).copied().into_iter().chain(region.stop));
     }

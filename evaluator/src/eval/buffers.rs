@@ -5,7 +5,7 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, Type as SourceType};
 use crate::ir::vector_named as vector_type;
-use crate::ir::{Access, BinaryOp, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
+use crate::ir::{Access, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
 
 /// Elements of an array that a host fills, at most: vectors that fill a uniform buffer everywhere.
 const LONGEST: i64 = 1024;
@@ -183,18 +183,13 @@ impl Evaluator<'_> {
             return self.written_buffer(index, name, args, span);
         }
         match (name, args) {
-            ("len", []) => Ok(Value::Node(self.builder.add(
-                Op::BufferLen(index),
-                Vec::new(),
-                Type::I32,
-            ))),
-            ("load", [at]) => {
-                let at = self.index_node(at, span)?;
+            ("len", []) => {
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
-                let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
-                let last = self.builder.add(Op::Binary(BinaryOp::Sub), [len, one], Type::I32);
-                self.name(&Value::Node(last), "last", span);
-                let inside = self.builder.add(Op::Clamp, [at, zero, last], Type::I32);
+                Ok(self.sized(len))
+            }
+            ("load", [at]) => {
+                let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
+                let inside = self.held_index(at, len, "last", span)?;
                 let mut next = 0;
                 match self.elements[index as usize].clone() {
                     SourceType::Name(of, _) => {

@@ -151,6 +151,26 @@ impl Evaluator<'_> {
         (numbered(a), numbered(b))
     }
 
+    /// The function at a runtime index, an `i32`; the last one beyond the end.
+    pub fn called_at(&mut self, elements: &[Value], index: NodeId) -> Value {
+        let mut found = elements[elements.len() - 1].clone();
+        for (k, element) in elements.iter().enumerate().rev().skip(1) {
+            let (yes, no) = match *element == found {
+                true => continue,
+                false => self.one_of(element, &found),
+            };
+            let (Value::OneOf(yes, all), Value::OneOf(no, _)) = (yes, no) else {
+                continue;
+            };
+            let place = self.builder.i32(k as i32);
+            let is = self.builder.add(Op::Binary(BinaryOp::Eq), [index, place], Type::BOOL);
+            let ty = self.ty(yes);
+            let number = self.builder.add(Op::Select, [is, yes, no], ty);
+            found = Value::OneOf(number, all);
+        }
+        found
+    }
+
     /// The number of one of several functions.
     fn function_number(&mut self, k: usize, count: usize) -> NodeId {
         match count {

@@ -124,11 +124,8 @@ impl Evaluator<'_> {
         let buffer = self.builder.graph().buffers[index as usize].clone();
         let effect = match (buffer.access, atomic_named(name, args.len()), args) {
             (_, _, []) if name == "len" => {
-                return Ok(Value::Node(self.builder.add(
-                    Op::BufferLen(index),
-                    Vec::new(),
-                    Type::I32,
-                )));
+                let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
+                return Ok(self.sized(len));
             }
             (Access::Atomic, Some(op), _) => Effects::Atomic(op),
             (Access::Write, _, [_, _]) if name == "store" => Effects::Store,
@@ -161,7 +158,10 @@ impl Evaluator<'_> {
             }
             given.push(value);
         }
-        let inside = self.inside(memory, at, span);
+        let inside = match memory {
+            Memory::Image(_) => self.inside_frame(at),
+            _ => self.inside(memory, &args[0], span)?,
+        };
         let reached = self.reached();
         let condition = self.and(reached, inside);
         let args = [&[condition], &given[..]].concat();
@@ -175,26 +175,31 @@ impl Evaluator<'_> {
     }
 
     /// Whether an index is inside of memory.
-    fn inside(&mut self, memory: Memory, index: NodeId, span: Span) -> NodeId {
+    fn inside(&mut self, memory: Memory, index: &Value, span: Span) -> Eval<NodeId> {
+        let index = self.node(index, span)?;
         let len = match memory {
-            Memory::Image(_) => return self.inside_frame(index),
+            Memory::Image(_) => return Ok(self.inside_frame(index)),
             Memory::Buffer(buffer) => self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32),
             Memory::Shared(shared) => {
                 let len = self.builder.graph().shared[shared as usize].len;
                 let bounds = crate::passes::bounds(self.builder.graph(), index);
                 if bounds.is_some_and(|(low, high)| low >= 0 && high < i64::from(len)) {
-                    return self.builder.bool(true);
+                    return Ok(self.builder.bool(true));
                 }
                 self.builder.i32(len as i32)
             }
         };
         // A negative index is a large one.
-        let [at, len] = [index, len].map(|id| self.convert(id, Scalar::U32));
+        let kind = match self.ty(index) {
+            Type::USIZE => Scalar::Usize,
+            _ => Scalar::U32,
+        };
+        let [at, len] = [index, len].map(|id| self.convert(id, kind));
         if let Memory::Buffer(_) = memory {
             let name = self.builder.graph().memory(memory).1.to_owned();
             self.name(&Value::Node(len), &format!("{name}_len"), span);
         }
-        self.builder.add(Op::Binary(BinaryOp::Lt), [at, len], Type::BOOL)
+        Ok(self.builder.add(Op::Binary(BinaryOp::Lt), [at, len], Type::BOOL))
     }
 
     /// Whether a place is inside of the frame.

@@ -81,6 +81,7 @@ impl Evaluator<'_> {
         settings: &[(String, String)],
         options: &mut BTreeMap<String, String>,
     ) -> Eval {
+        self.inputs.push((name.to_owned(), span));
         if let Some(resource) = self.resource(name, ty, span)? {
             return Ok(resource);
         }
@@ -107,6 +108,7 @@ impl Evaluator<'_> {
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
             let ty = ty.bare();
+            self.inputs.push((field.to_string(), *at));
             let value = match self.resource(field, ty, *at)? {
                 Some(value) => Some(value),
                 None => self.uniform_part(field, ty, *at)?,

@@ -27,6 +27,9 @@ impl Evaluator<'_> {
         let before = self.kept.len();
         let mut value = self.evaluated(expr);
         self.depth -= 1;
+        if expr.span.file != Span::LIBRARY {
+            self.places.resize(self.builder.graph().nodes.len(), expr.span);
+        }
         if let Err(Exit::Error(error)) = &mut value {
             self.blame(error, expr, before);
         }

@@ -51,17 +51,7 @@ impl Evaluator<'_> {
                     ),
                 };
             }
-            // ((x % n) + n) % n, which for a positive n is what Rust computes.
-            _ => {
-                let Some(n) = self.known_int(a).filter(|n| *n > 0) else {
-                    return Err(Diagnostic::at(span, "`rem_euclid` needs a known divisor above 0").into());
-                };
-                let n = self.int_node(n, ty.kind().unwrap_or(Scalar::I32), span)?;
-                let n = self.splat(n, ty.components());
-                let rest = self.builder.add(Op::Binary(BinaryOp::Rem), [x, n], ty);
-                let up = self.builder.add(Op::Binary(BinaryOp::Add), [rest, n], ty);
-                return Ok(Some(self.builder.add(Op::Binary(BinaryOp::Rem), [up, n], ty)));
-            }
+            _ => return self.euclid(receiver, x, name, a, span).map(Some),
         };
         // A known receiver is a node by now: known integers do not wrap.
         let receiver = match receiver {
@@ -69,6 +59,59 @@ impl Evaluator<'_> {
             other => other.clone(),
         };
         let value = self.binary(op, &receiver, a, span)?;
-        self.node(&value, span).map(Some)
+        let found = self.node(&value, span)?;
+        if op == BinaryOp::Sub {
+            self.wrapping.insert(found);
+        }
+        Ok(Some(found))
+    }
+
+    /// `rem_euclid` and `div_euclid`, of vectors component by component.
+    fn euclid(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<NodeId> {
+        let (x, n) = match receiver {
+            Value::Int(_) => self.same_type(&Value::Node(x), a, span)?,
+            _ => self.same_type(receiver, a, span)?,
+        };
+        let ty = self.ty(x);
+        let op = |op: BinaryOp| Op::Binary(op);
+        if ty.kind() != Some(Scalar::I32) {
+            let by = if name == "rem_euclid" {
+                BinaryOp::Rem
+            } else {
+                BinaryOp::Div
+            };
+            return Ok(self.builder.add(op(by), [x, n], ty));
+        }
+        let lanes = usize::from(ty.components());
+        let positive = |bits: [u32; 4]| bits[..lanes].iter().all(|n| *n as i32 > 0);
+        let rest = self.builder.add(op(BinaryOp::Rem), [x, n], ty);
+        if name == "rem_euclid" && self.builder.graph().constant(n).is_some_and(positive) {
+            // ((x % n) + n) % n, which for a positive n is what Rust computes.
+            let up = self.builder.add(op(BinaryOp::Add), [rest, n], ty);
+            return Ok(self.builder.add(op(BinaryOp::Rem), [up, n], ty));
+        }
+        // Where the remainder is below 0, it is moved up by |n|, and the quotient one away from where n points.
+        let whole = self.builder.add(op(BinaryOp::Div), [x, n], ty);
+        let mut found = Vec::new();
+        for k in 0..ty.components() {
+            let [rest, n, whole] = [rest, n, whole].map(|id| match lanes {
+                1 => id,
+                _ => self.builder.add(Op::Extract(k), [id], Type::I32),
+            });
+            let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
+            let below = self.builder.add(op(BinaryOp::Lt), [rest, zero], Type::BOOL);
+            let forward = self.builder.add(op(BinaryOp::Gt), [n, zero], Type::BOOL);
+            let (from, by, first, second) = match name {
+                "rem_euclid" => (rest, n, BinaryOp::Add, BinaryOp::Sub),
+                _ => (whole, one, BinaryOp::Sub, BinaryOp::Add),
+            };
+            let [first, second] = [first, second].map(|by_op| self.builder.add(op(by_op), [from, by], Type::I32));
+            let moved = self.builder.add(Op::Select, [forward, first, second], Type::I32);
+            found.push(self.builder.add(Op::Select, [below, moved, from], Type::I32));
+        }
+        Ok(match lanes {
+            1 => found[0],
+            _ => self.builder.add(Op::Compose, found, ty),
+        })
     }
 }

@@ -42,7 +42,8 @@ impl Evaluator<'_> {
         }
         let to = match ty {
             "f32" => Scalar::F32,
-            "i32" | "usize" => Scalar::I32,
+            "i32" => Scalar::I32,
+            "usize" => Scalar::Usize,
             "u32" => Scalar::U32,
             _ => return Ok(None),
         };
@@ -64,10 +65,6 @@ impl Evaluator<'_> {
             .into());
         }
         let whole = self.builder.add(Op::Convert, [id], Type::U32);
-        let converted = match ty {
-            "usize" => self.convert(whole, Scalar::I32),
-            _ => self.convert(whole, to),
-        };
-        Ok(Some(Value::Node(converted)))
+        Ok(Some(Value::Node(self.convert(whole, to))))
     }
 }

@@ -92,6 +92,12 @@ impl Evaluator<'_> {
             "wrapping_neg" if ty.kind() == Some(Scalar::I32) => {
                 Some(self.builder.add(Op::Unary(UnaryOp::Neg), [x], ty))
             }
+            "wrapping_neg" if ty.is_integer() => {
+                let zero = self.builder.constant(ty, [0; 4]);
+                let negative = self.builder.add(Op::Binary(BinaryOp::Sub), [zero, x], ty);
+                self.wrapping.insert(negative);
+                Some(negative)
+            }
             "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, [x], Type::U32)),
             // A shader may assume that there are no NaNs: the test is one of bits.
             // A NaN is larger than infinity, by its bits without the sign.
@@ -121,6 +127,7 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32))
             }
             "length_squared" if vector => Some(self.dot(x, x)),
+            "length_squared" if ty.is_integer() && ty.components() > 1 => Some(self.integer_dot(x, x)),
             "length" if vector => Some(self.length(x)),
             "normalize" if vector => {
                 // As glam computes it: the vector times the reciprocal of its length.
@@ -161,6 +168,7 @@ impl Evaluator<'_> {
     fn math_two(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<Option<NodeId>> {
         let ty = self.ty(x);
         let float_vector = ty.is_float() && ty.components() > 1;
+        let integer_vector = ty.is_integer() && ty.components() > 1;
         Ok(match name {
             "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" if ty.components() > 1 => {
                 let op = match name {
@@ -187,7 +195,7 @@ impl Evaluator<'_> {
                 }));
             }
             "wrapping_add" | "wrapping_sub" | "wrapping_mul" | "wrapping_shl" | "wrapping_shr" | "rem_euclid"
-            | "pow"
+            | "div_euclid" | "pow"
                 if ty.is_integer() =>
             {
                 return self.integer_two(receiver, x, name, a, span);
@@ -222,6 +230,15 @@ impl Evaluator<'_> {
             "dot" if float_vector => {
                 let (x, y) = self.same_type(receiver, a, span)?;
                 Some(self.dot(x, y))
+            }
+            "dot" if integer_vector => {
+                let (x, y) = self.same_type(receiver, a, span)?;
+                Some(self.integer_dot(x, y))
+            }
+            "distance_squared" if integer_vector => {
+                let between = self.binary(BinaryOp::Sub, receiver, a, span)?;
+                let between = self.node(&between, span)?;
+                Some(self.integer_dot(between, between))
             }
             "cross" if ty == Type::value(Scalar::F32, 3) => {
                 let (x, y) = self.same_type(receiver, a, span)?;
@@ -264,6 +281,18 @@ impl Evaluator<'_> {
                 _ => square = self.builder.add(Op::Binary(BinaryOp::Mul), [square, square], ty),
             }
         }
+    }
+
+    /// The sum of products of components, first to last.
+    fn integer_dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        let ty = self.ty(a);
+        let part = Type::scalar(ty.kind().unwrap_or(Scalar::I32));
+        let products = self.builder.add(Op::Binary(BinaryOp::Mul), [a, b], ty);
+        let products = self.lanes(products);
+        let sum = |e: &mut Self, sum, next: &NodeId| e.builder.add(Op::Binary(BinaryOp::Add), [sum, *next], part);
+        products[1..]
+            .iter()
+            .fold(products[0], |so_far, next| sum(self, so_far, next))
     }
 
     fn dot(&mut self, a: NodeId, b: NodeId) -> NodeId {

@@ -222,7 +222,7 @@ impl<'a> Evaluator<'a> {
             .is_some_and(|n| n > 0);
         let of = match &value {
             Value::Node(id) => self.ty(*id).in_rust(),
-            _ => "i32".to_owned(),
+            _ => "usize".to_owned(),
         };
         let function = format!("{of}::{name}");
         if (name != "rem_euclid" || !known) && self.library.functions.contains_key(&function) {

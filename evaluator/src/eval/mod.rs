@@ -51,13 +51,14 @@ mod workgroups;
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
 use crate::front::name::Name;
-use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type};
+use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type, usize_value};
 use crate::limits;
 use crate::passes::Exact;
+use crate::passes::narrow::{Facts, Refusal, narrow};
 use crate::policy::Policy;
 use scope::Scope;
 use std::borrow::Cow;
-use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::rc::Rc;
 use std::sync::Arc;
 use value::{Eval, Exit, Value};
@@ -77,6 +78,8 @@ pub struct Evaluated {
     pub loops: Vec<LoopReport>,
     /// Where the kernel's name stands.
     pub span: Span,
+    /// Inputs by their names, with where each is declared.
+    pub inputs: Vec<(String, Span)>,
 }
 
 /// Evaluates the function `entry` with some options set, the others at their defaults.
@@ -125,13 +128,46 @@ pub fn evaluate(
             evaluator.errors.extend(deferred);
         }
         return match result {
-            Ok((outputs, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
-                loops: evaluator.loops.reports(),
-                span: library.functions[entry].span,
-                graph: evaluator.builder.finish(outputs),
-                options,
-                docs,
-            }),
+            Ok((outputs, options, docs)) if evaluator.errors.is_empty() => {
+                let span = library.functions[entry].span;
+                let facts = Facts {
+                    counters: std::mem::take(&mut evaluator.counters_of_usize),
+                    wrapping: std::mem::take(&mut evaluator.wrapping),
+                    places: std::mem::take(&mut evaluator.places),
+                };
+                let inputs = std::mem::take(&mut evaluator.inputs);
+                let (loops, kept) = (evaluator.loops.reports(), std::mem::take(&mut evaluator.kept));
+                let whole = evaluator.builder.finish(outputs);
+                match narrow(&whole, &facts) {
+                    Ok(narrowed) => Ok(Evaluated {
+                        loops,
+                        span,
+                        inputs,
+                        graph: narrowed.unwrap_or(whole),
+                        options,
+                        docs,
+                    }),
+                    Err(refused) => {
+                        let before = unrolled.len();
+                        for Refusal { node, error } in &refused {
+                            for span in blame::loops_of(&whole, &kept, *node) {
+                                unrolled.entry(span).or_insert_with(|| error.clone());
+                            }
+                        }
+                        if unrolled.len() > before {
+                            continue;
+                        }
+                        let place = |mut error: Diagnostic| {
+                            if error.span == Some(Span::default()) {
+                                error.span = Some(span);
+                            }
+                            error
+                        };
+                        let errors = refused.into_iter().map(|refusal| place(refusal.error));
+                        Err(Errors::new(errors.collect(), files))
+                    }
+                }
+            }
             Ok(_) | Err(Exit::Noted) => Err(Errors::new(evaluator.errors, files)),
             Err(Exit::Error(last)) => {
                 evaluator.errors.push(*last);
@@ -219,6 +255,14 @@ struct Evaluator<'a> {
     /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
     /// selected, and of those who left before the branches and loops around.
     reach: Vec<(NodeId, bool)>,
+    /// Counters of type `usize` that are computed, with the start and the end of their ranges.
+    counters_of_usize: HashMap<NodeId, (NodeId, NodeId)>,
+    /// Differences of `usize` that wrap by intention.
+    wrapping: HashSet<NodeId>,
+    /// Where each node was made.
+    places: Vec<Span>,
+    /// The kernel's inputs, with where each is declared.
+    inputs: Vec<(String, Span)>,
 }
 
 /// A structure whose parts have been named.
@@ -259,6 +303,10 @@ impl<'a> Evaluator<'a> {
             kept_loops: 0,
             writing: false,
             reach: Vec::new(),
+            counters_of_usize: HashMap::new(),
+            wrapping: HashSet::new(),
+            places: Vec::new(),
+            inputs: Vec::new(),
         }
     }
 }
@@ -439,6 +487,10 @@ impl Evaluator<'_> {
                 match self.ty(*id) {
                     Type::I32 => Some(i64::from(bits as i32)),
                     Type::U32 => Some(i64::from(bits)),
+                    Type::USIZE => {
+                        let bits = self.builder.graph().constant(*id)?;
+                        i64::try_from(usize_value(&bits)).ok()
+                    }
                     _ => None,
                 }
             }
@@ -446,11 +498,11 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A value as a node; a `usize` becomes an `i32`.
+    /// A value as a node.
     fn node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         match value {
             Value::Node(id) => Ok(*id),
-            Value::Int(n) => self.int_node(*n, Scalar::I32, span),
+            Value::Int(n) => self.int_node(*n, Scalar::Usize, span),
             Value::Ref(_) => {
                 let value = self.loaded(value.clone(), span)?;
                 self.node(&value, span)
@@ -465,6 +517,7 @@ impl Evaluator<'_> {
         let bits = match kind {
             Scalar::I32 => i32::try_from(n).map(|n| n as u32).ok(),
             Scalar::U32 => u32::try_from(n).ok(),
+            Scalar::Usize => return Ok(self.builder.usize(n as u64)),
             Scalar::F32 | Scalar::Bool => {
                 return Err(Diagnostic::at(span, format!("the integer {n} where {kind} is needed"))
                     .label("an integer")

@@ -11,13 +11,10 @@ impl Evaluator<'_> {
         if let Some(value) = self.unary_of_trait(op, value, span)? {
             return Ok(value);
         }
-        if let (UnaryOp::Not, Value::Int(_)) = (op, value) {
-            return Err(too_large(span));
-        }
         let id = self.node(value, span)?;
         let ty = self.ty(id);
         let op = match (op, ty.kind()) {
-            (UnaryOp::Not, Some(Scalar::I32 | Scalar::U32)) => UnaryOp::BitNot,
+            (UnaryOp::Not, Some(Scalar::I32 | Scalar::U32 | Scalar::Usize)) => UnaryOp::BitNot,
             (UnaryOp::Not, Some(Scalar::Bool)) | (UnaryOp::Neg, Some(Scalar::F32 | Scalar::I32)) => op,
             _ => return Err(not_taken(ty, span)),
         };
@@ -61,7 +58,7 @@ impl Evaluator<'_> {
         let kind = ty.kind().unwrap_or(Scalar::Bool);
         let fits = match op {
             BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => kind != Scalar::F32,
-            BinaryOp::Shl | BinaryOp::Shr => matches!(kind, Scalar::I32 | Scalar::U32),
+            BinaryOp::Shl | BinaryOp::Shr => matches!(kind, Scalar::I32 | Scalar::U32 | Scalar::Usize),
             BinaryOp::Eq | BinaryOp::Ne => true,
             _ => kind != Scalar::Bool,
         };
@@ -124,7 +121,7 @@ impl Evaluator<'_> {
         let value = self.node(left, span)?;
         let ty = self.ty(value);
         let count = self.node(right, span)?;
-        let count = self.convert(count, ty.kind().unwrap_or(Scalar::I32));
+        let count = self.convert(count, ty.kind().unwrap_or(Scalar::Usize));
         Ok(self.splat(count, ty.components()))
     }
 
@@ -177,13 +174,20 @@ impl Evaluator<'_> {
     /// Both values as nodes of one type: integers take the other's type, scalars fill the other's components.
     pub fn same_type(&mut self, left: &Value, right: &Value, span: Span) -> Eval<(NodeId, NodeId)> {
         let (a, b) = match (left, right) {
-            (Value::Int(n), Value::Node(id)) => {
-                let kind = self.ty(*id).kind().unwrap_or(Scalar::I32);
-                (self.int_node(*n, kind, span)?, *id)
+            (Value::Int(n), Value::Node(id)) => (self.int_of(*n, *id, span)?, *id),
+            (Value::Node(id), Value::Int(n)) => (*id, self.int_of(*n, *id, span)?),
+            // What inference knows nothing of: a literal takes the other's type.
+            (Value::Node(a), Value::Node(b)) if self.ty(*a) == Type::USIZE && self.ty(*b) != Type::USIZE => {
+                match self.known_int(left) {
+                    Some(n) => (self.int_of(n, *b, span)?, *b),
+                    None => (*a, *b),
+                }
             }
-            (Value::Node(id), Value::Int(n)) => {
-                let kind = self.ty(*id).kind().unwrap_or(Scalar::I32);
-                (*id, self.int_node(*n, kind, span)?)
+            (Value::Node(a), Value::Node(b)) if self.ty(*b) == Type::USIZE && self.ty(*a) != Type::USIZE => {
+                match self.known_int(right) {
+                    Some(n) => (*a, self.int_of(n, *a, span)?),
+                    None => (*a, *b),
+                }
             }
             _ => (self.node(left, span)?, self.node(right, span)?),
         };
@@ -204,6 +208,12 @@ impl Evaluator<'_> {
         .label("two types")
         .help("convert one of them, for example with `as f32` or `.as_vec2()`")
         .into())
+    }
+
+    /// A known integer of the kind of another number.
+    fn int_of(&mut self, n: i64, other: NodeId, span: Span) -> Eval<NodeId> {
+        let kind = self.ty(other).kind().unwrap_or(Scalar::Usize);
+        self.int_node(n, kind, span)
     }
 
     /// A scalar in each of `lanes` components.
@@ -231,7 +241,8 @@ impl Evaluator<'_> {
         };
         let kind = match name.as_str() {
             "f32" => Scalar::F32,
-            "i32" | "usize" => Scalar::I32,
+            "i32" => Scalar::I32,
+            "usize" => Scalar::Usize,
             "u32" => Scalar::U32,
             other => {
                 return Err(Diagnostic::at(span, format!("a cast to `{other}`"))
@@ -242,7 +253,7 @@ impl Evaluator<'_> {
         };
         if let Value::Int(n) = value {
             return match kind {
-                Scalar::I32 if name == "usize" => Ok(value.clone()),
+                Scalar::Usize => Ok(value.clone()),
                 Scalar::I32 => Ok(Value::Node(self.builder.i32(*n as i32))),
                 Scalar::F32 => Ok(Value::Node(self.builder.f32(*n as f32))),
                 _ => Ok(Value::Node(self.builder.constant(Type::U32, [*n as u32, 0, 0, 0]))),
@@ -257,46 +268,25 @@ impl Evaluator<'_> {
                 .help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...")
                 .into());
         }
-        if name == "usize" {
-            return self.as_index(id, span);
-        }
-        Ok(Value::Node(self.convert(id, kind)))
+        let converted = Value::Node(self.convert(id, kind));
+        Ok(match self.known_int(&converted) {
+            Some(known) if kind == Scalar::Usize => Value::Int(known),
+            _ => converted,
+        })
     }
 
-    /// A number as a `usize`: known with its 64 bits, at run time an `i32`.
-    fn as_index(&mut self, id: NodeId, span: Span) -> Eval {
-        let ty = self.ty(id);
-        let Some(bits) = self.builder.graph().constant(id) else {
-            // A negative float is 0 as a `usize`.
-            let unsigned = if ty == Type::F32 {
-                self.convert(id, Scalar::U32)
-            } else {
-                id
-            };
-            return Ok(Value::Node(self.convert(unsigned, Scalar::I32)));
-        };
-        let known = match ty {
-            Type::F32 => f32::from_bits(bits[0]) as i64,
-            Type::I32 => i64::from(bits[0] as i32),
-            _ => i64::from(bits[0]),
-        };
-        match known {
-            0.. => Ok(Value::Int(known)),
-            _ if ty == Type::F32 => Ok(Value::Int(0)),
-            _ => Err(Diagnostic::at(span, format!("{known} as a `usize`"))
-                .label("below 0")
-                .note("natively it would be a number of 64 bits, which a shader has not")
-                .help("compute a remainder with `rem_euclid`, or stay in i32 or u32")
-                .into()),
-        }
+    /// An `i32` as the `usize` that it is.
+    pub fn sized(&mut self, id: NodeId) -> Value {
+        Value::Node(self.convert(id, Scalar::Usize))
     }
 
-    /// An index or a loop's bound: an `i32` node.
+    /// An index of what does not clamp it: an `i32` node. An index beyond is so as an `i32` too.
     pub fn index_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         let id = self.node(value, span)?;
         match self.ty(id) {
             Type::I32 => Ok(id),
             Type::U32 => Ok(self.convert(id, Scalar::I32)),
+            Type::USIZE => Ok(self.builder.add(Op::Bitcast, [id], Type::I32)),
             other => Err(
                 Diagnostic::at(span, format!("an index must be an integer, not {}", other.in_rust()))
                     .label("of this index")
@@ -304,6 +294,26 @@ impl Evaluator<'_> {
                     .into(),
             ),
         }
+    }
+}
+
+impl Evaluator<'_> {
+    /// An index that is not beyond the last of `count` elements (`count` an `i32` node): an `i32` node. `last` is the last one's name.
+    pub fn held_index(&mut self, value: &Value, count: NodeId, last: &str, span: Span) -> Eval<NodeId> {
+        let id = self.node(value, span)?;
+        let one = self.builder.i32(1);
+        let end = self.builder.add(Op::Binary(BinaryOp::Sub), [count, one], Type::I32);
+        if !last.is_empty() {
+            self.name(&Value::Node(end), last, span);
+        }
+        if self.ty(id) != Type::USIZE {
+            let index = self.index_node(value, span)?;
+            let zero = self.builder.i32(0);
+            return Ok(self.builder.add(Op::Clamp, [index, zero, end], Type::I32));
+        }
+        let end = self.convert(end, Scalar::Usize);
+        let held = self.builder.add(Op::Binary(BinaryOp::Min), [id, end], Type::USIZE);
+        Ok(self.convert(held, Scalar::I32))
     }
 }
 

@@ -21,6 +21,9 @@ pub struct Course {
     pub trips: NodeId,
     /// First and one past the last counter, where the loop needs no count of its own.
     pub plain: Option<(NodeId, NodeId)>,
+    /// The smallest value, and the end.
+    start: NodeId,
+    end: NodeId,
     /// The value that the walk begins at.
     from: NodeId,
     /// Whether the walk goes down.
@@ -94,7 +97,9 @@ impl Evaluator<'_> {
             match &**end {
                 Value::Int(_) => {}
                 Value::Poison => return Err(Exit::Noted),
-                Value::Node(id) if matches!(self.ty(*id), Type::I32 | Type::U32) => kinds.extend(self.ty(*id).kind()),
+                Value::Node(id) if matches!(self.ty(*id), Type::I32 | Type::U32 | Type::USIZE) => {
+                    kinds.extend(self.ty(*id).kind())
+                }
                 other => {
                     let found = match other {
                         Value::Node(id) => self.ty(*id).in_rust(),
@@ -108,9 +113,9 @@ impl Evaluator<'_> {
             }
         }
         match kinds[..] {
-            [] => Ok((Scalar::I32, true)),
-            [kind] => Ok((kind, kind == Scalar::I32)),
-            [a, b] if a == b => Ok((a, false)),
+            [] => Ok((Scalar::Usize, true)),
+            [kind] => Ok((kind, kind == Scalar::Usize)),
+            [a, b] if a == b => Ok((a, a == Scalar::Usize)),
             _ => Err(
                 Diagnostic::at(span, "a range from an i32 to a u32, or the other way round")
                     .label("two types")
@@ -164,10 +169,10 @@ impl Evaluator<'_> {
         let known = self
             .known_int(&Value::Node(start))
             .zip(self.known_int(&Value::Node(end)));
-        let limit = if kind == Scalar::U32 {
-            i64::from(u32::MAX)
-        } else {
-            i64::from(i32::MAX)
+        let limit = match kind {
+            Scalar::U32 => i64::from(u32::MAX),
+            Scalar::Usize => i64::MAX,
+            _ => i64::from(i32::MAX),
         };
         let upright = !range.down && !range.reversed && range.step == 1;
         let plain = match known {
@@ -175,14 +180,15 @@ impl Evaluator<'_> {
             _ if !range.inclusive => Some((start, end)),
             // One past a known end, where there is one.
             Some((_, last)) if last < limit => {
-                let past = self.builder.constant(ty, [(last + 1) as u32, 0, 0, 0]);
+                let past = self.int_node(last + 1, kind, span)?;
                 Some((start, past))
             }
             _ => None,
         };
         // Counts that an i32 holds need no conversion.
         let from_zero = self.known_int(&Value::Node(start)) == Some(0) && !range.inclusive;
-        let own = if known.is_some() || from_zero { ty } else { Type::U32 };
+        let counted = known.is_some() || (from_zero && ty != Type::USIZE);
+        let own = if counted { ty } else { Type::U32 };
         let trips = match known.and_then(|(start, end)| u32::try_from(iterations(range, start, end)).ok()) {
             // Few enough, or the range would have been refused.
             Some(trips) => self.whole(trips, own),
@@ -199,6 +205,8 @@ impl Evaluator<'_> {
             own,
             trips,
             plain,
+            start,
+            end,
             from,
             down: range.down,
             step: range.step as u32,
@@ -209,9 +217,6 @@ impl Evaluator<'_> {
 
     fn end_of_range(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
         match value {
-            Value::Int(n) if kind == Scalar::I32 && i32::try_from(*n).is_err() => {
-                Err(Diagnostic::at(span, format!("{n} does not fit into the i32 that a shader counts in")).into())
-            }
             Value::Int(n) => self.int_node(*n, kind, span),
             other => self.node(other, span),
         }
@@ -220,18 +225,18 @@ impl Evaluator<'_> {
     /// Number of iterations, in the type `own`: of an empty or backwards range 0.
     fn trips(&mut self, range: &Range, (start, end): (NodeId, NodeId), own: Type) -> NodeId {
         let from_zero = self.known_int(&Value::Node(start)) == Some(0);
-        if from_zero && !range.inclusive && range.step == 1 && self.ty(start) == own {
-            // Nothing is less than 0 of type u32; of type i32 such an end leaves the range empty.
-            return match own {
-                Type::U32 => end,
-                _ => self.builder.add(Op::Binary(BinaryOp::Max), [end, start], own),
+        if from_zero && !range.inclusive && range.step == 1 {
+            // Nothing is less than 0 but an i32, of which such an end leaves the range empty.
+            return match self.ty(start) {
+                Type::I32 => self.builder.add(Op::Binary(BinaryOp::Max), [end, start], own),
+                _ => self.counted_end(end, own),
             };
         }
         let holds = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
         let any = self.builder.add(Op::Binary(holds), [start, end], Type::BOOL);
         let (zero, one) = (self.whole(0, own), self.whole(1, own));
         // The distance of two i32 fits into a u32, and wraps to it.
-        let [low, high] = [start, end].map(|id| self.convert(id, own.kind().unwrap_or(Scalar::U32)));
+        let [low, high] = [start, end].map(|id| self.counted_end(id, own));
         let distance = self.builder.add(Op::Binary(BinaryOp::Sub), [high, low], own);
         let trips = match (range.step, range.inclusive) {
             (1, false) => distance,
@@ -264,10 +269,20 @@ impl Evaluator<'_> {
         self.builder.add(Op::Select, [any, trips, zero], own)
     }
 
+    /// An end of a range in the type that iterations are counted in: a loop of 2^32 iterations has no end.
+    fn counted_end(&mut self, end: NodeId, own: Type) -> NodeId {
+        match (self.ty(end), own) {
+            (Type::USIZE, Type::U32) => self.builder.add(Op::Bitcast, [end], own),
+            _ => self.convert(end, own.kind().unwrap_or(Scalar::U32)),
+        }
+    }
+
     /// Whether an inclusive range may have all values of its type, as far as its ends are known.
     fn may_be_all(&self, range: &Range, start: NodeId, end: NodeId) -> bool {
         let (least, most) = match self.ty(start) {
             Type::U32 => (0, i64::from(u32::MAX)),
+            // A loop of 2^64 iterations has no end.
+            Type::USIZE => return false,
             _ => (i64::from(i32::MIN), i64::from(i32::MAX)),
         };
         let may = |id: NodeId, n: i64| self.known_int(&Value::Node(id)).is_none_or(|known| known == n);
@@ -292,6 +307,9 @@ impl Evaluator<'_> {
         let far = self.builder.add(Op::Binary(BinaryOp::Mul), [at, step], ty);
         let towards = if course.down { BinaryOp::Sub } else { BinaryOp::Add };
         let counter = self.builder.add(Op::Binary(towards), [course.from, far], ty);
+        if ty == Type::USIZE {
+            self.counters_of_usize.insert(counter, (course.start, course.end));
+        }
         self.as_counter(counter, course.index)
     }
 

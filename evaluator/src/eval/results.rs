@@ -95,7 +95,7 @@ impl Evaluator<'_> {
     }
 
     fn is_target(&self, id: NodeId) -> bool {
-        matches!(self.ty(id), Type::Value { scalar, .. } if scalar != Scalar::Bool)
+        matches!(self.ty(id), Type::Value { scalar, .. } if !matches!(scalar, Scalar::Bool | Scalar::Usize))
     }
 
     fn no_target(&self, name: &str, value: &Value, span: Span) -> Exit {
@@ -120,6 +120,7 @@ impl Evaluator<'_> {
                 "a target holds numbers: choose one, `if condition { 1.0 } else { 0.0 }`"
             }
             Value::Int(_) => "convert it with `as i32` or `as u32`",
+            Value::Node(id) if self.ty(*id).kind() == Some(Scalar::Usize) => "convert it with `as i32` or `as u32`",
             Value::Tuple(parts) if parts.is_empty() => {
                 "give a value for each pixel, or write to an `&AtomicBuffer`, a `&StorageBuffer` or a `&StorageTexture`"
             }

@@ -111,13 +111,14 @@ impl Evaluator<'_> {
         match (value, like) {
             (Value::Int(n), _) => {
                 let ty = match like {
-                    Value::Node(id) if matches!(self.ty(*id), Type::U32) => Type::U32,
-                    _ => Type::I32,
+                    Value::Node(id) if matches!(self.ty(*id), Type::U32 | Type::I32) => self.ty(*id),
+                    _ => Type::USIZE,
                 };
                 // What does not fit stays as it is, and makes the values unlike.
                 let fits = match ty {
                     Type::U32 => u32::try_from(*n).is_ok(),
-                    _ => i32::try_from(*n).is_ok(),
+                    Type::I32 => i32::try_from(*n).is_ok(),
+                    _ => return Value::Node(self.builder.usize(*n as u64)),
                 };
                 match fits {
                     true => Value::Node(self.whole(*n as u32, ty)),
@@ -182,7 +183,7 @@ impl Evaluator<'_> {
         if nodes.iter().any(|id| self.ty(*id) != ty) {
             return Err(Diagnostic::at(span, "its elements have several types").into());
         }
-        if matches!(ty, Type::I32 | Type::U32)
+        if matches!(ty, Type::I32 | Type::U32 | Type::USIZE)
             && let Some(even) = self.even(nodes)
         {
             return Ok(Column::Even(even, ty));
@@ -214,11 +215,14 @@ impl Evaluator<'_> {
     /// The constants as numbers that grow evenly.
     fn even(&self, nodes: &[NodeId]) -> Option<Even> {
         let graph = self.builder.graph();
-        let bits: Option<Vec<u32>> = nodes.iter().map(|id| graph.constant(*id).map(|bits| bits[0])).collect();
+        let low = |bits: crate::ir::Bits| (bits[1] == 0).then_some(bits[0]);
+        let bits: Option<Vec<u32>> = nodes.iter().map(|id| graph.constant(*id).and_then(low)).collect();
         let bits = bits?;
         let step = bits.get(1)?.wrapping_sub(bits[0]);
         let evenly = bits.windows(2).all(|pair| pair[1].wrapping_sub(pair[0]) == step);
-        evenly.then_some(Even { first: bits[0], step })
+        // Steps back wrap, which 64 bits do elsewhere.
+        let wide = graph.ty(nodes[0]) == Type::USIZE && step > i32::MAX as u32 && step != u32::MAX;
+        (evenly && !wide).then_some(Even { first: bits[0], step })
     }
 
     /// The value at a position, an `i32`.
@@ -263,6 +267,9 @@ impl Evaluator<'_> {
             Some(Value::Struct { .. } | Value::Tuple(_) | Value::Enum(_)) => {
                 let columns = self.by_columns(elements, span)?;
                 Ok(Some(self.element_at(&columns, index)))
+            }
+            Some(first) if first.is_called() && elements.iter().all(Value::is_called) => {
+                Ok(Some(self.called_at(elements, index)))
             }
             _ => Ok(self.element_of_row(elements, index)),
         }

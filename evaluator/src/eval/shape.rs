@@ -56,7 +56,7 @@ impl Evaluator<'_> {
     /// The value with every integer a node and every array of numbers one node, as a structured loop needs it.
     pub fn settle(&mut self, value: &Value, span: Span) -> Eval {
         Ok(match value {
-            Value::Int(n) => Value::Node(self.int_node(*n, Scalar::I32, span)?),
+            Value::Int(n) => Value::Node(self.int_node(*n, Scalar::Usize, span)?),
             Value::Struct { ty, fields } => {
                 let mut settled = Vec::new();
                 for (name, field) in fields.iter() {

@@ -69,8 +69,14 @@ impl Evaluator<'_> {
                 let size = self.size_of(index, given.level);
                 return Ok(Value::Node(self.convert(size, Scalar::U32)));
             }
-            (Gives::Count, "layers") => (Op::TextureLayers(index), Vec::new(), Type::I32),
-            (Gives::Count, _) => (Op::TextureLevels(index), Vec::new(), Type::I32),
+            (Gives::Count, _) => {
+                let op = match name {
+                    "layers" => Op::TextureLayers(index),
+                    _ => Op::TextureLevels(index),
+                };
+                let count = self.builder.add(op, Vec::new(), Type::I32);
+                return Ok(self.sized(count));
+            }
             (Gives::Four, "gather") => {
                 let op = Op::Gather {
                     texture: index,
@@ -188,17 +194,16 @@ impl Evaluator<'_> {
         layer: &Value,
         span: Span,
     ) -> Eval<NodeId> {
-        let layer = self.index_node(layer, span)?;
         // Samplers take a layer outside for the nearest one.
         let sampled = method
             .params
             .iter()
             .any(|p| matches!(p, Param::Filtering | Param::Comparing));
         if texture.is_counted() || sampled {
-            return Ok(layer);
+            return self.index_node(layer, span);
         }
         let layers = self.builder.add(Op::TextureLayers(index), Vec::new(), Type::I32);
-        Ok(self.below(layer, layers, ["last_layer", "layer"], span))
+        self.below(layer, layers, ["last_layer", "layer"], span)
     }
 
     /// A level by its number, the smallest one beyond the end; `None` for the finest.
@@ -206,19 +211,15 @@ impl Evaluator<'_> {
         if self.known_int(level) == Some(0) {
             return Ok(None);
         }
-        let level = self.index_node(level, span)?;
         let levels = self.builder.add(Op::TextureLevels(texture), Vec::new(), Type::I32);
-        Ok(Some(self.below(level, levels, ["last_level", "level"], span)))
+        self.below(level, levels, ["last_level", "level"], span).map(Some)
     }
 
     /// An index that is not beyond the last of so many; `names` are those of the last one and of the index.
-    fn below(&mut self, index: NodeId, count: NodeId, names: [&str; 2], span: Span) -> NodeId {
-        let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
-        let last = self.builder.add(Op::Binary(BinaryOp::Sub), [count, one], Type::I32);
-        self.name(&Value::Node(last), names[0], span);
-        let inside = self.builder.add(Op::Clamp, [index, zero, last], Type::I32);
+    fn below(&mut self, index: &Value, count: NodeId, names: [&str; 2], span: Span) -> Eval<NodeId> {
+        let inside = self.held_index(index, count, names[0], span)?;
         self.name(&Value::Node(inside), names[1], span);
-        inside
+        Ok(inside)
     }
 
     fn component(&mut self, texture: &Texture, component: &Value, span: Span) -> Eval<u8> {

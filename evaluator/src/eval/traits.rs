@@ -5,7 +5,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Function, Generic, Type as SourceType};
-use crate::ir::{BinaryOp, Type, UnaryOp};
+use crate::ir::{BinaryOp, UnaryOp};
 use std::rc::Rc;
 
 /// The trait of an operator and its function.
@@ -17,14 +17,13 @@ fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// What functions of a value's type go by. A `usize` at run time is an `i32` here, and a known integer is of any type.
+    /// What functions of a value's type go by. A known integer is of any type.
     fn type_names(&self, value: &Value) -> Vec<String> {
         match value {
             Value::Struct { ty, .. } => vec![ty.to_string()],
             Value::Enum(choice) => vec![choice.ty.to_string()],
             Value::Int(_) => vec!["usize".to_owned(), "i32".to_owned(), "u32".to_owned()],
             Value::Node(id) if self.ty(*id).is_array() => Vec::new(),
-            Value::Node(id) if self.ty(*id) == Type::I32 => vec!["i32".to_owned(), "usize".to_owned()],
             Value::Node(id) => vec![self.ty(*id).in_rust()],
             _ => Vec::new(),
         }
@@ -267,6 +266,13 @@ impl<'a> Evaluator<'a> {
         let Some(ty) = key.strip_suffix("::from") else {
             return Ok(None);
         };
+        if let (Value::Node(id), "Array" | "Tuple") = (value, ty) {
+            let parts = self.lanes(*id).into_iter().map(Value::Node).collect();
+            return Ok(Some(match ty {
+                "Array" => Value::array(parts),
+                _ => Value::Tuple(parts),
+            }));
+        }
         if self.type_names(value).iter().any(|name| name == ty) {
             return Ok(Some(value.clone()));
         }

@@ -10,7 +10,7 @@ use super::effects::{Effects, atomic_named};
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Function, Type as SourceType};
-use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, NodeId, Op, Scalar, Shared, Type};
+use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, Op, Scalar, Shared, Type};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
@@ -59,6 +59,7 @@ impl Evaluator<'_> {
         ] {
             self.name(&Value::Node(id), called, span);
         }
+        let index = self.convert(index, Scalar::Usize);
         let fields = [("local", local), ("index", index), ("pixel", pixel), ("inside", inside)];
         let fields = fields.map(|(name, id)| (name.into(), Value::Node(id)));
         let thread = Value::structure("Thread", fields.to_vec());
@@ -229,8 +230,8 @@ impl Evaluator<'_> {
         match effect {
             Some(effect) => self.effect_on(Memory::Shared(index), effect, args, span),
             None => {
-                let at = self.index_node(&args[0], span)?;
-                let at = self.held_inside(at, shared.len);
+                let len = self.builder.i32(shared.len as i32);
+                let at = self.held_index(&args[0], len, "", span)?;
                 let reached = self.reached();
                 let load = Op::SharedLoad(index);
                 Ok(Value::Node(self.builder.effect(
@@ -240,12 +241,6 @@ impl Evaluator<'_> {
                 )))
             }
         }
-    }
-
-    /// An index, or that of the last element beyond the end.
-    fn held_inside(&mut self, at: NodeId, len: u32) -> NodeId {
-        let (zero, last) = (self.builder.i32(0), self.builder.i32(len as i32 - 1));
-        self.builder.add(Op::Clamp, [at, zero, last], Type::I32)
     }
 }
 

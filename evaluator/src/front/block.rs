@@ -2,8 +2,8 @@
 
 use super::expr::Lower;
 use super::mentioned_in;
-use super::tree::{Block, Const, Expr, ExprKind, Statement};
-use crate::diagnostic::Diagnostic;
+use super::tree::{Block, Const, Expr, ExprKind, Pattern, Statement, Type};
+use crate::diagnostic::{Diagnostic, Span};
 use std::collections::BTreeSet;
 use syn::spanned::Spanned;
 
@@ -16,7 +16,12 @@ impl Lower {
         let mut value = None;
         for (k, statement) in block.stmts.iter().enumerate() {
             match statement {
-                syn::Stmt::Local(local) => statements.push(self.local(local)),
+                syn::Stmt::Local(local) => match self.local(local) {
+                    Statement::Let(pattern @ Pattern::Tuple(..), ty, None, span) => {
+                        deferred(pattern, ty, span, &mut statements);
+                    }
+                    statement => statements.push(statement),
+                },
                 syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
                 syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
                 syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item)),
@@ -79,6 +84,23 @@ impl Lower {
             value: self.expr(&item.expr),
             ty: self.ty(&item.ty),
         }
+    }
+}
+
+/// `let (a, b);`: each of the variables, without a value.
+fn deferred(pattern: Pattern, ty: Option<Type>, span: Span, out: &mut Vec<Statement>) {
+    let Pattern::Tuple(parts, _) = pattern else {
+        if !matches!(pattern, Pattern::Wild) {
+            out.push(Statement::Let(pattern, ty, None, span));
+        }
+        return;
+    };
+    let mut types = match ty {
+        Some(Type::Tuple(types)) if types.len() == parts.len() => types.into_iter().map(Some).collect(),
+        _ => vec![None; parts.len()],
+    };
+    for (part, ty) in parts.into_iter().zip(types.drain(..)) {
+        deferred(part, ty, span, out);
     }
 }
 

@@ -6,7 +6,7 @@ use super::names::Names;
 use super::parts::takes_apart;
 use super::place;
 use super::targets::{Kind, Target};
-use super::tree::{Expr, ExprKind, ForLoop, Generic, Type};
+use super::tree::{Block, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
@@ -203,6 +203,12 @@ impl Lower {
             syn::Expr::Group(e) => self.kind(&e.expr),
             syn::Expr::Reference(e) => ExprKind::Ref(e.mutability.is_some(), self.boxed(&e.expr)),
             syn::Expr::Lit(e) => self.literal(&e.lit, e.span()).kind,
+            syn::Expr::Path(e) if held_by_none(&e.path).is_some() => {
+                let held = held_by_none(&e.path)
+                    .map(|ty| self.ty(ty))
+                    .unwrap_or(Type::Tuple(Vec::new()));
+                self.typed_none(held, e.span())
+            }
             syn::Expr::Path(e) => match self.of_type(e) {
                 Some(path) => ExprKind::Path(path),
                 None => self.refused(expr),
@@ -271,6 +277,22 @@ impl Lower {
             syn::Expr::Closure(e) => self.closure(e),
             other => self.refused(other),
         }
+    }
+
+    /// `None::<T>`: a `None` where its type is stated.
+    fn typed_none(&mut self, held: Type, at: proc_macro2::Span) -> ExprKind {
+        let span = self.span(at);
+        let none = self.path_expr(vec!["Option".to_owned(), "None".to_owned()], at);
+        let ty = Type::Name("Option".to_owned(), vec![held]);
+        ExprKind::Block(Block {
+            statements: vec![Statement::Let(
+                Pattern::Name("#none".into(), false, span),
+                Some(ty),
+                Some(none),
+                span,
+            )],
+            value: Some(Box::new(self.path_expr(vec!["#none".to_owned()], at))),
+        })
     }
 
     fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
@@ -399,14 +421,7 @@ impl Lower {
         for arg in &list.args {
             let kind = match arg {
                 syn::GenericArgument::Const(e) => self.expr(e).kind,
-                syn::GenericArgument::Type(syn::Type::Infer(_)) => {
-                    self.unsupported(
-                        arg.span(),
-                        "`_` for a generic argument",
-                        "leave `::<>` out, or state it",
-                    );
-                    ExprKind::Tuple(Vec::new())
-                }
+                syn::GenericArgument::Type(syn::Type::Infer(_)) => ExprKind::Path(vec![INFERRED.to_owned()]),
                 syn::GenericArgument::Type(ty) => self.type_argument(ty),
                 // Lifetimes have no parameter to bind; the others are refused before.
                 _ => continue,
@@ -457,6 +472,26 @@ impl Lower {
                 ExprKind::Tuple(Vec::new())
             }
         }
+    }
+}
+
+/// What stands for a generic argument that is `_`.
+pub const INFERRED: &str = "_";
+
+/// The type in `None::<T>` and `Option::<T>::None`.
+pub fn held_by_none(path: &syn::Path) -> Option<&syn::Type> {
+    let last = path.segments.last().filter(|last| last.ident == "None")?;
+    let of = path.segments.iter().rev().nth(1).filter(|of| of.ident == "Option");
+    let arguments = [Some(last), of]
+        .into_iter()
+        .flatten()
+        .find_map(|segment| match &segment.arguments {
+            syn::PathArguments::AngleBracketed(list) => Some(list),
+            _ => None,
+        })?;
+    match arguments.args.first() {
+        Some(syn::GenericArgument::Type(ty)) if arguments.args.len() == 1 => Some(ty),
+        _ => None,
     }
 }
 

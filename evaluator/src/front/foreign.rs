@@ -47,6 +47,21 @@ fn method_of(name: &str, of: &str) -> bool {
     name.split_once("::").is_some_and(|(ty, _)| ty == of)
 }
 
+/// Types of the prelude that a host binds.
+pub fn is_resource(name: &str) -> bool {
+    let others = [
+        "Sampler",
+        "ComparisonSampler",
+        "Buffer",
+        "AtomicBuffer",
+        "StorageBuffer",
+        "StorageTexture",
+        "Shared",
+        "AtomicShared",
+    ];
+    TextureType::named(name).is_some() || others.contains(&name)
+}
+
 /// Types of Rust, of glam and of the prelude, which the evaluator knows by their names.
 pub fn is_prelude_type(name: &str) -> bool {
     let vector = ["Vec", "IVec", "UVec", "BVec", "Mat"];
@@ -55,18 +70,10 @@ pub fn is_prelude_type(name: &str) -> bool {
             .is_some_and(|n| matches!(n, "2" | "3" | "4" | "3A"))
     };
     vector.iter().any(numbered)
-        || TextureType::named(name).is_some()
+        || is_resource(name)
         || matches!(
             name,
-            "Sampler"
-                | "ComparisonSampler"
-                | "Buffer"
-                | "AtomicBuffer"
-                | "StorageBuffer"
-                | "StorageTexture"
-                | "Quad"
-                | "Shared"
-                | "AtomicShared"
+            "Quad"
                 | "bool"
                 | "char"
                 | "str"

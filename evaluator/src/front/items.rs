@@ -54,6 +54,10 @@ impl Items {
             names: Rc::new(names),
             ..Items::default()
         };
+        for (here, there) in Rc::clone(&items.names).functions() {
+            items.blame(&here, Vec::new());
+            items.mentions.needs(&here, &there);
+        }
         for (name, error) in wrong {
             items.blame(&name, vec![error]);
         }
@@ -243,7 +247,9 @@ impl Items {
     /// Adds a function.
     pub(super) fn insert(&mut self, key: &str, name: &syn::Ident, function: Function) {
         let own = function.params.first();
-        if own.is_some_and(|p| p.name == "self" && p.ty.is_mutable_reference()) {
+        // Methods of arrays in the library have no `self`.
+        let receives = |p: &Param| p.name == "self" || key.starts_with("Array::");
+        if own.is_some_and(|p| receives(p) && p.ty.is_mutable_reference()) {
             self.library.mutating.insert(name.to_string());
         }
         self.library.functions.insert(key.to_owned(), function);
@@ -490,9 +496,16 @@ impl Items {
         self.library
             .functions
             .retain(|name, function| function.span.file != super::std::FILE || reached.contains(name));
+        let written = |name: &&String| self.errors.get(*name).is_none_or(Vec::is_empty) && !reached.contains(*name);
+        let own = self.library.functions.iter();
+        let own = own
+            .filter(|(_, function)| function.span.file != super::std::FILE)
+            .map(|(name, _)| name);
+        let others = own.filter(written).cloned().collect();
         Ok(Parsed {
             library: self.library,
             reached,
+            others,
         })
     }
 }

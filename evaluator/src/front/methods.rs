@@ -72,12 +72,20 @@ const INTEGERS: &[&str] = &[
     "wrapping_sub",
 ];
 
+/// Methods of a runtime `usize`.
+#[rustfmt::skip]
+const SIZES: &[&str] = &[
+    "clamp", "count_ones", "max", "min", "pow", "rem_euclid", "wrapping_add", "wrapping_mul", "wrapping_neg",
+    "wrapping_shl", "wrapping_shr", "wrapping_sub",
+];
+
 /// The methods of a type by their names.
 fn lists(ty: Type) -> &'static [&'static [&'static str]] {
     match (ty.kind(), ty.components()) {
         (Some(Scalar::F32), 1) => &[FLOATS],
         (Some(Scalar::F32), _) => &[FLOATS, VECTORS],
         (Some(Scalar::Bool), _) => &[MASKS],
+        (Some(Scalar::Usize), _) => &[SIZES],
         (_, 1) => &[INTEGERS],
         _ => &[INTEGERS, COMPARISONS],
     }
@@ -103,7 +111,8 @@ pub fn is_inherent(ty: &str, name: &str) -> bool {
     let ty = match (ty, crate::front::tree::vector_named(ty)) {
         (_, Some((kind, lanes))) => Type::value(kind, lanes),
         ("f32", _) => Type::F32,
-        ("i32" | "usize", _) => Type::I32,
+        ("i32", _) => Type::I32,
+        ("usize", _) => Type::USIZE,
         ("u32", _) => Type::U32,
         ("bool", _) => Type::BOOL,
         _ => return false,

@@ -17,10 +17,12 @@ mod foreign;
 mod fuzz;
 mod inner;
 mod items;
+mod kernels;
 mod literal;
 pub mod methods;
 pub mod name;
 mod names;
+mod odd;
 mod options;
 mod parts;
 mod pattern;
@@ -40,7 +42,9 @@ use ::std::borrow::Cow;
 use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
 
+pub use expr::INFERRED;
 pub use foreign::is_prelude_type;
+pub use kernels::kernel_of;
 pub use scan::{assigned, breaks, children, mentioned_in};
 pub use traits::is_of_rust;
 pub use tree::Library;
@@ -56,6 +60,8 @@ pub struct Parsed {
     pub library: Library,
     /// What the kernel reaches: the rest may hold anything.
     pub reached: BTreeSet<String>,
+    /// Functions of the files that it does not reach and that are of the kernel language.
+    pub others: BTreeSet<String>,
 }
 
 /// Reads all files and lowers what `entry` reaches.
@@ -70,7 +76,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
         }
         match syn::parse_file(&text) {
             Ok(parsed) => syntax.push((index as u32, parsed)),
-            Err(error) => errors.push(syntax_error(index as u32, &error)),
+            Err(error) => errors.push(syntax_error(index as u32, &text, &error)),
         }
     }
     if !errors.is_empty() {
@@ -85,32 +91,11 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     }
     match syn::parse_file(&std::text(files)) {
         Ok(mut parsed) => items.file(std::FILE, &mut parsed),
-        Err(error) => return Err(Errors::of(syntax_error(std::FILE, &error))),
+        Err(error) => return Err(Errors::of(syntax_error(std::FILE, "", &error))),
     }
     let mut parsed = items.lower(entry).map_err(|found| Errors::new(found, files))?;
     parsed.library.purposes = purposes::of(&parsed.library);
     Ok(parsed)
-}
-
-/// The function of a text that is its kernel where nobody says which: the one called `wanted`, or else the only public one.
-pub fn kernel_of(text: &str, wanted: &str) -> String {
-    only_public_function(text, wanted).unwrap_or_else(|| wanted.to_owned())
-}
-
-fn only_public_function(text: &str, wanted: &str) -> Option<String> {
-    let text = without_head(text);
-    depth::check(0, &text).ok()?;
-    let file = syn::parse_file(&text).ok()?;
-    let functions = file.items.iter().filter_map(|item| match item {
-        syn::Item::Fn(function) => Some((function.sig.ident.to_string(), &function.vis)),
-        _ => None,
-    });
-    if functions.clone().any(|(name, _)| name == wanted) {
-        return None;
-    }
-    let mut public = functions.filter(|(_, vis)| matches!(vis, syn::Visibility::Public(_)));
-    let (name, _) = public.next()?;
-    public.next().is_none().then_some(name)
 }
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.
@@ -136,10 +121,13 @@ fn without_head(text: &str) -> Cow<'_, str> {
     }
 }
 
-fn syntax_error(file: u32, error: &syn::Error) -> Diagnostic {
+fn syntax_error(file: u32, text: &str, error: &syn::Error) -> Diagnostic {
     let span = place(file, error.span());
     let said = error.to_string();
     if said.contains("token stream") {
+        if let Some(odd) = odd::character(file, text, span) {
+            return odd;
+        }
         return Diagnostic::at(span, "not valid Rust: a bracket or a quote has no partner")
             .label("this one, or one before")
             .help("count the brackets, or let `rustfmt` find the place");

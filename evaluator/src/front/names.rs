@@ -7,6 +7,7 @@ use super::expr::Lower;
 use super::inner::imports;
 use super::tree::Type;
 use crate::diagnostic::Diagnostic;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -23,6 +24,8 @@ pub struct Names {
     paths: HashMap<String, Vec<String>>,
     /// Types by other names, with the files that they are written in.
     types: HashMap<String, (u32, syn::Type)>,
+    /// Functions by other names, with the files that say so: the name here, and the name there.
+    functions: Vec<(u32, syn::Ident, syn::Ident)>,
 }
 
 impl Default for Names {
@@ -30,6 +33,7 @@ impl Default for Names {
         let mut names = Names {
             paths: HashMap::new(),
             types: HashMap::new(),
+            functions: Vec::new(),
         };
         for (ty, variant) in [
             ("Option", "Some"),
@@ -54,6 +58,20 @@ impl Names {
         }
         for (file, parsed) in files {
             names.take(*file, &parsed.items, &enums, &mut errors);
+        }
+        let renamed = std::mem::take(&mut names.functions);
+        for (file, here, there) in renamed {
+            let called = |item: &syn::Item| only_called(item, &here.to_string());
+            if files.iter().all(|(_, parsed)| parsed.items.iter().all(called)) {
+                names.functions.push((file, here, there));
+                continue;
+            }
+            // A variable may have the name too.
+            names.paths.remove(&here.to_string());
+            let mut lower = Lower::new(file, None, Rc::default());
+            let what = "`use` of a function by another name that is not only called";
+            lower.unsupported(here.span(), what, &format!("use it as `{there}`"));
+            errors.extend(lower.errors.into_iter().map(|error| (here.to_string(), error)));
         }
         (names, errors)
     }
@@ -109,18 +127,20 @@ impl Names {
             return;
         }
         if here.to_string().starts_with(|c: char| c.is_lowercase()) {
-            // A variable may have the name too.
-            let mut lower = Lower::new(file, None, Rc::default());
-            let instead = format!("use it as `{there}`");
-            lower.unsupported(here.span(), "`use` of a function by another name", &instead);
-            errors.extend(lower.errors.into_iter().map(|error| (here.to_string(), error)));
-            return;
+            self.functions.push((file, here.clone(), there.clone()));
         }
         let stands = vec![of, there.to_string()];
         let known = self.paths.insert(here.to_string(), stands.clone());
         if known.is_some_and(|known| known != stands) {
             errors.push((here.to_string(), twice(file, &here)));
         }
+    }
+
+    /// Functions by other names: the name here, and the name there.
+    pub fn functions(&self) -> impl Iterator<Item = (String, String)> + '_ {
+        self.functions
+            .iter()
+            .map(|(_, here, there)| (here.to_string(), there.to_string()))
     }
 
     /// The path that a name stands for.
@@ -163,6 +183,30 @@ impl Lower {
             _ => name,
         }
     }
+}
+
+/// Whether a name is that of what is called wherever it stands: a variable may have the name of a function too.
+fn only_called(item: &syn::Item, name: &str) -> bool {
+    match item {
+        syn::Item::Use(_) => true,
+        item => called_in(item.to_token_stream(), name),
+    }
+}
+
+fn called_in(text: TokenStream, name: &str) -> bool {
+    let tokens: Vec<TokenTree> = text.into_iter().collect();
+    let is = |k: usize, of: &str| matches!(tokens.get(k), Some(TokenTree::Punct(p)) if of.contains(p.as_char()));
+    tokens.iter().enumerate().all(|(k, token)| match token {
+        TokenTree::Group(group) => called_in(group.stream(), name),
+        TokenTree::Ident(word) if word == name => {
+            let call = matches!(tokens.get(k + 1), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis);
+            let before = k.checked_sub(1);
+            let method = before.is_some_and(|k| is(k, ".:"));
+            let defined = before.is_some_and(|k| matches!(&tokens[k], TokenTree::Ident(word) if word == "fn"));
+            method || (call || (is(k + 1, ":") && is(k + 2, ":"))) && !defined
+        }
+        _ => true,
+    })
 }
 
 /// Enums with their variants.

@@ -8,7 +8,9 @@ use syn::spanned::Spanned;
 /// Whether the left side of an assignment is no place but a pattern of places.
 pub fn takes_apart(left: &syn::Expr) -> bool {
     match left {
-        syn::Expr::Tuple(_) | syn::Expr::Array(_) | syn::Expr::Infer(_) => true,
+        syn::Expr::Tuple(_) | syn::Expr::Array(_) | syn::Expr::Infer(_) | syn::Expr::Struct(_) => true,
+        // Of a tuple structure: no call is a place.
+        syn::Expr::Call(e) => matches!(&*e.func, syn::Expr::Path(_)),
         syn::Expr::Paren(e) => takes_apart(&e.expr),
         _ => false,
     }
@@ -45,6 +47,27 @@ impl Lower {
         match left {
             syn::Expr::Paren(e) => self.places(&e.expr, out),
             syn::Expr::Infer(_) => Pattern::Wild,
+            syn::Expr::Range(e) if e.start.is_none() && e.end.is_none() => Pattern::Rest,
+            syn::Expr::Call(e) if takes_apart(left) => {
+                let path = match &*e.func {
+                    syn::Expr::Path(path) => self.segments(&path.path),
+                    _ => Vec::new(),
+                };
+                let rest =
+                    matches!(e.args.last(), Some(syn::Expr::Range(last)) if last.start.is_none() && last.end.is_none());
+                let parts = e.args.iter().take(e.args.len() - usize::from(rest)).enumerate();
+                let parts = parts.map(|(k, part)| (k.to_string().into(), self.places(part, out)));
+                let parts = parts.collect();
+                Pattern::Struct(path, parts, span)
+            }
+            syn::Expr::Struct(e) => {
+                let path = self.segments(&e.path);
+                let mut fields = Vec::new();
+                for field in &e.fields {
+                    fields.push((super::expr::member(&field.member), self.places(&field.expr, out)));
+                }
+                Pattern::Struct(path, fields, span)
+            }
             syn::Expr::Tuple(e) => {
                 let parts = e.elems.iter().map(|part| self.places(part, out));
                 Pattern::Tuple(parts.collect(), span)

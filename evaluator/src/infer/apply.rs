@@ -97,7 +97,15 @@ fn expr(e: &mut Expr, known: &Known) {
             // Only a call has a place for types.
             if let Some((key, types)) = known.instances.get(&e.span) {
                 let constants = arguments(Vec::new(), types, e.span);
-                let all = std::iter::once((**receiver).clone()).chain(args.drain(..)).collect();
+                let mut receiver = (**receiver).clone();
+                // What takes its receiver by `&mut` borrows it, as a method does.
+                if changes_array(key) {
+                    receiver = Expr {
+                        span: receiver.span,
+                        kind: ExprKind::Ref(true, Box::new(receiver)),
+                    };
+                }
+                let all = std::iter::once(receiver).chain(args.drain(..)).collect();
                 e.kind = ExprKind::Call(vec![key.clone()], constants, all);
             }
         }
@@ -192,4 +200,9 @@ fn ty(t: &mut Type, known: &Known) {
             len.iter_mut().for_each(|e| expr(e, known));
         }
     }
+}
+
+/// Whether a method of arrays in the library changes its receiver.
+fn changes_array(key: &str) -> bool {
+    matches!(key, "Array::swap" | "Array::reverse" | "Array::fill")
 }

@@ -54,7 +54,8 @@ impl<'l> Checker<'l> {
         if name == "clone" && args.is_empty() && !matches!(bare, Ty::Iter(_) | Ty::Texture(..)) {
             return bare;
         }
-        if name == "iter_mut" {
+        let changes = matches!(bare, Ty::Array(_)) && matches!(name, "swap" | "reverse" | "fill");
+        if name == "iter_mut" || changes {
             self.borrowed(access, reference, receiver);
         }
         if matches!(bare, Ty::Int(_)) && reference.is_some() && matches!(name, "min" | "max" | "clamp") {
@@ -249,6 +250,7 @@ impl<'l> Checker<'l> {
         let ty = match receiver {
             Ty::Vector(kind, lanes) => Type::value(*kind, *lanes),
             Ty::Int(IntType::U32) => Type::U32,
+            Ty::Int(IntType::Usize) => Type::USIZE,
             Ty::Int(_) => Type::I32,
             _ => Type::F32,
         };
@@ -329,7 +331,7 @@ impl<'l> Checker<'l> {
             "dot" | "distance" | "distance_squared" => self.takes(args, &[own], part),
             "length" | "length_squared" | "length_recip" | "min_element" | "max_element" | "element_sum"
             | "element_product" => self.takes(args, &[], part),
-            "min" | "max" | "cross" | "reflect" => self.takes_own(args, own),
+            "min" | "max" | "cross" | "reflect" | "rem_euclid" | "div_euclid" => self.takes_own(args, own),
             "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" => {
                 self.takes(args, &[own], Ty::Vector(Scalar::Bool, lanes))
             }

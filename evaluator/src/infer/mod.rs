@@ -60,6 +60,21 @@ pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Ve
     Err(errors)
 }
 
+/// Types that do not match in functions that the kernel does not reach. What else is wrong with them does not concern it: they may call
+/// what is not among its files.
+pub fn mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    for function in functions.iter().filter_map(|name| library.functions.get(name)) {
+        one(library, &mut Known::default(), &mut errors, |checker| {
+            checker.function(function)
+        });
+    }
+    errors.retain(|error| error.message.starts_with("mismatched types"));
+    errors.sort_by_key(|error| error.span);
+    errors.dedup();
+    errors
+}
+
 /// What is known, and everything that is wrong.
 fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diagnostic>) {
     let (mut items, mut errors) = (KnownItems::new(), Vec::new());

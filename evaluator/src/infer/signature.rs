@@ -168,13 +168,13 @@ impl<'l> Checker<'l> {
             match generic {
                 Generic::Type(name) => {
                     let ty = match stated.get(k) {
-                        Some(stated) => self.type_argument(stated),
-                        None => self.table.fresh(Kind::Any),
+                        Some(stated) if !is_inferred(stated) => self.type_argument(stated),
+                        _ => self.table.fresh(Kind::Any),
                     };
                     given.insert(name.clone(), ty);
                 }
                 Generic::Const(_, ty) => {
-                    if let Some(constant) = stated.get(k) {
+                    if let Some(constant) = stated.get(k).filter(|stated| !is_inferred(stated)) {
                         let ty = self.substituted(ty, &HashMap::new(), constant.span);
                         self.against(constant, &ty);
                     }
@@ -183,4 +183,9 @@ impl<'l> Checker<'l> {
         }
         given
     }
+}
+
+/// Whether a generic argument is `_`.
+fn is_inferred(stated: &Expr) -> bool {
+    matches!(&stated.kind, ExprKind::Path(path) if path == &[crate::front::INFERRED])
 }

@@ -335,9 +335,29 @@ impl<'l> Checker<'l> {
         wanted
     }
 
+    /// The conversion of a vector to an array or a tuple of its components.
+    fn components_as(&mut self, wanted: &Ty, kind: crate::ir::Scalar, lanes: u8) -> Option<&'static str> {
+        let part = Ty::scalar(kind);
+        match wanted {
+            Ty::Array(element) => self.table.unify(&part, element).then_some("Array::from"),
+            Ty::Tuple(parts) if parts.len() == usize::from(lanes) => {
+                let all = parts.iter().all(|own| self.table.unify(&part, own));
+                all.then_some("Tuple::from")
+            }
+            _ => None,
+        }
+    }
+
     /// Finds the functions that what they have to give tells, and checks the traits of type parameters.
     pub fn settle_traits(&mut self) {
         for Pending { span, wanted, from } in std::mem::take(&mut self.pending) {
+            if let (Some(from), found) = (&from, self.table.shallow(&wanted))
+                && let Ty::Vector(kind, lanes) = self.peeled(from).0
+                && let Some(key) = self.components_as(&found, kind, lanes)
+            {
+                self.methods.insert(span, key.to_owned());
+                continue;
+            }
             let Some(of) = self.type_name(&wanted) else {
                 if !matches!(self.table.shallow(&wanted), Ty::Unknown | Ty::Param(_)) {
                     self.errors.push(

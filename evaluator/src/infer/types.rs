@@ -74,6 +74,7 @@ impl Ty {
             Scalar::Bool => Ty::Bool,
             Scalar::I32 => Ty::I32,
             Scalar::U32 => Ty::U32,
+            Scalar::Usize => Ty::USIZE,
             Scalar::F32 => Ty::Float,
         }
     }
@@ -263,6 +264,7 @@ impl fmt::Display for Ty {
                     Scalar::I32 => "I",
                     Scalar::U32 => "U",
                     Scalar::Bool => "B",
+                    Scalar::Usize => "usize",
                 };
                 write!(f, "{prefix}Vec{lanes}")
             }

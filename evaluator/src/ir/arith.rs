@@ -1,6 +1,6 @@
 //! What operations do: the one place, used to fold constants and to interpret, in any precision.
 
-use super::{AtomicOp, BinaryOp, Bits, Op, Real, Scalar, Type, UnaryOp};
+use super::{AtomicOp, BinaryOp, Bits, Op, Real, Scalar, Type, UnaryOp, usize_bits, usize_value};
 
 /// A scalar or up to four lanes of a vector, each the bits of an integer or of an `R`; unused lanes are 0.
 pub type Cells = [u64; 4];
@@ -15,6 +15,9 @@ pub fn cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
 
 /// The bits of a constant as cells of an `R`.
 pub fn constant<R: Real>(ty: Type, bits: &Bits) -> Cells {
+    if ty == Type::USIZE {
+        return [usize_value(bits), 0, 0, 0];
+    }
     bits.map(|bits| match ty.kind() {
         Some(Scalar::F32) => R::made(f32::from_bits(bits).into()).to_bits(),
         _ => u64::from(bits),
@@ -29,9 +32,16 @@ pub fn fold(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
     let mut cells = [[0; 4]; MOST_OPERANDS];
     let cells = cells.get_mut(..args.len())?;
     for (cells, lanes) in cells.iter_mut().zip(args) {
-        *cells = lanes.map(u64::from);
+        *cells = match operand {
+            Type::USIZE => [usize_value(lanes), 0, 0, 0],
+            _ => lanes.map(u64::from),
+        };
     }
-    Some(apply::<f32>(op, operand, cells, ty)?.map(|cell| cell as u32))
+    let found = apply::<f32>(op, operand, cells, ty)?;
+    Some(match ty {
+        Type::USIZE => usize_bits(found[0]),
+        _ => found.map(|cell| cell as u32),
+    })
 }
 
 /// The result of a value operation (not a read, nor anything of arrays and regions) on arguments of type `operand`;
@@ -92,6 +102,10 @@ fn unary<R: Real>(op: UnaryOp, kind: Scalar, cell: u64) -> Option<u64> {
     let bits = cell as u32;
     let word = match (kind, op) {
         (Scalar::F32, _) => return Some(R::from_bits(cell).unary(op)?.to_bits()),
+        (Scalar::Usize, BitNot) => return Some(!cell),
+        (Scalar::Usize, CountOneBits) => return Some(cell.count_ones().into()),
+        (Scalar::Usize, LeadingZeros) => return Some(cell.leading_zeros().into()),
+        (Scalar::Usize, TrailingZeros) => return Some(cell.trailing_zeros().into()),
         (Scalar::Bool, Not) => 1 - bits,
         (Scalar::I32 | Scalar::U32, BitNot) => !bits,
         (Scalar::I32 | Scalar::U32, CountOneBits) => bits.count_ones(),
@@ -113,6 +127,7 @@ fn binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
         Scalar::F32 => binary_real(op, R::from_bits(a), R::from_bits(b)),
         Scalar::I32 => binary_i32(op, a as i32, b as i32).map(u64::from),
         Scalar::U32 => binary_u32(op, a as u32, b as u32).map(u64::from),
+        Scalar::Usize => binary_usize(op, a, b),
     }
 }
 
@@ -196,6 +211,31 @@ fn binary_u32(op: BinaryOp, a: u32, b: u32) -> Option<u32> {
     })
 }
 
+fn binary_usize(op: BinaryOp, a: u64, b: u64) -> Option<u64> {
+    use BinaryOp::*;
+    Some(match op {
+        Add => a.wrapping_add(b),
+        Sub => a.wrapping_sub(b),
+        Mul => a.wrapping_mul(b),
+        Div => a.checked_div(b).unwrap_or(a),
+        Rem => a.checked_rem(b).unwrap_or(0),
+        Min => a.min(b),
+        Max => a.max(b),
+        And => a & b,
+        Or => a | b,
+        Xor => a ^ b,
+        Shl => a.wrapping_shl(b as u32),
+        Shr => a.wrapping_shr(b as u32),
+        Eq => (a == b).into(),
+        Ne => (a != b).into(),
+        Lt => (a < b).into(),
+        Le => (a <= b).into(),
+        Gt => (a > b).into(),
+        Ge => (a >= b).into(),
+        Pow | Atan2 => return None,
+    })
+}
+
 fn convert<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     use Scalar::*;
     let bits = cell as u32;
@@ -203,6 +243,12 @@ fn convert<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     Some(match (from, to) {
         (F32, I32) => u64::from(R::from_bits(cell).to_f64() as i32 as u32),
         (F32, U32) => u64::from(R::from_bits(cell).to_f64() as u32),
+        (F32, Usize) => R::from_bits(cell).to_f64() as u64,
+        (Usize, F32) => R::from_f64(cell as f32 as f64).to_bits(),
+        (Usize, Bool) => (cell != 0).into(),
+        (Usize, I32 | U32) => u64::from(bits),
+        (I32, Usize) => i64::from(bits as i32) as u64,
+        (U32 | Bool | Usize, Usize) => cell,
         (F32, Bool) => (R::from_bits(cell).to_f64() != 0.0).into(),
         (I32, F32) => number(f64::from(bits as i32)),
         (U32 | Bool, F32) => number(f64::from(bits)),
@@ -217,6 +263,7 @@ fn bitcast<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     Some(match (from, to) {
         (F32, I32 | U32) => u64::from((R::from_bits(cell).to_f64() as f32).to_bits()),
         (I32 | U32, F32) => R::from_f64(f64::from(f32::from_bits(cell as u32))).to_bits(),
+        (Usize, I32 | U32) => u64::from(cell as u32),
         (F32, F32) | (I32 | U32, I32 | U32) => cell,
         _ => return None,
     })

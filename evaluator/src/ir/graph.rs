@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Bits, Buffer, Memory, Op, Origin, Scalar, Shared, Texture, Type};
+use super::{Bits, Buffer, Memory, Op, Origin, Scalar, Shared, Texture, Type, usize_bits};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -485,6 +485,11 @@ impl<'r> Builder<'r> {
     /// A constant signed integer.
     pub fn i32(&mut self, value: i32) -> NodeId {
         self.constant(Type::I32, [value as u32, 0, 0, 0])
+    }
+
+    /// A constant `usize`.
+    pub fn usize(&mut self, value: u64) -> NodeId {
+        self.constant(Type::USIZE, usize_bits(value))
     }
 
     /// A constant boolean.

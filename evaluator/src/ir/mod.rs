@@ -70,4 +70,4 @@ pub use print::print;
 pub use real::{F16, Real};
 pub use rebuild::{Rebuild, Replace, copy_tables, rebuild, rebuild_replacing};
 pub use texture::{Texture, TextureKind};
-pub use types::{Bits, Scalar, Type, vector_named};
+pub use types::{Bits, Scalar, Type, usize_bits, usize_value, vector_named};

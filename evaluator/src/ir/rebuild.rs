@@ -18,6 +18,35 @@ pub trait Replace {
 
     /// What stands for a node of the old graph, of which `new` has what stands for the nodes before it; `None` for the same again.
     fn node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId>;
+
+    /// The type of a parameter or a result that was of the type `ty`.
+    fn ty(&self, _old: NodeId, ty: Type) -> Type {
+        ty
+    }
+
+    /// What stands for the start or the end of the loop of `region`, in the type of its counter; `None` for the same as elsewhere.
+    fn bound(
+        &mut self,
+        _builder: &mut Builder<'_>,
+        _region: RegionId,
+        _old: NodeId,
+        _new: &[Option<NodeId>],
+    ) -> Option<NodeId> {
+        None
+    }
+
+    /// What stands for result `k` of `region`, or the first value of what its loop carries there, in the type of the result; `None`
+    /// for the same as elsewhere.
+    fn passed(
+        &mut self,
+        _builder: &mut Builder<'_>,
+        _region: RegionId,
+        _k: usize,
+        _old: NodeId,
+        _new: &[Option<NodeId>],
+    ) -> Option<NodeId> {
+        None
+    }
 }
 
 /// Leaves every node what it is.
@@ -59,13 +88,13 @@ pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Repl
     let mut events = old.events.iter().peekable();
     for id in old.ids() {
         while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
-            walk.event(*event);
+            walk.event(*event, replace);
         }
         walk.node(id, pass.share_loads, replace);
     }
     for (_, event) in events {
         if *event != Event::Close(Graph::BODY) {
-            walk.event(*event);
+            walk.event(*event, replace);
         }
     }
     let outputs = old.outputs().iter().map(|id| walk.new_id(*id)).collect();
@@ -103,18 +132,18 @@ impl Walk<'_, '_> {
         self.new_ids[old.0 as usize].expect("arguments are built before their users")
     }
 
-    fn event(&mut self, event: Event) {
+    fn event(&mut self, event: Event, replace: &dyn Replace) {
         match event {
-            Event::Open(region) if self.live.regions[region.0 as usize] => self.open(region),
+            Event::Open(region) if self.live.regions[region.0 as usize] => self.open(region, replace),
             // Its results may be newer than its end: they are set when its owner is built.
             Event::Close(region) if self.live.regions[region.0 as usize] => self.builder.close_region(Vec::new()),
             _ => {}
         }
     }
 
-    fn open(&mut self, region: RegionId) {
+    fn open(&mut self, region: RegionId, replace: &dyn Replace) {
         let params = self.live.kept(region, &self.old.region(region).params, true);
-        let types: Vec<_> = params.iter().map(|p| self.old.ty(*p)).collect();
+        let types: Vec<_> = params.iter().map(|p| replace.ty(*p, self.old.ty(*p))).collect();
         let new = self.builder.open_region(&types);
         self.new_regions[region.0 as usize] = Some(new);
         let made = self.builder.graph().region(new).params.clone();
@@ -123,11 +152,24 @@ impl Walk<'_, '_> {
         }
     }
 
+    /// Positions of the results of a region that are used, of `count` values of which the first `before` are none.
+    fn places(&self, region: RegionId, count: usize, before: usize) -> Vec<usize> {
+        let used = &self.live.results[region.0 as usize];
+        (0..count - before).filter(|k| used[*k]).collect()
+    }
+
     /// Gives the regions of a loop or branch their results.
-    fn set_results(&mut self, owner: NodeId) {
+    fn set_results(&mut self, owner: NodeId, replace: &mut dyn Replace) {
         for region in self.old.regions_of(owner) {
-            let results = self.live.kept(region, &self.old.region(region).results, false);
-            let results = results.iter().map(|r| self.new_id(*r)).collect();
+            let results: Vec<NodeId> = self
+                .places(region, self.old.region(region).results.len(), 0)
+                .into_iter()
+                .map(|k| {
+                    let old = self.old.region(region).results[k];
+                    let passed = replace.passed(&mut self.builder, region, k, old, &self.new_ids);
+                    passed.unwrap_or_else(|| self.new_id(old))
+                })
+                .collect();
             let stop = self.old.region(region).stop.map(|stop| self.new_id(stop));
             if let Some(new) = self.new_regions[region.0 as usize] {
                 self.builder.graph_mut().regions[new.0 as usize].results = results;
@@ -143,16 +185,23 @@ impl Walk<'_, '_> {
         if let Some(new) = replace.node(&mut self.builder, id, &self.new_ids) {
             return self.take_over(id, new);
         }
-        self.set_results(id);
+        self.set_results(id, replace);
         let node = self.old.node(id);
         let region =
             |r: &RegionId| self.new_regions[r.0 as usize].expect("regions are opened before their owner is built");
         let mut carried = Vec::new();
         let (op, args): (Op, &[NodeId]) = match &node.op {
             Op::Loop(body) => {
-                carried.push(node.args[0]);
-                carried.extend(self.live.kept(*body, &node.args[1..], true));
-                (Op::Loop(region(body)), &carried)
+                for old in &node.args[..2] {
+                    let bound = replace.bound(&mut self.builder, *body, *old, &self.new_ids);
+                    carried.push(bound.unwrap_or_else(|| self.new_id(*old)));
+                }
+                for k in self.places(*body, node.args.len(), 2) {
+                    let old = node.args[k + 2];
+                    let passed = replace.passed(&mut self.builder, *body, k, old, &self.new_ids);
+                    carried.push(passed.unwrap_or_else(|| self.new_id(old)));
+                }
+                (Op::Loop(region(body)), &[])
             }
             Op::If(then, otherwise) => (Op::If(region(then), region(otherwise)), &node.args),
             Op::Result(k) => {
@@ -172,11 +221,13 @@ impl Walk<'_, '_> {
         let mut new_args = std::mem::take(&mut self.args);
         new_args.clear();
         new_args.extend(args.iter().map(|a| self.new_id(*a)));
+        new_args.extend(carried);
         let args = new_args.as_slice();
         let ty = match (&op, op.texture()) {
             (Op::Load { .. } | Op::Sample { .. }, Some(texture)) => {
                 self.builder.graph().textures[texture as usize].texel()
             }
+            (Op::Result(_), _) => replace.ty(id, node.ty),
             _ => node.ty,
         };
         let new = match op {

@@ -2,8 +2,18 @@
 
 use std::fmt;
 
-/// The bits of a scalar or of up to four components of a vector; unused components are 0.
+/// The bits of a scalar or of up to four components of a vector; unused components are 0. A `usize` has two words, the lower first.
 pub type Bits = [u32; 4];
+
+/// The bits of a `usize`.
+pub fn usize_bits(value: u64) -> Bits {
+    [value as u32, (value >> 32) as u32, 0, 0]
+}
+
+/// The value that the bits of a `usize` stand for.
+pub fn usize_value(bits: &Bits) -> u64 {
+    u64::from(bits[0]) | u64::from(bits[1]) << 32
+}
 
 /// Kind of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -14,6 +24,8 @@ pub enum Scalar {
     I32,
     /// Wrapping.
     U32,
+    /// 64 bits, wrapping: a runtime `usize` while a kernel is evaluated. [`crate::passes::narrow`] leaves none.
+    Usize,
     /// IEEE 754 binary32.
     F32,
 }
@@ -48,6 +60,8 @@ impl Type {
     pub const I32: Type = Type::scalar(Scalar::I32);
     /// A scalar unsigned integer.
     pub const U32: Type = Type::scalar(Scalar::U32);
+    /// A scalar `usize`.
+    pub const USIZE: Type = Type::scalar(Scalar::Usize);
     /// A scalar float.
     pub const F32: Type = Type::scalar(Scalar::F32);
 
@@ -132,7 +146,7 @@ impl Type {
 
     /// Whether the components are integers.
     pub fn is_integer(self) -> bool {
-        matches!(self.kind(), Some(Scalar::I32 | Scalar::U32))
+        matches!(self.kind(), Some(Scalar::I32 | Scalar::U32 | Scalar::Usize))
     }
 
     /// Whether the components are floats.
@@ -152,6 +166,7 @@ impl Type {
                     Scalar::I32 => "I",
                     Scalar::U32 => "U",
                     Scalar::Bool => "B",
+                    Scalar::Usize => "usize",
                 };
                 format!("{prefix}Vec{components}")
             }
@@ -167,6 +182,7 @@ impl fmt::Display for Scalar {
             Scalar::Bool => "bool",
             Scalar::I32 => "i32",
             Scalar::U32 => "u32",
+            Scalar::Usize => "usize",
             Scalar::F32 => "f32",
         })
     }

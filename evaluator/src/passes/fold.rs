@@ -4,7 +4,7 @@
 //! change a rounding, a NaN or the sign of a zero has no place here.
 
 use super::ranges;
-use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith};
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith, usize_value};
 
 /// The exact rules.
 pub struct Exact;
@@ -84,11 +84,22 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
         // From a signed integer to an unsigned one and back, bits stay.
         Op::Convert
             if ty.is_integer()
+                && ty != Type::USIZE
                 && node(args[0]).op == Op::Convert
                 && node(args[0]).ty.is_integer()
                 && b.graph().ty(node(args[0]).args[0]) == ty =>
         {
             Some(node(args[0]).args[0])
+        }
+        // Of a number that was widened, the lower bits.
+        Op::Convert
+            if matches!(ty, Type::I32 | Type::U32)
+                && node(args[0]).op == Op::Convert
+                && node(args[0]).ty == Type::USIZE
+                && b.graph().ty(node(args[0]).args[0]).is_integer() =>
+        {
+            let narrow = node(args[0]).args[0];
+            Some(b.add(Op::Convert, [narrow], ty))
         }
         // What is known is known in every lane; a message and its answer are no message.
         Op::Message(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
@@ -177,7 +188,7 @@ fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
             let (x, y) = (args[0], args[1]);
             match g.ty(x).kind()? {
                 Scalar::F32 => float(g, *op, x, y).or_else(|| square(b, *op, x, y)),
-                Scalar::I32 | Scalar::U32 => integer(b, *op, x, y),
+                Scalar::I32 | Scalar::U32 | Scalar::Usize => integer(b, *op, x, y),
                 Scalar::Bool => boolean(b, *op, x, y),
             }
         }
@@ -350,6 +361,7 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     let ty = b.graph().ty(y);
     let node = b.graph().node(y).clone();
     match node.op {
+        Op::Const(bits) if ty == Type::USIZE && bits[1] != 0 => None,
         Op::Const(mut bits) => {
             let lanes = &mut bits[..ty.components() as usize];
             if !lanes.contains(&0) {
@@ -412,7 +424,10 @@ fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
 
 /// Whether `id` is a constant with `bits` in every lane.
 fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
-    let lanes = g.ty(id).components() as usize;
+    let lanes = match g.ty(id) {
+        Type::USIZE => return g.constant(id).is_some_and(|c| usize_value(&c) == u64::from(bits)),
+        ty => ty.components() as usize,
+    };
     g.constant(id)
         .is_some_and(|c| c[..lanes].iter().all(|lane| *lane == bits))
 }

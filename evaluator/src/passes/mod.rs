@@ -9,6 +9,7 @@ mod floor;
 mod fold;
 mod gathers;
 mod lanes;
+pub mod narrow;
 mod offsets;
 mod origin;
 mod ranges;

@@ -1,12 +1,18 @@
 //! What is known of a value without knowing it.
 
-use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp};
+use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp, usize_value};
 
 /// How far back a question is followed; beyond it nothing is known.
 const DEPTH: u32 = 12;
 
-/// No texture is wider or higher, and no pixel lies farther out.
-const LARGEST_FRAME: i64 = 1 << 20;
+/// No texture is wider or higher, and no pixel lies farther out but by a block's width.
+const LARGEST_FRAME: i64 = 1 << 15;
+
+/// No buffer has more elements.
+const LONGEST_BUFFER: i64 = 1 << 28;
+
+/// The farthest pixel of a block.
+const FARTHEST_PIXEL: i64 = LARGEST_FRAME + 64;
 
 /// Whether every lane of a float is +0, positive or NaN: never negative and never -0.
 pub fn nonnegative(g: &Graph, id: NodeId) -> bool {
@@ -58,6 +64,8 @@ pub fn float_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(f32, f32)> 
 fn whole(ty: Type) -> (i64, i64) {
     match ty.kind() {
         Some(Scalar::U32) => (0, i64::from(u32::MAX)),
+        // The largest `i64` stands for all that is beyond it.
+        Some(Scalar::Usize) => (0, i64::MAX),
         _ => (i64::from(i32::MIN), i64::from(i32::MAX)),
     }
 }
@@ -72,11 +80,17 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
     }
     let of = |k: usize| bounds_at(g, node.args[k], component, depth - 1);
     let (smallest, largest) = whole(node.ty);
-    let unsigned = node.ty.kind() == Some(Scalar::U32);
+    let (unsigned, wide) = (smallest == 0, node.ty == Type::USIZE);
     // What leaves the range wraps.
-    let fits = |(low, high): (i64, i64)| (low >= smallest && high <= largest).then_some((low, high));
+    let fits = |(low, high): (i64, i64)| {
+        (low >= smallest && high <= largest && !(wide && high == largest)).then_some((low, high))
+    };
     let known = |id: NodeId| {
-        let bits = g.constant(id)?[component as usize];
+        let bits = g.constant(id)?;
+        if wide {
+            return i64::try_from(usize_value(&bits)).ok();
+        }
+        let bits = bits[component as usize];
         Some(if unsigned {
             i64::from(bits)
         } else {
@@ -91,11 +105,11 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
     let found = match &node.op {
         Op::Const(_) => known(id).map(|n| (n, n)),
         // A pixel of a block may lie outside of the frame, but never before it.
-        Op::Pixel => Some((0, LARGEST_FRAME)),
+        Op::Pixel => Some((0, FARTHEST_PIXEL)),
         Op::FrameSize | Op::TextureSize(_) | Op::TextureLayers(_) | Op::TextureLevels(_) => Some((1, LARGEST_FRAME)),
-        Op::BufferLen(_) => Some((1, largest)),
+        Op::BufferLen(_) => Some((1, LONGEST_BUFFER)),
         Op::Lane => Some((0, 1)),
-        Op::GroupOrigin => Some((0, LARGEST_FRAME)),
+        Op::GroupOrigin => Some((0, FARTHEST_PIXEL)),
         Op::Thread => match g.invocation {
             Invocation::Group(size) => Some((0, i64::from(size[component as usize]) - 1)),
             _ => None,
@@ -103,16 +117,18 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
         Op::Param(region, 0) => {
             let owner = g.ids().find(|id| g.node(*id).op == Op::Loop(*region))?;
             let bound = |k: usize| bounds_at(g, g.node(owner).args[k], 0, depth - 1);
-            let ((low, _), (_, end)) = (bound(0)?, bound(1)?);
-            Some((low, (end - 1).max(low)))
+            match (bound(0)?, bound(1)?) {
+                ((low, _), (_, i64::MAX)) => Some((low, i64::MAX)),
+                ((low, _), (_, end)) => Some((low, (end - 1).max(low))),
+            }
         }
         Op::Splat => bounds_at(g, node.args[0], 0, depth - 1),
         Op::Compose => bounds_at(g, node.args[component as usize], 0, depth - 1),
         Op::Extract(k) => bounds_at(g, node.args[0], *k, depth - 1),
         Op::Tally(_) => of(0),
-        Op::Binary(BinaryOp::Add) => corners(|a, b| a + b),
-        Op::Binary(BinaryOp::Sub) => corners(|a, b| a - b),
-        Op::Binary(BinaryOp::Mul) => corners(|a, b| a.saturating_mul(b)),
+        Op::Binary(BinaryOp::Add) => corners(i64::saturating_add),
+        Op::Binary(BinaryOp::Sub) => corners(i64::saturating_sub),
+        Op::Binary(BinaryOp::Mul) => corners(i64::saturating_mul),
         Op::Binary(BinaryOp::Div) => {
             let divisor = known(node.args[1]).filter(|d| *d > 0)?;
             of(0).map(|(low, high)| (low / divisor, high / divisor))
@@ -127,7 +143,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
             Some((0, mask))
         }
         Op::Binary(BinaryOp::Shr) => {
-            let count = g.constant(node.args[1])?[component as usize] % 32;
+            let count = g.constant(node.args[1])?[component as usize] % if wide { 64 } else { 32 };
             let (low, high) = of(0).unwrap_or((smallest, largest));
             Some((low >> count, high >> count))
         }
@@ -200,6 +216,9 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
                 Scalar::Bool => (0, 1),
                 _ => bounds_at(g, node.args[0], component, depth - 1).unwrap_or(whole(from)),
             };
+            if high == i64::MAX {
+                return Some((low as f32, u64::MAX as f32));
+            }
             Some((low as f32, high as f32))
         }
         Op::Splat => floats_at(g, node.args[0], 0, depth - 1),
@@ -269,6 +288,14 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
     if !ty.is_integer() || ty.is_array() {
         return None;
     }
+    if let Some(ordered) = sum_of(g, x, y) {
+        // A sum that does not wrap is not less than a part of it.
+        match (op, ordered) {
+            (BinaryOp::Lt, true) | (BinaryOp::Gt, false) => return Some(b.bool(false)),
+            (BinaryOp::Ge, true) | (BinaryOp::Le, false) => return Some(b.bool(true)),
+            _ => {}
+        }
+    }
     let range = |id, component| component_bounds(g, id, component).unwrap_or(whole(ty));
     // Whether the first is smaller than the second in every component, or the other way.
     let all = |less: fn(i64, i64) -> bool, first, second| {
@@ -291,6 +318,20 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
         _ => return None,
     };
     (yes || no).then(|| b.bool(yes))
+}
+
+/// Whether of two `usize` the first is a sum with the second, or the other way, that has no 64 bits.
+fn sum_of(g: &Graph, x: NodeId, y: NodeId) -> Option<bool> {
+    let is_sum = |sum: NodeId, part: NodeId| {
+        let node = g.node(sum);
+        let fits = || bounds(g, sum).is_some_and(|(_, high)| high < i64::MAX);
+        node.ty == Type::USIZE && node.op == Op::Binary(BinaryOp::Add) && node.args.contains(&part) && fits()
+    };
+    match (is_sum(x, y), is_sum(y, x)) {
+        (true, _) => Some(true),
+        (_, true) => Some(false),
+        _ => None,
+    }
 }
 
 /// Clamping of a neighbour's coordinate to the frame: the pixel itself is inside, so a step to the right can only
@@ -343,7 +384,7 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
     }
 }
 
-/// A pixel's coordinate is less than 2^20, so steps of this size cannot wrap.
+/// A pixel's coordinate is less than 2^16, so steps of this size cannot wrap.
 const MAX_STEP: i32 = 1 << 30;
 
 fn is_zero(g: &Graph, id: NodeId) -> bool {

@@ -5,7 +5,6 @@
 
 use serde_json::{Value, json};
 use std::path::Path;
-use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
 
 /// The message for the first of `errors`, in one line.
@@ -13,10 +12,11 @@ pub fn of(kernel: &str, errors: &Errors) -> Value {
     let Some(diagnostic) = errors.diagnostics.first() else {
         return Value::Null;
     };
-    let path = errors
-        .files
-        .first()
-        .map_or_else(String::new, |file| absolute(&file.path));
+    // Of a file that cannot be read the name is all that there is.
+    let path = match errors.files.first() {
+        Some(file) => absolute(&file.path),
+        None => std::path::absolute(kernel).map_or_else(|_| kernel.to_owned(), |path| path.display().to_string()),
+    };
     json!({
         "reason": "compiler-message",
         // No package of cargo's: a name that no package has.
@@ -39,32 +39,6 @@ pub fn of(kernel: &str, errors: &Errors) -> Value {
 /// The last message of all.
 pub fn finished(success: bool) -> Value {
     json!({ "reason": "build-finished", "success": success })
-}
-
-/// Where a kernel's function is named, or the first line of its file: the place of errors that concern all of it.
-pub fn function(kernel: &Kernel) -> Option<Span> {
-    let declaration = format!("fn {}", kernel.name());
-    let named = kernel.files().iter().zip(0..).find_map(|(file, index)| {
-        let ends = |at: &usize| {
-            let next = file.text[at + declaration.len()..].chars().next();
-            !next.is_some_and(|c| c.is_alphanumeric() || c == '_')
-        };
-        let at = file.text.match_indices(&declaration).map(|(at, _)| at).find(ends)?;
-        Some((file, index, at + "fn ".len(), at + declaration.len()))
-    });
-    let first = || {
-        let file = kernel.files().first()?;
-        Some((file, 0, 0, file.text.lines().next()?.len()))
-    };
-    let (file, index, start, end) = named.or_else(first)?;
-    let (line, column) = position(&file.text, start);
-    Some(Span {
-        file: index,
-        start: start as u32,
-        end: end as u32,
-        line: line as u32,
-        column: column as u32,
-    })
 }
 
 /// An error in rustc's words.
@@ -153,8 +127,7 @@ fn absolute(path: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{function, position};
-    use straightline_codegen::Kernel;
+    use super::position;
 
     #[test]
     fn columns_are_characters() {
@@ -164,15 +137,5 @@ mod tests {
             (at("a"), at("x"), position(text, text.len())),
             ((1, 1), (2, 13), (3, 1))
         );
-    }
-
-    #[test]
-    fn functions_are_found_by_their_whole_name() {
-        let place = |text: &str| {
-            function(&Kernel::from_text("k.rs", text, "k")).map(|at| (at.line, at.column, at.end - at.start))
-        };
-        assert_eq!(place("fn kk() {}\npub fn k() {}\n"), Some((2, 8, 1)));
-        assert_eq!(place("// nothing\nfn kk() {}\n"), Some((1, 1, 10)));
-        assert_eq!(place(""), None);
     }
 }

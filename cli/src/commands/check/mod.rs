@@ -9,15 +9,27 @@ use crate::output;
 use std::collections::HashSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use straightline_codegen::diagnostic::{Diagnostic, Errors};
+use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{EmitOptions, Kernel};
 
 /// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     let names = names(&args.kernels, &args.source)?;
     // What is not there is bad use, and told before anything runs.
-    let located: Result<Vec<Kernel>, Errors> = names.iter().map(|name| args.of(name).locate()).collect();
-    let located = located?;
+    let mut located = Vec::new();
+    for name in &names {
+        match args.of(name).locate() {
+            Ok(kernel) => located.push(kernel),
+            Err(errors) => {
+                // An editor reads messages alone.
+                if args.message_format == MessageFormat::Json {
+                    outln!("{}", message::of(name, &errors));
+                    outln!("{}", message::finished(false));
+                }
+                return Err(errors.into());
+            }
+        }
+    }
     let before = before::run(&args.command, args.message_format)?;
     let mut shown = HashSet::new();
     let mut broken = 0;
@@ -68,6 +80,13 @@ fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> 
         for entry in std::fs::read_dir(folder).map_err(refused)? {
             let path = entry.map_err(refused)?.path();
             let rust = path.extension().is_some_and(|extension| extension == "rs");
+            if rust && path.to_str().is_none() {
+                let what = format!(
+                    "the name of `{}` is not UTF-8: rename the file, or give the others by their names",
+                    path.display()
+                );
+                return Err(Failure::Usage(what));
+            }
             // What only holds modules, and what is given as a source, is no kernel.
             if rust && !path.ends_with("mod.rs") && !sources.contains(&path) {
                 found.push(path.display().to_string());
@@ -87,14 +106,16 @@ fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> 
 /// What `emit` would find wrong with a kernel. Every error has a place, since editors show no other.
 fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
     let placed = |mut errors: Errors| {
-        let place = message::function(kernel);
+        let place = kernel.place();
         for diagnostic in errors.diagnostics.iter_mut().filter(|d| d.span.is_none()) {
             diagnostic.span = place;
         }
         errors.files = kernel.files().to_vec().into();
         errors
     };
-    emitted(args, kernel).map_err(placed)
+    emitted(args, kernel)
+        .and_then(|()| kernel.check_others())
+        .map_err(placed)
 }
 
 fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
@@ -102,7 +123,7 @@ fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
     let options = EmitOptions::new().stage(super::natural_stage(&compiled));
     match compiled.emit(&options) {
         Ok(_) => Ok(()),
-        Err(error) => Err(Errors::of(Diagnostic::new(error.to_string()))),
+        Err(error) => Err(compiled.locate(&error)),
     }
 }
 

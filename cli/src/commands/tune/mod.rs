@@ -135,7 +135,10 @@ fn check_options(args: &TuneArgs) -> Result<(), Failure> {
 
 fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
     let options = options(args).precision(chosen.precision).accept_loss(true);
-    let mut emitted = chosen.compiled.emit(&options).map_err(Failure::of)?;
+    let mut emitted = chosen
+        .compiled
+        .emit(&options)
+        .map_err(|error| Failure::of_emission(&chosen.compiled, &error))?;
     emitted.manifest.tuned = Some(chosen.tuned.clone());
     Ok(emitted)
 }

@@ -233,7 +233,7 @@ impl Language for Glsl<'_> {
             // The smallest `int`, which no literal is.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 => unsigned(bits),
+            Scalar::U32 | Scalar::Usize => unsigned(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }

@@ -60,7 +60,7 @@ impl Language for Wgsl<'_> {
             Scalar::F32 => float(bits),
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("i32(-2147483648)"),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 => unsigned(bits),
+            Scalar::U32 | Scalar::Usize => unsigned(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }

@@ -130,6 +130,17 @@ impl Check {
                 }
                 self.exprs(&mut e.args);
             }
+            E::Path(e) if crate::front::expr::held_by_none(&e.path).is_some() => {
+                for segment in &mut e.path.segments {
+                    if let syn::PathArguments::AngleBracketed(list) = &mut segment.arguments {
+                        list.args.iter_mut().for_each(|argument| {
+                            if let syn::GenericArgument::Type(ty) = argument {
+                                self.ty(ty);
+                            }
+                        });
+                    }
+                }
+            }
             E::Path(e) => self.path(&mut e.path, false),
             E::Range(e) => [&mut e.start, &mut e.end]
                 .into_iter()

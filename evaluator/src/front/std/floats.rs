@@ -15,6 +15,11 @@ impl f32 {
         self.to_bits() >> 31 == 0
     }
 
+    fn midpoint(self, other: f32) -> f32 {
+        let sum = self + other;
+        if sum.is_finite() { sum * 0.5 } else { self * 0.5 + other * 0.5 }
+    }
+
     fn is_infinite(self) -> bool {
         self.to_bits() & 0x7fff_ffff == 0x7f80_0000
     }

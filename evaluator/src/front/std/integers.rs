@@ -79,6 +79,19 @@ impl u32 {
     fn saturating_sub(self, other: u32) -> u32 {
         if self > other { self.wrapping_sub(other) } else { 0 }
     }
+
+    fn midpoint(self, other: u32) -> u32 {
+        (self & other) + ((self ^ other) >> 1)
+    }
+
+    fn checked_add(self, other: u32) -> Option<u32> {
+        let sum = self.wrapping_add(other);
+        if sum < self { None } else { Some(sum) }
+    }
+
+    fn checked_sub(self, other: u32) -> Option<u32> {
+        if self < other { None } else { Some(self.wrapping_sub(other)) }
+    }
 }
 
 impl usize {
@@ -86,7 +99,38 @@ impl usize {
         if self < other { other - self } else { self - other }
     }
 
+    fn div_ceil(self, divisor: usize) -> usize {
+        let whole = self / divisor;
+        if self % divisor > 0 { whole + 1 } else { whole }
+    }
+
+    fn is_multiple_of(self, of: usize) -> bool {
+        if of == 0 { self == 0 } else { self % of == 0 }
+    }
+
+    fn is_power_of_two(self) -> bool {
+        self.count_ones() == 1
+    }
+
+    fn midpoint(self, other: usize) -> usize {
+        (self & other) + ((self ^ other) >> 1)
+    }
+
+    fn saturating_add(self, other: usize) -> usize {
+        let sum = self.wrapping_add(other);
+        if sum < self { usize::MAX } else { sum }
+    }
+
     fn saturating_sub(self, other: usize) -> usize {
         if self > other { self - other } else { 0 }
+    }
+
+    fn checked_add(self, other: usize) -> Option<usize> {
+        let sum = self.wrapping_add(other);
+        if sum < self { None } else { Some(sum) }
+    }
+
+    fn checked_sub(self, other: usize) -> Option<usize> {
+        if self < other { None } else { Some(self - other) }
     }
 }

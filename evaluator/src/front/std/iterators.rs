@@ -201,6 +201,26 @@ impl Iterator {
 }
 
 impl Array {
+    fn swap<T>(items: &mut [T], a: usize, b: usize) {
+        let first = items[a];
+        items[a] = items[b];
+        items[b] = first;
+    }
+
+    fn reverse<T>(items: &mut [T]) {
+        for k in 0..items.len() / 2 {
+            let first = items[k];
+            items[k] = items[items.len() - 1 - k];
+            items[items.len() - 1 - k] = first;
+        }
+    }
+
+    fn fill<T>(items: &mut [T], value: T) {
+        for k in 0..items.len() {
+            items[k] = value;
+        }
+    }
+
     fn first<T>(items: &[T]) -> Option<&T> {
         if items.len() > 0 { Some(&items[0]) } else { None }
     }

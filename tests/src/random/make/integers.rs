@@ -185,11 +185,11 @@ impl Maker {
         }
     }
 
-    /// A `usize`, kept small: natively it has 64 bits.
+    /// A `usize` that is small, of numbers that need not be: hashes, and what is below 0 as an i32.
     pub(super) fn size(&mut self, want: Want) -> String {
         let d = want.deeper();
         let own = d.inferred(false);
-        match self.random.below(9) {
+        match self.random.below(13) {
             0..=1 => {
                 let op = self.random.pick(&["+", "+", "*"]);
                 let (a, n) = (self.expr(&Ty::Usize, own), self.random.between(1, 3));
@@ -222,6 +222,33 @@ impl Maker {
                 } else {
                     format!("{}.len()", self.random.pick(&arrays))
                 }
+            }
+            8 => {
+                let hash = self.expr(&Ty::U32, own);
+                format!(
+                    "({hash} as usize {} {})",
+                    self.random.pick(&["%", "%", "&"]),
+                    self.random.between(1, 63)
+                )
+            }
+            9 => {
+                let hash = self.expr(&Ty::U32, own);
+                format!("(({hash} as usize / {}) % 61)", self.random.pick(&[3, 1000, 65_536]))
+            }
+            10 => {
+                let place = self.expr(&Ty::I32, own);
+                let n = self.random.between(1, 9);
+                match self.random.below(4) {
+                    0 => format!("({place} as usize).min({n})"),
+                    1 => format!("(({place} as usize) < {n}) as usize"),
+                    2 => format!("({place} as usize & {n})"),
+                    _ => format!("(({place} as usize).wrapping_sub({n}) % 32)"),
+                }
+            }
+            11 => {
+                let (a, b) = (self.expr(&Ty::U32, own), self.expr(&Ty::Usize, own));
+                let op = self.random.pick(&["wrapping_add", "wrapping_sub", "wrapping_mul"]);
+                format!("(({a} as usize).{op}({b}) & 31)")
             }
             _ => self.leaf(&Ty::Usize, want),
         }

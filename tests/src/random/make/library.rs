@@ -206,8 +206,12 @@ impl Maker {
                 format!("{a}.{name}({} & 31)", self.expr(&Ty::U32, own))
             }
             4 if !signed => {
-                let name = self.random.pick(&["saturating_add", "saturating_sub"]);
-                format!("{a}.{name}({})", self.expr(ty, given))
+                let b = self.expr(ty, given);
+                match self.random.below(5) {
+                    0 => format!("{a}.checked_add({b}).unwrap_or(7)"),
+                    1 => format!("{a}.checked_sub({b}).unwrap_or(9)"),
+                    k => format!("{a}.{}({b})", ["saturating_add", "saturating_sub", "midpoint"][k - 2]),
+                }
             }
             5 if !signed => {
                 let b = self.expr(ty, own);

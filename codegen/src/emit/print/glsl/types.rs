@@ -28,7 +28,7 @@ pub fn shape(kind: TextureKind) -> &'static str {
 fn prefix(scalar: Scalar) -> &'static str {
     match scalar {
         Scalar::I32 => "i",
-        Scalar::U32 => "u",
+        Scalar::U32 | Scalar::Usize => "u",
         Scalar::F32 | Scalar::Bool => "",
     }
 }
@@ -71,7 +71,7 @@ pub fn type_name(ty: Ty) -> String {
         Type::Value { scalar, components: 1 } => match scalar {
             Scalar::F32 => "float",
             Scalar::I32 => "int",
-            Scalar::U32 => "uint",
+            Scalar::U32 | Scalar::Usize => "uint",
             Scalar::Bool => "bool",
         }
         .to_owned(),
@@ -82,7 +82,7 @@ pub fn type_name(ty: Ty) -> String {
             let kind = match scalar {
                 Scalar::F32 => "",
                 Scalar::I32 => "i",
-                Scalar::U32 => "u",
+                Scalar::U32 | Scalar::Usize => "u",
                 Scalar::Bool => "b",
             };
             format!("{kind}vec{lanes}")

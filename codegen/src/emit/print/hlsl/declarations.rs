@@ -116,7 +116,7 @@ pub fn type_name(ty: Ty) -> String {
         Some(Scalar::F32) if ty.half => "half",
         Some(Scalar::F32) => "float",
         Some(Scalar::I32) => "int",
-        Some(Scalar::U32) => "uint",
+        Some(Scalar::U32 | Scalar::Usize) => "uint",
         Some(Scalar::Bool) => "bool",
         None => return "void".to_owned(),
     };

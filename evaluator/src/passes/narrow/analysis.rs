@@ -1,0 +1,292 @@
+//! The extents of all runtime `usize` of a graph, loops included.
+
+use super::Facts;
+use super::extent::{Extent, WORD};
+use crate::ir::{BinaryOp, Graph, NodeId, Op, RegionId, Scalar, Type, UnaryOp, usize_value};
+use crate::passes::ranges;
+use std::collections::HashMap;
+
+/// Iterations that no loop of a shader makes.
+const LONGEST_LOOP: i128 = 1 << 24;
+
+/// Rounds before what still grows in a loop is taken to grow on, and after which nothing is known of it.
+const WIDEN: u32 = 4;
+const GIVE_UP: u32 = 40;
+
+/// What is known of each `usize`.
+pub struct Analysis<'g> {
+    pub graph: &'g Graph,
+    facts: &'g Facts,
+    /// Conversions that are capped, and where.
+    caps: &'g HashMap<NodeId, i128>,
+    extents: Vec<Extent>,
+    /// The loop or branch of each region.
+    owners: HashMap<RegionId, NodeId>,
+}
+
+/// Whether a node is a `usize`, or an array of them.
+pub fn is_wide(graph: &Graph, id: NodeId) -> bool {
+    graph.ty(id).kind() == Some(Scalar::Usize)
+}
+
+impl<'g> Analysis<'g> {
+    /// Finds the extents.
+    pub fn of(graph: &'g Graph, facts: &'g Facts, caps: &'g HashMap<NodeId, i128>) -> Analysis<'g> {
+        let mut owners = HashMap::new();
+        for id in graph.ids() {
+            owners.extend(graph.regions_of(id).into_iter().map(|region| (region, id)));
+        }
+        let mut analysis = Analysis {
+            graph,
+            facts,
+            caps,
+            extents: vec![Extent::range(0, 0); graph.nodes.len()],
+            owners,
+        };
+        let mut carried: HashMap<NodeId, Extent> = HashMap::new();
+        for round in 0..=GIVE_UP {
+            for id in graph.ids().filter(|id| is_wide(graph, *id)) {
+                let found = analysis.extent(id, &carried);
+                analysis.extents[id.0 as usize] = found;
+            }
+            if !analysis.carry(&mut carried, round) {
+                break;
+            }
+        }
+        analysis
+    }
+
+    /// Takes what loops carry over into their next iteration. Returns whether that is more than before.
+    fn carry(&self, carried: &mut HashMap<NodeId, Extent>, round: u32) -> bool {
+        let mut changed = false;
+        for (k, node) in self.graph.nodes.iter().enumerate() {
+            let Op::Loop(region) = node.op else { continue };
+            let entry = self.graph.region(region);
+            if !self.owners.contains_key(&region) || self.owners[&region].0 as usize != k {
+                continue;
+            }
+            for (param, result) in entry.params.iter().skip(1).zip(&entry.results) {
+                if !is_wide(self.graph, *param) {
+                    continue;
+                }
+                let before = self.known(*param);
+                let after = before.join(self.known(*result));
+                if after != before {
+                    changed = true;
+                    let wider = match round {
+                        GIVE_UP.. => Extent::Lost,
+                        WIDEN.. => widened(before, after),
+                        _ => after,
+                    };
+                    carried.insert(*param, wider);
+                }
+            }
+        }
+        changed
+    }
+
+    /// What is known of a `usize`.
+    pub fn known(&self, id: NodeId) -> Extent {
+        self.extents[id.0 as usize]
+    }
+
+    /// What is known of an argument of a node.
+    pub fn arg(&self, id: NodeId, k: usize) -> Extent {
+        self.known(self.graph.node(id).args[k])
+    }
+
+    /// Whether a difference wraps by intention.
+    fn wraps(&self, id: NodeId) -> bool {
+        self.facts.wrapping.contains(&id)
+    }
+
+    fn extent(&self, id: NodeId, carried: &HashMap<NodeId, Extent>) -> Extent {
+        let node = self.graph.node(id);
+        let of = |k: usize| self.known(node.args[k]);
+        let found = match &node.op {
+            Op::Const(bits) => {
+                let value = i128::from(usize_value(bits) as i64);
+                Extent::range(value, value)
+            }
+            Op::Unused => Extent::range(0, 0),
+            Op::Convert => self.converted(id),
+            Op::Unary(UnaryOp::BitNot) => of(0).inverted(),
+            Op::Unary(UnaryOp::CountOneBits) if of(0).is_exact() => Extent::range(0, 32),
+            Op::Binary(BinaryOp::Add) => of(0).plus(of(1)),
+            Op::Binary(BinaryOp::Sub) => of(0).minus(of(1), self.wraps(id)),
+            Op::Binary(BinaryOp::Mul) => of(0).times(of(1)),
+            Op::Binary(BinaryOp::Div) => of(0).divided(of(1)).unwrap_or(Extent::Lost),
+            Op::Binary(BinaryOp::Rem) => of(0).rest(of(1)).unwrap_or(Extent::Lost),
+            Op::Binary(BinaryOp::And) => of(0).masked(of(1)),
+            Op::Binary(BinaryOp::Or | BinaryOp::Xor) => of(0).mixed(of(1)),
+            Op::Binary(BinaryOp::Shl) => power(of(1)).map_or(Extent::Lost, |by| of(0).times(by)),
+            Op::Binary(BinaryOp::Shr) => power(of(1)).and_then(|by| of(0).divided(by)).unwrap_or(Extent::Lost),
+            Op::Binary(BinaryOp::Min) => of(0).smaller(of(1)),
+            Op::Binary(BinaryOp::Max) => of(0).larger(of(1)),
+            Op::Clamp => of(0).larger(of(1)).smaller(of(2)),
+            Op::Select => {
+                let condition = node.args[0];
+                let side = |k: usize, holds| self.under(node.args[k], condition, holds);
+                side(1, true).join(side(2, false))
+            }
+            Op::MakeArray => node
+                .args
+                .iter()
+                .map(|id| self.known(*id))
+                .reduce(Extent::join)
+                .unwrap_or(Extent::Lost),
+            Op::ArraySet => of(0).join(of(2)),
+            Op::ArrayGet | Op::Tally(_) | Op::Message(_) => of(0),
+            Op::Param(region, 0) => self.counter(*region),
+            Op::Param(region, k) => {
+                let owner = self.owners.get(region).map(|owner| self.graph.node(*owner));
+                let first = owner.and_then(|owner| owner.args.get(*k as usize + 1));
+                let first = first.map_or(Extent::Lost, |first| self.known(*first));
+                carried.get(&id).map_or(first, |carried| carried.join(first))
+            }
+            Op::Result(k) => {
+                let (owner, k) = (self.graph.node(node.args[0]), *k as usize);
+                let results = |region: &RegionId| self.known(self.graph.region(*region).results[k]);
+                match &owner.op {
+                    Op::Loop(region) => self.known(owner.args[k + 2]).join(results(region)),
+                    Op::If(then, otherwise) => {
+                        let side = |region: &RegionId, holds| {
+                            self.under(self.graph.region(*region).results[k], owner.args[0], holds)
+                        };
+                        side(then, true).join(side(otherwise, false))
+                    }
+                    _ => Extent::Lost,
+                }
+            }
+            _ => Extent::Lost,
+        };
+        match self.facts.counters.get(&id) {
+            Some((start, end)) => self.between(*start, *end).unwrap_or(found),
+            None => found,
+        }
+    }
+
+    /// The loop or branch of a region.
+    pub fn owner(&self, region: RegionId) -> Option<NodeId> {
+        self.owners.get(&region).copied()
+    }
+
+    /// What is known of a value where a comparison of it with a constant holds, or where it does not.
+    fn under(&self, id: NodeId, condition: NodeId, holds: bool) -> Extent {
+        let (whole, node) = (self.known(id), self.graph.node(condition));
+        let (Op::Binary(op), Some((low, high)), [first, second]) = (&node.op, whole.bounds(), node.args.as_slice())
+        else {
+            return whole;
+        };
+        let (other, op) = match (*first == id, *second == id) {
+            (true, false) => (*second, *op),
+            (false, true) => (
+                *first,
+                match op {
+                    BinaryOp::Lt => BinaryOp::Gt,
+                    BinaryOp::Le => BinaryOp::Ge,
+                    BinaryOp::Gt => BinaryOp::Lt,
+                    BinaryOp::Ge => BinaryOp::Le,
+                    op => *op,
+                },
+            ),
+            _ => return whole,
+        };
+        if !is_wide(self.graph, other) || !whole.is_ordered_with(self.known(other)) {
+            return whole;
+        }
+        let Some((least, most)) = self.known(other).bounds() else {
+            return whole;
+        };
+        // Of negative ones, which are the largest, and of others.
+        let bounded = |low: i128, high: i128| match low <= high {
+            true => Extent::range(low, high),
+            false => whole,
+        };
+        match (op, holds) {
+            (BinaryOp::Eq, true) | (BinaryOp::Ne, false) => self.known(other),
+            (BinaryOp::Eq, false) | (BinaryOp::Ne, true) if least == most && least == low => bounded(low + 1, high),
+            (BinaryOp::Eq, false) | (BinaryOp::Ne, true) if least == most && least == high => bounded(low, high - 1),
+            (BinaryOp::Lt, true) | (BinaryOp::Ge, false) if least >= 0 => bounded(low.max(0), high.min(most - 1)),
+            (BinaryOp::Le, true) | (BinaryOp::Gt, false) if least >= 0 => bounded(low.max(0), high.min(most)),
+            _ => whole,
+        }
+    }
+
+    /// A number that becomes a `usize`.
+    fn converted(&self, id: NodeId) -> Extent {
+        let from = self.graph.node(id).args[0];
+        let cap = self.caps.get(&id).copied();
+        let (low, high) = match self.graph.ty(from) {
+            Type::F32 => match ranges::float_bounds(self.graph, from, 0) {
+                Some((_, high)) if high < WORD as f32 => (0, i128::from(high.max(0.0) as u64)),
+                _ => (0, i128::MAX),
+            },
+            Type::BOOL => (0, 1),
+            ty => {
+                let (low, high) = ranges::bounds(self.graph, from).unwrap_or(match ty {
+                    Type::U32 => (0, u32::MAX.into()),
+                    _ => (i32::MIN.into(), i32::MAX.into()),
+                });
+                (low.into(), i128::from(high))
+            }
+        };
+        match cap {
+            Some(cap) if low < 0 || high > cap => Extent::capped(low.max(0), cap, Some(cap)),
+            None if high == i128::MAX => Extent::capped(0, WORD - 1, Some(WORD - 1)),
+            _ => Extent::range(low, high),
+        }
+    }
+
+    /// The counter of a loop.
+    fn counter(&self, region: RegionId) -> Extent {
+        let Some(owner) = self.owners.get(&region) else {
+            return Extent::Lost;
+        };
+        let (start, end) = (self.arg(*owner, 0), self.arg(*owner, 1));
+        let (
+            Extent::Known { low, high, .. },
+            Extent::Known {
+                low: from, high: to, ..
+            },
+        ) = (start, end)
+        else {
+            return Extent::Lost;
+        };
+        let farthest = high + LONGEST_LOOP;
+        let last = if from < 0 { farthest } else { (to - 1).min(farthest) };
+        Extent::range(low, last.max(low))
+    }
+
+    /// What lies between the ends of a range.
+    fn between(&self, start: NodeId, end: NodeId) -> Option<Extent> {
+        let ((low, high), (from, to)) = (self.known(start).bounds()?, self.known(end).bounds()?);
+        let last = if from < 0 { i32::MAX.into() } else { to };
+        (low >= 0).then(|| Extent::range(low, last.max(high)))
+    }
+}
+
+/// 2 to the power of a shift's count, which a shader may shift by.
+pub fn power(count: Extent) -> Option<Extent> {
+    let (low, high) = count.bounds()?;
+    (low >= 0 && high < 32).then(|| Extent::range(1 << low, 1 << high))
+}
+
+/// What goes on growing.
+fn widened(before: Extent, after: Extent) -> Extent {
+    match (before, after) {
+        (
+            Extent::Known {
+                low, counted: false, ..
+            },
+            Extent::Known {
+                low: least,
+                high,
+                cap: None,
+                ..
+            },
+        ) if least >= low && high <= super::extent::COUNTED => Extent::counted(low),
+        (_, after) if after.has_bits() => Extent::Modular,
+        _ => Extent::Lost,
+    }
+}

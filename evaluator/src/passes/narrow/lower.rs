@@ -1,0 +1,297 @@
+//! The graph with an `i32` or a `u32` for each `usize`.
+
+use super::analysis::{Analysis, is_wide, power};
+use super::extent::{Extent, WORD};
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, RegionId, Replace, Scalar, Type, UnaryOp, usize_value};
+use std::collections::HashMap;
+
+/// Builds the graph again.
+pub struct Lower<'a> {
+    of: &'a Analysis<'a>,
+    graph: &'a Graph,
+    caps: &'a HashMap<NodeId, i128>,
+    /// The kind of the elements of all arrays.
+    arrays: Scalar,
+    /// The kind of a region's result, by its position.
+    results: HashMap<(RegionId, usize), Scalar>,
+    /// Operations that the shader would compute otherwise.
+    refused: Vec<NodeId>,
+    /// As these, of operands that are lost.
+    following: Vec<NodeId>,
+}
+
+/// What stands for the nodes so far.
+type New<'n> = &'n [Option<NodeId>];
+
+impl<'a> Lower<'a> {
+    pub fn new(of: &'a Analysis<'a>, caps: &'a HashMap<NodeId, i128>) -> Lower<'a> {
+        let graph = of.graph;
+        let arrays = graph.ids().filter(|id| graph.ty(*id).is_array() && is_wide(graph, *id));
+        let arrays = match arrays.into_iter().all(|id| of.known(id).is_signed()) {
+            true => Scalar::I32,
+            false => Scalar::U32,
+        };
+        let mut lower = Lower {
+            of,
+            graph,
+            caps,
+            arrays,
+            results: HashMap::new(),
+            refused: Vec::new(),
+            following: Vec::new(),
+        };
+        for id in graph.ids() {
+            match &graph.node(id).op {
+                Op::Loop(body) => {
+                    let params = graph.region(*body).params.iter().skip(1).enumerate();
+                    for (k, param) in params.filter(|(_, param)| is_wide(graph, **param)) {
+                        let kind = lower.own_kind(*param);
+                        lower.results.insert((*body, k), kind);
+                    }
+                }
+                Op::If(then, otherwise) => {
+                    let pairs = graph
+                        .region(*then)
+                        .results
+                        .iter()
+                        .zip(&graph.region(*otherwise).results);
+                    for (k, (a, b)) in pairs.enumerate().filter(|(_, (a, _))| is_wide(graph, **a)) {
+                        let kind = match graph.ty(*a).is_array() {
+                            true => arrays,
+                            false => kind_of(of.known(*a).join(of.known(*b))),
+                        };
+                        lower.results.insert((*then, k), kind);
+                        lower.results.insert((*otherwise, k), kind);
+                    }
+                }
+                _ => {}
+            }
+        }
+        lower
+    }
+
+    /// Operations that the shader would compute otherwise; of those that follow from each other the first.
+    pub fn refused(self) -> Vec<NodeId> {
+        match self.refused.is_empty() {
+            true => self.following,
+            false => self.refused,
+        }
+    }
+
+    /// The kind by a node's own extent.
+    fn own_kind(&self, id: NodeId) -> Scalar {
+        match self.graph.ty(id).is_array() {
+            true => self.arrays,
+            false => kind_of(self.of.known(id)),
+        }
+    }
+
+    /// The kind that stands for a `usize`.
+    fn kind(&self, id: NodeId) -> Scalar {
+        let node = self.graph.node(id);
+        match node.op {
+            Op::Param(region, 0) => self.counted_in(region),
+            Op::Result(k) => {
+                let region = self.graph.regions_of(node.args[0]).first().copied();
+                let kind = region.and_then(|region| self.results.get(&(region, k as usize)));
+                kind.copied().unwrap_or(Scalar::U32)
+            }
+            _ => self.own_kind(id),
+        }
+    }
+
+    /// The kind of a loop's counter.
+    fn counted_in(&self, region: RegionId) -> Scalar {
+        match self.of.owner(region) {
+            Some(owner) if (0..2).all(|k| self.of.arg(owner, k).is_natural()) => Scalar::I32,
+            _ => Scalar::U32,
+        }
+    }
+
+    /// What stands for a node, as a kind.
+    fn as_kind(&self, b: &mut Builder<'_>, old: NodeId, kind: Scalar, new: New<'_>) -> NodeId {
+        if let Op::Const(bits) = &self.graph.node(old).op {
+            return b.constant(Type::scalar(kind), [usize_value(bits) as u32, 0, 0, 0]);
+        }
+        let id = new[old.0 as usize].expect("arguments are built before their users");
+        convert(b, id, kind)
+    }
+
+    /// An operation on arguments of a kind.
+    fn operation(&self, b: &mut Builder<'_>, old: NodeId, kind: Scalar, ty: Type, new: New<'_>) -> NodeId {
+        let node = self.graph.node(old);
+        let args: Vec<NodeId> = node.args.iter().map(|arg| self.as_kind(b, *arg, kind, new)).collect();
+        b.add(node.op.clone(), args, ty)
+    }
+
+    /// The kind in which numbers are ordered as they are natively.
+    fn ordered(&self, args: &[NodeId]) -> Scalar {
+        match args.iter().all(|arg| self.of.known(*arg).is_natural()) {
+            true => Scalar::I32,
+            false => Scalar::U32,
+        }
+    }
+
+    /// Whether a shader computes an operation as it is computed natively.
+    fn is_same(&self, id: NodeId) -> bool {
+        let node = self.graph.node(id);
+        let of = |k: usize| self.of.known(node.args[k]);
+        match &node.op {
+            Op::Binary(BinaryOp::Div) => of(0).divided(of(1)).is_some(),
+            Op::Binary(BinaryOp::Rem) => of(0).rest(of(1)).is_some(),
+            Op::Binary(BinaryOp::Shl) => power(of(1)).is_some(),
+            Op::Binary(BinaryOp::Shr) => power(of(1)).is_some_and(|by| of(0).divided(by).is_some()),
+            Op::Binary(BinaryOp::Min | BinaryOp::Max) => of(0).is_ordered_with(of(1)),
+            Op::Binary(op) if op.is_comparison() => of(0).is_ordered_with(of(1)),
+            Op::Clamp => of(0).is_ordered_with(of(1)) && of(0).larger(of(1)).is_ordered_with(of(2)),
+            Op::Loop(_) => of(0).is_ordered_with(of(1)),
+            Op::Convert if node.ty == Type::F32 => of(0).is_exact() || self.from_float(id).is_some(),
+            Op::Convert if !is_wide(self.graph, id) => of(0).has_bits(),
+            Op::Bitcast => of(0) != Extent::Lost,
+            Op::Unary(UnaryOp::BitNot) => true,
+            Op::Unary(_) => self.of.known(id) != Extent::Lost,
+            _ => true,
+        }
+    }
+
+    /// The float that a float is the `usize` of.
+    fn from_float(&self, id: NodeId) -> Option<NodeId> {
+        let inner = self.graph.node(self.graph.node(id).args[0]);
+        let float = *inner.args.first()?;
+        (inner.op == Op::Convert && self.graph.ty(float) == Type::F32).then_some(float)
+    }
+
+    /// A number that becomes a `usize`.
+    fn widen(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
+        let from = self.graph.node(old).args[0];
+        let id = new[from.0 as usize].expect("arguments are built before their users");
+        let mut id = match b.graph().ty(id) {
+            Type::F32 => convert(b, id, Scalar::U32),
+            _ => id,
+        };
+        if let (Extent::Known { cap: Some(cap), .. }, Some(_)) = (self.of.known(old), self.caps.get(&old)) {
+            let unsigned = convert(b, id, Scalar::U32);
+            let cap = b.constant(Type::U32, [cap as u32, 0, 0, 0]);
+            id = b.add(Op::Binary(BinaryOp::Min), [unsigned, cap], Type::U32);
+        }
+        convert(b, id, self.kind(old))
+    }
+
+    /// A `usize` as a float.
+    fn to_float(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
+        let whole = self.graph.node(old).args[0];
+        let kind = self.ordered(&[whole]);
+        let (Some(float), false) = (self.from_float(old), self.of.known(whole).is_exact()) else {
+            let whole = self.as_kind(b, whole, kind, new);
+            return convert(b, whole, Scalar::F32);
+        };
+        // What does not fit into 32 bits is a whole number.
+        let x = new[float.0 as usize].expect("arguments are built before their users");
+        let [word, most] = [b.f32(WORD as f32), b.f32(u64::MAX as f32)];
+        let large = b.add(Op::Binary(BinaryOp::Ge), [x, word], Type::BOOL);
+        let bounded = b.add(Op::Binary(BinaryOp::Min), [x, most], Type::F32);
+        let whole = convert(b, x, Scalar::U32);
+        let small = convert(b, whole, Scalar::F32);
+        b.add(Op::Select, [large, bounded, small], Type::F32)
+    }
+}
+
+impl Replace for Lower<'_> {
+    fn begin(&mut self, _: &mut Builder<'_>) {}
+
+    fn node(&mut self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> Option<NodeId> {
+        let node = self.graph.node(old);
+        let wide = is_wide(self.graph, old);
+        if !wide && !node.args.iter().any(|arg| is_wide(self.graph, *arg)) {
+            return None;
+        }
+        if !self.is_same(old) {
+            let lost = |arg: &NodeId| is_wide(self.graph, *arg) && self.of.known(*arg) == Extent::Lost;
+            match node.args.iter().any(lost) {
+                true => self.following.push(old),
+                false => self.refused.push(old),
+            }
+        }
+        let own = match wide {
+            true => self.kind(old),
+            false => Scalar::I32,
+        };
+        let ty = node.ty.with_scalar(own);
+        Some(match &node.op {
+            Op::Const(bits) => b.constant(ty, [usize_value(bits) as u32, 0, 0, 0]),
+            Op::Unused => b.intern(Op::Unused, Vec::new(), ty),
+            Op::Convert if wide => self.widen(b, old, new),
+            Op::Convert if node.ty == Type::F32 => self.to_float(b, old, new),
+            Op::Convert | Op::Bitcast => {
+                let kind = node.ty.kind().unwrap_or(Scalar::I32);
+                self.as_kind(b, node.args[0], kind, new)
+            }
+            Op::Binary(op) if op.is_comparison() => {
+                let by_bits = matches!(op, BinaryOp::Eq | BinaryOp::Ne);
+                let kind = match by_bits && node.args.iter().all(|arg| self.of.known(*arg).is_signed()) {
+                    true => Scalar::I32,
+                    false => self.ordered(&node.args),
+                };
+                self.operation(b, old, kind, node.ty, new)
+            }
+            Op::Clamp | Op::Binary(BinaryOp::Div | BinaryOp::Rem | BinaryOp::Shr | BinaryOp::Min | BinaryOp::Max) => {
+                let kind = self.ordered(&node.args);
+                let found = self.operation(b, old, kind, Type::scalar(kind), new);
+                convert(b, found, own)
+            }
+            Op::Binary(_) | Op::Unary(_) => self.operation(b, old, own, ty, new),
+            Op::Select => {
+                let condition = new[node.args[0].0 as usize]?;
+                let [yes, no] = [1, 2].map(|k| self.as_kind(b, node.args[k], own, new));
+                b.add(Op::Select, [condition, yes, no], ty)
+            }
+            Op::MakeArray => self.operation(b, old, self.arrays, ty, new),
+            Op::ArrayGet => {
+                let args = [new[node.args[0].0 as usize]?, new[node.args[1].0 as usize]?];
+                let element = b.add(Op::ArrayGet, args, Type::scalar(self.arrays));
+                convert(b, element, own)
+            }
+            Op::ArraySet => {
+                let element = self.as_kind(b, node.args[2], self.arrays, new);
+                let args = [new[node.args[0].0 as usize]?, new[node.args[1].0 as usize]?, element];
+                b.add(Op::ArraySet, args, ty)
+            }
+            Op::Tally(_) | Op::Message(_) => self.operation(b, old, own, ty, new),
+            _ => return None,
+        })
+    }
+
+    fn ty(&self, old: NodeId, ty: Type) -> Type {
+        match ty.kind() {
+            Some(Scalar::Usize) => ty.with_scalar(self.kind(old)),
+            _ => ty,
+        }
+    }
+
+    fn bound(&mut self, b: &mut Builder<'_>, region: RegionId, old: NodeId, new: New<'_>) -> Option<NodeId> {
+        is_wide(self.graph, old).then(|| self.as_kind(b, old, self.counted_in(region), new))
+    }
+
+    fn passed(&mut self, b: &mut Builder<'_>, region: RegionId, k: usize, old: NodeId, new: New<'_>) -> Option<NodeId> {
+        if !is_wide(self.graph, old) || self.graph.ty(old).is_array() {
+            return None;
+        }
+        let kind = *self.results.get(&(region, k))?;
+        Some(self.as_kind(b, old, kind, new))
+    }
+}
+
+/// The kind that holds the bits of a `usize`: an `i32` where they fit.
+fn kind_of(extent: Extent) -> Scalar {
+    match extent.is_signed() {
+        true => Scalar::I32,
+        false => Scalar::U32,
+    }
+}
+
+fn convert(b: &mut Builder<'_>, id: NodeId, kind: Scalar) -> NodeId {
+    match b.graph().ty(id).kind() == Some(kind) {
+        true => id,
+        false => b.add(Op::Convert, [id], Type::scalar(kind)),
+    }
+}

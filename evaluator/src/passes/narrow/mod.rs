@@ -1,0 +1,76 @@
+//! Runtime values of `usize`, which natively has 64 bits, in the 32 bits of a shader.
+//!
+//! A `usize` becomes an `i32` where its bits fit there, else a `u32`, with the lower bits of the native value. An operation
+//! that looks at more than lower bits (`/`, `%`, `<`, `as f32`, ...) is one of the shader where the values that its
+//! operands may have show that it gives the native result; an index that may be too large for that is held below a
+//! bound first, beyond which no array and no buffer reaches; and what is left is refused.
+
+mod analysis;
+mod extent;
+mod lower;
+mod refuse;
+
+use crate::diagnostic::Span;
+use crate::ir::{Graph, NodeId, Rebuild, rebuild_replacing};
+use analysis::{Analysis, is_wide};
+use std::collections::{HashMap, HashSet};
+
+pub use refuse::Refusal;
+
+/// What evaluation knows of values of `usize`.
+#[derive(Default)]
+pub struct Facts {
+    /// Counters that are computed, with the start and the end of their ranges.
+    pub counters: HashMap<NodeId, (NodeId, NodeId)>,
+    /// Differences that wrap by intention.
+    pub wrapping: HashSet<NodeId>,
+    /// Where each node was made; of later nodes nothing is known.
+    pub places: Vec<Span>,
+}
+
+/// Where numbers are held that are too large to be computed with.
+const CAPS: [i128; 4] = [1 << 30, 1 << 28, 1 << 24, 1 << 20];
+
+/// The same kernel without a `usize`; `None` if it has none.
+///
+/// # Errors
+///
+/// Operations whose results may differ from the native ones.
+pub fn narrow(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<Refusal>> {
+    if !graph.ids().any(|id| is_wide(graph, id)) {
+        return Ok(None);
+    }
+    let mut caps: HashMap<NodeId, i128> = HashMap::new();
+    loop {
+        let analysis = Analysis::of(graph, facts, &caps);
+        let mut lower = lower::Lower::new(&analysis, &caps);
+        let rebuild = Rebuild {
+            rules: &super::Exact,
+            share_loads: false,
+        };
+        let narrowed = rebuild_replacing(graph, &rebuild, &mut lower);
+        let refused = lower.refused();
+        if refused.is_empty() {
+            return Ok(Some(narrowed));
+        }
+        let leaves = refuse::leaves(graph, &refused);
+        let mut next = caps.clone();
+        for leaf in leaves {
+            let before = caps.get(&leaf).copied().unwrap_or(i128::MAX);
+            if let Some(cap) = CAPS.into_iter().find(|cap| *cap < before) {
+                next.insert(leaf, cap);
+            }
+        }
+        if next == caps {
+            // Said of the values themselves, not of what has been tried with them.
+            let none = HashMap::new();
+            let analysis = Analysis::of(graph, facts, &none);
+            let mut lower = lower::Lower::new(&analysis, &none);
+            rebuild_replacing(graph, &rebuild, &mut lower);
+            let first = lower.refused();
+            let refused = if first.is_empty() { refused } else { first };
+            return Err(refuse::refusals(graph, facts, &refused));
+        }
+        caps = next;
+    }
+}
