@@ -231,7 +231,7 @@ fn an_error_of_all_of_a_kernel_is_at_its_name() {
         (1, "lens"),
         "{found:?}"
     );
-    // A file of several public functions, none of its name, is shown at its first line.
+    // A file of several public functions, none of its name, is shown at the first of them.
     let several = format!(
         "{text}{}",
         text.lines()
@@ -242,7 +242,9 @@ fn an_error_of_all_of_a_kernel_is_at_its_name() {
     );
     let other = write(&folder, "other.rs", &several);
     let (found, _) = messages(&["check", &other, "--message-format=json"]);
-    assert_eq!(marked(&found[0].spans[0]), "// fn lens is below");
+    let primary = found[0].spans.iter().find(|span| span.is_primary).expect("a place");
+    assert_eq!(marked(primary), "lens");
+    assert!(found[0].message.contains("several functions that may be its kernel: `lens`, `glow`"), "{found:?}");
 }
 
 #[test]

@@ -190,7 +190,13 @@ impl Kernel {
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
         let function = match function {
             Some(function) => function.to_owned(),
-            None => front::kernel_of(&text, stem, &shown).map_err(|error| Errors::of(*error))?,
+            None => front::kernel_of(&text, stem, &shown).map_err(|error| {
+                let file = File {
+                    path: shown.clone(),
+                    text: text.clone(),
+                };
+                Errors::new(vec![*error], &Arc::new(vec![file]))
+            })?,
         };
         Ok(Kernel::from_text(&shown, &text, &function))
     }

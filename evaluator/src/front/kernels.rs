@@ -28,54 +28,51 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
             _ => None,
         })
         .collect();
-    let public = functions.iter().filter(|f| matches!(f.vis, syn::Visibility::Public(_)));
-    let (mut named, mut of_pixels, mut of_numbers) = (false, Vec::new(), Vec::new());
+    let public = functions.iter().filter(|f| is_public(f));
+    let (mut of_pixels, mut of_numbers) = (Vec::new(), Vec::new());
     for function in public {
-        let name = function.sig.ident.to_string();
         match takes(&function.sig, &of_resources) {
-            Takes::Pixel => {
-                named |= name == wanted;
-                of_pixels.push(name);
-            }
-            Takes::Numbers => {
-                named |= name == wanted;
-                of_numbers.push(name);
-            }
+            Takes::Pixel => of_pixels.push(&function.sig.ident),
+            Takes::Numbers => of_numbers.push(&function.sig.ident),
             Takes::Other => {}
         }
     }
-    if named {
+    if of_pixels.iter().chain(&of_numbers).any(|name| *name == wanted) {
         return Ok(wanted.to_owned());
     }
     let found = if of_pixels.is_empty() { of_numbers } else { of_pixels };
-    match found.as_slice() {
-        [one] => Ok(one.clone()),
-        [] => {
-            let private = functions
-                .iter()
-                .any(|f| f.sig.ident == wanted && !matches!(f.vis, syn::Visibility::Public(_)));
-            let error = Diagnostic::new(format!(
-                "`{path}` has no public function that takes and gives what a kernel does"
-            ));
-            Err(Box::new(match private {
-                true => error.help(format!(
-                    "write `pub fn {wanted}`, or name the function: `{path}::{wanted}`"
-                )),
-                false => error
-                    .help("a kernel is a function such as `pub fn NAME(color: &Frame<Vec4>, pixel: IVec2) -> Vec4`"),
-            }))
-        }
-        several => {
-            let names: Vec<String> = several.iter().map(|name| format!("`{name}`")).collect();
-            let error = Diagnostic::new(format!(
-                "`{path}` has several functions that may be its kernel: {}",
-                names.join(", ")
-            ));
-            Err(Box::new(
-                error.help(format!("name one of them: `{path}::{}`", several[0])),
-            ))
-        }
+    let [first, others @ ..] = found.as_slice() else {
+        return Err(Box::new(no_kernel(&functions, wanted, path)));
+    };
+    if others.is_empty() {
+        return Ok(first.to_string());
     }
+    let names: Vec<String> = found.iter().map(|name| format!("`{name}`")).collect();
+    let what = format!("`{path}` has several functions that may be its kernel: {}", names.join(", "));
+    let mut error = Diagnostic::at(super::place(0, first.span()), what)
+        .label("one of them")
+        .help(format!("name one of them: `{path}::{first}`"));
+    for other in others {
+        error = error.other(super::place(0, other.span()), "another");
+    }
+    Err(Box::new(error))
+}
+
+/// The error of a file that has no kernel.
+fn no_kernel(functions: &[&syn::ItemFn], wanted: &str, path: &str) -> Diagnostic {
+    let what = format!("`{path}` has no public function that takes and gives what a kernel does");
+    let private = functions.iter().find(|f| f.sig.ident == wanted && !is_public(f));
+    match private {
+        Some(function) => Diagnostic::at(super::place(0, function.sig.ident.span()), what)
+            .label("private")
+            .help(format!("write `pub fn {wanted}`, or name the function: `{path}::{wanted}`")),
+        None => Diagnostic::new(what)
+            .help("a kernel is a function such as `pub fn NAME(color: &Frame<Vec4>, pixel: IVec2) -> Vec4`"),
+    }
+}
+
+fn is_public(function: &syn::ItemFn) -> bool {
+    matches!(function.vis, syn::Visibility::Public(_))
 }
 
 /// What a function takes.

@@ -126,6 +126,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
         Op::Compose => bounds_at(g, node.args[component as usize], 0, depth - 1),
         Op::Extract(k) => bounds_at(g, node.args[0], *k, depth - 1),
         Op::Tally(_) => of(0),
+        Op::Unary(UnaryOp::CountOneBits | UnaryOp::LeadingZeros | UnaryOp::TrailingZeros) => Some((0, 64)),
         Op::Binary(BinaryOp::Add) => corners(i64::saturating_add),
         Op::Binary(BinaryOp::Sub) => corners(i64::saturating_sub),
         Op::Binary(BinaryOp::Mul) => corners(i64::saturating_mul),
