@@ -244,7 +244,12 @@ fn an_error_of_all_of_a_kernel_is_at_its_name() {
     let (found, _) = messages(&["check", &other, "--message-format=json"]);
     let primary = found[0].spans.iter().find(|span| span.is_primary).expect("a place");
     assert_eq!(marked(primary), "lens");
-    assert!(found[0].message.contains("several functions that may be its kernel: `lens`, `glow`"), "{found:?}");
+    assert!(
+        found[0]
+            .message
+            .contains("several functions that may be its kernel: `lens`, `glow`"),
+        "{found:?}"
+    );
 }
 
 #[test]

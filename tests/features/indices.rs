@@ -77,7 +77,10 @@ pub fn usize_of_floats(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mixed = table[k] + (table[k + 1] - table[k]) * 0.5;
     let large = (here.y * 1.0e12) as usize;
     let below = ((here.z - 0.5) * 8.0) as usize;
-    vec4(mixed, large as f32, below as f32, large.min(40) as f32 + (here.w * 9.0) as u32 as usize as f32)
+    let (rest, even) = (large % 36, large % 8);
+    let bin = (here.w * 9.0) as usize % 7 + ((here.z - 0.75) * 1.0e20) as usize % 1000;
+    let bits = ((here.y * 7.0e9) as usize as u32 & 0xff) + ((here.x * 6.0e9) as usize & 0x7f) as u32;
+    vec4(mixed + bits as f32, large as f32 * 1.0e-6 + rest as f32, below as f32 + even as f32, large.min(40) as f32 + bin as f32)
 }
 
 //// `usize`: a ring of values
@@ -248,4 +251,35 @@ pub fn other_names(ids: &Frame<u32>, pixel: IVec2) -> Vec4 {
     let none = None::<u32>.unwrap_or(id & 7) + Option::<u32>::None.unwrap_or(2);
     let scaled = scaled::<_, 3>([id & 3, 1, id & 15]);
     vec4((renamed(id) & 0xff) as f32, none as f32, scaled as f32, first::<_, 2>([id & 1, 4], 9) as f32)
+}
+
+//// Functions of the kernel's that are named as those of Rust and glam
+fn min(a: f32, _: f32) -> f32 {
+    a * 8.0
+}
+
+fn from_fn(x: f32) -> f32 {
+    x + 2.0
+}
+
+fn halved<const N: usize>(v: [f32; N]) -> [f32; N] {
+    std::array::from_fn(|k| v[k] * 0.5)
+}
+
+pub fn names_of_rust(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let [a, b, ..] = halved(here.to_array());
+    vec4(f32::min(here.x, here.y), min(here.x, here.y), from_fn(a), Vec4::min(here, Vec4::splat(b)).z)
+}
+
+//// `Mat3::from_cols_array` and its like, `IVec2::NEG_X`, `Vec2::INFINITY`
+pub fn matrices_of_arrays(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    const TURN: Mat3 = Mat3::from_cols_array(&[0.5, 0.25, 0.0, -1.0, 2.0, 0.75, 0.125, 0.0, 1.0]);
+    let small = Mat2::from_cols_array_2d(&[[1.0, 2.0], [3.0, 4.0]]);
+    let here = color.load(pixel);
+    let turned = TURN * here.truncate();
+    let back = small.to_cols_array();
+    let beside = pixel + IVec2::NEG_X + IVec2::NEG_ONE * 2;
+    let least = Vec2::INFINITY.min(here.xy()) + Vec2::NEG_INFINITY.max(here.zw()) + Vec2::NEG_Y;
+    vec4(turned.x + turned.y, turned.z + back[1], (beside.x * 3 + beside.y) as f32, least.x - least.y)
 }

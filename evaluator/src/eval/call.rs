@@ -42,7 +42,11 @@ impl<'a> Evaluator<'a> {
         let library = self.library;
         let method = path.join("::");
         let function = library.functions.get(&method);
-        let function = function.or_else(|| library.functions.get(path.last()?));
+        let function = function.or_else(|| {
+            library
+                .functions
+                .get(path.last().filter(|_| crate::front::is_by_last(path))?)
+        });
         let is_type = |k: usize| {
             let generic = function.and_then(|function| function.generics.get(k));
             matches!(generic, Some(Generic::Type(_)) | None)
@@ -75,7 +79,7 @@ impl<'a> Evaluator<'a> {
                 return self.inline(&method, constants, values, span);
             }
         }
-        if self.library.functions.contains_key(last) {
+        if crate::front::is_by_last(path) && self.library.functions.contains_key(last) {
             return self.inline(last, constants, values, span);
         }
         if let Some(value) = self.exchange(path, &values, span)? {
@@ -230,8 +234,8 @@ impl<'a> Evaluator<'a> {
         bound.extend(self.types_of(function, constants, &args, span)?);
         let of_library = function.span.file == crate::front::std::FILE;
         let outer = self.scope.enter_function();
-        for (name, value) in bound {
-            self.scope.bind(&name, value);
+        for (name, value) in &bound {
+            self.scope.bind(name, value.clone());
         }
         for (param, value) in function.params.iter().zip(args) {
             let value = match self.ascribe(value, Some(&param.ty), span) {
@@ -260,6 +264,10 @@ impl<'a> Evaluator<'a> {
         });
         self.policy.unroll = unroll;
         self.calls.pop();
+        // Constant parameters hold in the type of the result too.
+        for (name, value) in &bound {
+            self.scope.bind(name, value.clone());
+        }
         let result = result.and_then(|value| self.ascribe(value, Some(&function.result), function.span));
         self.scope.leave_function(outer);
         if let Ok(value) = &result {

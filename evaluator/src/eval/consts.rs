@@ -56,13 +56,35 @@ impl Evaluator<'_> {
     }
 
     fn vector_constant(&mut self, kind: Scalar, lanes: u8, name: &str) -> Option<Value> {
-        let one = match kind {
-            Scalar::F32 => 1.0f32.to_bits(),
+        let (negated, name) = match name.strip_prefix("NEG_") {
+            Some(rest) if matches!(kind, Scalar::F32 | Scalar::I32) => (true, rest),
+            _ => (false, name),
+        };
+        let one = match (kind, negated) {
+            (Scalar::F32, false) => 1.0f32.to_bits(),
+            (Scalar::F32, true) => (-1.0f32).to_bits(),
+            (_, true) => -1_i32 as u32,
             _ => 1,
         };
+        let all = match (kind, name, negated) {
+            (Scalar::F32, "INFINITY", false) => Some(f32::INFINITY.to_bits()),
+            (Scalar::F32, "INFINITY", true) => Some(f32::NEG_INFINITY.to_bits()),
+            (Scalar::F32, "NAN", false) => Some(f32::NAN.to_bits()),
+            (Scalar::F32, "MAX", false) => Some(f32::MAX.to_bits()),
+            (Scalar::F32, "MIN", false) => Some(f32::MIN.to_bits()),
+            (Scalar::I32, "MAX", false) => Some(i32::MAX as u32),
+            (Scalar::I32, "MIN", false) => Some(i32::MIN as u32),
+            (Scalar::U32, "MAX", false) => Some(u32::MAX),
+            (Scalar::U32, "MIN", false) => Some(0),
+            _ => None,
+        };
         let mut bits = [0; 4];
+        if let Some(all) = all {
+            bits[..usize::from(lanes)].fill(all);
+            return Some(Value::Node(self.builder.constant(Type::value(kind, lanes), bits)));
+        }
         let axis = match name {
-            "ZERO" if kind != Scalar::Bool => 0..0,
+            "ZERO" if kind != Scalar::Bool && !negated => 0..0,
             "FALSE" if kind == Scalar::Bool => 0..0,
             "TRUE" if kind == Scalar::Bool => 0..lanes as usize,
             _ if kind == Scalar::Bool => return None,

@@ -47,6 +47,21 @@ fn method_of(name: &str, of: &str) -> bool {
     name.split_once("::").is_some_and(|(ty, _)| ty == of)
 }
 
+/// Whether a path may be that of a function by its last segment alone: of one in a module, which functions are found without. What
+/// stands behind a type, or in a module of the standard library, is none.
+pub fn is_by_last(path: &[String]) -> bool {
+    let [.., of, name] = path else {
+        return path.len() == 1;
+    };
+    let of_rust = match of.as_str() {
+        "array" => name == "from_fn",
+        "mem" => matches!(name.as_str(), "swap" | "replace" | "take"),
+        "cmp" => matches!(name.as_str(), "min" | "max"),
+        of => is_prelude_type(of),
+    };
+    !of_rust && !of.starts_with(char::is_uppercase)
+}
+
 /// Types of the prelude that a host binds.
 pub fn is_resource(name: &str) -> bool {
     let others = [

@@ -48,7 +48,10 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
         return Ok(first.to_string());
     }
     let names: Vec<String> = found.iter().map(|name| format!("`{name}`")).collect();
-    let what = format!("`{path}` has several functions that may be its kernel: {}", names.join(", "));
+    let what = format!(
+        "`{path}` has several functions that may be its kernel: {}",
+        names.join(", ")
+    );
     let mut error = Diagnostic::at(super::place(0, first.span()), what)
         .label("one of them")
         .help(format!("name one of them: `{path}::{first}`"));
@@ -65,7 +68,9 @@ fn no_kernel(functions: &[&syn::ItemFn], wanted: &str, path: &str) -> Diagnostic
     match private {
         Some(function) => Diagnostic::at(super::place(0, function.sig.ident.span()), what)
             .label("private")
-            .help(format!("write `pub fn {wanted}`, or name the function: `{path}::{wanted}`")),
+            .help(format!(
+                "write `pub fn {wanted}`, or name the function: `{path}::{wanted}`"
+            )),
         None => Diagnostic::new(what)
             .help("a kernel is a function such as `pub fn NAME(color: &Frame<Vec4>, pixel: IVec2) -> Vec4`"),
     }

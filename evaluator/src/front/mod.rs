@@ -43,7 +43,7 @@ use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
 
 pub use expr::INFERRED;
-pub use foreign::is_prelude_type;
+pub use foreign::{is_by_last, is_prelude_type};
 pub use kernels::kernel_of;
 pub use scan::{assigned, breaks, children, mentioned_in};
 pub use traits::is_of_rust;

@@ -45,7 +45,8 @@ impl<'l> Checker<'l> {
                 return self.signature(&path.join("::"), function, constants, None, args, span);
             }
         }
-        if let Some(function) = library.functions.get(last) {
+        let function = library.functions.get(last).filter(|_| crate::front::is_by_last(path));
+        if let Some(function) = function {
             return self.signature(last, function, constants, None, args, span);
         }
         if let Some(made) = self.constructed_by(path, args, span) {

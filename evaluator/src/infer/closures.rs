@@ -96,11 +96,11 @@ impl<'l> Checker<'l> {
     pub fn function_value(&mut self, path: &[String], span: Span) -> Option<Ty> {
         let library = self.library;
         let joined = path.join("::");
-        if let Some(function) = library
-            .functions
-            .get(&joined)
-            .or_else(|| library.functions.get(path.last()?))
-        {
+        if let Some(function) = library.functions.get(&joined).or_else(|| {
+            library
+                .functions
+                .get(path.last().filter(|_| crate::front::is_by_last(path))?)
+        }) {
             let given = self.instantiate(function, &[]);
             let params = function.params.iter().map(|p| self.substituted(&p.ty, &given, span));
             let params = params.collect();

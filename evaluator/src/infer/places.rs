@@ -321,7 +321,7 @@ fn known_constant(path: &[String]) -> Ty {
         "Mat3" => Ty::Matrix(3),
         "Mat4" => Ty::Matrix(4),
         "f32" => Ty::Float,
-        "i32" | "u32" if name == "BITS" => Ty::U32,
+        "i32" | "u32" | "usize" if name == "BITS" => Ty::U32,
         "i32" => Ty::I32,
         "u32" => Ty::U32,
         "usize" => Ty::USIZE,

@@ -216,3 +216,45 @@ impl Mat4 {
         Mat4::from_cols(x * scale, y * scale, z * scale, w * scale)
     }
 }
+
+impl Mat2 {
+    fn from_cols_array(m: &[f32; 4]) -> Mat2 {
+        Mat2::from_cols(vec2(m[0], m[1]), vec2(m[2], m[3]))
+    }
+
+    fn from_cols_array_2d(m: &[[f32; 2]; 2]) -> Mat2 {
+        Mat2::from_cols(vec2(m[0][0], m[0][1]), vec2(m[1][0], m[1][1]))
+    }
+
+    fn to_cols_array(self) -> [f32; 4] {
+        [self.x_axis.x, self.x_axis.y, self.y_axis.x, self.y_axis.y]
+    }
+}
+
+impl Mat3 {
+    fn from_cols_array(m: &[f32; 9]) -> Mat3 {
+        Mat3::from_cols(vec3(m[0], m[1], m[2]), vec3(m[3], m[4], m[5]), vec3(m[6], m[7], m[8]))
+    }
+
+    fn from_cols_array_2d(m: &[[f32; 3]; 3]) -> Mat3 {
+        Mat3::from_cols(vec3(m[0][0], m[0][1], m[0][2]), vec3(m[1][0], m[1][1], m[1][2]), vec3(m[2][0], m[2][1], m[2][2]))
+    }
+
+    fn to_cols_array(self) -> [f32; 9] {
+        [self.x_axis.x, self.x_axis.y, self.x_axis.z, self.y_axis.x, self.y_axis.y, self.y_axis.z, self.z_axis.x, self.z_axis.y, self.z_axis.z]
+    }
+}
+
+impl Mat4 {
+    fn from_cols_array(m: &[f32; 16]) -> Mat4 {
+        Mat4::from_cols(vec4(m[0], m[1], m[2], m[3]), vec4(m[4], m[5], m[6], m[7]), vec4(m[8], m[9], m[10], m[11]), vec4(m[12], m[13], m[14], m[15]))
+    }
+
+    fn from_cols_array_2d(m: &[[f32; 4]; 4]) -> Mat4 {
+        Mat4::from_cols(vec4(m[0][0], m[0][1], m[0][2], m[0][3]), vec4(m[1][0], m[1][1], m[1][2], m[1][3]), vec4(m[2][0], m[2][1], m[2][2], m[2][3]), vec4(m[3][0], m[3][1], m[3][2], m[3][3]))
+    }
+
+    fn to_cols_array(self) -> [f32; 16] {
+        [self.x_axis.x, self.x_axis.y, self.x_axis.z, self.x_axis.w, self.y_axis.x, self.y_axis.y, self.y_axis.z, self.y_axis.w, self.z_axis.x, self.z_axis.y, self.z_axis.z, self.z_axis.w, self.w_axis.x, self.w_axis.y, self.w_axis.z, self.w_axis.w]
+    }
+}

@@ -116,6 +116,11 @@ impl<'g> Analysis<'g> {
             Op::Binary(BinaryOp::Sub) => of(0).minus(of(1), self.wraps(id)),
             Op::Binary(BinaryOp::Mul) => of(0).times(of(1)),
             Op::Binary(BinaryOp::Div) => of(0).divided(of(1)).unwrap_or(Extent::Lost),
+            Op::Binary(BinaryOp::Rem | BinaryOp::And) if self.float_by(id).is_some() => match self.float_by(id) {
+                Some((_, by)) if node.op == Op::Binary(BinaryOp::And) => Extent::range(0, by.into()),
+                Some((_, by)) => Extent::range(0, i128::from(by) - 1),
+                None => Extent::Lost,
+            },
             Op::Binary(BinaryOp::Rem) => of(0).rest(of(1)).unwrap_or(Extent::Lost),
             Op::Binary(BinaryOp::And) => of(0).masked(of(1)),
             Op::Binary(BinaryOp::Or | BinaryOp::Xor) => of(0).mixed(of(1)),
@@ -164,6 +169,27 @@ impl<'g> Analysis<'g> {
             Some((start, end)) => self.between(*start, *end).unwrap_or(found),
             None => found,
         }
+    }
+
+    /// The float that an unbounded `usize` is made of, where no cap is asked for.
+    pub fn float_of(&self, id: NodeId) -> Option<NodeId> {
+        let node = self.graph.node(id);
+        let float = *node.args.first()?;
+        let made = node.op == Op::Convert && self.graph.ty(float) == Type::F32 && !self.caps.contains_key(&id);
+        (made && self.known(id).bounds().is_none()).then_some(float)
+    }
+
+    /// The float and the constant of a remainder or a mask of an unbounded float, whose 64 bits a shader can compute with.
+    pub fn float_by(&self, id: NodeId) -> Option<(NodeId, u32)> {
+        let node = self.graph.node(id);
+        let by = self.graph.constant(*node.args.get(1)?).map(|bits| usize_value(&bits))?;
+        let most = match node.op {
+            Op::Binary(BinaryOp::Rem) if by > 0 => u64::from(u16::MAX),
+            Op::Binary(BinaryOp::And) => u64::from(u32::MAX),
+            _ => return None,
+        };
+        let float = self.float_of(node.args[0])?;
+        (by <= most).then_some((float, by as u32))
     }
 
     /// The loop or branch of a region.

@@ -138,6 +138,7 @@ impl<'a> Lower<'a> {
         let of = |k: usize| self.of.known(node.args[k]);
         match &node.op {
             Op::Binary(BinaryOp::Div) => of(0).divided(of(1)).is_some(),
+            Op::Binary(BinaryOp::Rem | BinaryOp::And) if self.of.float_by(id).is_some() => true,
             Op::Binary(BinaryOp::Rem) => of(0).rest(of(1)).is_some(),
             Op::Binary(BinaryOp::Shl) => power(of(1)).is_some(),
             Op::Binary(BinaryOp::Shr) => power(of(1)).is_some_and(|by| of(0).divided(by).is_some()),
@@ -146,7 +147,7 @@ impl<'a> Lower<'a> {
             Op::Clamp => of(0).is_ordered_with(of(1)) && of(0).larger(of(1)).is_ordered_with(of(2)),
             Op::Loop(_) => of(0).is_ordered_with(of(1)),
             Op::Convert if node.ty == Type::F32 => of(0).is_exact() || self.from_float(id).is_some(),
-            Op::Convert if !is_wide(self.graph, id) => of(0).has_bits(),
+            Op::Convert if !is_wide(self.graph, id) => of(0).has_bits() || self.of.float_of(node.args[0]).is_some(),
             Op::Bitcast => of(0) != Extent::Lost,
             Op::Unary(UnaryOp::BitNot) => true,
             Op::Unary(_) => self.of.known(id) != Extent::Lost,
@@ -222,6 +223,30 @@ impl Replace for Lower<'_> {
             Op::Unused => b.intern(Op::Unused, Vec::new(), ty),
             Op::Convert if wide => self.widen(b, old, new),
             Op::Convert if node.ty == Type::F32 => self.to_float(b, old, new),
+            Op::Convert if self.of.float_of(node.args[0]).is_some() => {
+                let float = self.of.float_of(node.args[0])?;
+                let [_, low] = words(b, new[float.0 as usize]?);
+                convert(b, low, node.ty.kind()?)
+            }
+            Op::Binary(op @ (BinaryOp::Rem | BinaryOp::And)) if self.of.float_by(old).is_some() => {
+                let (float, by) = self.of.float_by(old)?;
+                let [high, low] = words(b, new[float.0 as usize]?);
+                let found = match op {
+                    BinaryOp::And => with(b, BinaryOp::And, low, by),
+                    _ => {
+                        // (high * 2^32 + low) % n, none of which leaves 32 bits.
+                        let high = with(b, BinaryOp::Rem, high, by);
+                        let high = with(b, BinaryOp::Mul, high, (WORD as u64 % u64::from(by)) as u32);
+                        let low = with(b, BinaryOp::Rem, low, by);
+                        let sum = b.add(Op::Binary(BinaryOp::Add), [high, low], Type::U32);
+                        match sum == low {
+                            true => low,
+                            false => with(b, BinaryOp::Rem, sum, by),
+                        }
+                    }
+                };
+                convert(b, found, own)
+            }
             Op::Convert | Op::Bitcast => {
                 let kind = node.ty.kind().unwrap_or(Scalar::I32);
                 self.as_kind(b, node.args[0], kind, new)
@@ -279,6 +304,28 @@ impl Replace for Lower<'_> {
         let kind = *self.results.get(&(region, k))?;
         Some(self.as_kind(b, old, kind, new))
     }
+}
+
+/// The upper and the lower 32 bits of a float as a number of 64 bits, each a `u32`. All of it is exact: a float is scaled by powers
+/// of two, and what is subtracted from it are its upper bits.
+fn words(b: &mut Builder<'_>, x: NodeId) -> [NodeId; 2] {
+    let op = |op: BinaryOp| Op::Binary(op);
+    let [word, inverse, end] = [b.f32(WORD as f32), b.f32(1.0 / WORD as f32), b.f32(u64::MAX as f32)];
+    let scaled = b.add(op(BinaryOp::Mul), [x, inverse], Type::F32);
+    let high = convert(b, scaled, Scalar::U32);
+    let whole = b.add(Op::Unary(UnaryOp::Trunc), [scaled], Type::F32);
+    let upper = b.add(op(BinaryOp::Mul), [whole, word], Type::F32);
+    let rest = b.add(op(BinaryOp::Sub), [x, upper], Type::F32);
+    let low = convert(b, rest, Scalar::U32);
+    let beyond = b.add(op(BinaryOp::Ge), [x, end], Type::BOOL);
+    let most = b.constant(Type::U32, [u32::MAX, 0, 0, 0]);
+    [high, b.add(Op::Select, [beyond, most, low], Type::U32)]
+}
+
+/// `x op n` of a `u32`.
+fn with(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
+    let n = b.constant(Type::U32, [n, 0, 0, 0]);
+    b.add(Op::Binary(op), [x, n], Type::U32)
 }
 
 /// The kind that holds the bits of a `usize`: an `i32` where they fit.

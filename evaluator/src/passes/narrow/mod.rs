@@ -62,12 +62,13 @@ pub fn narrow(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<Refusal
             }
         }
         if next == caps {
-            // Said of the values themselves, not of what has been tried with them.
+            // Of the values themselves, not of what has been tried with them; what can be helped is no error.
             let none = HashMap::new();
             let analysis = Analysis::of(graph, facts, &none);
             let mut lower = lower::Lower::new(&analysis, &none);
             rebuild_replacing(graph, &rebuild, &mut lower);
-            let first = lower.refused();
+            let mut first = lower.refused();
+            first.retain(|id| refused.contains(id));
             let refused = if first.is_empty() { refused } else { first };
             return Err(refuse::refusals(graph, facts, &refused));
         }
