@@ -5,6 +5,7 @@
 mod glsl;
 mod half;
 mod hlsl;
+mod powers;
 mod wgsl;
 mod zeroed;
 
@@ -25,6 +26,7 @@ pub fn wgsl(module: &mut Module<'_>) {
         let name = name(expr.ty);
         cube_root(module, expr, &name)
     });
+    module.rewrite(&mut |_, expr| powers::shifted(expr));
     wgsl::legalise(module);
 }
 
@@ -32,6 +34,7 @@ pub fn wgsl(module: &mut Module<'_>) {
 pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
     zeroed::begin(module, resources);
     module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
+    module.rewrite(&mut |_, expr| powers::shifted(expr));
     module.rewrite(&mut if vulkan { glsl::vulkan } else { glsl::opengl });
 }
 
@@ -39,6 +42,7 @@ pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
 pub fn hlsl(module: &mut Module<'_>, resources: &Resources) {
     zeroed::begin(module, resources);
     module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
+    module.rewrite(&mut |_, expr| powers::shifted(expr));
     hlsl::legalise(module);
 }
 
