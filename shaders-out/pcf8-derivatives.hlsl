@@ -3,7 +3,7 @@
 // weights = quadratic
 // gradient = prewitt
 // Stage fragment, unroll full, messages by fine derivatives, output rgba16float.
-// Per pixel: 1 basic block, 55 statements, 4 reads, 0 transcendental calls, 6 messages.
+// Per pixel: 1 basic block, 62 statements, 4 reads, 0 transcendental calls, 6 messages.
 
 Texture2D<float> shadow : register(t0);
 SamplerComparisonState shadow_sampler : register(s1);
@@ -16,12 +16,19 @@ int2 size_of_shadow() {
 
 float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
-    // k 0: column (kernels/src/quad/pcf/mod.rs:300)
+    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    bool numbers = all(abs(coord) < float3(1e20, 1e20, 1e20));
+    float3 finite = (numbers ? coord : float3(0.0, 0.0, 0.0));
+    float2 size = float2(size_of_shadow());
+    float2 margin = 6.0 / size;
+    float2 place = min(max(finite.xy, -margin), margin + 1.0);
+    float seen_share = (all(bool2(numbers, all(finite.xy == place))) ? 1.0 : 7.888609e-31);
+    float4 vector_value = float4(float3(place, finite.z) * seen_share, seen_share);
     float2 product = float2(pixel & int2(1, 1)) * 2.0;
     float2 towards = 1.0 - product;
-    float3 row = coord + (coord + towards.x * ddx_fine(coord));
-    float3 centre = (row + (row + towards.y * ddy_fine(row))) * 0.25;
-    float2 size = float2(size_of_shadow());
+    float4 row = vector_value + (vector_value + towards.x * ddx_fine(vector_value));
+    float4 sums = row + (row + towards.y * ddy_fine(row));
+    float3 centre = sums.xyz / sums.w;
     float2 a = frac(centre.xy * size - 0.5);
     float2 quad_vector = product - 1.0;
     float2 i = quad_vector - 2.0;
@@ -39,6 +46,7 @@ float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0
     float taps_lit_k0 = shadow.SampleCmpLevelZero(shadow_sampler, sum, centre.z);
     float taps_weight_k0 = weight.x * weight.y;
     float2 i_2 = quad_vector + 2.0;
+    // k 1: kernels/src/quad/pcf/mod.rs:323
     float2 first_k1 = i_2 - a;
     float2 x_3 = abs(first_k1) * 0.375;
     float2 outer_3 = max(1.5 - x_3, float2(0.0, 0.0));
@@ -60,25 +68,26 @@ float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0
     float2 sum_4 = centre.xy + column_place_2 / size;
     float taps_lit_k3 = shadow.SampleCmpLevelZero(shadow_sampler, sum_4, centre.z);
     float taps_weight_k3 = weight_2.x * weight_2.y;
-    float4 vector_value = float4(
+    float4 vector_2 = float4(
         column_place * taps_weight_k0, taps_weight_k0, taps_lit_k0 * taps_weight_k0
     );
-    float4 vector_2 = float4(
+    float4 vector_3 = float4(
         place_k1 * taps_weight_k1, taps_weight_k1, taps_lit_k1 * taps_weight_k1
     );
-    float4 vector_3 = float4(
+    float4 vector_4 = float4(
         place_k2 * taps_weight_k2, taps_weight_k2, taps_lit_k2 * taps_weight_k2
     );
-    float4 vector_4 = float4(
+    float4 vector_5 = float4(
         column_place_2 * taps_weight_k3, taps_weight_k3, taps_lit_k3 * taps_weight_k3
     );
-    float4 sums_k3 = 0.0 + vector_value + vector_2 + vector_3 + vector_4;
+    float4 sums_k3 = 0.0 + vector_2 + vector_3 + vector_4 + vector_5;
     float4 row_2 = sums_k3 + (sums_k3 + towards.x * ddx_fine(sums_k3));
-    float4 sums = row_2 + (row_2 + towards.y * ddy_fine(row_2));
+    float4 sums_2 = row_2 + (row_2 + towards.y * ddy_fine(row_2));
     float2 moment_k1 = 0.0 + i * taps_lit_k0 + float2(i_2.x, i.y) * taps_lit_k1;
     float2 moment_k3 = moment_k1 + float2(i.x, i_2.y) * taps_lit_k2 + i_2 * taps_lit_k3;
     float2 row_3 = moment_k3 + (moment_k3 + towards.x * ddx_fine(moment_k3));
-    float2 difference = (coord.xy - centre.xy) * size - sums.xy / sums.z;
-    float dotted = dot((row_3 + (row_3 + towards.y * ddy_fine(row_3))) / 80.0, difference);
-    return (float4)saturate(sums.w / sums.z + dotted);
+    float2 prewitt = (row_3 + (row_3 + towards.y * ddy_fine(row_3))) / 80.0;
+    float sum_5 = sums_2.w / sums_2.z
+        + dot(prewitt, (place - centre.xy) * size - sums_2.xy / sums_2.z);
+    return (float4)saturate(sum_5);
 }

@@ -5,9 +5,9 @@
 #[path = "../../tests/src/compilers.rs"]
 mod compilers;
 
-use compilers::{LABEL, instructions, read};
+use compilers::{FUNCTION, LABEL, instructions, read};
 use straightline_codegen::emit::{EmitError, Emitted, Reads, Target};
-use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_manifest::LanguageKind;
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
@@ -121,8 +121,8 @@ fn divisions_of_integers_compile_everywhere() {
     let emitted = emit_all(kernel);
     let glsl = text(&emitted, Target::Glsl450);
     for plain in [
-        "pixel.x / 2",
-        "pixel.y % 4",
+        "pixel.x >> 1",
+        "pixel.y & 3",
         "parameters.m / 3u",
         "parameters.m % 5u",
         "parameters.n / 3",
@@ -310,6 +310,69 @@ fn basic_blocks_are_those_of_the_spirv() {
         counted >= 20 && straight >= 8,
         "{straight} of {counted} shaders are one block"
     );
+}
+
+/// Guards of divisions and conversions are no functions of the SPIR-V, and no blocks: unrolled, each built-in kernel of pixels or quads is one
+/// basic block in a fragment shader, whatever its integers are divided by.
+#[test]
+fn unrolled_kernels_are_one_basic_block() {
+    let cases: &[(&str, Options)] = &[
+        ("sraa", &[]),
+        ("sraa", &[("layout", "superresolution")]),
+        ("sraa", &[("layout", "superresolution"), ("pattern", "standard8")]),
+        ("sraa", &[("mask", "select")]),
+        ("quad_convolution", &[]),
+        ("quad_convolution", &[("taps", "bilinear")]),
+        ("quad_upsampling", &[]),
+        ("quad_upsampling", &[("factor", "four-times"), ("reads", "apart")]),
+        ("downsampling", &[("factor", "four-times")]),
+        ("quad_bilateral", &[]),
+        ("pcf", &[]),
+        ("pcf", &[("method", "gather"), ("weights", "cubic")]),
+        ("pcf", &[("weights", "lookup"), ("gradient", "fitted")]),
+        ("pcss", &[]),
+        ("pcss", &[("sharing", "alone")]),
+        ("quad_ssao", &[]),
+        ("stalker", &[]),
+        ("tabula_rasa", &[]),
+    ];
+    for (name, options) in cases {
+        let settings = Settings {
+            options: options
+                .iter()
+                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
+                .collect(),
+            transport: (name.starts_with("quad") || name.starts_with("pc")).then_some(Transport::Subgroup),
+            ..Settings::default()
+        };
+        let kernel = Kernel::builtin(name).unwrap_or_else(|e| panic!("{e}"));
+        one_block(&format!("{name} {options:?}"), &kernel, &settings);
+    }
+    let text = "
+/// Divisions that naga guards, and a conversion that is not known to fit.
+pub fn divided(color: &Texture<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let thirds = (pixel - 7) / 3;
+    let bits = ivec2(pixel.x * taps / 8, (pixel.y - taps) % 16);
+    let hash = (pixel.x as u32 / 12) % 10;
+    let there = (color.load(thirds).xy() * 100.0).floor().as_ivec2() + bits / taps;
+    color.load(there) + hash as f32
+}
+";
+    let kernel = Kernel::from_text("divided.rs", text, "divided");
+    one_block("divided", &kernel, &Settings::default());
+}
+
+type Options<'a> = &'a [(&'a str, &'a str)];
+
+fn one_block(name: &str, kernel: &Kernel, settings: &Settings) {
+    let compiled = kernel.compile(settings).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let options = EmitOptions::new().targets([Target::Spirv]).stage(Stage::Fragment);
+    let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{name}: {e}"));
+    read(&emitted).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let words = words(&emitted);
+    assert_eq!(instructions(&words, FUNCTION).len(), 1, "{name}: functions");
+    assert_eq!(instructions(&words, LABEL).len(), 1, "{name}: basic blocks");
+    assert_eq!(emitted.manifest.counts.basic_blocks, 1, "{name}");
 }
 
 /// Names of variables and of the kernel are changed where a language has another use for them.

@@ -33,6 +33,15 @@ pub enum Gives {
 /// The longest way of a tap on the screen, in pixels: keeps reads near each other.
 const LONGEST: f32 = 64.0;
 
+/// Depths of surfaces are larger, and no device takes them for 0.
+const NEAREST: f32 = 1.0e-30;
+
+/// Depths of surfaces are smaller, and stay finite in all that is computed of them.
+const DEEPEST: f32 = 1.0e30;
+
+/// Light is smaller.
+const BRIGHTEST: f32 = 1.0e30;
+
 /// Angle from tap to tap: the golden one, which spreads any number of them.
 const TURN: f32 = 2.399_963_2;
 
@@ -43,6 +52,10 @@ const TURN: f32 = 2.399_963_2;
 ///
 /// `depth` is along the view; `normal` is of unit length as captures have it: x right, y up, z towards the eye; `color` is the light that
 /// surfaces send to the eye, and so everywhere.
+///
+/// The result is finite whatever the inputs are. A depth that is not above 1e-30 and below 1e30 is of no surface, such as an infinite sky's: no light
+/// comes to it or from it. A tap whose normal or colour is not finite sends none, and light counts up to 1e30. A pixel's own colour that is
+/// not finite is black.
 pub fn bounce(
     cfg: &Bounce,
     depth: &Frame<f32>,
@@ -52,7 +65,11 @@ pub fn bounce(
     pixel: Quad<IVec2>,
 ) -> Quad<Vec4> {
     let middle = resolution.as_vec2() * 0.5;
-    let z = depth.load(pixel);
+    let seen = depth.load(pixel);
+    let is_surface = seen.gt(NEAREST) & seen.lt(DEEPEST);
+    // What is no surface lies far away, and tells a depth of 0, which no transport rounds.
+    let z = is_surface.select(seen, Quad::splat(DEEPEST));
+    let told = is_surface.select(seen, Quad::splat(0.0));
     let here = position(cfg, pixel, middle, z);
     let facing = normal.load(pixel);
     let reach = (cfg.radius / (cfg.pixel_angle * z)).min(LONGEST);
@@ -72,14 +89,18 @@ pub fn bounce(
         let arrives = along.dot(facing).max(0.0);
         let leaves = (along.dot(normal.load(tap)) * -1.0).max(0.0);
         let near = (1.0 - squared / (cfg.radius * cfg.radius)).max(0.0);
-        found += color.load(tap).truncate() * (arrives * leaves * near);
+        let light = color.load(tap).truncate() * (arrives * leaves * near);
+        // A way that is infinite, a normal or a colour that is no number: nothing comes from there.
+        let sends = squared.lt(cfg.radius * cfg.radius) & is_finite(light);
+        found += sends.select(light, Quad::splat(Vec3::ZERO));
     }
-    let messages = (found / cfg.taps as f32).extend(z).gather();
+    let messages = (found / cfg.taps as f32).extend(told).gather();
     let mut sum = messages[0].truncate();
     let mut total = Quad::splat(1.0);
     for k in 1..4 {
-        let away = (messages[k].w() - z) / (cfg.depth_sigma * cfg.radius);
-        let weight = (away * away * (-0.5 * std::f32::consts::LOG2_E)).exp2();
+        let away = (messages[k].w() - told) / (cfg.depth_sigma * cfg.radius);
+        let near = (away * away * (-0.5 * std::f32::consts::LOG2_E)).exp2();
+        let weight = messages[k].w().min(told).gt(0.0).select(near, Quad::splat(0.0));
         sum += messages[k].truncate() * weight;
         total += weight;
     }
@@ -88,9 +109,16 @@ pub fn bounce(
         Gives::Light => light.extend(Quad::splat(1.0)),
         Gives::Picture => {
             let own = color.load(pixel);
-            (own.truncate() * (light + Vec3::ONE)).extend(own.w())
+            let lit = own.truncate() * (light + Vec3::ONE);
+            let shown = is_finite(lit).select(lit, Quad::splat(Vec3::ZERO));
+            shown.extend(own.w().abs().lt(BRIGHTEST).select(own.w(), Quad::splat(1.0)))
         }
     }
+}
+
+/// Whether light is finite, and small enough that sums of it are.
+fn is_finite(light: Quad<Vec3>) -> Quad<bool> {
+    light.x().abs().lt(BRIGHTEST) & light.y().abs().lt(BRIGHTEST) & light.z().abs().lt(BRIGHTEST)
 }
 
 /// Where in the view a pixel lies at a depth.

@@ -30,6 +30,8 @@ const SHARE: f32 = 0.25;
 /// `coord` is interpolated: a place in the shadow map, 0 to 1, and the depth to compare. `shadow` is the map and compares between
 /// 2×2 texels; `levels` is the map again, with smaller levels, and is read by `remedy=levels` alone, which takes one depth of each
 /// 2×2 texels: `nearest` filters nothing.
+///
+/// The light is a number from 0 to 1 whatever `coord` is: a lane whose coordinates are not finite, or 1e4 and more, does not count.
 pub fn minified(
     cfg: &Minified,
     shadow: &DepthTexture,
@@ -38,7 +40,9 @@ pub fn minified(
     nearest: &Sampler,
     coord: Quad<Vec3>,
 ) -> Quad<Vec4> {
-    let centre = coord.average();
+    let centre = mean(coord);
+    // A lane without a place of its own lies in the middle.
+    let coord = counts(coord).select(coord, centre);
     let mut lit = Quad::splat(0.0);
     match cfg.remedy {
         Remedy::Levels => {
@@ -81,4 +85,24 @@ fn spread(coord: Quad<Vec3>, size: Vec2) -> Quad<f32> {
     let own = step.max_element();
     // Each lane knows two sides of the quad, and the lane across the other two.
     (own.max(own.swap_diagonal()) * SHARE).max(1.0)
+}
+
+/// Coordinates are numbers that count below this: hundreds of maps away lies the border alone.
+const FARTHEST: f32 = 1.0e4;
+
+/// Share of a lane that does not count in the quad's mean, 2⁻¹⁰⁰: nothing beside 1, and as good as 1 among its like.
+const NO_SHARE: f32 = 7.888_609e-31;
+
+/// Mean coordinates of the lanes whose own are finite and near: a bad lane, as of w = 0, spoils no other. Without any, all are 0.
+fn mean(coord: Quad<Vec3>) -> Quad<Vec3> {
+    let near = counts(coord);
+    let finite = near.select(coord, Quad::splat(Vec3::ZERO));
+    let share = near.select(Quad::splat(1.0), Quad::splat(NO_SHARE));
+    let sums = (finite * share).extend(share).sum();
+    sums.truncate() / sums.w()
+}
+
+/// Whether coordinates are numbers that count; a comparison with what is no number fails.
+fn counts(coord: Quad<Vec3>) -> Quad<bool> {
+    coord.x().abs().lt(FARTHEST) & coord.y().abs().lt(FARTHEST) & coord.z().abs().lt(FARTHEST)
 }

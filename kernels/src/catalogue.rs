@@ -113,9 +113,13 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "quad_convolution",
         summary: "Convolution, (2k+1)² weights from (k+1)² reads by quads (Penner 2011)",
-        sources: &[source!("quad/convolution.rs")],
+        sources: &[
+            source!("quad/convolution.rs"),
+            source!("quad/guards.rs"),
+            source!("quad/surface.rs"),
+        ],
         paper: convolution_paper,
-        half: half::unstudied,
+        half: half::convolution,
     },
     Entry {
         name: "quad_upsampling",
@@ -134,30 +138,47 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "quad_bilateral",
         summary: "Bilateral blur, (2k+1)² pixels from (k+1)² reads by quads (Penner 2011)",
-        sources: &[source!("quad/bilateral.rs"), source!("quad/surface.rs")],
+        sources: &[
+            source!("quad/bilateral.rs"),
+            source!("quad/guards.rs"),
+            source!("quad/surface.rs"),
+        ],
         paper: no_paper,
         half: half::bilateral,
     },
     Entry {
         name: "pcf",
         summary: "Filtered shadows of 4x4 or 8x8 texels, shared over quads (Penner 2011)",
-        sources: &[source!("quad/pcf/mod.rs"), source!("quad/pcf/weights.rs")],
+        sources: &[
+            source!("quad/pcf/mod.rs"),
+            source!("quad/pcf/weights.rs"),
+            source!("quad/coordinates.rs"),
+            source!("quad/guards.rs"),
+        ],
         paper: pcf_paper,
-        half: half::unstudied,
+        half: half::shadow,
     },
     Entry {
         name: "pcss",
         summary: "Contact-hardening shadows, searches split over quads (after Penner 2011)",
-        sources: &[source!("quad/pcss.rs")],
+        sources: &[
+            source!("quad/pcss.rs"),
+            source!("quad/coordinates.rs"),
+            source!("quad/guards.rs"),
+        ],
         paper: no_paper,
-        half: half::unstudied,
+        half: half::shadow,
     },
     Entry {
         name: "quad_ssao",
         summary: "Ambient occlusion in screen space, taps split over quads (after Penner 2011)",
-        sources: &[source!("quad/ssao.rs")],
+        sources: &[
+            source!("quad/ssao.rs"),
+            source!("quad/guards.rs"),
+            source!("quad/surface.rs"),
+        ],
         paper: no_paper,
-        half: half::unstudied,
+        half: half::occlusion,
     },
 ];
 

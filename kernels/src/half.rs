@@ -61,6 +61,30 @@ pub(crate) fn upsampling(_: &OptionValue<'_>) -> HalfPrecision {
     )
 }
 
-pub(crate) fn bilateral(_: &OptionValue<'_>) -> HalfPrecision {
-    HalfPrecision::Kept
+pub(crate) fn bilateral(option: &OptionValue<'_>) -> HalfPrecision {
+    match option("guards").as_deref() {
+        Some("none") => HalfPrecision::Lost("without its tests an infinite depth less another is no number"),
+        _ => HalfPrecision::Kept,
+    }
+}
+
+pub(crate) fn convolution(option: &OptionValue<'_>) -> HalfPrecision {
+    match option("taps").as_deref() {
+        Some("bilinear") => HalfPrecision::Lost(
+            "places between texels are held in 11 bits, and the slope of the plane through the taps makes their errors larger",
+        ),
+        _ => HalfPrecision::Kept,
+    }
+}
+
+pub(crate) fn shadow(_: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Lost(
+        "places in the shadow map and depths to compare are held in 11 bits: other texels are compared, and with another result",
+    )
+}
+
+pub(crate) fn occlusion(_: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Lost(
+        "the way from a surface to another is a difference of places of 11 bits, hardly longer than their steps",
+    )
 }

@@ -343,6 +343,28 @@ pub const LABEL: u32 = 248;
 /// `OpConstant`.
 const CONSTANT: u32 = 43;
 
+/// `OpFunction`: begins a function.
+pub const FUNCTION: u32 = 54;
+
+/// Opcodes of the instructions of each basic block.
+pub fn blocks(words: &[u32]) -> Vec<Vec<u32>> {
+    let mut blocks: Vec<Vec<u32>> = Vec::new();
+    let mut at = 5;
+    while at < words.len() {
+        match words[at] & 0xffff {
+            LABEL => blocks.push(Vec::new()),
+            opcode => blocks.last_mut().into_iter().for_each(|block| block.push(opcode)),
+        }
+        at += (words[at] >> 16) as usize;
+    }
+    blocks
+}
+
+/// Whether an opcode reads a texel: `OpImageSampleImplicitLod` to `OpImageRead`.
+pub fn reads_texel(opcode: &u32) -> bool {
+    (87..=98).contains(opcode)
+}
+
 /// Operands of all instructions with an opcode.
 pub fn instructions(words: &[u32], opcode: u32) -> Vec<&[u32]> {
     let mut found = Vec::new();

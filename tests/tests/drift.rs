@@ -5,8 +5,8 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use straightline_codegen::{default_set, files};
-use straightline_manifest::Manifest;
+use straightline_codegen::{Unroll, default_set, files};
+use straightline_manifest::{Manifest, Stage};
 use straightline_tests::compilers;
 
 fn folder() -> PathBuf {
@@ -38,6 +38,28 @@ fn shaders_out_is_up_to_date() {
             name == "README.md" || names.contains(&name),
             "shaders-out/{name} is emitted no more: delete it"
         );
+    }
+}
+
+/// A fragment shader is one basic block. A compute shader reads and filters in one; the others are the tests of the frame, around a return or a
+/// store with the last sum that it stores.
+#[test]
+fn each_shader_computes_in_one_basic_block() {
+    for entry in default_set::ENTRIES.iter().filter(|entry| entry.unroll == Unroll::Full) {
+        let path = folder().join(format!("{}.spv", entry.stem));
+        let words = compilers::words(&std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())));
+        let stem = entry.stem;
+        assert_eq!(compilers::instructions(&words, compilers::FUNCTION).len(), 1, "{stem}");
+        let blocks = compilers::blocks(&words);
+        if entry.stage == Stage::Fragment {
+            assert_eq!(blocks.len(), 1, "{stem}");
+        }
+        let reading = blocks
+            .iter()
+            .filter(|opcodes| opcodes.iter().any(compilers::reads_texel));
+        assert_eq!(reading.count(), 1, "{stem}: {blocks:?}");
+        let large = blocks.iter().filter(|opcodes| opcodes.len() > 16);
+        assert_eq!(large.count(), 1, "{stem}: {blocks:?}");
     }
 }
 

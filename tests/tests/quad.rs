@@ -15,6 +15,8 @@ mod counts;
 mod filters;
 #[path = "quad/forward.rs"]
 mod forward;
+#[path = "quad/hard.rs"]
+mod hard;
 #[path = "quad/messages.rs"]
 mod messages;
 #[path = "quad/minified.rs"]

@@ -1,5 +1,7 @@
 //! Convolution with (2k+1)² weights from (k+1)² reads a pixel (§2.8).
 
+use super::guards::Guards;
+use super::surface::BRIGHTEST;
 use crate::prelude::*;
 
 options! {
@@ -16,6 +18,8 @@ options! {
         /// Weights of 7×7 pixels, row by row, for `given`; with a smaller radius those around the centre. They are taken as
         /// they are: give weights that sum to 1 for an image that keeps its brightness.
         pub given: [f32; 49] = [0.0; 49],
+        /// Tests of pixels that are not finite.
+        pub guards: Guards = Guards::Inline,
     }
 }
 
@@ -56,6 +60,10 @@ pub enum Weights {
 /// three others with the weights that they give these pixels. The chapter's 3×3 blur weighs such messages once more by
 /// 4, 2, 2 and 1; they are sums already. Reads beyond the border give the border's pixels. `image_sampler` must filter
 /// linearly and clamp; bilinear taps alone use it.
+///
+/// The result is finite whatever the image holds: a pixel of which a component is not finite, or so large that the sum could be infinite,
+/// counts as 0 in all components, for every pixel around it and for itself; of bilinear taps the 2×2 pixels together. `guards=none` leaves
+/// the test out, as a promise that the image is finite and below 1e37.
 pub fn quad_convolution(
     cfg: &QuadConvolution,
     image: &Frame<Vec4>,
@@ -86,12 +94,41 @@ pub fn quad_convolution(
             let mut sum = Quad::splat(Vec4::ZERO);
             for y in -cfg.radius..=cfg.radius {
                 for x in -cfg.radius..=cfg.radius {
-                    sum += image.load(pixel + ivec2(x, y)) * weight_at(cfg, x, y);
+                    sum += counted(cfg, image.load(pixel + ivec2(x, y))) * weight_at(cfg, x, y);
                 }
             }
             sum
         }
     }
+}
+
+/// A pixel as it counts: black and transparent if a component is not finite, or too large for the sum of all.
+fn counted(cfg: &QuadConvolution, seen: Quad<Vec4>) -> Quad<Vec4> {
+    match cfg.guards {
+        Guards::Inline => {
+            let most = BRIGHTEST / heaviest(cfg);
+            let first = seen.x().abs().lt(most) & seen.y().abs().lt(most);
+            let finite = first & seen.z().abs().lt(most) & seen.w().abs().lt(most);
+            finite.select(seen, Quad::splat(Vec4::ZERO))
+        }
+        Guards::None => seen,
+    }
+}
+
+/// Bound of the sum of all weights' sizes, at least 1.
+fn heaviest(cfg: &QuadConvolution) -> f32 {
+    let mut sum = 0.0;
+    match (cfg.weights, cfg.taps) {
+        (Weights::Given, _) => {
+            for weight in cfg.given {
+                sum += weight.abs();
+            }
+        }
+        // The plane's slope adds to the weights of taps on one side what it takes from those on the other.
+        (_, Taps::Bilinear) => sum = 4.0,
+        _ => {}
+    }
+    sum.max(1.0)
 }
 
 /// Whether a weight is not 0.
@@ -136,7 +173,7 @@ fn shared(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Qua
     let mut sums = Sums::none();
     for j in 0..=cfg.radius {
         for i in 0..=cfg.radius {
-            let tap = image.load(pixel + outwards * ivec2(i, j));
+            let tap = counted(cfg, image.load(pixel + outwards * ivec2(i, j)));
             sums.own += tap * weight(cfg, i, j);
             // Seen from the other lane it lies one pixel farther out.
             if i < cfg.radius {
@@ -169,7 +206,8 @@ fn fitted(cfg: &QuadConvolution, image: &Frame<Vec4>, image_sampler: &Sampler, p
             let ((x, weight_x), (y, weight_y)) = (pair(cfg, i), pair(cfg, j));
             // The lane lies half a pixel from the middle.
             let outwards = quad_vector() * (vec2(x, y) - 0.5);
-            let tap = image.sample(image_sampler, (own + outwards) / size) * (weight_x * weight_y);
+            let seen = counted(cfg, image.sample(image_sampler, (own + outwards) / size));
+            let tap = seen * (weight_x * weight_y);
             let (right, down) = (0.5 * x / square, 0.5 * y / square);
             sums.own += tap * (1.0 + right + down);
             sums.beside += tap * (1.0 - right + down);

@@ -3,9 +3,13 @@
 //!
 //! Each takes `pixel: Quad<IVec2>` and gives the colours of the four pixels. What each lane reads, and what it tells the
 //! others, is the filter's own affair: see the notes.
+//!
+//! Each gives finite colours whatever it reads, and a lane with a bad input spoils no other; [`guards::Guards`] takes the tests out.
 
 pub mod bilateral;
 pub mod convolution;
+mod coordinates;
+pub mod guards;
 pub mod pcf;
 pub mod pcss;
 pub mod ssao;

@@ -1,6 +1,8 @@
 //! Shadows that are sharp where they begin: percentage-closer soft shadows, both of their searches split over the quad
 //! (the chapter's §2.10 names contact hardening).
 
+use super::coordinates::{counted, mean};
+use super::guards::Guards;
 use crate::prelude::*;
 
 options! {
@@ -16,6 +18,8 @@ options! {
         pub narrowest: f32 [0.5..=64.0] = 2.0,
         /// The widest penumbra, in texels.
         pub widest: f32 [1.0..=256.0] = 24.0,
+        /// Tests of coordinates that are not finite or far from the map.
+        pub guards: Guards = Guards::Inline,
     }
 }
 
@@ -33,10 +37,20 @@ pub enum SearchSharing {
 /// Of sixteen depths in the search's width, those nearer to the light than the pixel are its blockers. Their mean distance
 /// gives the penumbra, in which sixteen comparisons are taken. `coord` is interpolated: a place in the shadow map, 0 to 1,
 /// and the depth to compare; depths are linear, as of a distant light.
+///
+/// The light is a number from 0 to 1 whatever `coord` is. A lane whose coordinates are not finite, or so far from the map that both searches
+/// read its border alone, does not move the quad's mean place. By itself it counts as a place beside the map, and as the map's first corner
+/// with a depth of 0 if its coordinates are not finite. `guards=none` leaves these tests out, as a promise that coordinates are finite and
+/// at most a map's width away from the map.
 pub fn pcss(cfg: &Pcss, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
+    // Taps lie at three eighths of a width.
+    let seen = counted(shadow, coord, 0.375 * cfg.search.max(cfg.widest) + 2.0);
+    let (coord, centre) = match cfg.guards {
+        Guards::Inline => (seen.coord, mean(&seen)),
+        Guards::None => (coord, coord.average()),
+    };
     let lit = match cfg.sharing {
         SearchSharing::Quad => {
-            let centre = coord.average();
             let mut found = Quad::splat(Vec2::ZERO);
             for k in 0..4 {
                 found += blocker(cfg, shadow, centre, quad_vector() + away(k));
@@ -85,7 +99,10 @@ fn blocker(cfg: &Pcss, shadow: &DepthTexture, coord: Quad<Vec3>, at: Quad<Vec2>)
 /// Width of the penumbra in texels, of blockers' summed depths and their number.
 fn penumbra(cfg: &Pcss, found: Quad<Vec2>, depth: Quad<f32>) -> Quad<f32> {
     let distance = depth - found.x() / found.y().max(1.0);
-    let width = (distance * cfg.light).clamp(cfg.narrowest, cfg.widest);
+    let width = distance * cfg.light;
+    // A distance of what is infinitely near may be no number: a comparison decides.
+    let width = width.lt(cfg.widest).select(width, Quad::splat(cfg.widest));
+    let width = width.max(cfg.narrowest);
     // Without a blocker all is light, whatever the width.
     found.y().gt(0.5).select(width, Quad::splat(cfg.narrowest))
 }

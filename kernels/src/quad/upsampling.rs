@@ -1,6 +1,6 @@
 //! Cross-bilateral upsampling with one or two reads a pixel (§2.7), and the pass that makes what it reads.
 
-use super::surface::{bounded, is_bright, no_surface};
+use super::surface::{DEEPEST, bounded, is_bright, is_bright_color, no_surface};
 use crate::prelude::*;
 
 options! {
@@ -83,6 +83,9 @@ struct Tap {
 /// `low` is as [`downsampling`] makes it: its texel n stands for the corner at 2n (4n), half a pixel off, so that a quad's
 /// pixels all have the same four texels around them and each lane reads one. It has ceil(W/2) + 1 columns and
 /// ceil(H/2) + 1 rows (of 4: ceil(W/4) + 1). `low_surface` holds normals and, fourth, depths.
+///
+/// The result is finite whatever the inputs are. A texel with a colour that is not finite, or of 1.5e38 and more, is black and farther from
+/// every depth than any other. A depth that is not a number, or of 1e30 and more, counts as 1e30. A normal that is not a number tells nothing.
 pub fn quad_upsampling(
     cfg: &Upsampling,
     low: &Texture<Vec4>,
@@ -275,7 +278,7 @@ impl Upsampling {
         match self.payload {
             Payload::Scalar => is_bright(texel.x()),
             Payload::Color => {
-                let color = is_bright(texel.x()) & is_bright(texel.y()) & is_bright(texel.z());
+                let color = is_bright_color(texel.truncate());
                 match self.reads {
                     Reads::Packed => color,
                     _ => color & is_bright(texel.w()),
@@ -335,6 +338,9 @@ pub enum Gives {
 ///
 /// The frame is the image of low resolution, half a pixel off that of the full one, so that it needs a column and a row
 /// more: ceil(W/2) + 1 by ceil(H/2) + 1 (of 4: ceil(W/4) + 1). Beyond the image's border lie its border's pixels.
+///
+/// A depth that is not a number, or of 1e30 and more on either side, is the farthest, and 1e30 is written where no other is there. Colours and
+/// normals are written as they are: [`quad_upsampling`] tests them.
 pub fn downsampling(
     cfg: &Downsampling,
     image: &Texture<Vec4>,
@@ -345,15 +351,13 @@ pub fn downsampling(
     let factor = cfg.factor.pixels();
     let first = pixel * factor - factor / 2;
     let mut at = first;
-    let mut nearest = depth.load(first);
+    let mut nearest = DEEPEST;
     for j in 0..factor {
         for i in 0..factor {
-            if i + j > 0 {
-                let z = depth.load(first + ivec2(i, j));
-                if z < nearest {
-                    nearest = z;
-                    at = first + ivec2(i, j);
-                }
+            let z = depth.load(first + ivec2(i, j));
+            if z < nearest && z > -DEEPEST {
+                nearest = z;
+                at = first + ivec2(i, j);
             }
         }
     }

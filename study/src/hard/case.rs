@@ -1,6 +1,6 @@
 //! What a hard case is: something seen at every sample, and the settings that it is filtered with.
 
-use glam::{UVec2, Vec2, Vec3, Vec4, vec2};
+use glam::{UVec2, Vec2, Vec3, Vec4, vec2, vec3};
 use straightline_testbed::encode::DepthStorage;
 
 /// A small world with one thing in it that is hard to compute.
@@ -26,6 +26,10 @@ pub struct Case {
     pub planes: [f32; 2],
     /// What is seen.
     pub seen: fn(&Place) -> Seen,
+    /// Coordinates in a shadow map, of a case that is about them; it then runs with the filters of shadow maps alone.
+    pub coord: Option<fn(&Place) -> Vec3>,
+    /// Width and height of the shadow map in texels.
+    pub map: UVec2,
 }
 
 /// Where something is seen.
@@ -74,6 +78,8 @@ impl Case {
             storage: DepthStorage::Float32,
             planes: [0.1, 1000.0],
             seen,
+            coord: None,
+            map: UVec2::new(16, 12),
         }
     }
 
@@ -113,6 +119,49 @@ impl Case {
         self
     }
 
+    /// With coordinates of its own, for filters of shadow maps.
+    pub const fn coordinates(mut self, coord: fn(&Place) -> Vec3) -> Case {
+        self.coord = Some(coord);
+        self
+    }
+
+    /// With a shadow map of another size.
+    pub const fn map(mut self, width: u32, height: u32) -> Case {
+        self.map = UVec2::new(width, height);
+        self
+    }
+
+    /// Where `pixel` lies in the shadow map, and its depth there: as a light close to the eye sees it, unless the case says otherwise.
+    pub fn coordinates_at(&self, pixel: UVec2) -> Vec3 {
+        let place = self.place(pixel.as_vec2() + 0.5);
+        if let Some(coord) = self.coord {
+            return coord(&place);
+        }
+        let depth = (self.seen)(&place).depth;
+        let across = place.centred() * (LIGHT_SCALE * depth) + LIGHT_CENTRE;
+        across.extend(LIGHT_SCALE * depth - 0.01 + 0.02 * place.noise(12))
+    }
+
+    /// Depth that the shadow map holds at `texel`, 0 to 1: that of what is seen there, with grain; 1 where that is not finite.
+    pub fn shadow_at(&self, texel: UVec2) -> f32 {
+        let at = (texel.as_vec2() + 0.5) / self.map.as_vec2() * self.size.as_vec2();
+        let depth = (self.seen)(&self.place(at)).depth;
+        let grain = noise(texel.x + 257 * texel.y + 7_000_003);
+        match depth.is_finite() {
+            true => (LIGHT_SCALE * depth + 0.03 * (grain - 0.5)).clamp(0.0, 1.0),
+            false => 1.0,
+        }
+    }
+
+    fn place(&self, at: Vec2) -> Place {
+        Place {
+            pixel: at.as_uvec2().min(self.size - 1),
+            size: self.size,
+            at,
+            sample: None,
+        }
+    }
+
     /// What is seen in `pixel`, `offset` from its centre.
     pub fn at(&self, pixel: UVec2, offset: Vec2, sample: Option<usize>) -> Seen {
         (self.seen)(&Place {
@@ -123,6 +172,12 @@ impl Case {
         })
     }
 }
+
+/// Depths of the built-in world over those of a shadow map.
+const LIGHT_SCALE: f32 = 0.05;
+
+/// Where the eye looks in the shadow map, so that no pixel lies on the border of texels.
+const LIGHT_CENTRE: Vec2 = Vec2::new(0.5137, 0.4891);
 
 impl Place {
     /// From -1 to 1 across and down, whatever the picture's size.
@@ -149,6 +204,18 @@ impl Place {
     /// A colour that differs from pixel to pixel, each component in 0..1.
     pub fn color(&self) -> Vec4 {
         Vec4::new(self.noise(1), self.noise(2), self.noise(3), 1.0)
+    }
+
+    /// Whether the pixel is one lane of its quad: the second of the first row.
+    pub fn is_one_lane(&self) -> bool {
+        self.pixel.x % 2 == 1 && self.pixel.y % 2 == 0
+    }
+
+    /// Coordinates in a shadow map that lie well inside, at depths around its own.
+    pub fn shadow_coordinates(&self) -> Vec3 {
+        let across = self.centred() * 0.35 + LIGHT_CENTRE;
+        let depth = if self.is_behind() { 0.4 } else { 0.25 };
+        vec3(across.x, across.y, depth - 0.01 + 0.02 * self.noise(12))
     }
 
     /// Whether it lies behind a slanted edge through the picture's middle.

@@ -18,6 +18,14 @@ pub enum Family {
     Upsampling,
     /// The bilateral blur of quads.
     Bilateral,
+    /// Convolution by quads.
+    Convolution,
+    /// Ambient occlusion by quads.
+    Ssao,
+    /// Filtered shadows.
+    Pcf,
+    /// Contact-hardening shadows.
+    Pcss,
 }
 
 /// A kernel with options.
@@ -152,6 +160,33 @@ impl Form {
             Form::new("upsampling gaussian", Upsampling, &[("screen", "gaussian")]),
             Form::new("bilateral", Bilateral, &[]),
             Form::new("bilateral fast", Bilateral, &[]).fast(),
+            Form::new("convolution", Convolution, &[]),
+            Form::new(
+                "convolution 7x7",
+                Convolution,
+                &[("radius", "3"), ("weights", "binomial")],
+            ),
+            Form::new(
+                "convolution bilinear",
+                Convolution,
+                &[("radius", "3"), ("taps", "bilinear")],
+            ),
+            Form::new("ssao", Ssao, &[]),
+            Form::new("ssao alone", Ssao, &[("sharing", "alone")]),
+            Form::new("pcf", Pcf, &[]),
+            Form::new("pcf four", Pcf, &[("width", "four"), ("weights", "quadratic")]),
+            Form::new("pcf prewitt", Pcf, &[("gradient", "prewitt")]),
+            Form::new("pcf fitted", Pcf, &[("weights", "quadratic"), ("gradient", "fitted")]),
+            Form::new("pcf gather", Pcf, &[("method", "gather"), ("weights", "cubic")]),
+            Form::new("pcf bilinear", Pcf, &[("method", "bilinear"), ("weights", "gaussian")]),
+            Form::new(
+                "pcf naive",
+                Pcf,
+                &[("method", "naive"), ("width", "four"), ("weights", "linear")],
+            ),
+            Form::new("pcf lookup", Pcf, &[("weights", "lookup")]),
+            Form::new("pcss", Pcss, &[]),
+            Form::new("pcss alone", Pcss, &[("sharing", "alone")]),
         ]
     }
 
@@ -169,6 +204,9 @@ impl Form {
 
     /// The options that it has in a case; `None` if the case is not for it.
     pub fn in_case(&self, case: &Case) -> Option<Vec<(String, String)>> {
+        if case.coord.is_some() && !self.family.reads_shadows() {
+            return None;
+        }
         if case.options.is_empty() {
             return Some(self.options.clone());
         }
@@ -194,13 +232,32 @@ impl Form {
 }
 
 impl Family {
-    const ALL: [Family; 5] = [
+    const ALL: [Family; 9] = [
         Family::Sraa,
         Family::Stalker,
         Family::TabulaRasa,
         Family::Upsampling,
         Family::Bilateral,
+        Family::Convolution,
+        Family::Ssao,
+        Family::Pcf,
+        Family::Pcss,
     ];
+
+    /// Whether it filters a shadow map.
+    pub fn reads_shadows(self) -> bool {
+        matches!(self, Family::Pcf | Family::Pcss)
+    }
+
+    /// Whether it gives light from 0 to 1, and no colours.
+    pub fn gives_light(self) -> bool {
+        self.reads_shadows() || self == Family::Ssao
+    }
+
+    /// Whether four pixels are computed together.
+    pub fn is_of_quads(self) -> bool {
+        !matches!(self, Family::Sraa | Family::Stalker | Family::TabulaRasa)
+    }
 
     /// The name of the built-in kernel.
     pub fn kernel(self) -> &'static str {
@@ -210,7 +267,21 @@ impl Family {
             Family::TabulaRasa => "tabula_rasa",
             Family::Upsampling => "quad_upsampling",
             Family::Bilateral => "quad_bilateral",
+            Family::Convolution => "quad_convolution",
+            Family::Ssao => "quad_ssao",
+            Family::Pcf => "pcf",
+            Family::Pcss => "pcss",
         }
+    }
+}
+
+/// Texels on an axis of a filter of shadow maps.
+pub fn texels(options: &[(String, String)]) -> i64 {
+    match Form::value(options, "width", "eight") {
+        "four" => 4,
+        "eight" => 8,
+        "twelve" => 12,
+        _ => 16,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
-use super::form::{Family, Form};
+use super::form::{self, Family, Form};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::encode::{self, DepthEncoding, NormalEncoding};
@@ -46,6 +46,17 @@ pub fn reads(case: &Case, form: &Form, options: &[(String, String)]) -> Result<R
         Family::Bilateral => {
             Inputs::new(case.size).image("image", centres(case, |seen| seen.color.truncate().extend(seen.depth)))
         }
+        Family::Convolution => Inputs::new(case.size).image("image", centres(case, |seen| seen.color)),
+        Family::Ssao => Inputs::new(case.size)
+            .image("depth", centres(case, |seen| Vec4::splat(seen.depth)))
+            .image("normal", centres(case, |seen| vector(seen).extend(0.0))),
+        Family::Pcf | Family::Pcss => Inputs::new(case.size)
+            .image("shadow", image(case.map, |texel| Vec4::splat(case.shadow_at(texel))))
+            .image(
+                "coord",
+                image(case.size, |pixel| case.coordinates_at(pixel).extend(0.0)),
+            )
+            .image("lookup", cubic_table(form::texels(options) as f32 / 2.0)),
     };
     Ok(Reads { inputs, params: None })
 }
@@ -160,6 +171,22 @@ fn normal(encoding: oracle::Normals, seen: &Seen) -> Vec4 {
     };
     let [x, y, z] = encoding.encode(vector.as_dvec3().to_array());
     Vec4::new(x as f32, y as f32, z as f32, 1.0)
+}
+
+/// Weights of a cubic B-spline that ends at `half` texels, as `weights=lookup` reads them: of a texel and the next, and the share of the
+/// next.
+fn cubic_table(half: f32) -> Frame<Vec4> {
+    let weight = |distance: f32| match 2.0 * distance.abs() / half {
+        x if x < 1.0 => 2.0 / 3.0 - x * x + 0.5 * x * x * x,
+        x if x < 2.0 => (2.0 - x).powi(3) / 6.0,
+        _ => 0.0,
+    };
+    image(uvec2(513, 1), |texel| {
+        let first = texel.x as f32 / 512.0 * (2.0 * half - 1.0) - half;
+        let [near, far] = [first, first + 1.0].map(weight);
+        let share = if near + far > 0.0 { far / (near + far) } else { 0.5 };
+        Vec4::new(near + far, share, 0.0, 0.0)
+    })
 }
 
 /// What a case calls a normal, without any encoding.

@@ -1,11 +1,11 @@
 //! One form on one case: computed, compared, judged.
 
+use super::HardError;
 use super::case::Case;
 use super::expected::{Expected, expected, half_limit};
 use super::form::Form;
 use super::inputs::{Reads, reads};
 use super::reals::{Flushed, Loose};
-use super::{HardError, form};
 use crate::record::{Executor, HardResult};
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
@@ -126,7 +126,7 @@ impl<'a> Trial<'a> {
 
     fn judged(&self, found: &Found, precision: Precision, executor: Executor) -> HardResult {
         let half = precision == Precision::F16;
-        let limit = half_limit(self.case);
+        let limit = half_limit(self.case, self.form.family);
         let watched = half && !self.case.common;
         let (mut non_finite, mut kept) = (0, true);
         let (mut difference, mut ulps, mut bound): (Option<f64>, Option<f64>, Option<f64>) = (None, None, None);
@@ -205,10 +205,10 @@ pub fn compile(form: &Form, options: &[(String, String)]) -> Result<Compiled, Ha
     let settings = straightline_codegen::Settings {
         options: options.to_vec(),
         // One invocation computes a quad: the stage is a compute shader.
-        transport: match form.family {
-            form::Family::Upsampling | form::Family::Bilateral => Some(straightline_codegen::Transport::Block),
-            _ => None,
-        },
+        transport: form
+            .family
+            .is_of_quads()
+            .then_some(straightline_codegen::Transport::Block),
         math: form.math,
         ..Default::default()
     };

@@ -3,7 +3,7 @@
 use super::*;
 
 #[path = "../../../examples/quads/bounce.rs"]
-mod kernel;
+pub(super) mod kernel;
 
 use kernel::{Bounce, Gives, bounce};
 

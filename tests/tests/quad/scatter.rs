@@ -5,7 +5,7 @@ use super::*;
 use straightline_tests::quads;
 
 #[path = "../../../examples/quads/scatter.rs"]
-mod kernel;
+pub(super) mod kernel;
 
 use kernel::{Scatter, scatter};
 

@@ -203,25 +203,12 @@ fn definition(case: &Case, coord: impl Fn([i64; 2]) -> [f64; 3], [x, y]: [i64; 2
                 + (0..2)
                     .map(|axis| {
                         let centre = of(mean)[axis];
-                        slope[axis] * (of(own)[axis] - centre - middle(&map, texels, centre))
+                        slope[axis] * (of(own)[axis] - centre - quads::middle(&map, texels, centre))
                     })
                     .sum::<f64>();
             value.clamp(0.0, 1.0)
         }
     }
-}
-
-/// The mean place of the texels that are weighed on one axis, from the centre.
-fn middle(map: &Shadow, texels: i64, centre: f64) -> f64 {
-    let first = (centre - 0.5).floor() as i64 - texels / 2 + 1;
-    let (mut sum, mut total) = (0.0, 0.0);
-    for k in first..first + texels {
-        let away = k as f64 + 0.5 - centre;
-        let weight = if map.weights == "box" { 1.0 } else { map.weight(away) };
-        sum += weight * away;
-        total += weight;
-    }
-    sum / total
 }
 
 pub(super) fn draw(gpu: &Bench, compiled: &Compiled, inputs: &Inputs, plane: Plane) -> Frame<Vec4> {
@@ -272,6 +259,7 @@ fn every_filter_is_its_definition() {
                 gradient: case.gradient,
                 spread: case.spread,
                 mirroring: case.mirroring,
+                ..Pcf::default()
             };
             let lookup = cubic_table(texels_of(case.width).1 as f32 / 2.0);
             let inputs = inputs

@@ -6,6 +6,7 @@ mod glsl;
 mod guards;
 mod half;
 mod hlsl;
+mod powers;
 mod wgsl;
 mod zeroed;
 
@@ -20,6 +21,7 @@ pub use half::half;
 /// Rewrites a module for WGSL.
 pub fn wgsl(module: &mut Module<'_>) {
     module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::None));
+    module.rewrite(&mut |_, expr| powers::shifted(expr));
     wgsl::legalise(module);
 }
 
@@ -31,6 +33,7 @@ pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
         false => Overloads::Scalars,
     };
     module.rewrite(&mut |module, expr| guards::expand(module, expr, overloads));
+    module.rewrite(&mut |_, expr| powers::shifted(expr));
     let rule: Rule = if vulkan { glsl::vulkan } else { glsl::opengl };
     rewrite_functions(module, rule);
     module.rewrite(&mut { rule });
@@ -40,6 +43,7 @@ pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
 pub fn hlsl(module: &mut Module<'_>, resources: &Resources) {
     zeroed::begin(module, resources);
     module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::Scalars));
+    module.rewrite(&mut |_, expr| powers::shifted(expr));
     hlsl::legalise(module);
 }
 

@@ -3,6 +3,8 @@
 mod table;
 mod weights;
 
+use super::coordinates::{counted, mean};
+use super::guards::Guards;
 use crate::prelude::*;
 use weights::weigh;
 
@@ -25,6 +27,8 @@ options! {
         pub spread: f32 [1.0..=64.0] = 1.0,
         /// Where the comparisons of a lane lie; of `quad`, and not of four texels.
         pub mirroring: Mirroring = Mirroring::Local,
+        /// Tests of coordinates that are not finite or far from the map, and of the table's weights.
+        pub guards: Guards = Guards::Inline,
     }
 }
 
@@ -85,6 +89,11 @@ pub enum Gradient {
 /// weighed.
 ///
 /// `lookup` is read by `weights=lookup` alone, through a sampler that filters linearly and clamps: [`table`] makes it.
+///
+/// The light is a number from 0 to 1 whatever `coord` and `lookup` are. A lane whose coordinates are not finite, or so far from the map
+/// that the filter reads its border alone, does not move the quad's mean place. By itself it counts as a place beside the map, and as the
+/// map's first corner with a depth of 0 if its coordinates are not finite. `guards=none` leaves these tests out, as a promise that
+/// coordinates are finite, at most a map's width away from the map, and that the table has weights.
 pub fn pcf(
     cfg: &Pcf,
     shadow: &DepthTexture,
@@ -121,16 +130,21 @@ pub fn pcf(
             "weights=lookup has weights of two texels at a time: set method to quad or bilinear"
         );
     }
+    let seen = counted(shadow, coord, cfg.width.half() * cfg.spread + 2.0);
+    let (coord, centre) = match cfg.guards {
+        Guards::Inline => (seen.coord, mean(&seen)),
+        Guards::None => (coord, coord.average()),
+    };
     let lit = match cfg.method {
         Method::Naive => naive(cfg, shadow, shadow_sampler, coord),
         Method::Bilinear => bilinear(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
         Method::Quad => match cfg.width {
-            Width::Four => shared::<1>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
-            Width::Eight => shared::<4>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
-            Width::Twelve => shared::<9>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
-            Width::Sixteen => shared::<16>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
+            Width::Four => shared::<1>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord, centre),
+            Width::Eight => shared::<4>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord, centre),
+            Width::Twelve => shared::<9>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord, centre),
+            Width::Sixteen => shared::<16>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord, centre),
         },
-        Method::Gather => gathered(cfg, shadow, shadow_sampler, coord),
+        Method::Gather => gathered(cfg, shadow, shadow_sampler, coord, centre),
     };
     Vec4::ONE * lit
 }
@@ -196,13 +210,38 @@ fn pair(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad
 }
 
 /// What the table says of the texels at `first` and one farther.
-fn looked_up(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad<f32>) -> Quad<Vec4> {
+fn looked_up(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad<f32>) -> Quad<Vec2> {
     let half = cfg.width.half();
     let texels = lookup.size().x as f32;
     // Between the middles of the first and of the last texel of the table.
     let at = (first + half) / (2.0 * half - 1.0) * (texels - 1.0) + 0.5;
     let at = Quad::from_xy(at / texels, Quad::splat(0.5));
-    lookup.sample_level(lookup_sampler, at, Quad::splat(0.0))
+    let found = lookup.sample_level(lookup_sampler, at, Quad::splat(0.0)).xy();
+    match cfg.guards {
+        Guards::Inline => {
+            // A weight that is not above 0, or not a number, is none.
+            let (weight, place) = (found.x(), found.y());
+            let weight = weight.gt(0.0).select(weight.min(HEAVIEST), Quad::splat(0.0));
+            let place = place.gt(0.0).select(place.min(1.0), Quad::splat(0.0));
+            Quad::from_xy(weight, place)
+        }
+        Guards::None => found,
+    }
+}
+
+/// Most that a table's weight counts.
+const HEAVIEST: f32 = 1.0e10;
+
+/// Sums of weights up to this are of a table that has none here.
+const LIGHTEST: f32 = 1.0e-20;
+
+/// Light over the weight that it was summed up with; of a table without weights all is lit.
+fn over(cfg: &Pcf, lit: Quad<f32>, weight: Quad<f32>) -> Quad<f32> {
+    if cfg.has_doubtful_weights() {
+        weight.gt(LIGHTEST).select(lit / weight, Quad::splat(1.0))
+    } else {
+        lit / weight
+    }
 }
 
 /// Each pixel compares between every 2×2 texels.
@@ -229,7 +268,7 @@ fn bilinear(
             total += weight;
         }
     }
-    sum / total
+    over(cfg, sum, total)
 }
 
 /// The quad compares between every 2×2 texels around its mean place, `N` of those each lane.
@@ -240,8 +279,8 @@ fn shared<const N: usize>(
     lookup: &Texture<Vec4>,
     lookup_sampler: &Sampler,
     coord: Quad<Vec3>,
+    centre: Quad<Vec3>,
 ) -> Quad<f32> {
-    let centre = coord.average();
     let taps = compare::<N>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, centre);
     let away = (coord.truncate() - centre.truncate()) * shadow.size().as_vec2();
     join(cfg, taps, fraction(shadow, centre), away)
@@ -318,11 +357,16 @@ pub fn join<const N: usize>(cfg: &Pcf, taps: [Tap; N], fraction: Quad<Vec2>, awa
         }
         (_, Gradient::None) => {
             let sums = sums.zw().sum();
-            (sums.y() / sums.x(), Quad::splat(Vec2::ZERO))
+            (over(cfg, sums.y(), sums.x()), Quad::splat(Vec2::ZERO))
         }
         _ => {
             let sums = sums.sum();
-            (sums.w() / sums.z(), sums.xy() / sums.z())
+            let lit = over(cfg, sums.w(), sums.z());
+            let weight = match cfg.has_doubtful_weights() {
+                true => sums.z().max(LIGHTEST),
+                false => sums.z(),
+            };
+            (lit, sums.xy() / weight)
         }
     };
     match cfg.gradient {
@@ -370,9 +414,14 @@ fn fitted<const N: usize>(taps: [Tap; N]) -> Quad<Vec2> {
 }
 
 /// Each lane gathers its quarter of 8×8 texels and passes them on; each pixel weighs those around its own place.
-fn gathered(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<f32> {
+fn gathered(
+    cfg: &Pcf,
+    shadow: &DepthTexture,
+    shadow_sampler: &ComparisonSampler,
+    coord: Quad<Vec3>,
+    centre: Quad<Vec3>,
+) -> Quad<f32> {
     let size = shadow.size().as_vec2();
-    let centre = coord.average();
     let a = fraction(shadow, centre);
     // From the pixel's own place to the texel at the upper left of the quad's. Where the quad covers more texels than there
     // are to spare, its pixels take the nearest place that has all of its own.
@@ -408,6 +457,13 @@ fn columns(cfg: &Pcf, shift: Quad<Vec2>, mirrored: bool) -> [Quad<Vec2>; 2] {
         shift + quad_vector()
     };
     [weigh(cfg.weights, 3.0, first), weigh(cfg.weights, 3.0, first + 1.0)]
+}
+
+impl Pcf {
+    /// Whether weights come from a table that may have none.
+    fn has_doubtful_weights(&self) -> bool {
+        self.weights == ShadowWeights::Lookup && self.guards == Guards::Inline
+    }
 }
 
 impl Width {

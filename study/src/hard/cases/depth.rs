@@ -20,6 +20,31 @@ pub const CASES: &[Case] = &[
         seen(p, f32::INFINITY, Vec3::ZERO)
     })
     .common(),
+    Case::new(
+        "sky-in-spots",
+        "infinite depth in some pixels, as seen through a grid",
+        |p| spotted(p, f32::INFINITY),
+    )
+    .common(),
+    Case::new("sky-in-one-lane", "infinite depth in one lane of each quad", |p| {
+        let mut seen = walls(p);
+        if p.is_one_lane() {
+            seen.depth = f32::INFINITY;
+        }
+        seen
+    }),
+    Case::new(
+        "odd-sky",
+        "an infinite depth where quads stick out of the picture",
+        sky_behind,
+    )
+    .size(13, 7)
+    .common(),
+    Case::new(
+        "huge-depth",
+        "depths of 3e38 in some pixels, and of -3e38 in others",
+        |p| spotted(p, if p.pixel.x % 2 == 0 { 3.0e38 } else { -3.0e38 }),
+    ),
     Case::new("cleared-sky", "a sky of the largest finite depth, 3.4e38", |p| {
         behind(p, f32::MAX)
     })

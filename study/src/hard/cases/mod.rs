@@ -1,6 +1,7 @@
 //! The hard cases.
 
 mod color;
+mod coordinates;
 mod depth;
 mod normal;
 mod parameter;
@@ -17,6 +18,7 @@ pub fn all() -> Vec<Case> {
         normal::CASES,
         color::CASES,
         parameter::CASES,
+        coordinates::CASES,
     ]
     .concat()
 }

@@ -3,8 +3,11 @@
 mod shadow;
 mod surface;
 
-pub use shadow::{Shadow, pcf_around, pcf_bilinear, pcss, slope_fitted, slope_prewitt};
-pub use surface::{Ao, ssao};
+pub use shadow::{
+    Counted, Shadow, blockers, counted as counted_coordinates, mean, middle, pcf_around, pcf_bilinear, pcss,
+    slope_fitted, slope_prewitt,
+};
+pub use surface::{Ao, Light, ssao, ssao_between};
 
 /// An image in `f64`, its border continued outwards.
 pub struct Picture {
@@ -19,6 +22,20 @@ impl Picture {
     pub fn at(&self, x: i64, y: i64) -> [f64; 4] {
         let (x, y) = (x.clamp(0, self.size[0] - 1), y.clamp(0, self.size[1] - 1));
         self.texels[(y * self.size[0] + x) as usize]
+    }
+}
+
+/// The image as a convolution takes it, whose weights' sizes sum up to `heaviest`: a pixel with a component that is not finite, or too large
+/// for the sum, is 0.
+pub fn bounded_image(image: &Picture, heaviest: f64) -> Picture {
+    let counts = |texel: &[f64; 4]| texel.iter().all(|c| c.abs() < BRIGHTEST / heaviest);
+    Picture {
+        size: image.size,
+        texels: image
+            .texels
+            .iter()
+            .map(|t| if counts(t) { *t } else { [0.0; 4] })
+            .collect(),
     }
 }
 
@@ -59,9 +76,13 @@ pub fn fitted(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]:
                 for column in 0..3 {
                     normal[row][column] += wx * wy * basis[row] * basis[column];
                 }
-                for k in 0..4 {
-                    let tap = (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]);
-                    normal[row][3 + k] += wx * wy * basis[row] * tap;
+                let taps =
+                    [0, 1, 2, 3].map(|k| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]));
+                // A tap of which a component is no finite colour is 0.
+                if taps.iter().all(|tap| tap.abs() < BRIGHTEST / 4.0) {
+                    for k in 0..4 {
+                        normal[row][3 + k] += wx * wy * basis[row] * taps[k];
+                    }
                 }
             }
         }
@@ -93,7 +114,7 @@ pub fn pascal(n: i64, k: i64) -> f64 {
 const DEEPEST: f64 = 1.0e30_f32 as f64;
 
 /// Colours are less than this, by definition of the filters; a texel with another has no weight.
-const BRIGHTEST: f64 = 3.0e38;
+const BRIGHTEST: f64 = 1.5e38_f32 as f64;
 
 /// `depth` as it counts.
 pub fn bounded(depth: f64) -> f64 {

@@ -56,6 +56,58 @@ impl Shadow {
     }
 }
 
+/// Coordinates that count as numbers are smaller, by definition of the filters.
+const FARTHEST: f64 = 1.0e20_f32 as f64;
+
+/// Coordinates in a shadow map as a filter takes them.
+#[derive(Clone, Copy, Debug)]
+pub struct Counted {
+    /// Place and depth.
+    pub coord: [f64; 3],
+    /// Whether they say where the quad is.
+    pub counts: bool,
+}
+
+/// `coord` as it counts, of a filter that reaches `reach` texels in a map of `size`: 0 if a component is no number or too large, and at
+/// most as far from the map as the filter reaches.
+pub fn counted(coord: [f64; 3], size: [i64; 2], reach: f64) -> Counted {
+    if !coord.iter().all(|c| c.abs() < FARTHEST) {
+        return Counted {
+            coord: [0.0; 3],
+            counts: false,
+        };
+    }
+    let margin = size.map(|texels| reach / texels as f64);
+    let place = [0, 1].map(|axis| coord[axis].clamp(-margin[axis], 1.0 + margin[axis]));
+    Counted {
+        coord: [place[0], place[1], coord[2]],
+        counts: place == coord[..2],
+    }
+}
+
+/// Mean coordinates of the lanes of a quad that count, or of all if none does.
+pub fn mean(lanes: &[Counted; 4]) -> [f64; 3] {
+    let any = lanes.iter().any(|lane| lane.counts);
+    let taken: Vec<_> = lanes.iter().filter(|lane| lane.counts || !any).collect();
+    std::array::from_fn(|k| taken.iter().map(|lane| lane.coord[k]).sum::<f64>() / taken.len() as f64)
+}
+
+/// Mean place, from the centre, of the texels that are weighed on one axis.
+pub fn middle(shadow: &Shadow, texels: i64, centre: f64) -> f64 {
+    let first = (centre - 0.5).floor() as i64 - texels / 2 + 1;
+    let (mut sum, mut total) = (0.0, 0.0);
+    for k in first..first + texels {
+        let away = k as f64 + 0.5 - centre;
+        let weight = match shadow.weights.as_str() {
+            "box" => 1.0,
+            _ => shadow.weight(away),
+        };
+        sum += weight * away;
+        total += weight;
+    }
+    sum / total
+}
+
 /// Every texel of `texels` by `texels` around `centre` compared with `reference` and weighed by its distance from `from`,
 /// both in texels.
 pub fn pcf_around(shadow: &Shadow, texels: i64, centre: [f64; 2], from: [f64; 2], reference: f64) -> f64 {
@@ -138,23 +190,27 @@ pub fn slope_fitted(shadow: &Shadow, texels: i64, centre: [f64; 2], reference: f
     })
 }
 
+/// Sixteen places: -3, -1, 1 and 3 on each axis.
+fn grid() -> impl Iterator<Item = [f64; 2]> {
+    (0..16).map(|k| [f64::from(2 * (k % 4) - 3), f64::from(2 * (k / 4) - 3)])
+}
+
+/// Depths nearer than `reference` among sixteen in a width of `search` texels.
+pub fn blockers(shadow: &Shadow, centre: [f64; 2], reference: f64, search: f64) -> Vec<f64> {
+    let depths = grid().map(|g| {
+        let at = [0, 1].map(|axis| (centre[axis] + g[axis] * search / 8.0).floor() as i64);
+        shadow.depth(at[0], at[1])
+    });
+    depths.filter(|depth| *depth < reference).collect()
+}
+
 /// Contact-hardening light: sixteen depths, those nearer than `reference` its blockers, and sixteen comparisons.
 pub fn pcss(shadow: &Shadow, centre: [f64; 2], reference: f64, [search, light, low, high]: [f64; 4]) -> f64 {
-    let grid = (0..16).map(|k| [f64::from(2 * (k % 4) - 3), f64::from(2 * (k / 4) - 3)]);
-    let blockers: Vec<f64> = grid
-        .clone()
-        .map(|g| {
-            let at = [0, 1].map(|axis| (centre[axis] + g[axis] * search / 8.0).floor() as i64);
-            shadow.depth(at[0], at[1])
-        })
-        .filter(|depth| *depth < reference)
-        .collect();
-    if blockers.is_empty() {
-        let taps = grid.map(|g| shadow.bilinear([0, 1].map(|axis| centre[axis] + g[axis] * low / 8.0), reference));
-        return taps.sum::<f64>() / 16.0;
-    }
-    let mean = blockers.iter().sum::<f64>() / blockers.len() as f64;
-    let width = ((reference - mean) * light).clamp(low, high);
-    let taps = grid.map(|g| shadow.bilinear([0, 1].map(|axis| centre[axis] + g[axis] * width / 8.0), reference));
+    let blockers = blockers(shadow, centre, reference, search);
+    let width = match blockers.len() {
+        0 => low,
+        n => ((reference - blockers.iter().sum::<f64>() / n as f64) * light).clamp(low, high),
+    };
+    let taps = grid().map(|g| shadow.bilinear([0, 1].map(|axis| centre[axis] + g[axis] * width / 8.0), reference));
     taps.sum::<f64>() / 16.0
 }

@@ -1,4 +1,8 @@
-//! SPIR-V as words: basic blocks counted, and those joined that are one.
+//! SPIR-V as words: basic blocks counted, straight functions replaced where they are called, and blocks joined that are one.
+
+mod inline;
+
+pub use inline::inlined;
 
 /// Words before the first instruction: magic number, version, generator, bound of ids, and 0.
 const HEADER: usize = 5;

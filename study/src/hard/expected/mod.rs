@@ -9,7 +9,14 @@
 //! | an edge filter where a decision is close | the range of colours around | a comparison may go either way, and moves the taps by less than their reach |
 //! | bilateral filters | [`bound::of_mean`] | as SRAA: Gaussians of differences that are known |
 //! | the same, differences from one colour | 24 u · the brightest of the colours | what is subtracted and added again is rounded, even if it weighs nothing |
+//! | a convolution | n² + 16 roundings of the brightest colour around | a sum of n² products |
+//! | its bilinear taps, and filters of shadow maps, on a device | 1/128 of the range for each comparison | as an edge filter's taps |
+//! | filters of shadow maps | their definition at places and depths a few roundings off | a comparison may go either way |
+//! | ambient occlusion | each tap's between the least and the most of its place, its way and its cosine | a place may be the next pixel |
 //! | 16 bits | 1/255 of the brightest colour | a step of an 8-bit picture: more would be seen |
+
+mod shadow;
+mod sums;
 
 use super::HardError;
 use super::case::Case;
@@ -56,11 +63,17 @@ pub fn expected(form: &Form, options: &[(String, String)], reads: &Reads) -> Res
         Family::Stalker | Family::TabulaRasa => Ok(edges(form.family, options, inputs)),
         Family::Upsampling => Ok(upsampled(options, inputs)),
         Family::Bilateral => Ok(blurred(options, inputs)),
+        Family::Convolution => Ok(sums::convolved(options, inputs)),
+        Family::Ssao => Ok(sums::occluded(options, inputs)),
+        Family::Pcf | Family::Pcss => Ok(shadow::shadowed(form.family, options, inputs)),
     }
 }
 
-/// A step of an 8-bit picture, of what the case's colours are at the brightest.
-pub fn half_limit(case: &Case) -> f64 {
+/// A step of an 8-bit picture, of what the case's colours are at the brightest; of light, of 1.
+pub fn half_limit(case: &Case, family: Family) -> f64 {
+    if family.gives_light() {
+        return 1.0 / 255.0;
+    }
     let pixels = (0..case.size.y).flat_map(|y| (0..case.size.x).map(move |x| glam::uvec2(x, y)));
     let lanes = pixels.flat_map(|pixel| case.at(pixel, glam::Vec2::ZERO, None).color.to_array());
     let finite = lanes.filter(|lane| lane.is_finite());

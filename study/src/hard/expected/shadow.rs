@@ -1,0 +1,166 @@
+//! Filters of shadow maps: by definition, and between which values roundings may move them.
+//!
+//! A comparison is 0 or 1, and which texels are compared jumps where a place passes from texel to texel. So the definition is evaluated at
+//! the coordinates that were read and with each of them a little smaller and a little larger: between these results lies every outcome
+//! of those decisions, as all are off by the same.
+
+use super::{Expected, number, picture, places};
+use crate::hard::form::{self, Family, Form};
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::oracle::bound::Rounding;
+use straightline_testbed::oracle::quads::{self, Counted, Shadow};
+
+/// What a form with `options` should give for coordinates and a shadow map.
+pub fn shadowed(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expected {
+    let coord = picture(inputs, "coord", |t| t);
+    let depths = picture(inputs, "shadow", |t| t);
+    let filter = Filter::new(
+        family,
+        options,
+        depths.size,
+        depths.texels.iter().map(|t| t[0]).collect(),
+    );
+    let (mut colors, mut bounds, mut device_bounds) = (Vec::new(), Vec::new(), Vec::new());
+    for [x, y] in places(inputs) {
+        let lanes = [0, 1, 2, 3].map(|k| {
+            let [x, y, z, _] = coord.at(x / 2 * 2 + k % 2, y / 2 * 2 + k / 2);
+            quads::counted_coordinates([x, y, z], filter.map.size, filter.reach)
+        });
+        let own = lanes[(x % 2 + 2 * (y % 2)) as usize];
+        let (value, off, by_device) = filter.between(own, quads::mean(&lanes));
+        colors.push([value; 4]);
+        bounds.push(off);
+        device_bounds.push(by_device);
+    }
+    Expected {
+        colors,
+        bounds,
+        device_bounds,
+        half_bounds: None,
+        lanes: 4,
+    }
+}
+
+/// A filter of a shadow map.
+struct Filter<'a> {
+    options: &'a [(String, String)],
+    family: Family,
+    map: Shadow,
+    texels: i64,
+    /// How far a comparison lies from the pixel's place at most, in texels, as the kernel takes it.
+    reach: f64,
+    /// Most that the weights of a table are off.
+    table: f64,
+}
+
+impl<'a> Filter<'a> {
+    fn new(family: Family, options: &'a [(String, String)], size: [i64; 2], depths: Vec<f64>) -> Filter<'a> {
+        let texels = form::texels(options);
+        let is_lookup = Form::value(options, "weights", "box") == "lookup";
+        let is_gathered = Form::value(options, "method", "quad") == "gather";
+        let map = Shadow {
+            size,
+            depths,
+            // The table holds a cubic B-spline.
+            weights: match is_lookup {
+                true => "cubic".to_owned(),
+                false => Form::value(options, "weights", "box").to_owned(),
+            },
+            half: if is_gathered { 3.0 } else { texels as f64 / 2.0 },
+        };
+        let reach = match family {
+            Family::Pcss => 0.375 * number(options, "search", 16.0).max(number(options, "widest", 24.0)) + 2.0,
+            _ => texels as f64 / 2.0 + 2.0,
+        };
+        Filter {
+            options,
+            family,
+            map,
+            texels,
+            reach,
+            table: if is_lookup { 1.0e-4 } else { 0.0 },
+        }
+    }
+
+    /// Light for a pixel, and the most that an interpreter and a device may be off.
+    fn between(&self, own: Counted, mean: [f64; 3]) -> (f64, f64, f64) {
+        let unit = Rounding::SINGLE.unit;
+        let (value, slant) = self.light(own.coord, mean);
+        let blockers = match self.family {
+            Family::Pcss => self.blockers(own.coord, mean),
+            _ => Vec::new(),
+        };
+        let mut off = 0.0f64;
+        let place_off = |axis: usize| {
+            let largest = own.coord[axis].abs().max(mean[axis].abs());
+            64.0 * unit * (largest + (self.reach + 1.0) / self.map.size[axis] as f64)
+        };
+        for corner in 0..8 {
+            let moved = |coord: [f64; 3]| {
+                std::array::from_fn(|k| {
+                    let by = match k {
+                        2 => 16.0 * unit * own.coord[2].abs().max(mean[2].abs()) + Rounding::SINGLE.smallest,
+                        axis => place_off(axis),
+                    };
+                    coord[k] + if corner >> k & 1 == 1 { by } else { -by }
+                })
+            };
+            let (own_there, mean_there) = (moved(own.coord), moved(mean));
+            off = off.max((self.light(own_there, mean_there).0 - value).abs());
+            // Each depth of a search may be another by itself, and then the penumbra any.
+            if self.family == Family::Pcss && self.blockers(own_there, mean_there) != blockers {
+                off = 1.0;
+            }
+        }
+        let rounded = (256.0 * unit + self.table) * (1.0 + slant);
+        // A device weighs texels in steps of 1/256 on each axis, in each comparison.
+        (value, off + rounded, off + rounded + (1.0 + slant) / 128.0)
+    }
+
+    /// What the search for blockers finds.
+    fn blockers(&self, own: [f64; 3], mean: [f64; 3]) -> Vec<f64> {
+        let from = match Form::value(self.options, "sharing", "quad") {
+            "quad" => mean,
+            _ => own,
+        };
+        let place = [0, 1].map(|axis| from[axis] * self.map.size[axis] as f64);
+        quads::blockers(&self.map, place, from[2], number(self.options, "search", 16.0))
+    }
+
+    /// Light for a pixel at `own` of a quad at `mean`, and by how much an error of all comparisons counts in its slope.
+    fn light(&self, own: [f64; 3], mean: [f64; 3]) -> (f64, f64) {
+        let of = |c: [f64; 3]| [0, 1].map(|axis| c[axis] * self.map.size[axis] as f64);
+        let (own_place, place) = (of(own), of(mean));
+        let value = |name: &str, default| Form::value(self.options, name, default);
+        if self.family == Family::Pcss {
+            let numbers = [("search", 16.0), ("light", 400.0), ("narrowest", 2.0), ("widest", 24.0)];
+            let numbers = numbers.map(|(name, default)| number(self.options, name, default));
+            let (place, depth) = match value("sharing", "quad") {
+                "quad" => (place, mean[2]),
+                _ => (own_place, own[2]),
+            };
+            return (quads::pcss(&self.map, place, depth, numbers), 0.0);
+        }
+        match value("method", "quad") {
+            "naive" | "bilinear" => {
+                let light = quads::pcf_around(&self.map, self.texels, own_place, own_place, own[2]);
+                return (light, 0.0);
+            }
+            "gather" => {
+                let near = [0, 1].map(|axis| place[axis] + (own_place[axis] - place[axis]).clamp(-1.0, 1.0));
+                return (quads::pcf_around(&self.map, self.texels, place, near, mean[2]), 0.0);
+            }
+            _ => {}
+        }
+        let light = quads::pcf_around(&self.map, self.texels, place, place, mean[2]);
+        let slope = match value("gradient", "none") {
+            "prewitt" => quads::slope_prewitt(&self.map, self.texels, place, mean[2]),
+            "fitted" => quads::slope_fitted(&self.map, self.texels, place, mean[2]),
+            _ => return (light, 0.0),
+        };
+        let away =
+            [0, 1].map(|axis| own_place[axis] - place[axis] - quads::middle(&self.map, self.texels, place[axis]));
+        let light = light + slope[0] * away[0] + slope[1] * away[1];
+        (light.clamp(0.0, 1.0), away[0].abs() + away[1].abs())
+    }
+}
