@@ -11,6 +11,9 @@ use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::front::{assigned, breaks, children, guarded};
 use crate::policy::{Asked, Unroll};
 
+/// Iterations of a `while`, if they are known, and by slot the constants that variables are after them.
+type Counted = (Option<u64>, Vec<(usize, Value)>);
+
 impl Evaluator<'_> {
     pub fn while_(
         &mut self,
@@ -122,7 +125,7 @@ impl Evaluator<'_> {
     }
 
     /// How many iterations a `while` has, if that is known, and the constants that variables are after it.
-    fn counted(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<(Option<u64>, Vec<(usize, Value)>)> {
+    fn counted(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<Counted> {
         let test = Block {
             statements: vec![Statement::Expr(condition.clone())],
             value: None,
