@@ -1,7 +1,9 @@
 //! What the numbers of a PNG mean: colours in sRGB, or data as they are.
 
 use crate::failure::Failure;
+use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::Mutex;
 use straightline_codegen::ir::Texture;
 use straightline_testbed::picture;
 
@@ -37,23 +39,29 @@ pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result
         Some(transfer) => Ok(transfer),
         None if texture.declared <= 2 => {
             if is_png {
-                errln!(
+                note(format!(
                     "note: `{}` is no colour, so {path} is read as it is, from 0 to 1; as sRGB it is --input {}={path},srgb",
-                    texture.name,
-                    texture.name
-                );
+                    texture.name, texture.name
+                ));
             }
             Ok(Transfer::Linear)
         }
         None => {
             if is_png {
-                errln!(
+                note(format!(
                     "note: {path} is read as sRGB; if `{}` is data, as normals are: --input {}={path},linear",
-                    texture.name,
-                    texture.name
-                );
+                    texture.name, texture.name
+                ));
             }
             Ok(Transfer::Srgb)
         }
+    }
+}
+
+/// Says something once, however often a sweep or a watch reads the file.
+fn note(text: String) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if SAID.lock().is_ok_and(|mut said| said.insert(text.clone())) {
+        errln!("{text}");
     }
 }
