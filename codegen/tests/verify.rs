@@ -27,6 +27,7 @@ fn whole() -> Graph {
         kind,
         scalar: Scalar::F32,
         components,
+        declared: components,
         framed: true,
     };
     let sampler = |name: &str, comparison| Sampler {
