@@ -87,7 +87,7 @@ void main() {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
             float tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
             if (tent > 1e-6) {
-                float w = exp2(721.34753 * (nearest - distances[tap]) + log2(tent));
+                float w = exp2(721.34753 * (nearest - distances[tap]) + log2(max(tent, 1e-6)));
                 tap_weights[tap] = w;
                 sum += w;
             }

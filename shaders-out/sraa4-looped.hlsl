@@ -85,7 +85,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             float2 away = float2(int2(tap_2 % 3 - 1, tap_2 / 3 - 1)) - place_at;
             float tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
             if (tent > 1e-6) {
-                float w = exp2(721.34753 * (nearest - distances[tap_2]) + log2(tent));
+                float w = exp2(721.34753 * (nearest - distances[tap_2]) + log2(max(tent, 1e-6)));
                 tap_weights[tap_2] = w;
                 sum += w;
             }

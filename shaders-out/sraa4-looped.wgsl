@@ -79,7 +79,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
             let tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
             if tent > 1e-6 {
-                let w = exp2(721.34753 * (nearest - distances[tap]) + log2(tent));
+                let w = exp2(721.34753 * (nearest - distances[tap]) + log2(max(tent, 1e-6)));
                 tap_weights[tap] = w;
                 sum += w;
             }

@@ -169,7 +169,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                         }
                         Falloff::None => exponent.exp2(),
                         // The falloff as an exponent: it is added, not multiplied with.
-                        _ => (exponent + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2(),
+                        _ => (exponent + falloff_exponent(cfg, place, cfg.tap(tap, SIDE))).exp2(),
                     };
                     tap_weights[tap] = w;
                     sum += w;
@@ -408,4 +408,9 @@ fn mean<const TAPS: usize>(
         );
     }
     result
+}
+
+/// The logarithm of a falloff that reaches: bounded by what it is more than, by which a shader knows that it is finite.
+fn falloff_exponent(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
+    falloff(cfg, sample, tap).max(least(cfg).max(f32::MIN_POSITIVE)).log2()
 }

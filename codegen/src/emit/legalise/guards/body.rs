@@ -59,26 +59,17 @@ impl<'m, 'g> Body<'m, 'g> {
         self.statements.push(StmtKind::Assign(place, None, value).into());
     }
 
-    /// Repeats what `round` writes, at most `most` times, until the condition holds that it returns.
-    pub fn repeat(&mut self, most: u32, round: impl FnOnce(&mut Self) -> Expr) {
-        let counter = self.module.variable("step", Type::I32);
+    /// Repeats what `turn` writes `times` times.
+    pub fn repeat(&mut self, times: Expr, turn: impl FnOnce(&mut Self)) {
+        let counter = self.module.variable("turn", Type::I32);
         let outer = std::mem::take(&mut self.statements);
-        let done = round(self);
-        let mut body = std::mem::replace(&mut self.statements, outer);
-        body.push(
-            StmtKind::If {
-                condition: done,
-                then: vec![StmtKind::Break.into()],
-                otherwise: Vec::new(),
-            }
-            .into(),
-        );
-        let end = Expr::splat(Type::I32, most);
+        turn(self);
+        let body = std::mem::replace(&mut self.statements, outer);
         self.statements.push(
             StmtKind::For {
                 counter,
                 start: Expr::splat(Type::I32, 0),
-                end,
+                end: times,
                 body,
             }
             .into(),

@@ -3,15 +3,12 @@
 
 use super::Guard;
 use super::body::{Body, binary, or, unary};
-use crate::emit::ast::{Domain, Expr};
+use crate::emit::ast::{Division, Domain, Expr, Op};
 use crate::emit::legalise::choose;
 use straightline_evaluator::ir::{BinaryOp, Scalar, UnaryOp};
 
 /// Bits of a quotient that one step takes off. With the upper half of the divisor's bits it makes a product without rounding.
 const STEP: u32 = 10;
-
-/// Steps for the largest number and the smallest normal one.
-const STEPS: u32 = 28;
 
 /// The function for a remainder: without a loop where the quotient is known to be small.
 pub fn guard(domain: Domain) -> Guard {
@@ -73,23 +70,37 @@ fn less(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
     choose(above, binary(&left, BinaryOp::Sub, &divisor), left)
 }
 
-/// What a divisor leaves of a scalar: of divisors 2^n times as large first, so that each quotient is small.
+/// What a divisor leaves of a scalar: of divisors 2^n times as large first, so that each quotient is small. The number of steps is
+/// a runtime value: drivers unroll a loop whose number they know.
 fn by_steps(b: &mut Body<'_, '_>, x: &Expr, size: &Expr) -> Expr {
     let (whole, words) = (b.ty.of(Scalar::I32), b.ty.of(Scalar::U32));
+    let integer = |n: u32| Expr::splat(whole, n);
     let mantissa = || Expr::splat(words, 23);
     let rest = b.variable("rest", unary(UnaryOp::Abs, x));
     let own = b.bits(size);
     let own = b.declare("size_bits", own);
-    b.repeat(STEPS, |b| {
+    // How many doublings the divisor is from the largest one that is less than 2^STEP times as small.
+    let doublings = |b: &Body<'_, '_>| {
         let exponent = |bits: Expr| bits.binary(BinaryOp::Shr, mantissa()).to(whole);
         let apart = exponent(b.bits(&b.read(rest))).binary(BinaryOp::Sub, exponent(own.clone()));
-        let apart = b.declare("apart", apart.binary(BinaryOp::Sub, Expr::splat(whole, STEP)));
-        let doubled = binary(&apart, BinaryOp::Max, &Expr::splat(whole, 0)).to(words);
+        apart
+            .binary(BinaryOp::Sub, integer(STEP))
+            .binary(BinaryOp::Max, integer(0))
+    };
+    let first = doublings(b);
+    let steps = first.binary(BinaryOp::Add, integer(2 * STEP - 1));
+    let sure = Division {
+        defined: true,
+        positive: true,
+    };
+    let steps = Expr::new(Op::Division(BinaryOp::Div, sure), vec![steps, integer(STEP)], whole);
+    let steps = b.declare("steps", steps);
+    b.repeat(steps, |b| {
+        let doubled = doublings(b).to(words);
         let divisor = binary(&own, BinaryOp::Add, &doubled.binary(BinaryOp::Shl, mantissa()));
         let divisor = b.declare("divisor", divisor.bits_as(b.ty));
         let left = less(b, b.read(rest), divisor);
         b.assign(rest, left);
-        binary(&apart, BinaryOp::Le, &Expr::splat(whole, 0))
     });
     b.read(rest)
 }

@@ -8,15 +8,18 @@ use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
 
 /// A shorter expression with the same edges, where there is one.
 pub fn inline(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr> {
+    let x = &args[0];
+    if *op == ir::Op::Unary(UnaryOp::Fract) && is_short(x) {
+        return Some(binary(x, BinaryOp::Sub, &unary(UnaryOp::Floor, x)));
+    }
     if *op != ir::Op::Binary(BinaryOp::Pow) {
         return None;
     }
-    let x = &args[0];
     let exponent = power::exponent(args)?;
     if exponent == -1.0 {
         return Some(Expr::splat(ty, 1.0_f32.to_bits()).binary(BinaryOp::Div, x.clone()));
     }
-    if exponent == 2.0 && is_leaf(x) {
+    if exponent == 2.0 && is_name(x) {
         return Some(binary(x, BinaryOp::Mul, x));
     }
     match exponent {
@@ -26,6 +29,27 @@ pub fn inline(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr
         -0.5 if domain.not_negative => Some(unary(UnaryOp::InverseSqrt, &unary(UnaryOp::Abs, x))),
         _ => None,
     }
+}
+
+/// Whether an expression is a name, a number, or components of one.
+fn is_name(expr: &Expr) -> bool {
+    match expr.op {
+        Op::Swizzle(_) => is_name(&expr.args[0]),
+        _ => is_leaf(expr),
+    }
+}
+
+/// Whether an expression is as short as its own name would be: two operators on names at most, which a compiler finds again.
+fn is_short(expr: &Expr) -> bool {
+    let mut operators = 0;
+    expr.visit(&mut |expr| {
+        operators += match expr.op {
+            _ if is_name(expr) => 0,
+            Op::Ir(ir::Op::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div)) => 1,
+            _ => 3,
+        };
+    });
+    operators <= 2
 }
 
 /// Logarithms, which some drivers have finite at 0, of negative numbers and of a NaN.
