@@ -510,8 +510,10 @@ impl Source {
         let mut names = BTreeMap::new();
         for name in host_names(&original, &options) {
             // In the kernel language a local in capitals is a constant.
-            let bound = ["let ", "mut ", "for ", "|"].map(|before| format!("{before}{name}"));
-            let is_local = bound.iter().any(|local| all.contains(local));
+            let places = [
+                "let $", "mut $", "for $", "|$", "($,", ", $)", ", $,", "{ $", "$ }", "Some($)",
+            ];
+            let is_local = places.iter().any(|place| all.contains(&place.replace('$', &name)));
             let suits = |word: &String| !(is_local && word.starts_with(char::is_uppercase));
             let mut free = words.filter(|word| suits(word) && used.insert(word.clone()));
             names.insert(name, free.next().expect("words without end"));
