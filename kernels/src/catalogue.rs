@@ -178,7 +178,7 @@ pub const CATALOGUE: &[Entry] = &[
             source!("quad/surface.rs"),
         ],
         paper: no_paper,
-        half: half::occlusion,
+        half: half::unstudied,
     },
 ];
 

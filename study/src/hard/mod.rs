@@ -53,8 +53,8 @@ pub enum HardError {
     UnknownCase(String),
     /// The kernel is not among those that are studied.
     #[error(
-        "`{0}` has no hard cases: they are there for sraa, the edge filters and the filters of quads alone, so nothing \
-         can be said of it in half precision"
+        "`{0}` has no hard cases that show half precision: they are there for sraa, the edge filters and the filters of quads, but not \
+         for quad_ssao and bilinear taps, whose pictures would have to be larger"
     )]
     NotStudied(String),
     /// A kernel does not compile.

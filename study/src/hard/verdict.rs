@@ -17,7 +17,8 @@ use straightline_codegen::Precision;
 ///
 /// # Errors
 ///
-/// [`HardError::NotStudied`] for a kernel that has no hard cases, and for demodulated colours and earlier frames, which none has; others if it does not compile.
+/// [`HardError::NotStudied`] for a kernel that has no hard cases, for ambient occlusion and bilinear taps, whose pictures here are too
+/// small, and for demodulated colours and earlier frames, which none has; others if it does not compile.
 pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
     if let Some((name, value)) = options
@@ -25,6 +26,13 @@ pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Res
         .find(|(name, value)| (name == "demodulate" && value != "none") || (name == "history" && value != "0"))
     {
         return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
+    }
+    // What their places lose in 11 bits, larger pictures than those of the cases show.
+    let is_bilinear = options
+        .iter()
+        .any(|(name, value)| name == "taps" && value == "bilinear");
+    if kernel == "quad_ssao" || is_bilinear {
+        return Err(HardError::NotStudied(kernel.to_owned()));
     }
     let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
     let forms = [form];
