@@ -28,7 +28,7 @@ void main() {
     vec4 row = vector + (vector + towards.x * dFdxFine(vector));
     vec4 sums = row + (row + towards.y * dFdyFine(row));
     vec3 centre = sums.xyz / sums.w;
-    vec2 a = fract(centre.xy * size - 0.5);
+    vec2 a = centre.xy * size - 0.5 - floor(centre.xy * size - 0.5);
     vec2 quad_vector = product - 1.0;
     vec2 i = quad_vector - 2.0;
     vec2 first_k0 = i - a;

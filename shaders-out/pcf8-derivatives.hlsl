@@ -29,7 +29,7 @@ float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0
     float4 row = vector_value + (vector_value + towards.x * ddx_fine(vector_value));
     float4 sums = row + (row + towards.y * ddy_fine(row));
     float3 centre = sums.xyz / sums.w;
-    float2 a = frac(centre.xy * size - 0.5);
+    float2 a = centre.xy * size - 0.5 - floor(centre.xy * size - 0.5);
     float2 quad_vector = product - 1.0;
     float2 i = quad_vector - 2.0;
     float2 first_k0 = i - a;

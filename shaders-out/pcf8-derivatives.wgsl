@@ -24,7 +24,7 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let row = vector + (vector + towards.x * dpdxFine(vector));
     let sums = row + (row + towards.y * dpdyFine(row));
     let centre = sums.xyz / sums.w;
-    let a = fract(centre.xy * size - 0.5);
+    let a = centre.xy * size - 0.5 - floor(centre.xy * size - 0.5);
     let quad_vector = product - 1.0;
     let i = quad_vector - 2.0;
     let first_k0 = i - a;

@@ -91,8 +91,8 @@ kernel void sraa(
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e298 = sample_1;
-            sample_1 = as_type<int>(as_type<uint>(_e298) + as_type<uint>(1));
+            int _e300 = sample_1;
+            sample_1 = as_type<int>(as_type<uint>(_e300) + as_type<uint>(1));
         }
         loop_init_1 = false;
         int _e40 = sample_1;
@@ -181,8 +181,8 @@ kernel void sraa(
                 if (metal::all(loop_bound_3 == uint2(0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e249 = tap_1;
-                    tap_1 = as_type<int>(as_type<uint>(_e249) + as_type<uint>(1));
+                    int _e251 = tap_1;
+                    tap_1 = as_type<int>(as_type<uint>(_e251) + as_type<uint>(1));
                 }
                 loop_init_3 = false;
                 int _e203 = tap_1;
@@ -199,16 +199,16 @@ kernel void sraa(
                         float _e234 = nearest;
                         int _e235 = tap_1;
                         float _e237 = distances.inner[metal::min(unsigned(_e235), 8u)];
-                        float w_1 = metal::exp2((721.34753 * (_e234 - _e237)) + metal::log2(tent));
-                        int _e244 = tap_1;
-                        tap_weights.inner[metal::min(unsigned(_e244), 8u)] = w_1;
-                        float _e246 = sum;
-                        sum = _e246 + w_1;
+                        float w_1 = metal::exp2((721.34753 * (_e234 - _e237)) + metal::log2(metal::max(tent, 0.000001)));
+                        int _e246 = tap_1;
+                        tap_weights.inner[metal::min(unsigned(_e246), 8u)] = w_1;
+                        float _e248 = sum;
+                        sum = _e248 + w_1;
                     }
                 }
             }
-            float _e251 = sum;
-            float scale = share / _e251;
+            float _e253 = sum;
+            float scale = share / _e253;
             tap_2 = 0;
             uint2 loop_bound_4 = uint2(4294967295u);
             bool loop_init_4 = true;
@@ -216,25 +216,25 @@ kernel void sraa(
                 if (metal::all(loop_bound_4 == uint2(0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e295 = tap_2;
-                    tap_2 = as_type<int>(as_type<uint>(_e295) + as_type<uint>(1));
+                    int _e297 = tap_2;
+                    tap_2 = as_type<int>(as_type<uint>(_e297) + as_type<uint>(1));
                 }
                 loop_init_4 = false;
-                int _e255 = tap_2;
-                if (_e255 < 9) {
+                int _e257 = tap_2;
+                if (_e257 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e258 = tap_2;
-                    int _e263 = tap_2;
-                    metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e258, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e263, 3)) - as_type<uint>(1)))) - place_at;
+                    int _e260 = tap_2;
+                    int _e265 = tap_2;
+                    metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e260, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e265, 3)) - as_type<uint>(1)))) - place_at;
                     if ((metal::max(1.0 - metal::abs(away_2.x), 0.0) * metal::max(1.0 - metal::abs(away_2.y), 0.0)) > 0.000001) {
-                        int _e286 = tap_2;
-                        float _e288 = weights.inner[metal::min(unsigned(_e286), 8u)];
-                        int _e289 = tap_2;
-                        float _e291 = tap_weights.inner[metal::min(unsigned(_e289), 8u)];
-                        weights.inner[metal::min(unsigned(_e286), 8u)] = _e288 + (_e291 * scale);
+                        int _e288 = tap_2;
+                        float _e290 = weights.inner[metal::min(unsigned(_e288), 8u)];
+                        int _e291 = tap_2;
+                        float _e293 = tap_weights.inner[metal::min(unsigned(_e291), 8u)];
+                        weights.inner[metal::min(unsigned(_e288), 8u)] = _e290 + (_e293 * scale);
                     }
                 }
             }
@@ -246,44 +246,44 @@ kernel void sraa(
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e349 = tap_3;
-            tap_3 = as_type<int>(as_type<uint>(_e349) + as_type<uint>(1));
+            int _e351 = tap_3;
+            tap_3 = as_type<int>(as_type<uint>(_e351) + as_type<uint>(1));
         }
         loop_init_5 = false;
-        int _e307 = tap_3;
-        if (_e307 < 9) {
+        int _e309 = tap_3;
+        if (_e309 < 9) {
         } else {
             break;
         }
         {
-            int _e310 = tap_3;
-            int _e315 = tap_3;
-            metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e310, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e315, 3)) - as_type<uint>(1))))), metal::int2(0), last);
+            int _e312 = tap_3;
+            int _e317 = tap_3;
+            metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e312, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e317, 3)) - as_type<uint>(1))))), metal::int2(0), last);
             metal::float4 shaded = color.read(metal::uint2(at_1), 0);
             bool kept = metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
             w = 0.0;
             if (kept) {
-                int _e338 = tap_3;
-                float _e340 = weights.inner[metal::min(unsigned(_e338), 8u)];
-                w = _e340;
+                int _e340 = tap_3;
+                float _e342 = weights.inner[metal::min(unsigned(_e340), 8u)];
+                w = _e342;
             }
             if (kept) {
-                metal::float4 _e341 = result;
-                float _e342 = w;
-                result = _e341 + (_e342 * shaded);
+                metal::float4 _e343 = result;
+                float _e344 = w;
+                result = _e343 + (_e344 * shaded);
             }
-            float _e345 = sum_1;
-            float _e346 = w;
-            sum_1 = _e345 + _e346;
+            float _e347 = sum_1;
+            float _e348 = w;
+            sum_1 = _e347 + _e348;
         }
     }
-    float _e354 = sum_1;
-    if (_e354 > 0.000000000000000000000000000001) {
-        metal::float4 _e357 = result;
-        float _e358 = sum_1;
-        mean = _e357 / metal::float4(_e358);
+    float _e356 = sum_1;
+    if (_e356 > 0.000000000000000000000000000001) {
+        metal::float4 _e359 = result;
+        float _e360 = sum_1;
+        mean = _e359 / metal::float4(_e360);
     }
-    metal::float4 _e362 = mean;
-    destination.write(_e362, metal::uint2(pixel));
+    metal::float4 _e364 = mean;
+    destination.write(_e364, metal::uint2(pixel));
     return;
 }

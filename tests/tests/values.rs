@@ -66,6 +66,11 @@ fn cases() -> Vec<Case> {
             let x = -1.0625 * one;
             vec4(x.powf(64.0), x.powf(63.0), x.powf(-65.0), x.powf(101.0))
         } => [48.423_042, -45.574_627, -0.019_436_542, -456.270_94];
+        powers_of_what_is_positive(one) {
+            let infinity = f32::from_bits(0x7f80_0000 * one as u32);
+            let zero = one - 1.0;
+            vec4(f32::INFINITY.powf(zero), infinity.max(0.25).powf(zero), one.max(0.25).powf(infinity), 2.0f32.powf(-one))
+        } => [1.0, 1.0, 1.0, 0.5];
         powers_of_vectors(one) {
             vec4(-2.0, -0.5, 0.0, 3.0).powf(3.0) * one + vec4(-2.0, 0.0, 4.0, -1.0).powf(-one) + Vec4::ONE.powf(0.4545 * one)
         } => [-7.5, INF, 1.25, 27.0];

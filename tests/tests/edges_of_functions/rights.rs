@@ -45,7 +45,7 @@ const RIGHTS: &[Right] = &[
         reason: "a power is 2^(y log2 x), whose logarithm is off by 2^-21 near 1, which y multiplies",
         covers: |m| {
             let [x, y] = [0, 1].map(|k| m.arguments.get(k).copied().unwrap_or(0.0));
-            m.verdict == Verdict::Off && has(m, &["powf(y)"]) && (x - 1.0).abs() < 0.5 && y.abs() > 1.0e4
+            m.verdict == Verdict::Off && has(m, &["powf(y)"]) && (x.abs() - 1.0).abs() < 0.5 && y.abs() > 1.0e4
         },
     },
     Right {

@@ -67,8 +67,8 @@ fn power(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Opt
         let same = bits[..lanes].iter().all(|lane| *lane == bits[0]);
         same.then(|| f32::from_bits(bits[0]))
     };
-    let finite = || {
-        let within = |k| float_bounds(graph, y, k).is_some_and(|(low, high)| low >= f32::MIN && high <= f32::MAX);
+    let finite = |id: NodeId| {
+        let within = |k| float_bounds(graph, id, k).is_some_and(|(low, high)| low >= f32::MIN && high <= f32::MAX);
         (0..lanes as u8).all(within)
     };
     let simple = match constant(y) {
@@ -77,7 +77,7 @@ fn power(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Opt
         Some(y) if y.abs() == 0.5 && domain.not_negative => return Some(domain),
         // A driver has 2^-127y at 0, which is as small as a rounding of 1.
         Some(y) if y.is_finite() => domain.positive || (domain.not_negative && y >= 0.2),
-        _ => domain.positive && (finite() || constant(x).is_some_and(|x| x != 1.0)),
+        _ => domain.positive && finite(x) && (finite(y) || constant(x).is_some_and(|x| x != 1.0)),
     };
     (math == Math::Exact && !simple).then_some(domain)
 }

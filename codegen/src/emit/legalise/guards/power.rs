@@ -34,12 +34,14 @@ pub fn guard(domain: Domain, args: &[Expr]) -> Guard {
     match domain.positive {
         true => Guard {
             name: "positive_power".to_owned(),
-            comment: "x to the power y, of what is greater than 0: drivers have no power of 1 whose exponent is infinite.",
+            comment: "x to the power y, of what is greater than 0: drivers have no infinite power of 1, and none of infinity that is 0.",
             arguments: &["x", "y"],
             scalar: false,
             value: Box::new(|b, args| {
-                let one = binary(&args[0], BinaryOp::Eq, &b.number(1.0));
-                choose(one, b.number(1.0), binary(&args[0], BinaryOp::Pow, &args[1]))
+                let x_is_one = binary(&args[0], BinaryOp::Eq, &b.number(1.0));
+                let y_is_zero = binary(&args[1], BinaryOp::Eq, &b.number(0.0));
+                let power = binary(&args[0], BinaryOp::Pow, &args[1]);
+                choose(or(x_is_one, y_is_zero), b.number(1.0), power)
             }),
         },
         false => Guard {
