@@ -26,9 +26,9 @@ const FLOATS: [&str; 58] = [
     "x.exp2()",
     "x.ln()",
     "x.log2()",
-    "x.sin()",
-    "x.cos()",
-    "(x * 0.0625).tan()",
+    "x.clamp(-8.0, 8.0).sin()",
+    "x.clamp(-8.0, 8.0).cos()",
+    "(x * 0.0625).clamp(-1.0, 1.0).tan()",
     "x.asin()",
     "(x * 0.125).asin()",
     "x.acos()",
@@ -257,6 +257,7 @@ fn a_driver_computes_each_operation_as_wgsl_and_as_glsl() {
     let shaders = driver
         .shaders(&texts, Ways::Languages)
         .unwrap_or_else(|why| panic!("{why}"));
+    let mut wrong = Vec::new();
     for world in 0..2 {
         let world = World::for_drivers(world);
         let natives = oracle::run(&rustc, &texts, &world).unwrap_or_else(|why| panic!("{why}"));
@@ -264,7 +265,8 @@ fn a_driver_computes_each_operation_as_wgsl_and_as_glsl() {
             let native = native.unwrap_or_else(|why| panic!("{text}\n{why}"));
             let mut compared = Compared::default();
             if let Err(off) = driver.compare(shaders, &world, &native, &mut compared) {
-                panic!("{text}\n{off}");
+                wrong.push(format!("{text}\n{off}"));
+                continue;
             }
             assert!(
                 compared.pixels * 2 > compared.unsure,
@@ -272,4 +274,5 @@ fn a_driver_computes_each_operation_as_wgsl_and_as_glsl() {
             );
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -53,8 +53,8 @@ const RIGHTS: &[Right] = &[
         covers: |m| has(m, &["dot(vec2(y, x))", "element_sum()"]),
     },
     Right {
-        reason: "angles are exact to 2^-11 between -pi and pi, and mean nothing beyond 10^6",
-        covers: |m| has(m, &["x.sin()", "x.cos()", "x.tan()"]) && m.arguments[0].abs() > 1.0e6,
+        reason: "angles are exact to 2^-11 between -pi and pi, and mean nothing beyond 2^20",
+        covers: |m| has(m, &["x.sin()", "x.cos()", "x.tan()"]) && m.arguments[0].abs() > 1_048_576.0,
     },
     Right {
         reason: "a tangent is a quotient of sine and cosine, and means nothing where the cosine is less than 2^-11",
