@@ -10,7 +10,7 @@ use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::Graph;
 use straightline_evaluator::limits::Limits;
 use straightline_evaluator::passes::{self, Gathered, Schedule, Sharing};
-use straightline_evaluator::policy::{Policy, Transport};
+use straightline_evaluator::policy::{Math, Policy, Transport};
 use straightline_kernels::{Entry, HalfPrecision, PaperCounts};
 use straightline_manifest::Counts;
 
@@ -98,6 +98,19 @@ impl Compiled {
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
         (entry.paper)(&|option| self.options.get(option).cloned())
+    }
+
+    /// Places whose order of operations drivers are kept from changing, each with its file, its line from 1 and what it computes: the
+    /// sums whose meaning hangs on that, and what an attribute asks for. None where strict mathematics asks for it everywhere.
+    pub fn exact_places(&self) -> Vec<(&str, u32, &str)> {
+        if self.policy.math == Math::Strict {
+            return Vec::new();
+        }
+        let places = passes::exact_places(&self.graph).into_iter();
+        let file = |k: u32| self.graph.files.get(k as usize).map(String::as_str);
+        places
+            .filter_map(|origin| Some((file(origin.file)?, origin.line, &*origin.name)))
+            .collect()
     }
 
     /// What half precision does to the picture of a built-in kernel with these options; an option that a host sets is judged at

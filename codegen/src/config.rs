@@ -133,7 +133,8 @@ impl KernelConfig {
         self
     }
 
-    /// Which algebra may be done with floats: with [`Math::Fast`] what may change roundings too. By default what changes no bit.
+    /// Which algebra may be done with floats: with [`Math::Fast`] what may change roundings too, with [`Math::Strict`] none, by
+    /// drivers either. By default what changes no bit, while drivers may change roundings on which nothing hangs.
     pub fn math(mut self, math: Math) -> Self {
         self.settings.math = math;
         self

@@ -55,7 +55,7 @@ pub struct Settings {
     pub share_loads: bool,
     /// What pixels share of the texels that they read. The result is the same, bit for bit.
     pub share: Share,
-    /// Which algebra may be done with floats: what changes no bit, or what may change roundings too.
+    /// Which algebra may be done with floats: none by drivers either, what changes no bit, or what may change roundings too.
     pub math: Math,
     /// What compiling and emitting the kernel may take.
     pub limits: Limits,
@@ -370,6 +370,7 @@ impl Kernel {
             // Sharing makes new common terms, and those leave others unused.
             graph = stage("clean", passes::clean(&graph))?;
         }
+        graph = stage("exactness", passes::exactness(&graph))?;
         if settings.math == Math::Fast {
             graph = stage("fast", passes::clean(&passes::fast(&graph)))?;
         }

@@ -179,7 +179,9 @@ impl FromStr for Share {
 /// Which algebra may be done with floats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Math {
-    /// What changes no bit of the result.
+    /// What changes no bit of the result; and no driver may reorder or contract any operation on floats either.
+    Strict,
+    /// What changes no bit of the result. Sums whose order matters are written so that drivers keep it.
     #[default]
     Exact,
     /// What may change a rounding too (`docs/semantics.md`): results differ from the native function's by little, and which little is
@@ -188,13 +190,14 @@ pub enum Math {
 }
 
 impl Math {
-    /// Both.
-    pub const ALL: [Math; 2] = [Math::Exact, Math::Fast];
+    /// All of them.
+    pub const ALL: [Math; 3] = [Math::Strict, Math::Exact, Math::Fast];
 }
 
 impl fmt::Display for Math {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Math::Strict => "strict",
             Math::Exact => "exact",
             Math::Fast => "fast",
         })
@@ -206,7 +209,7 @@ impl FromStr for Math {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let known = Math::ALL.into_iter().find(|math| math.to_string() == text);
-        known.ok_or_else(|| format!("unknown mathematics `{text}`: exact or fast"))
+        known.ok_or_else(|| format!("unknown mathematics `{text}`: strict, exact or fast"))
     }
 }
 

@@ -170,6 +170,9 @@ pub struct Counts {
     /// Bytes of memory that a workgroup shares; devices of WebGPU promise 16384.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub shared_memory: u32,
+    /// Operations on floats that no driver may reorder or contract.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub exact: u32,
     /// All other arithmetic, comparison and selection operations, a vector operation counting once.
     pub alu: u32,
     /// Statements of the emitted body.

@@ -71,6 +71,7 @@ fn now(text: &str, template: &Compiled) -> Result<String, String> {
         "clean" => passes::clean(&graph),
         "share-loads" => passes::share_loads(&graph),
         "coordinates" => passes::clean(&passes::by_component(&graph)),
+        "exactness" => passes::clean(&passes::exactness(&graph)),
         "fast" => passes::clean(&passes::fast(&graph)),
         "gathers" => passes::clean(&passes::gathers(&graph)?.0),
         "share-by-workgroup" => passes::clean(&passes::by_workgroup(&graph, [4, 4])?.0),

@@ -66,7 +66,8 @@ pub struct OptionArgs {
     /// theirs, `workgroup(WxH)` so many. The picture is the same
     #[arg(help_heading = "Kernel options", long, value_name = "HOW", default_value = "invocation", value_parser = |s: &str| s.parse::<Share>())]
     pub share: Share,
-    /// Algebra with floats: `exact` changes no bit of the result, `fast` may change roundings, for fewer and cheaper operations
+    /// Algebra with floats: `exact` changes no bit of the result, `fast` may change roundings, for fewer and cheaper operations;
+    /// `strict` is `exact` and keeps drivers from changing any rounding, at a cost
     #[arg(help_heading = "Kernel options", long, value_name = "HOW", default_value = "exact", value_parser = |s: &str| s.parse::<Math>())]
     pub math: Math,
     /// Pixels that one compute invocation computes, across and down

@@ -203,6 +203,9 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
             rows.push(row(name, n, None));
         }
     }
+    if counts.exact > 0 {
+        rows.push(row("operations kept in order", counts.exact, None));
+    }
     rows.push(row("transcendentals", counts.transcendentals, None));
     rows.push(row("other arithmetic", counts.alu, None));
     rows.push(row("statements", counts.statements, None));

@@ -93,6 +93,8 @@ pub struct Variable {
     pub name: String,
     /// Its type.
     pub ty: Ty,
+    /// Whether a compiler must round what it is given as it is written.
+    pub precise: bool,
 }
 
 /// What the entry point is told by the host.
@@ -157,6 +159,12 @@ pub enum Op {
     Construct,
     /// Components of a vector.
     Swizzle(Vec<u8>),
+    /// The argument, as the operation that computes it rounds it. The value of a `let`, a `var` or an assignment, never part of
+    /// another expression.
+    Exact {
+        /// Whether arithmetic goes on from it, which a compiler could merge it with.
+        goes_on: bool,
+    },
     /// An element of an array: array, index. An index outside is that of the last element.
     Index {
         /// Whether the index cannot lie outside.
@@ -471,8 +479,20 @@ impl<'g> Module<'g> {
     /// A new variable.
     pub fn variable(&mut self, name: impl Into<String>, ty: impl Into<Ty>) -> VarId {
         let (name, ty) = (name.into(), ty.into());
-        self.variables.push(Variable { name, ty });
+        self.variables.push(Variable {
+            name,
+            ty,
+            precise: false,
+        });
         VarId(self.variables.len() as u32 - 1)
+    }
+
+    /// Whether something is exact.
+    pub fn has_exact(&self) -> bool {
+        let mut found = false;
+        let mut see = |expr: &Expr| found |= matches!(expr.op, Op::Exact { .. });
+        self.body.iter().for_each(|stmt| stmt.visit(&mut see));
+        found
     }
 
     /// A variable's type.

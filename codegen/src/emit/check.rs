@@ -2,16 +2,16 @@
 //! of the same type. The tests have glslang read the text as it is.
 
 use super::error::EmitError;
-use super::print::{GATHER, LENGTH, MESSAGES};
+use super::print::{GATHER, LENGTH, MESSAGES, PRECISE};
 use super::translate::{stage, validate};
 use straightline_manifest::Stage;
 
 /// Parses and validates GLSL. naga's reader makes an invalid module of the length of a storage buffer, so it is shown a
 /// number in its place; it knows no quad operations, so it is shown what they are called with; it knows no gathers, so it is
-/// shown samples; and it takes a texture that is `compared`, given by name and shape, for one of depths alone, so that its
+/// shown samples; it does not know `precise`; and it takes a texture that is `compared`, given by name and shape, for one of depths alone, so that its
 /// texels are shown to it as another texture's.
 pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]) -> Result<(), EmitError> {
-    let mut text = gathers_as_samples(&lengths_as_numbers(text));
+    let mut text = gathers_as_samples(&lengths_as_numbers(text)).replace(PRECISE, "");
     for message in MESSAGES {
         text = text.replace(message, "");
     }

@@ -234,13 +234,16 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         compiled,
         resources: &resources,
         tree: &tree,
-        wgsl: Wgsl::new(&tree, &resources)?,
+        wgsl: Wgsl::new(&tree, &resources, false)?,
     };
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
     counts.statements = statements;
-    let module = shader.validated(&counts)?;
-    let words = module.spirv(&resources)?;
+    let module = shader.validated(&counts, false)?;
+    let words = match tree.has_exact() {
+        true => shader.validated(&counts, true)?.spirv(&resources)?,
+        false => module.spirv(&resources)?,
+    };
     counts.basic_blocks = spirv::basic_blocks(&words);
     let mut manifest = resources.manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
@@ -302,10 +305,10 @@ struct Wgsl {
 }
 
 impl Wgsl {
-    fn new(tree: &ast::Module<'_>, resources: &resources::Resources) -> Result<Wgsl, EmitError> {
+    fn new(tree: &ast::Module<'_>, resources: &resources::Resources, marks: bool) -> Result<Wgsl, EmitError> {
         let resources = resources.spelled(Target::Wgsl)?;
         let mut tree = tree.clone();
-        legalise::wgsl(&mut tree);
+        legalise::wgsl(&mut tree, marks);
         names::assign(&mut tree, &resources, Target::Wgsl)?;
         let text = print::Printed::new(&print::Wgsl { resources: &resources }, &tree);
         Ok(Wgsl { resources, text })
@@ -319,10 +322,11 @@ impl Wgsl {
 }
 
 impl Shader<'_, '_> {
-    /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else.
-    fn validated(&self, counts: &Counts) -> Result<translate::Module, EmitError> {
+    /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else. With `marks`
+    /// every exact value is marked ([`legalise::wgsl`]).
+    fn validated(&self, counts: &Counts, marks: bool) -> Result<translate::Module, EmitError> {
         let kernel = &self.compiled.kernel;
-        if !self.resources.options.is_function() {
+        if !self.resources.options.is_function() && !marks {
             return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
         }
         let whole = EmitOptions {
@@ -332,7 +336,7 @@ impl Shader<'_, '_> {
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
         let (tree, _) = tree(self.compiled, &whole);
-        let wgsl = Wgsl::new(&tree, &whole)?.under(&print::header(self.compiled, counts, &whole));
+        let wgsl = Wgsl::new(&tree, &whole, marks)?.under(&print::header(self.compiled, counts, &whole));
         translate::Module::parse_wgsl(kernel, &wgsl)
     }
 
@@ -360,7 +364,9 @@ impl Shader<'_, '_> {
     fn glsl(&self, target: Target, counts: &Counts) -> Result<String, EmitError> {
         let resources = &self.resources.spelled(target)?;
         let mut tree = self.tree.clone();
-        legalise::glsl(&mut tree, resources, target == Target::Glsl450);
+        // Hosts compile functions with what stands around them, in a version of theirs.
+        let precise = matches!(target, Target::Glsl450 | Target::Glsl430) && !resources.options.is_function();
+        legalise::glsl(&mut tree, resources, target == Target::Glsl450, precise);
         names::assign(&mut tree, resources, target)?;
         let header = print::header(self.compiled, counts, self.resources);
         let glsl = print::module(&print::Glsl::new(resources, target), &tree, &header);

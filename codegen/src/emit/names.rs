@@ -247,6 +247,7 @@ fn plain(graph: &Graph, id: NodeId) -> String {
             _ => "as_integer".to_owned(),
         },
         Op::Bitcast => "bits".to_owned(),
+        Op::Exact => plain(graph, node.args[0]),
         Op::Param(_, 0) => "k".to_owned(),
         Op::Param(..) => "carried".to_owned(),
         _ => "vector".to_owned(),

@@ -68,7 +68,8 @@ impl Module {
         };
         let words =
             spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
-        Ok(super::spirv::inlined(&super::spirv::joined(&words)))
+        let words = super::spirv::joined(&super::spirv::uncontracted(&words));
+        Ok(super::spirv::inlined(&words))
     }
 
     /// Metal, and what the entry point is called there: textures, buffers and samplers by their binding numbers, each kind by

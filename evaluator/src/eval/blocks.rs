@@ -15,7 +15,10 @@ impl Evaluator<'_> {
     /// A block, and what ends with it.
     pub fn block_in(&mut self, block: &Block, tail: Tail<'_>) -> Eval {
         let mark = self.scope.enter();
+        let around = self.builder.is_exact();
+        self.builder.set_exact(around || block.exact);
         let result = self.statements(block, 0, tail);
+        self.builder.set_exact(around);
         self.scope.leave(mark);
         result
     }

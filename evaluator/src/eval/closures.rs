@@ -20,6 +20,7 @@ impl Evaluator<'_> {
         let body = Block {
             statements: Vec::new(),
             value: Some(Box::new(code.body.clone())),
+            exact: false,
         };
         let written = assigned(&body, &self.library.mutating).assigned;
         let mut names = BTreeSet::new();

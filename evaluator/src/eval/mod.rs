@@ -55,7 +55,7 @@ use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin,
 use crate::limits;
 use crate::passes::Exact;
 use crate::passes::narrow::{Facts, Refusal, narrow};
-use crate::policy::Policy;
+use crate::policy::{Math, Policy};
 use scope::Scope;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
@@ -281,6 +281,7 @@ impl<'a> Evaluator<'a> {
         let mut builder = Builder::new(&Exact);
         builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
         builder.graph_mut().purposes = Arc::clone(&library.purposes);
+        builder.set_exact(policy.math == Math::Strict);
         Evaluator {
             library,
             builder,

@@ -129,6 +129,7 @@ impl Evaluator<'_> {
         let test = Block {
             statements: vec![Statement::Expr(condition.clone())],
             value: None,
+            exact: false,
         };
         let mutating = &self.library.mutating;
         let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));

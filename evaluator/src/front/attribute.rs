@@ -48,6 +48,7 @@ impl Lower {
                 syn::Meta::List(list) if list.path.is_ident("bound") => {
                     said.bound = self.bound(list).or(said.bound);
                 }
+                meta if is_exact(meta) => {}
                 _ => {
                     let text = as_written(&meta);
                     self.bad_attribute(meta.span(), format!("a loop takes no attribute `{text}`"), UNROLL);
@@ -96,6 +97,7 @@ impl Lower {
             match &meta {
                 syn::Meta::Path(path) if path.is_ident("branch") => found = Some(Branches::Keep),
                 syn::Meta::Path(path) if path.is_ident("select") => found = Some(Branches::Select),
+                meta if is_exact(meta) => {}
                 other => {
                     let text = as_written(other);
                     self.bad_attribute(
@@ -107,6 +109,15 @@ impl Lower {
             }
         }
         found
+    }
+
+    /// `exact` before a function, a `let`, a block, a condition or a loop: every operation on floats in it is rounded by itself.
+    pub fn exact_attribute(&mut self, attrs: &[syn::Attribute]) -> bool {
+        // What else is said there is looked at by others, and refused once.
+        let noted = self.errors.len();
+        let exact = self.attributes(attrs).iter().any(is_exact);
+        self.errors.truncate(noted);
+        exact
     }
 
     /// The attributes inside `cfg_attr(false, ...)`. Others are rustc's.
@@ -139,4 +150,8 @@ impl Lower {
         self.errors
             .push(Diagnostic::at(span, message).label("not understood").help(help));
     }
+}
+
+fn is_exact(meta: &syn::Meta) -> bool {
+    matches!(meta, syn::Meta::Path(path) if path.is_ident("exact"))
 }

@@ -22,8 +22,13 @@ impl Lower {
                     }
                     statement => statements.push(statement),
                 },
-                syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
-                syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
+                syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => {
+                    value = Some(Box::new(self.statement(expr)));
+                }
+                syn::Stmt::Expr(expr, _) => {
+                    let lowered = self.statement(expr);
+                    statements.push(Statement::Expr(lowered));
+                }
                 syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item)),
                 syn::Stmt::Item(syn::Item::Use(_)) => {}
                 syn::Stmt::Item(item) => {
@@ -41,7 +46,18 @@ impl Lower {
             }
         }
         statements.splice(0..0, in_order(constants).into_iter().map(Statement::Const));
-        Block { statements, value }
+        Block {
+            statements,
+            value,
+            exact: false,
+        }
+    }
+
+    /// An expression that stands where a statement does.
+    fn statement(&mut self, expr: &syn::Expr) -> Expr {
+        let exact = attributes(expr).is_some_and(|attrs| self.exact_attribute(attrs));
+        let lowered = self.expr(expr);
+        if exact { exactly(lowered) } else { lowered }
     }
 
     fn local(&mut self, local: &syn::Local) -> Statement {
@@ -53,7 +69,10 @@ impl Lower {
         if let Some(init) = &local.init
             && let Some((_, other)) = &init.diverge
         {
-            let value = self.expr(&init.expr);
+            let mut value = self.expr(&init.expr);
+            if self.exact_attribute(&local.attrs) {
+                value = exactly(value);
+            }
             let other = self.expr(other);
             return self.let_else(pattern, ty, value, other, span);
         }
@@ -62,7 +81,10 @@ impl Lower {
             if let ExprKind::If(_, _, _, branches) | ExprKind::Match(_, _, branches) = &mut value.kind {
                 *branches = branches.or(self.branch_attribute(&local.attrs));
             }
-            value
+            match self.exact_attribute(&local.attrs) {
+                true => exactly(value),
+                false => value,
+            }
         });
         Statement::Let(pattern, ty, init, span)
     }
@@ -101,6 +123,33 @@ fn deferred(pattern: Pattern, ty: Option<Type>, span: Span, out: &mut Vec<Statem
     };
     for (part, ty) in parts.into_iter().zip(types.drain(..)) {
         deferred(part, ty, span, out);
+    }
+}
+
+/// A value whose operations on floats are exact.
+fn exactly(value: Expr) -> Expr {
+    let span = value.span;
+    let block = Block {
+        statements: Vec::new(),
+        value: Some(Box::new(value)),
+        exact: true,
+    };
+    Expr {
+        kind: ExprKind::Block(block),
+        span,
+    }
+}
+
+/// The attributes of an expression that rustc lets have some where it is a statement.
+fn attributes(expr: &syn::Expr) -> Option<&[syn::Attribute]> {
+    match expr {
+        syn::Expr::Block(e) => Some(&e.attrs),
+        syn::Expr::If(e) => Some(&e.attrs),
+        syn::Expr::Match(e) => Some(&e.attrs),
+        syn::Expr::ForLoop(e) => Some(&e.attrs),
+        syn::Expr::While(e) => Some(&e.attrs),
+        syn::Expr::Loop(e) => Some(&e.attrs),
+        _ => None,
     }
 }
 

@@ -92,6 +92,7 @@ impl Lower {
         let block = Block {
             statements: vec![Statement::Expr(choice)],
             value: None,
+            exact: false,
         };
         self.while_(always, block, name, &e.attrs)
     }
@@ -143,6 +144,7 @@ impl Lower {
                 let block = Block {
                     statements: vec![Statement::Let(name, ty, Some(value), span)],
                     value: Some(Box::new(part(&VALUE.into()))),
+                    exact: false,
                 };
                 Expr {
                     kind: ExprKind::Block(block),

@@ -292,6 +292,7 @@ impl Lower {
                 span,
             )],
             value: Some(Box::new(self.path_expr(vec!["#none".to_owned()], at))),
+            exact: false,
         })
     }
 

@@ -315,7 +315,8 @@ impl Items {
             syn::ReturnType::Type(_, ty) => lower.ty(ty),
         };
         let span = lower.span(sig.ident.span());
-        let body = super::parts::before(parts, lower.block(body), span);
+        let mut body = super::parts::before(parts, lower.block(body), span);
+        body.exact = lower.exact_attribute(attrs);
         let function = Function {
             docs: docs(attrs),
             unroll: lower.unroll_of_function(attrs),

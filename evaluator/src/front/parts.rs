@@ -38,6 +38,7 @@ impl Lower {
         ExprKind::Block(Block {
             statements,
             value: None,
+            exact: false,
         })
     }
 
@@ -120,5 +121,6 @@ pub fn before(statements: Vec<Statement>, block: Block, span: Span) -> Block {
     Block {
         statements,
         value: Some(Box::new(body)),
+        exact: false,
     }
 }

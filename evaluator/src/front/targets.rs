@@ -96,6 +96,7 @@ impl Lower {
                 Statement::Expr(left),
             ],
             value: Some(Box::new(value)),
+            exact: false,
         })
     }
 
@@ -137,6 +138,7 @@ impl Lower {
         ExprKind::Block(Block {
             statements: vec![Statement::Expr(assigned)],
             value: Some(Box::new(leave)),
+            exact: false,
         })
     }
 }

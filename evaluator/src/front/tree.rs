@@ -139,6 +139,8 @@ pub struct Block {
     pub statements: Vec<Statement>,
     /// The value, if the last expression has no semicolon.
     pub value: Option<Box<Expr>>,
+    /// Whether its operations on floats are exact, those of the functions that it calls too.
+    pub exact: bool,
 }
 
 /// A statement.

@@ -39,11 +39,13 @@ pub fn guarded(condition: &Expr, block: &Block) -> Block {
     let leave = Block {
         statements: vec![Statement::Expr(at(ExprKind::Break(None)))],
         value: None,
+        exact: false,
     };
     let ends = at(ExprKind::Unary(UnaryOp::Not, Box::new(condition.clone())));
     let test = Statement::Expr(at(ExprKind::If(Box::new(ends), leave, None, None)));
     Block {
         statements: std::iter::once(test).chain(block.statements.iter().cloned()).collect(),
         value: block.value.clone(),
+        exact: block.exact,
     }
 }

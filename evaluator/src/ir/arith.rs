@@ -84,7 +84,7 @@ pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Optio
         Op::Extract(lane) => [args[0][*lane as usize], 0, 0, 0],
         Op::Convert => each(lanes, |k| convert::<R>(args[0][k], operand.kind()?, ty.kind()?))?,
         Op::Bitcast => each(lanes, |k| bitcast::<R>(args[0][k], operand.kind()?, ty.kind()?))?,
-        Op::Tally(_) => args[0],
+        Op::Exact | Op::Tally(_) => args[0],
         _ => return None,
     })
 }

@@ -309,6 +309,8 @@ pub struct Builder<'r> {
     known: FxHashMap<u64, NodeId>,
     rules: &'r dyn Rules,
     open: Vec<RegionId>,
+    /// Whether operations on floats are made [`Op::Exact`].
+    pub(super) exact: bool,
 }
 
 impl<'r> Builder<'r> {
@@ -331,6 +333,7 @@ impl<'r> Builder<'r> {
             known: FxHashMap::default(),
             rules,
             open: vec![Graph::BODY],
+            exact: false,
         }
     }
 
@@ -353,6 +356,14 @@ impl<'r> Builder<'r> {
 
     /// The node that computes `op` of `args`, simplified.
     pub fn add(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
+        if self.exact && op.rounds() && ty.is_float() {
+            return self.exactly(op, args.as_ref(), ty);
+        }
+        self.simplified(op, args, ty)
+    }
+
+    /// The node that computes `op` of `args`, simplified and not made exact.
+    pub(super) fn simplified(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
         let (rules, args) = (self.rules, args.as_ref());
         match rules.simplify(self, &op, args, ty) {
             Some(id) => id,

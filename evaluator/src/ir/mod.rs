@@ -45,6 +45,7 @@
 
 pub mod arith;
 mod buffer;
+mod exact;
 mod graph;
 mod memory;
 mod op;

@@ -147,6 +147,9 @@ pub enum Op {
         /// Whether what they have done to buffers is seen, too.
         buffers: bool,
     },
+    /// The argument, floats, as the operation that made it rounds them: no compiler may merge, reorder or contract that operation
+    /// with others (`docs/semantics.md`, *Exactness*).
+    Exact,
     /// A value counted by name (index into `Graph::tallies`); the value itself.
     Tally(u32),
     /// An array from its elements.
@@ -377,6 +380,20 @@ impl Op {
             self,
             Op::Atomic { .. } | Op::Store(_) | Op::SharedLoad(_) | Op::Barrier { .. }
         )
+    }
+
+    /// Whether it rounds floats, so that a compiler that merges it with others may change a bit.
+    pub fn rounds(&self) -> bool {
+        use BinaryOp::{Add, Atan2, Div, Mul, Pow, Rem, Sub};
+        match self {
+            Op::Binary(op) => matches!(op, Add | Sub | Mul | Div | Rem | Pow | Atan2),
+            Op::Unary(op) => !matches!(
+                op,
+                UnaryOp::Neg | UnaryOp::Not | UnaryOp::BitNot | UnaryOp::Abs | UnaryOp::Sign
+            ),
+            Op::Dot | Op::Cross => true,
+            _ => false,
+        }
     }
 
     /// Whether it reads memory that a host fills, which nothing changes meanwhile.

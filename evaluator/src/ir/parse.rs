@@ -468,6 +468,7 @@ impl Reader {
                 buffers: words.first() == Some(&"buffers"),
             },
             "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
+            "exact" => Op::Exact,
             "makearray" => Op::MakeArray,
             "arrayget" => Op::ArrayGet,
             "arrayset" => Op::ArraySet,

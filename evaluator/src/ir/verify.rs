@@ -276,6 +276,11 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
             expect((*k as usize) < graph.tallies.len(), "no such tally")?;
             expect(types[0] == node.ty, "type of argument and result differ")
         }
+        Op::Exact => {
+            count(1)?;
+            expect(types[0] == node.ty, "type of argument and result differ")?;
+            expect(value && node.ty.is_float(), "floats, which alone are rounded")
+        }
         Op::Unary(op) => {
             count(1)?;
             expect(types[0] == node.ty, "type of argument and result differ")?;

@@ -31,6 +31,7 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
         shared_reads: run.shared_reads,
         barriers: run.barriers,
         shared_memory: shared_memory(graph, schedule),
+        exact: run.exact,
         alu: run.alu,
         statements: 0,
         max_live: max_live(graph, schedule),
@@ -46,6 +47,7 @@ struct Run {
     writes: u32,
     shared_reads: u32,
     barriers: u32,
+    exact: u32,
     alu: u32,
 }
 
@@ -68,6 +70,7 @@ impl Run {
             .shared_reads
             .saturating_add(other.shared_reads.saturating_mul(times));
         self.barriers = self.barriers.saturating_add(other.barriers.saturating_mul(times));
+        self.exact = self.exact.saturating_add(other.exact.saturating_mul(times));
         self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }
 
@@ -86,6 +89,7 @@ impl Run {
         self.writes = self.writes.max(other.writes);
         self.shared_reads = self.shared_reads.max(other.shared_reads);
         self.barriers = self.barriers.max(other.barriers);
+        self.exact = self.exact.max(other.exact);
         self.alu = self.alu.max(other.alu);
         self
     }
@@ -125,6 +129,7 @@ impl Counter<'_> {
                     .or_default();
                 *slot = slot.saturating_add(1);
             }
+            Op::Exact => run.exact = run.exact.saturating_add(1),
             Op::Unary(op) if op.is_transcendental() => run.transcendentals = run.transcendentals.saturating_add(1),
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => {
                 run.transcendentals = run.transcendentals.saturating_add(1)

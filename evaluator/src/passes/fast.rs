@@ -10,6 +10,7 @@ use crate::ir::{
 use std::collections::HashMap;
 
 /// The kernel with fewer or cheaper operations on floats, each result off by some roundings:
+/// What is exact ([`Op::Exact`]) stays as it is.
 ///
 /// - a division by a constant is a multiplication by its reciprocal, and so are several divisions by one value (1 rounding);
 /// - `exp` is `exp2`, log2 e going into constants (2 roundings of the exponent);
@@ -34,6 +35,8 @@ struct Fast<'g> {
     old: &'g Graph,
     /// By node, how often it is used.
     uses: Vec<u32>,
+    /// By node, whether it must be rounded as it is written.
+    exact: Vec<bool>,
     /// By divisor, how many quotients there are; of a vector by one number, one for each component.
     quotients: HashMap<NodeId, u32>,
 }
@@ -41,11 +44,15 @@ struct Fast<'g> {
 impl<'g> Fast<'g> {
     fn of(old: &'g Graph) -> Fast<'g> {
         let mut uses = vec![0; old.nodes.len()];
+        let mut exact = vec![false; old.nodes.len()];
+        for id in old.ids().filter(|id| old.node(*id).op == Op::Exact) {
+            exact[old.node(id).args[0].0 as usize] = true;
+        }
         let mut quotients = HashMap::new();
         for id in old.ids() {
             let node = old.node(id);
             node.args.iter().for_each(|arg| uses[arg.0 as usize] += 1);
-            if let Some((divisor, count)) = divisor(old, id) {
+            if let Some((divisor, count)) = divisor(old, id).filter(|_| !exact[id.0 as usize]) {
                 *quotients.entry(divisor).or_default() += count;
             }
         }
@@ -53,7 +60,12 @@ impl<'g> Fast<'g> {
         for id in old.outputs().iter().copied().chain(leaving) {
             uses[id.0 as usize] += 1;
         }
-        Fast { old, uses, quotients }
+        Fast {
+            old,
+            uses,
+            exact,
+            quotients,
+        }
     }
 
     fn constant(&self, id: NodeId) -> Option<Factor> {
@@ -83,7 +95,7 @@ impl<'g> Fast<'g> {
         if self.constant(id).is_some() {
             return true;
         }
-        if self.uses[id.0 as usize] > 1 || node.ty.kind() != Some(Scalar::F32) {
+        if self.exact[id.0 as usize] || self.uses[id.0 as usize] > 1 || node.ty.kind() != Some(Scalar::F32) {
             return false;
         }
         match (&node.op, &node.args[..]) {
@@ -154,7 +166,7 @@ impl Replace for Fast<'_> {
 
     fn node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
         let node = self.old.node(id);
-        if node.ty.kind() != Some(Scalar::F32) || node.ty.is_array() {
+        if node.ty.kind() != Some(Scalar::F32) || node.ty.is_array() || self.exact[id.0 as usize] {
             return None;
         }
         let is_zero = |id: NodeId| {

@@ -81,6 +81,7 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
             .graph()
             .constant(args[0])
             .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
+        Op::Exact if node(args[0]).op == Op::Exact => Some(args[0]),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
         // From a signed integer to an unsigned one and back, bits stay.
         Op::Convert
@@ -269,7 +270,7 @@ fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
         _ if id == bound => !g
             .constant(bound)
             .is_some_and(|lanes| lanes.iter().any(|x| f32::from_bits(*x).is_nan())),
-        Op::Tally(_) => at_most(g, node.args[0], bound),
+        Op::Exact | Op::Tally(_) => at_most(g, node.args[0], bound),
         // Of vectors the last argument stands for a NaN in the first.
         Op::Binary(BinaryOp::Min) if node.ty.is_scalar() => node.args.contains(&bound),
         Op::Binary(BinaryOp::Min) => node.args[1] == bound,

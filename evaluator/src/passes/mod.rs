@@ -5,6 +5,7 @@
 mod coordinates;
 mod count;
 mod edges;
+mod exactness;
 mod fast;
 mod floor;
 mod fold;
@@ -20,6 +21,7 @@ mod tiles;
 
 pub use coordinates::by_component;
 pub use count::{count, layers_read};
+pub use exactness::{exact_places, exactness};
 pub use fast::fast;
 pub use floor::floor;
 pub use fold::Exact;

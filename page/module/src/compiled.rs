@@ -45,6 +45,9 @@ pub struct Asked {
     /// `as-loops`, `keep` or `select`.
     #[serde(default)]
     pub branches: Option<String>,
+    /// `strict`, `exact` or `fast`.
+    #[serde(default)]
+    pub math: Option<String>,
     /// `subgroup`, `derivatives` or `block`.
     #[serde(default)]
     pub transport: Option<String>,
@@ -94,6 +97,7 @@ impl Asked {
             options: options.map(|(name, value)| (name.clone(), value.clone())).collect(),
             unroll: parsed(&self.unroll)?.unwrap_or_default(),
             branches: parsed(&self.branches)?.unwrap_or_default(),
+            math: parsed(&self.math)?.unwrap_or_default(),
             transport: parsed(&self.transport)?,
             block: self.block.unwrap_or([1, 1]),
             ..Settings::default()

@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use std::path::Path;
 use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
 
-/// The message for the first of `errors`, in one line.
-pub fn of(kernel: &str, errors: &Errors) -> Value {
+/// The message for the first of `errors`, in one line, at rustc's level `error` or `note`.
+pub fn of(kernel: &str, errors: &Errors, level: &str) -> Value {
     let Some(diagnostic) = errors.diagnostics.first() else {
         return Value::Null;
     };
@@ -32,7 +32,7 @@ pub fn of(kernel: &str, errors: &Errors) -> Value {
             "doctest": false,
             "test": false,
         },
-        "message": rustc(diagnostic, errors),
+        "message": rustc(diagnostic, errors, level),
     })
 }
 
@@ -41,8 +41,8 @@ pub fn finished(success: bool) -> Value {
     json!({ "reason": "build-finished", "success": success })
 }
 
-/// An error in rustc's words.
-fn rustc(diagnostic: &Diagnostic, errors: &Errors) -> Value {
+/// An error or a note in rustc's words.
+fn rustc(diagnostic: &Diagnostic, errors: &Errors, level: &str) -> Value {
     let primary = diagnostic.span.map(|at| (at, diagnostic.label.as_str(), true));
     let others = diagnostic.others.iter().map(|(at, label)| (*at, label.as_str(), false));
     let places = primary.into_iter().chain(others);
@@ -61,10 +61,10 @@ fn rustc(diagnostic: &Diagnostic, errors: &Errors) -> Value {
         "message": diagnostic.message,
         // As clippy names its own: the part before the colons says who speaks.
         "code": { "code": "straightline::kernel", "explanation": null },
-        "level": "error",
+        "level": level,
         "spans": spans,
         "children": notes.chain(help).collect::<Vec<_>>(),
-        "rendered": errors.render(false),
+        "rendered": errors.render(false).replacen("error", level, 1),
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod before;
 mod message;
+mod notes;
 
 use crate::args::{CheckArgs, MessageFormat};
 use crate::failure::{Failure, count};
@@ -10,7 +11,7 @@ use std::collections::HashSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{EmitOptions, Kernel};
+use straightline_codegen::{Compiled, EmitOptions, Kernel};
 
 /// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
@@ -23,7 +24,7 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
             Err(errors) => {
                 // An editor reads messages alone.
                 if args.message_format == MessageFormat::Json {
-                    outln!("{}", message::of(name, &errors));
+                    outln!("{}", message::of(name, &errors, "error"));
                     outln!("{}", message::finished(false));
                 }
                 return Err(errors.into());
@@ -32,13 +33,19 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     }
     let before = before::run(&args.command, args.message_format)?;
     let mut shown = HashSet::new();
-    let mut broken = 0;
+    let (mut broken, mut found) = (0, 0);
     for (name, kernel) in names.iter().zip(&located) {
-        let Err(errors) = checked(args, kernel) else {
-            if args.message_format == MessageFormat::Human {
-                outln!("{name}: no errors");
+        let errors = match checked(args, kernel) {
+            Ok(compiled) => {
+                if args.message_format == MessageFormat::Human {
+                    outln!("{name}: no errors");
+                }
+                let notes = notes::of(&compiled, kernel).into_iter();
+                let new = notes.filter(|note| shown.insert(format!("{:?}", note.diagnostics)));
+                new.for_each(|note| notes::print(args.message_format, name, &note));
+                continue;
             }
-            continue;
+            Err(errors) => errors,
         };
         broken += 1;
         for diagnostic in &errors.diagnostics {
@@ -48,6 +55,7 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
             };
             // Kernels that share a file share its errors.
             if shown.insert(one.render(false)) {
+                found += 1;
                 print(args.message_format, name, &one);
             }
         }
@@ -59,7 +67,7 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     if broken > 0 {
         return Err(Failure::Failed(format!(
             "{} in {broken} of {}",
-            count(shown.len(), "error"),
+            count(found, "error"),
             count(names.len(), "kernel")
         )));
     }
@@ -104,7 +112,7 @@ fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> 
 }
 
 /// What `emit` would find wrong with a kernel. Every error has a place, since editors show no other.
-fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
+fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
     let placed = |mut errors: Errors| {
         let place = kernel.place();
         for diagnostic in errors.diagnostics.iter_mut().filter(|d| d.span.is_none()) {
@@ -114,22 +122,22 @@ fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
         errors
     };
     emitted(args, kernel)
-        .and_then(|()| kernel.check_others())
+        .and_then(|compiled| kernel.check_others().map(|()| compiled))
         .map_err(placed)
 }
 
-fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
+fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
     let compiled = kernel.compile(&args.options.settings())?;
     let options = EmitOptions::new().stage(super::natural_stage(&compiled));
     match compiled.emit(&options) {
-        Ok(_) => Ok(()),
+        Ok(_) => Ok(compiled),
         Err(error) => Err(compiled.locate(&error)),
     }
 }
 
 fn print(format: MessageFormat, kernel: &str, error: &Errors) {
     match format {
-        MessageFormat::Json => outln!("{}", message::of(kernel, error)),
+        MessageFormat::Json => outln!("{}", message::of(kernel, error, "error")),
         MessageFormat::Human => {
             let text = error.render(std::io::stderr().is_terminal());
             output::note(format_args!("{}\n", output::limited(&text)));

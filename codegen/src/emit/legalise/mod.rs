@@ -2,6 +2,7 @@
 //!
 //! Each language has its rule, which sees every expression after its arguments and gives what stands for it.
 
+mod exact;
 mod glsl;
 mod guards;
 mod half;
@@ -16,18 +17,26 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type};
 
 use guards::Overloads;
 
+pub use exact::{AS_WRITTEN, is_barrier};
 pub use half::half;
 
-/// Rewrites a module for WGSL.
-pub fn wgsl(module: &mut Module<'_>) {
+/// Rewrites a module for WGSL. With `marks` every exact value is marked, not only those that a compiler could merge: to be found
+/// again in what is translated from the WGSL.
+pub fn wgsl(module: &mut Module<'_>, marks: bool) {
+    exact::barriers(module, marks);
     module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::None));
     module.rewrite(&mut |_, expr| powers::shifted(expr));
     wgsl::legalise(module);
 }
 
-/// Rewrites a module for GLSL, for Vulkan or for OpenGL.
-pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
+/// Rewrites a module for GLSL, for Vulkan or for OpenGL; for a version that has `precise` or not.
+pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool, precise: bool) {
     zeroed::begin(module, resources);
+    match precise {
+        true => exact::precise(module),
+        // Functions are rewritten below.
+        false => exact::barriers(module, false),
+    }
     let overloads = match vulkan {
         true => Overloads::Vectors,
         false => Overloads::Scalars,
@@ -42,6 +51,7 @@ pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
 /// Rewrites a module for HLSL.
 pub fn hlsl(module: &mut Module<'_>, resources: &Resources) {
     zeroed::begin(module, resources);
+    exact::precise(module);
     module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::Scalars));
     module.rewrite(&mut |_, expr| powers::shifted(expr));
     hlsl::legalise(module);

@@ -18,6 +18,7 @@ pub fn module<'g>() -> Module<'g> {
     let variables = variables.map(|(name, ty)| Variable {
         name: name.to_owned(),
         ty: ty.into(),
+        precise: false,
     });
     Module {
         variables: variables.collect(),

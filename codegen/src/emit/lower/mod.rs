@@ -6,6 +6,7 @@ mod arrays;
 mod coalescing;
 mod control;
 mod entry;
+mod exactness;
 mod facts;
 
 use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
@@ -14,6 +15,7 @@ use super::outputs::whole_texel;
 use super::tidy::simplify;
 use crate::compiled::Compiled;
 use coalescing::ArrayCoalescing;
+use exactness::Exactness;
 use std::collections::HashSet;
 use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
 use straightline_evaluator::passes::{Block, Step};
@@ -55,6 +57,7 @@ fn attempt<'g>(compiled: &'g Compiled, half: bool, coalescing: ArrayCoalescing) 
     let mut lowering = Lowering {
         compiled,
         origins: origins(compiled),
+        exact: Exactness::of(compiled),
         wanted: Wanted::new(graph),
         coalescing,
         exprs: vec![None; graph.nodes.len()],
@@ -88,6 +91,7 @@ fn origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
 
 struct Lowering<'g> {
     compiled: &'g Compiled,
+    exact: Exactness,
     /// By node: where it comes from.
     origins: Vec<Option<&'g Origin>>,
     wanted: Wanted,
@@ -143,6 +147,18 @@ impl<'g> Lowering<'g> {
         match &node.op {
             // Written where it is used, first copied or indexed.
             ir::Op::Const(_) | ir::Op::Unused | ir::Op::MakeArray | ir::Op::Result(_) => {}
+            // Written in the statement that rounds it.
+            _ if self.exact.is_part(id) => {}
+            ir::Op::Exact => {
+                let of = node.args[0];
+                let rounded = match self.exact.is_part(of) {
+                    true => self.expression(of),
+                    false => self.expr(of),
+                };
+                let goes_on = self.exact.goes_on(id);
+                let ty = rounded.ty;
+                self.declare(id, Expr::new(Op::Exact { goes_on }, vec![simplify(rounded)], ty));
+            }
             ir::Op::ArraySet => self.array_set(id),
             ir::Op::ArrayGet => self.array_get(id),
             ir::Op::SharedLoad(_) => {

@@ -23,6 +23,8 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
         }
         Op::Index { .. } => Text::index(&args[0], &args[1]),
         Op::Builtin(builtin) => l.builtin(*builtin),
+        // What makes it so is the variable that it is given to.
+        Op::Exact { .. } => args[0].clone(),
         Op::Any => Text::call("any", &all),
         Op::All => Text::call("all", &all),
         Op::Choose => l.choose(&args[0], &args[1], &args[2]),

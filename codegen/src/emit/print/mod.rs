@@ -58,6 +58,9 @@ pub fn columns_of_number(ty: Ty, bits: u32) -> usize {
     }
 }
 
+/// What stands before the type of a variable in GLSL and HLSL if what it is given is rounded as it is written.
+pub const PRECISE: &str = "precise ";
+
 /// A shading language.
 pub trait Language {
     /// A type.
@@ -198,6 +201,14 @@ impl Printer<'_> {
         &self.module.variables[var.0 as usize].name
     }
 
+    /// A declaration, with the word that keeps compilers from changing roundings.
+    fn qualified(&self, var: VarId, declared: String) -> String {
+        match self.module.variables[var.0 as usize].precise {
+            true => format!("{PRECISE}{declared}"),
+            false => declared,
+        }
+    }
+
     /// The constants, and each of the functions beside the entry point.
     fn tables_and_functions(&self) -> Vec<String> {
         let table = |(var, value): &(VarId, Expr)| {
@@ -270,9 +281,13 @@ impl Printer<'_> {
         let l = self.language;
         let set = |before: &str, value: &Expr| Self::line(depth, &format!("{before} = "), &self.expr(value), ";");
         let text = match &stmt.kind {
-            StmtKind::Let(var, value) => set(&l.immutable(self.name(*var), self.module.ty(*var)), value),
+            StmtKind::Let(var, value) => {
+                let declared = l.immutable(self.name(*var), self.module.ty(*var));
+                set(&self.qualified(*var, declared), value)
+            }
             StmtKind::Var(var, value) => {
                 let declared = l.mutable(self.name(*var), self.module.ty(*var), value.is_some());
+                let declared = self.qualified(*var, declared);
                 match value {
                     Some(value) if value.op == Op::Construct && value.ty.is_array() => {
                         Self::line(depth, &format!("{declared} = "), &self.elements(value), ";")

@@ -1,8 +1,11 @@
-//! SPIR-V as words: basic blocks counted, straight functions replaced where they are called, and blocks joined that are one.
+//! SPIR-V as words: basic blocks counted, straight functions replaced where they are called, blocks joined that are one, and exact
+//! operations decorated.
 
 mod inline;
+mod uncontracted;
 
 pub use inline::inlined;
+pub use uncontracted::uncontracted;
 
 /// Words before the first instruction: magic number, version, generator, bound of ids, and 0.
 const HEADER: usize = 5;

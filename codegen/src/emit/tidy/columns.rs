@@ -2,6 +2,7 @@
 
 use super::inline::operations;
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
+use crate::emit::legalise::AS_WRITTEN;
 use crate::emit::print::{columns_of_number, wgsl_type};
 use straightline_evaluator::ir::{self, BinaryOp, Graph};
 
@@ -44,6 +45,7 @@ impl Columns<'_> {
             Op::Guarded(..) => call(10),
             Op::Builtin(_) => 20,
             Op::Any | Op::All => call(3),
+            Op::Exact { .. } => call(AS_WRITTEN.len()),
             Op::Choose => call(6),
             Op::Hex(_) => 11,
             Op::Call(name) => call(name.len()),

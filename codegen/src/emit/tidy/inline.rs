@@ -58,6 +58,7 @@ impl Inliner<'_> {
             assignments(&stmt, &mut |var| _ = assigned.insert(var, at));
             if let StmtKind::Let(var, value) = &stmt.kind
                 && !(self.keeps_reads && reads_memory(value))
+                && !matches!(value.op, Op::Exact { .. })
             {
                 let candidate = Candidate {
                     at,

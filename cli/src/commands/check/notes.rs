@@ -1,0 +1,61 @@
+//! Notes on kernels without errors: sums whose order of operations matters.
+
+use super::message;
+use crate::args::MessageFormat;
+use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
+use straightline_codegen::{Compiled, Kernel};
+
+/// A note for each line whose operations drivers are kept from reordering.
+pub fn of(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
+    let places = compiled.exact_places().into_iter();
+    let note = |(path, line, name): (&str, u32, &str)| {
+        let (index, file) = (0..).zip(kernel.files()).find(|(_, file)| file.path == path)?;
+        let subject = match name {
+            "" => "this line".to_owned(),
+            name => format!("`{name}`"),
+        };
+        let what = format!("the order of the operations of {subject} matters: drivers are kept from changing it");
+        let diagnostic = Diagnostic::at(line_of(file, index, line)?, what)
+            .note("`as_written` in WGSL and MSL, `precise` in GLSL and HLSL, `NoContraction` in SPIR-V");
+        Some(Errors {
+            diagnostics: vec![diagnostic],
+            files: kernel.files().to_vec().into(),
+        })
+    };
+    places.filter_map(note).collect()
+}
+
+/// The text of a line, without the space around it.
+fn line_of(file: &File, index: u32, line: u32) -> Option<Span> {
+    let text = file.text.split_inclusive('\n').nth(line as usize - 1)?;
+    let before = file
+        .text
+        .split_inclusive('\n')
+        .take(line as usize - 1)
+        .map(str::len)
+        .sum::<usize>();
+    let indent = text.len() - text.trim_start().len();
+    let start = (before + indent) as u32;
+    Some(Span {
+        file: index,
+        start,
+        end: start + text.trim().len() as u32,
+        line,
+        column: text[..indent].chars().count() as u32 + 1,
+    })
+}
+
+/// Prints a note: for people in one line, for editors as rustc writes it.
+pub fn print(format: MessageFormat, kernel: &str, note: &Errors) {
+    let Some(diagnostic) = note.diagnostics.first() else {
+        return;
+    };
+    match (format, diagnostic.span) {
+        (MessageFormat::Json, _) => outln!("{}", message::of(kernel, note, "note")),
+        (MessageFormat::Human, Some(at)) => {
+            let path = note.files.get(at.file as usize).map_or("", |file| file.path.as_str());
+            outln!("{path}:{}: note: {}", at.line, diagnostic.message);
+        }
+        (MessageFormat::Human, None) => outln!("note: {}", diagnostic.message),
+    }
+}

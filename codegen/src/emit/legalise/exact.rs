@@ -1,0 +1,85 @@
+//! Exact operations: `precise` where a language has it, else a function that no compiler sees through.
+
+use crate::emit::ast::{Expr, Function, Module, Op, Stmt, StmtKind, Ty};
+use crate::emit::print::wgsl_type;
+use straightline_evaluator::ir::{self, BinaryOp, Scalar};
+
+/// Name of the function that keeps a value as it is written; of vectors, with the type behind it.
+pub const AS_WRITTEN: &str = "as_written";
+
+/// Whether a function of this name keeps values as they are written. No entry point has such a name.
+pub fn is_barrier(name: &str) -> bool {
+    let of = name.strip_prefix(AS_WRITTEN);
+    of.is_some_and(|of| of.is_empty() || of.starts_with("_vec") || of.starts_with("_f16")) && !name.ends_with("_kernel")
+}
+
+/// Rewrites exact values as variables that are precise.
+pub fn precise(module: &mut Module<'_>) {
+    let mut body = std::mem::take(&mut module.body);
+    body.iter_mut().for_each(|stmt| declared(module, stmt));
+    module.body = body;
+}
+
+fn declared(module: &mut Module<'_>, stmt: &mut Stmt<'_>) {
+    let variable = match &stmt.kind {
+        StmtKind::Let(var, value) | StmtKind::Var(var, Some(value)) if is_exact(value) => Some(*var),
+        StmtKind::Assign(place, _, value) if is_exact(value) => place.as_var(),
+        _ => None,
+    };
+    if let Some(var) = variable {
+        module.variables[var.0 as usize].precise = true;
+    }
+    for expr in stmt.own_mut() {
+        expr.rewrite_in_place(&mut |mut expr| match expr.op {
+            Op::Exact { .. } => expr.args.swap_remove(0),
+            _ => expr,
+        });
+    }
+    for block in stmt.blocks_mut() {
+        block.iter_mut().for_each(|stmt| declared(module, stmt));
+    }
+}
+
+fn is_exact(expr: &Expr) -> bool {
+    matches!(expr.op, Op::Exact { .. })
+}
+
+/// Rewrites exact values that arithmetic goes on from, or `all` of them, as calls of a function.
+pub fn barriers(module: &mut Module<'_>, all: bool) {
+    module.rewrite(&mut |module, mut expr| match expr.op {
+        Op::Exact { goes_on } if all || goes_on => {
+            expr.op = barrier(module, expr.ty);
+            expr
+        }
+        Op::Exact { .. } => expr.args.swap_remove(0),
+        _ => expr,
+    });
+}
+
+/// A function that changes the bits of one NaN to those of another. To see that this changes no number, a compiler would have to
+/// know that none has these bits, so it computes the argument as it is written, and nothing across the function.
+fn barrier(module: &mut Module<'_>, ty: Ty) -> Op {
+    const LARGEST: u32 = 0xffff_fffe;
+    let name = match ty.is_scalar() && !ty.half {
+        true => AS_WRITTEN.to_owned(),
+        false => format!("{AS_WRITTEN}_{}", wgsl_type(ty).replace(['<', '>'], "_")),
+    };
+    module.function(&name.clone(), ty, |module| {
+        let x = module.variable("x", ty);
+        let words = ty.full().of(Scalar::U32);
+        let largest = Expr::new(Op::Hex(LARGEST), Vec::new(), words);
+        let full = |expr: Expr| if ty.half { expr.to(ty.full()) } else { expr };
+        let bits = full(module.read(x)).bits_as(words);
+        let same = Expr::new(Op::Ir(ir::Op::Binary(BinaryOp::Min)), vec![bits, largest], words);
+        let same = same.bits_as(ty.full());
+        let same = if ty.half { same.to(ty) } else { same };
+        Function {
+            comment: "The same number, by its bits: what it is computed of stays in the order in which it is written."
+                .to_owned(),
+            name,
+            params: vec![x],
+            result: ty,
+            body: vec![StmtKind::Return(Some(same)).into()],
+        }
+    })
+}

@@ -1,0 +1,54 @@
+//! Operations whose rounding no compiler may change.
+
+use super::{BinaryOp, Builder, NodeId, Op, Type};
+
+impl Builder<'_> {
+    /// Makes operations on floats exact from now on, or no longer.
+    pub fn set_exact(&mut self, exact: bool) {
+        self.exact = exact;
+    }
+
+    /// Whether operations on floats are made exact.
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
+    /// The node that computes an operation on floats, each of its roundings marked. A dot or cross product becomes the
+    /// products and sums that it stands for, first to last, since shader languages leave their order open.
+    pub fn exactly(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
+        match op {
+            Op::Dot => {
+                let of = self.graph().ty(args[0]);
+                let product = self.marked(Op::Binary(BinaryOp::Mul), args, of);
+                let mut lanes = (0..of.components()).map(Op::Extract);
+                let first = lanes.next().map(|lane| self.simplified(lane, [product], ty));
+                let first = first.expect("a vector has components");
+                lanes.fold(first, |sum, lane| {
+                    let lane = self.simplified(lane, [product], ty);
+                    self.marked(Op::Binary(BinaryOp::Add), &[sum, lane], ty)
+                })
+            }
+            Op::Cross => {
+                let turned = |b: &mut Self, of: NodeId, turn: [u8; 3]| {
+                    let lanes = turn.map(|lane| b.simplified(Op::Extract(lane), [of], Type::F32));
+                    b.simplified(Op::Compose, lanes, ty)
+                };
+                let (next, last) = ([1, 2, 0], [2, 0, 1]);
+                let products = [(next, last), (last, next)].map(|(first, second)| {
+                    let sides = [turned(self, args[0], first), turned(self, args[1], second)];
+                    self.marked(Op::Binary(BinaryOp::Mul), &sides, ty)
+                });
+                self.marked(Op::Binary(BinaryOp::Sub), &products, ty)
+            }
+            op => self.marked(op, args, ty),
+        }
+    }
+
+    fn marked(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
+        let id = self.simplified(op, args, ty);
+        match self.graph().node(id).op.rounds() {
+            true => self.intern(Op::Exact, [id], ty),
+            false => id,
+        }
+    }
+}

@@ -1,0 +1,432 @@
+//! Cancelling terms of one sum, difference or comparison.
+
+use super::terms::{By, Choice, Dependence, Made, Part, Place, Term};
+use crate::ir::{BinaryOp, Graph, NodeId, Op};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::VecDeque;
+
+/// Terms of one sum that are looked at, those nearest to it first.
+const MAX_TERMS: usize = 256;
+
+/// Terms of a short side, which is looked at first.
+const FEW_TERMS: usize = 32;
+
+/// Alternatives that are followed at once, and combinations of them for one sum.
+const MAX_CHOICES: usize = 4;
+const MAX_COMBINATIONS: u32 = 32;
+
+/// A term cancels if no more than this share of it is left. Weights of filters leave more; the constants of a split by 257 or
+/// more, or of a rounding, leave less.
+const LEFT: f64 = 1.0 / 256.0;
+
+/// Constants from which a sum loses digits on purpose: those that round to multiples of less than 1/4096.
+const LARGE: f64 = 1024.0;
+
+/// Sides of a sum: two, or the components of a dot product.
+const SIDES: usize = 4;
+
+/// What is found in a graph.
+#[derive(Default)]
+pub struct Found {
+    /// Operations through which terms pass that cancel.
+    pub marks: FxHashSet<NodeId>,
+    /// Sums and differences that would be 0 without rounding: errors of others.
+    pub errors: FxHashSet<NodeId>,
+}
+
+/// Adds the operations through which terms pass whose cancelling in a node means something:
+///
+/// - of `(a + b) - a`, which takes a term away again that was added;
+/// - of a sum that would be 0 without rounding: the error of another;
+/// - of a large constant, by which something is rounded.
+///
+/// Of other sums, such as `(a + b) - (a - b)`, reordering changes a rounding.
+pub fn cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mut Found) {
+    let node = graph.node(id);
+    let sign = match &node.op {
+        Op::Binary(BinaryOp::Add) => 1.0,
+        Op::Binary(BinaryOp::Sub) => -1.0,
+        Op::Binary(op) if op.is_comparison() => -1.0,
+        Op::Dot => 1.0,
+        _ => return,
+    };
+    let of = graph.ty(node.args[0]);
+    if !of.is_float() || of.is_array() {
+        return;
+    }
+    let search = |lane: u8, found: &mut Found| {
+        let side = |k: usize, times: f64| Part {
+            term: dependence.term(node.args[k], lane),
+            times,
+            by: By::Itself,
+        };
+        let sides = match node.op {
+            Op::Dot => {
+                let lanes = 0..of.components();
+                lanes.map(|lane| dependence.dot_part(graph, id, lane)).collect()
+            }
+            _ => vec![vec![side(0, 1.0)], vec![side(1, sign)]],
+        };
+        if !meet(dependence, &sides) {
+            return Outcome::Nothing;
+        }
+        let mut search = Search {
+            graph,
+            dependence,
+            sides,
+            choices: Vec::new(),
+            left: MAX_COMBINATIONS,
+            found,
+            outcome: Outcome::Nothing,
+            is_error: false,
+        };
+        if search.may_share() {
+            search.run();
+        }
+        let (outcome, is_error) = (search.outcome, search.is_error);
+        if is_error && node.op.rounds() {
+            found.errors.insert(id);
+        }
+        outcome
+    };
+    let whole = match of.is_scalar() || node.op == Op::Dot {
+        true => search(0, found),
+        false => search(Place::ALL, found),
+    };
+    let cancels = match whole {
+        Outcome::ByLane => {
+            (0..of.components()).fold(false, |some, lane| some | (search(lane, found) == Outcome::Cancels))
+        }
+        outcome => outcome == Outcome::Cancels,
+    };
+    if cancels && node.op.rounds() {
+        found.marks.insert(id);
+    }
+}
+
+/// What became of a search.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Nothing,
+    /// A term cancels.
+    Cancels,
+    /// Components must be looked at one by one.
+    ByLane,
+}
+
+/// Whether two sides may have a term in common.
+fn meet(dependence: &Dependence, sides: &[Vec<Part>]) -> bool {
+    let reach = |side: &Vec<Part>| {
+        let all = side.iter().filter_map(|part| part.term.place);
+        all.map(|place| dependence.reach(place.node)).fold([0; 4], union)
+    };
+    let reaches: Vec<[u64; 4]> = sides.iter().map(reach).collect();
+    let pairs = (0..reaches.len()).flat_map(|k| (0..k).map(move |l| (k, l)));
+    pairs.into_iter().any(|(k, l)| intersect(reaches[k], reaches[l]))
+}
+
+fn union(a: [u64; 4], b: [u64; 4]) -> [u64; 4] {
+    std::array::from_fn(|k| a[k] | b[k])
+}
+
+fn intersect(a: [u64; 4], b: [u64; 4]) -> bool {
+    (0..4).any(|k| a[k] & b[k] != 0)
+}
+
+struct Search<'g> {
+    graph: &'g Graph,
+    dependence: &'g Dependence,
+    sides: Vec<Vec<Part>>,
+    /// Alternatives that are followed: the first, the second, or none.
+    choices: Vec<(Choice, usize)>,
+    /// Combinations that may still be looked at.
+    left: u32,
+    found: &'g mut Found,
+    outcome: Outcome,
+    /// Whether nothing is left of the sum without rounding.
+    is_error: bool,
+}
+
+/// How a term is made of another: which, how often, and by what.
+type Edge = (usize, f64, By);
+
+/// What reaches a term: how often, by side; whether a rounding or, by side, a sum lies between.
+#[derive(Clone, Copy, Default)]
+struct Share {
+    times: [f64; SIDES],
+    rounded: bool,
+    summed: [bool; SIDES],
+}
+
+impl Share {
+    fn sum(&self) -> f64 {
+        self.times.iter().sum()
+    }
+
+    fn most(&self) -> f64 {
+        self.times.iter().fold(0.0, |most, x| most.max(x.abs()))
+    }
+
+    fn cancels(&self) -> bool {
+        self.sum().abs() <= self.most() * LEFT
+    }
+
+    fn sides(&self) -> impl Iterator<Item = usize> {
+        let times = self.times;
+        (0..SIDES).filter(move |side| times[*side] != 0.0)
+    }
+
+    /// Adds what reaches another term by way of an edge.
+    fn add(&mut self, from: Share, times: f64, by: By) {
+        for side in from.sides() {
+            self.times[side] += from.times[side] * times;
+            self.summed[side] |= from.summed[side] || by == By::Sum;
+        }
+        self.rounded |= from.rounded || by != By::Itself;
+    }
+}
+
+/// Terms that a sum is made of, and how.
+#[derive(Default)]
+struct Cone {
+    terms: Vec<Term>,
+    index: FxHashMap<Term, usize>,
+    /// By term, those that it is made of.
+    edges: Vec<Vec<Edge>>,
+    /// Whether there are more.
+    is_cut: bool,
+}
+
+impl Cone {
+    fn add(&mut self, term: Term) -> (usize, bool) {
+        if let Some(known) = self.index.get(&term) {
+            return (*known, false);
+        }
+        let k = self.terms.len();
+        self.index.insert(term.clone(), k);
+        self.terms.push(term);
+        self.edges.push(Vec::new());
+        (k, true)
+    }
+
+    /// Terms before those that they are made of.
+    fn order(&self, roots: impl Iterator<Item = usize>) -> Vec<usize> {
+        let mut order = Vec::with_capacity(self.terms.len());
+        let mut seen = vec![false; self.terms.len()];
+        for root in roots {
+            let mut stack = vec![(root, 0)];
+            if std::mem::replace(&mut seen[root], true) {
+                continue;
+            }
+            while let Some((at, next)) = stack.pop() {
+                match self.edges[at].get(next) {
+                    None => order.push(at),
+                    Some((to, ..)) => {
+                        stack.push((at, next + 1));
+                        if !std::mem::replace(&mut seen[*to], true) {
+                            stack.push((*to, 0));
+                        }
+                    }
+                }
+            }
+        }
+        order.reverse();
+        order
+    }
+}
+
+impl Search<'_> {
+    /// Whether the shorter side has a term that the other one may have. What was made after the other side is no term of it, unless
+    /// a loop carries it there: most terms of a long sum are, and are not looked at again.
+    fn may_share(&self) -> bool {
+        let [left, right] = &self.sides[..] else { return true };
+        if self.dependence.has_loops() {
+            return true;
+        }
+        let newest = |side: &[Part]| side.iter().filter_map(|part| part.term.newest()).max();
+        let (short, bound) = match newest(left) > newest(right) {
+            true => (left, newest(right)),
+            false => (right, newest(left)),
+        };
+        let mut seen: FxHashSet<Term> = short.iter().map(|part| part.term.clone()).collect();
+        let mut pending: Vec<Term> = seen.iter().cloned().collect();
+        while let Some(term) = pending.pop() {
+            if term.newest() <= bound || seen.len() > FEW_TERMS {
+                return true;
+            }
+            let parts = match self.dependence.made(self.graph, &term) {
+                Made::Leaf => continue,
+                Made::ByLane => return true,
+                Made::Sum(parts) => parts,
+                Made::Either(_, parts) => parts.into(),
+            };
+            let new = parts
+                .into_iter()
+                .map(|part| part.term)
+                .filter(|term| seen.insert(term.clone()));
+            pending.extend(new.collect::<Vec<Term>>());
+        }
+        false
+    }
+
+    fn run(&mut self) {
+        if self.left == 0 || self.outcome == Outcome::ByLane {
+            return;
+        }
+        self.left -= 1;
+        let (cone, roots, pending) = self.cone();
+        if self.outcome == Outcome::ByLane {
+            return;
+        }
+        self.cancel(&cone, &roots);
+        let Some(choice) = pending.filter(|_| self.choices.len() < MAX_CHOICES) else {
+            return;
+        };
+        for side in 0..3 {
+            self.choices.push((choice, side));
+            match side {
+                // The value as it is: looked at above, unless another choice comes after.
+                2 if self.choices.len() == MAX_CHOICES => {}
+                _ => self.run(),
+            }
+            self.choices.pop();
+        }
+    }
+
+    /// The terms under the choices made, the first terms of each side, and a choice that is still open.
+    fn cone(&mut self) -> (Cone, Vec<Vec<Edge>>, Option<Choice>) {
+        let mut cone = Cone::default();
+        let mut queue = VecDeque::new();
+        let mut roots = Vec::new();
+        for side in &self.sides {
+            let mut parts = Vec::new();
+            for part in side {
+                let (k, is_new) = cone.add(part.term.clone());
+                parts.push((k, part.times, part.by));
+                if is_new {
+                    queue.push_back(k);
+                }
+            }
+            roots.push(parts);
+        }
+        let mut pending = None;
+        while let Some(k) = queue.pop_front() {
+            if cone.terms.len() >= MAX_TERMS {
+                cone.is_cut = true;
+                break;
+            }
+            let parts = match self.dependence.made(self.graph, &cone.terms[k]) {
+                Made::Leaf => continue,
+                Made::ByLane => {
+                    self.outcome = Outcome::ByLane;
+                    break;
+                }
+                Made::Sum(parts) => parts,
+                Made::Either(choice, [first, second]) => {
+                    match self.choices.iter().find(|(known, _)| *known == choice) {
+                        Some((_, 0)) => vec![first],
+                        Some((_, 1)) => vec![second],
+                        Some(_) => continue,
+                        None => {
+                            pending.get_or_insert(choice);
+                            continue;
+                        }
+                    }
+                }
+            };
+            for part in parts {
+                let (to, is_new) = cone.add(part.term);
+                cone.edges[k].push((to, part.times, part.by));
+                if is_new {
+                    queue.push_back(to);
+                }
+            }
+        }
+        (cone, roots, pending)
+    }
+
+    /// Finds the terms that cancel, and notes the operations through which they pass.
+    fn cancel(&mut self, cone: &Cone, roots: &[Vec<Edge>]) {
+        let mut shares = vec![Share::default(); cone.terms.len()];
+        let mut users: Vec<Vec<usize>> = vec![Vec::new(); cone.terms.len()];
+        for (side, parts) in roots.iter().enumerate() {
+            let mut whole = Share::default();
+            whole.times[side] = 1.0;
+            for (k, times, by) in parts {
+                shares[*k].add(whole, *times, *by);
+            }
+        }
+        let mut cancelled = Vec::new();
+        let mut is_error = !cone.is_cut;
+        for k in cone.order(roots.iter().flatten().map(|(k, ..)| *k)) {
+            let share = shares[k];
+            // A constant is looked at together with all others.
+            if share.cancels() && !self.is_constant(&cone.terms[k]) {
+                // Of one value from itself nothing is lost, nor of what it is made of.
+                if share.sides().count() > 1 && (share.rounded || self.contracts(&cone.terms[k])) {
+                    cancelled.push((k, matters(&cone.terms[k], &share)));
+                }
+                continue;
+            }
+            is_error &= !cone.edges[k].is_empty();
+            for (to, times, by) in &cone.edges[k] {
+                shares[*to].add(share, *times, *by);
+                users[*to].push(k);
+            }
+        }
+        // Before its first iteration a loop carries what is often 0.
+        let before = |(choice, side): &(Choice, usize)| *side == 1 && !matches!(choice, Choice::Condition(_));
+        is_error &= !cancelled.is_empty() && !self.choices.iter().any(before);
+        self.is_error |= is_error;
+        let mut seen = FxHashSet::default();
+        for (k, _) in cancelled.into_iter().filter(|(_, matters)| *matters || is_error) {
+            self.outcome = Outcome::Cancels;
+            self.mark_product(&cone.terms[k]);
+            let mut stack = vec![k];
+            while let Some(at) = stack.pop() {
+                for user in &users[at] {
+                    if seen.insert(*user) {
+                        stack.push(*user);
+                        self.mark(&cone.terms[*user]);
+                    }
+                }
+            }
+        }
+    }
+
+    fn mark(&mut self, term: &Term) {
+        if let Some(place) = term.place
+            && self.graph.node(place.node).op.rounds()
+        {
+            self.found.marks.insert(place.node);
+        }
+    }
+
+    /// A product that cancels itself: a contraction would leave its rounding error.
+    fn mark_product(&mut self, term: &Term) {
+        if self.contracts(term) {
+            self.mark(term);
+        }
+    }
+
+    fn is_constant(&self, term: &Term) -> bool {
+        term.place
+            .is_some_and(|place| self.graph.constant(place.node).is_some())
+    }
+
+    /// Whether a term is a product that may be contracted with the sum that it goes into.
+    fn contracts(&self, term: &Term) -> bool {
+        let is_product = |place: Place| matches!(self.graph.node(place.node).op, Op::Binary(BinaryOp::Mul) | Op::Dot);
+        term.factors.is_empty() && term.place.is_some_and(is_product)
+    }
+}
+
+/// Whether a result hangs on the order in which a term cancels: one side is the term itself, or it is a large constant.
+fn matters(term: &Term, share: &Share) -> bool {
+    let is_itself = share.sides().any(|side| !share.summed[side]);
+    match (term.place, &term.factors[..]) {
+        (Some(_), _) | (None, []) if is_itself => true,
+        (None, _) => share.most() >= LARGE,
+        _ => false,
+    }
+}

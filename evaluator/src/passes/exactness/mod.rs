@@ -1,0 +1,163 @@
+//! Sums whose meaning hangs on the order of their operations: compensated sums, the rounding error of a sum or a product,
+//! rounding by a large constant.
+//!
+//! Such a sum is one whose exact value cancels a term: of `(a + b) - a` the term `a`. A compiler that reassociates floats makes
+//! `b` of it, where IEEE 754 gives `b` as far as `a + b` holds it. The operations through which the term passes are made
+//! [`Op::Exact`], which forbids that; of other operations drivers may change a rounding, and nothing hangs on it.
+
+mod cone;
+mod terms;
+
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Replace, UnaryOp, rebuild_replacing};
+use crate::passes::Exact;
+use rustc_hash::{FxHashMap, FxHashSet};
+use terms::Dependence;
+
+/// The kernel with the operations marked whose order matters.
+pub fn exactness(graph: &Graph) -> Graph {
+    let marks = marks(graph);
+    if marks.is_empty() {
+        return graph.clone();
+    }
+    let pass = Rebuild {
+        rules: &Exact,
+        share_loads: false,
+    };
+    rebuild_replacing(graph, &pass, &mut Marking { old: graph, marks })
+}
+
+/// The first origin of the exact operations of each line, by file and line.
+pub fn exact_places(graph: &Graph) -> Vec<&Origin> {
+    let exact = graph.ids().filter(|id| graph.node(*id).op == Op::Exact);
+    let origins = exact.filter_map(|id| graph.origin(id).or_else(|| graph.origin(graph.node(id).args[0])));
+    let mut places: Vec<&Origin> = origins.filter(|origin| origin.line != Origin::NOWHERE).collect();
+    places.sort_by_key(|origin| (origin.file, origin.line));
+    places.dedup_by_key(|origin| (origin.file, origin.line));
+    places
+}
+
+/// The operations whose results must be rounded as they are written.
+fn marks(graph: &Graph) -> FxHashSet<NodeId> {
+    let dependence = Dependence::of(graph);
+    let mut found = cone::Found::default();
+    for id in graph.ids() {
+        cone::cancelling(graph, &dependence, id, &mut found);
+    }
+    let mut ordered = found.marks;
+    ordered.extend(made_of(graph, &dependence, found.errors));
+    // What is exact already, because it was asked for.
+    let asked = graph.ids().filter(|id| graph.node(*id).op == Op::Exact);
+    let asked: FxHashSet<NodeId> = asked.map(|id| graph.node(id).args[0]).collect();
+    let mut marks = ordered.clone();
+    let mut seen = FxHashMap::default();
+    for id in ordered.iter().chain(&asked) {
+        // A rounded sum is that of rounded operands.
+        for arg in &graph.node(*id).args {
+            operands(graph, &dependence, *arg, DEPTH, &mut seen, &mut marks);
+        }
+    }
+    marks.retain(|id| !asked.contains(id));
+    marks
+}
+
+/// Operations after an error of a sum through which it goes on: it is lost in another order of theirs.
+const STEPS: usize = 3;
+
+/// Sums and products that errors of other sums go into.
+fn made_of(graph: &Graph, dependence: &Dependence, errors: FxHashSet<NodeId>) -> FxHashSet<NodeId> {
+    let mut all = FxHashSet::default();
+    let mut last = errors;
+    for _ in 0..STEPS {
+        if last.is_empty() {
+            break;
+        }
+        // Seen through what rounds nothing, and once more for what loops carry back.
+        let (mut seen, mut next) = (last, FxHashSet::default());
+        for _ in 0..if dependence.has_loops() { 2 } else { 1 } {
+            for id in graph.ids().filter(|id| graph.ty(*id).is_float()) {
+                let node = graph.node(id);
+                let goes_in = match node.op {
+                    Op::Param(..) | Op::Result(_) => dependence.sources(graph, id).iter().any(|of| seen.contains(of)),
+                    _ => node.args.iter().any(|arg| seen.contains(arg)),
+                };
+                if !goes_in {
+                    continue;
+                }
+                match node.op {
+                    Op::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul) | Op::Dot => _ = next.insert(id),
+                    Op::Unary(UnaryOp::Neg)
+                    | Op::Splat
+                    | Op::Compose
+                    | Op::Extract(_)
+                    | Op::Select
+                    | Op::Param(..)
+                    | Op::Result(_)
+                    | Op::Exact
+                    | Op::Tally(_) => _ = seen.insert(id),
+                    _ => {}
+                }
+            }
+        }
+        last = next.difference(&all).copied().collect();
+        all.extend(next);
+    }
+    all
+}
+
+/// Sums and products behind an operand that are rounded as they are written, too: they might be contracted, or their constant
+/// factors multiplied.
+const DEPTH: u32 = 3;
+
+/// Adds the operations that compute an operand, seen through what rounds nothing.
+fn operands(
+    graph: &Graph,
+    dependence: &Dependence,
+    id: NodeId,
+    depth: u32,
+    seen: &mut FxHashMap<NodeId, u32>,
+    marks: &mut FxHashSet<NodeId>,
+) {
+    if !graph.ty(id).is_float() || seen.get(&id).is_some_and(|known| *known >= depth) {
+        return;
+    }
+    seen.insert(id, depth);
+    let node = graph.node(id);
+    let (further, depth): (Vec<NodeId>, u32) = match &node.op {
+        op if op.rounds() => {
+            marks.insert(id);
+            match op {
+                Op::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul) if depth > 0 => {
+                    (node.args.clone(), depth - 1)
+                }
+                _ => return,
+            }
+        }
+        Op::Unary(_) | Op::Splat | Op::Compose | Op::Extract(_) | Op::Exact | Op::Tally(_) => {
+            (node.args.clone(), depth)
+        }
+        Op::Select => (node.args[1..].to_vec(), depth),
+        Op::Param(..) | Op::Result(_) => (dependence.sources(graph, id), depth),
+        _ => return,
+    };
+    for id in further {
+        operands(graph, dependence, id, depth, seen, marks);
+    }
+}
+
+struct Marking<'g> {
+    old: &'g Graph,
+    marks: FxHashSet<NodeId>,
+}
+
+impl Replace for Marking<'_> {
+    fn begin(&mut self, _: &mut Builder<'_>) {}
+
+    fn node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
+        if !self.marks.contains(&id) {
+            return None;
+        }
+        let node = self.old.node(id);
+        let args: Option<Vec<NodeId>> = node.args.iter().map(|arg| new[arg.0 as usize]).collect();
+        Some(b.exactly(node.op.clone(), &args?, node.ty))
+    }
+}
