@@ -254,3 +254,32 @@ fn every_language_says_what_is_exact() {
         assert!(text.contains(word), "{target}: no `{word}` in\n{text}");
     }
 }
+
+/// The kernel and what it reads have the names of the functions that keep values as they are written.
+#[test]
+fn names_of_its_own_functions_are_free() {
+    let text = "use straightline_kernels::prelude::*;
+pub fn as_written(as_written_vec2f: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let as_written = as_written_vec2f.load(pixel);
+    let moved = vec2(as_written.x + 1.0e7, as_written.y + 1.0e7);
+    vec4(moved.x - 1.0e7, moved.y - 1.0e7, (as_written.x + as_written.y) - as_written.x, 1.0)
+}
+";
+    let compiled = Kernel::from_text("as_written.rs", text, "as_written").compile(&Settings::default());
+    let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
+    let mut inputs = inputs();
+    inputs.images[0].0 = "as_written_vec2f".to_owned();
+    let expected = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    let expected = bits(&expected.frame(&inputs));
+    let bench = bench();
+    let emitted = compiled.emit(&bench.options(Stage::Compute).targets(PAST_WGPU));
+    let emitted = emitted.unwrap_or_else(|e| panic!("{e}"));
+    let found = bench
+        .run(&compiled, Stage::Compute, &inputs)
+        .unwrap_or_else(|e| panic!("{e}"));
+    same("wgsl", &bits(&found), &expected);
+    for target in PAST_WGPU {
+        let found = passthrough::run(&bench, &emitted, target, &inputs).unwrap_or_else(|e| panic!("{target}: {e}"));
+        same(&target.to_string(), &bits(&found), &expected);
+    }
+}

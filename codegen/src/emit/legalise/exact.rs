@@ -7,12 +7,6 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 /// Name of the function that keeps a value as it is written; of vectors, with the type behind it.
 pub const AS_WRITTEN: &str = "as_written";
 
-/// Whether a function of this name keeps values as they are written. No entry point has such a name.
-pub fn is_barrier(name: &str) -> bool {
-    let of = name.strip_prefix(AS_WRITTEN);
-    of.is_some_and(|of| of.is_empty() || of.starts_with("_vec") || of.starts_with("_f16")) && !name.ends_with("_kernel")
-}
-
 /// Rewrites exact values as variables that are precise.
 pub fn precise(module: &mut Module<'_>) {
     let mut body = std::mem::take(&mut module.body);

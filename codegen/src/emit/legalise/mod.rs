@@ -17,7 +17,7 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type};
 
 use guards::Overloads;
 
-pub use exact::{AS_WRITTEN, is_barrier};
+pub use exact::AS_WRITTEN;
 pub use half::half;
 
 /// Rewrites a module for WGSL. With `marks` every exact value is marked, not only those that a compiler could merge: to be found

@@ -2,7 +2,7 @@
 //! its calls become the decoration here.
 
 use super::{HEADER, instructions, opcode};
-use crate::emit::legalise::is_barrier;
+use crate::emit::legalise::AS_WRITTEN;
 use std::collections::HashSet;
 
 /// Opcodes of the instructions that are read or written here.
@@ -39,8 +39,18 @@ const NO_CONTRACTION: u32 = 42;
 /// the function is gone.
 pub fn uncontracted(words: &[u32]) -> Vec<u32> {
     let all = instructions(words);
-    let is_mark = |i: &&&[u32]| opcode(i) == code::NAME && i.len() > 2 && is_barrier(&text(&i[2..]));
-    let marks: HashSet<u32> = all.iter().filter(is_mark).map(|i| i[1]).collect();
+    // An entry point may have the name; no other function is a kernel's own.
+    let entries: HashSet<u32> = all
+        .iter()
+        .filter(|i| opcode(i) == code::ENTRY_POINT)
+        .map(|i| i[2])
+        .collect();
+    let is_named = |i: &&&[u32]| opcode(i) == code::NAME && i.len() > 2 && text(&i[2..]).starts_with(AS_WRITTEN);
+    let named: HashSet<u32> = all.iter().filter(is_named).map(|i| i[1]).collect();
+    let functions = all.iter().filter(|i| opcode(i) == code::FUNCTION).map(|i| i[2]);
+    let marks: HashSet<u32> = functions
+        .filter(|id| named.contains(id) && !entries.contains(id))
+        .collect();
     let is_call = |i: &[u32]| opcode(i) == code::FUNCTION_CALL && i.len() == 5 && marks.contains(&i[3]);
     if !all.iter().any(|i| is_call(i)) {
         return words.to_vec();
