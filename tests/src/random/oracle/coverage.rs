@@ -44,6 +44,7 @@ const NOT_OF_KERNELS: &[&str] = &[
     "lights_0_position",
     "palette_0",
     "rs",
+    "scene_tint",
     "storageBarrier",
     "workgroupBarrier",
 ];
