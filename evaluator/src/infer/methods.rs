@@ -240,7 +240,12 @@ impl<'l> Checker<'l> {
                 ("expect", Some(held)) => self.takes(args, &[Ty::Str.shared()], held.clone()),
                 _ => self.unknown_method(args),
             },
-            Ty::Bool if name == "select" => Ty::Unknown,
+            Ty::Bool => match name {
+                "select" => Ty::Unknown,
+                "min" | "max" => self.takes_own(args, Ty::Bool),
+                "clamp" => self.takes(args, &[Ty::Bool, Ty::Bool], Ty::Bool),
+                _ => self.unknown_method(args),
+            },
             _ => self.unknown_method(args),
         }
     }
