@@ -80,7 +80,7 @@ fn run_names_what_it_was_not_given() {
 #[test]
 fn a_nan_is_traced_to_its_line() {
     let folder = scratch("nan");
-    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel);\n    let mut sum = 0.0;\n    for tap in 0..3 {\n        let ratio = tap as f32 / (here.x - here.x);\n        sum += ratio;\n    }\n    Vec4::splat(sum)\n}\n";
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel);\n    let mut sum = 0.0;\n    for tap in 0..3 {\n        let ratio = tap as f32 / (here.x * 0.0);\n        sum += ratio;\n    }\n    Vec4::splat(sum)\n}\n";
     let kernel = write(&folder, "k.rs", text);
     let picture = here("docs/kernels.png");
     let out = folder.join("out.png");
