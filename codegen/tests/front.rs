@@ -267,22 +267,37 @@ fn places_stay_right() {
     }
 }
 
-/// Of a file, where nobody says which function is meant.
+/// The kernel of a file for which no function is named: a public one that takes and returns what a kernel does.
 #[test]
 fn a_file_has_one_kernel() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("one-kernel");
     std::fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join("blur.rs");
-    for (text, kernel) in [
-        ("pub fn soft() {} fn tap() {}", "soft"),
-        ("pub fn soft() {} pub fn blur() {}", "blur"),
-        ("pub fn soft() {} fn blur() {}", "blur"),
-        ("pub fn soft() {} pub fn hard() {}", "blur"),
-        ("fn soft() {}", "blur"),
-        ("not Rust", "blur"),
-    ] {
+    let found = |text: &str| {
         std::fs::write(&path, text).expect("a file");
-        let found = Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(found.name(), kernel, "{text}");
+        let found = Kernel::from_file(&path, None);
+        found.map(|kernel| kernel.name().to_owned()).map_err(|e| e.to_string())
+    };
+    let kernel = |name: &str| format!("fn {name}(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{ color.load(pixel) }}");
+    let (soft, hard, blur) = (kernel("soft"), kernel("hard"), kernel("blur"));
+    for (text, name) in [
+        (format!("pub {soft} fn tap() {{}}"), "soft"),
+        (format!("pub {soft} pub {blur}"), "blur"),
+        (format!("pub {soft} {blur}"), "soft"),
+        (format!("pub {soft} pub fn blur() {{}}"), "soft"),
+        // The parser says more of what is no Rust.
+        ("not Rust".to_owned(), "blur"),
+    ] {
+        assert_eq!(found(&text), Ok(name.to_owned()), "{text}");
+    }
+    for (text, says) in [
+        (
+            format!("pub {soft} pub {hard}"),
+            "several functions that may be its kernel: `soft`, `hard`",
+        ),
+        (soft, "has no public function"),
+    ] {
+        let error = found(&text).expect_err(&text);
+        assert!(error.contains(says), "{error}");
     }
 }

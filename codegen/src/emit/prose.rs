@@ -7,22 +7,27 @@
 /// | line ends of any kind, control characters | one space | a `//` or `#` comment ends there: U+0085, U+2028 and U+2029 too in WGSL and JavaScript |
 /// | marks of writing direction, byte order marks | nothing | a reader would see another text than the compiler; rustc refuses them |
 /// | `*/`, `/*` | `* /`, `/ *` | comments of C, JavaScript and C#, which nest in Rust and WGSL |
-/// | `\` at the end of a word | `/` | at the end of a line, the next one would be part of the comment in C, GLSL and HLSL |
+/// | `\` | `/` | at the end of a line, the next one would be part of the comment in C, GLSL and HLSL |
 /// | `??/` | `?? /` | the trigraph of `\` in C |
 pub fn comment(text: &str) -> String {
-    let visible = text.chars().filter(|c| !is_invisible(*c));
-    let visible: String = visible.map(|c| if c.is_control() { ' ' } else { c }).collect();
-    let words = visible.split_whitespace().map(|word| {
-        let bare = word.trim_end_matches('\\');
-        format!("{bare}{}", "/".repeat(word.len() - bare.len()))
+    let harmless = text.chars().filter(|c| !is_invisible(*c)).map(|c| match c {
+        '\\' => '/',
+        c if c.is_control() => ' ',
+        c => c,
     });
-    let mut line = String::with_capacity(visible.len());
-    for c in words.collect::<Vec<_>>().join(" ").chars() {
-        let opens_or_ends = matches!((line.chars().next_back(), c), (Some('*'), '/') | (Some('/'), '*'));
-        if opens_or_ends || (c == '/' && line.ends_with("??")) {
+    let harmless: String = harmless.collect();
+    let mut line = String::with_capacity(harmless.len());
+    for word in harmless.split_whitespace() {
+        if !line.is_empty() {
             line.push(' ');
         }
-        line.push(c);
+        for c in word.chars() {
+            let opens_or_ends = matches!((line.chars().next_back(), c), (Some('*'), '/') | (Some('/'), '*'));
+            if opens_or_ends || (c == '/' && line.ends_with("??")) {
+                line.push(' ');
+            }
+            line.push(c);
+        }
     }
     line
 }
@@ -46,9 +51,9 @@ mod tests {
             ),
             ("from dark*/bright /* nested", "from dark* /bright / * nested"),
             ("/*/ **/", "/ * / ** /"),
-            ("C:\\new\\", "C:\\new/"),
+            ("C:\\new\\", "C:/new/"),
             ("ends *\\", "ends * /"),
-            ("ends \\\\ word\\s", "ends // word\\s"),
+            ("ends \\\\ word\\s", "ends // word/s"),
             ("trigraph ??/", "trigraph ?? /"),
             ("\u{feff}right \u{202e}tfel", "right tfel"),
             ("", ""),

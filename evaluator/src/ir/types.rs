@@ -24,7 +24,7 @@ pub enum Scalar {
     I32,
     /// Wrapping.
     U32,
-    /// 64 bits, wrapping: a runtime `usize` while a kernel is evaluated. [`crate::passes::narrow`] leaves none.
+    /// 64 bits, wrapping: a runtime `usize` while a kernel is evaluated. The pass `narrow` leaves none.
     Usize,
     /// IEEE 754 binary32.
     F32,

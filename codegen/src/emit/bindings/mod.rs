@@ -73,7 +73,7 @@ fn module(module: &Module<'_>) -> TokenStream {
     quote! {
         #(#[doc = #docs])*
         // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
-        #[allow(dead_code, non_camel_case_types, non_snake_case, uncommon_codepoints, clippy::trivially_copy_pass_by_ref)]
+        #[allow(dead_code, non_camel_case_types, non_snake_case, clippy::trivially_copy_pass_by_ref)]
         pub mod #name {
             use straightline_runtime::{Error, Resource, wgpu};
 
