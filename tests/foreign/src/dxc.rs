@@ -40,6 +40,26 @@ struct Dxc {
     _library: Library,
 }
 
+/// Ends the process without the destructors of its libraries. DXC's takes a lock of LLVM at exit, which was seen to be taken for ever
+/// where a driver is loaded too. Rust has flushed its output by then.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+fn skip_destructors() {
+    unsafe extern "C" {
+        fn on_exit(function: extern "C" fn(i32, *mut c_void), argument: *mut c_void) -> i32;
+        fn _exit(status: i32) -> !;
+    }
+    extern "C" fn end(status: i32, _: *mut c_void) {
+        // SAFETY: it ends the process, with the status that it ends with anyway.
+        unsafe { _exit(status) }
+    }
+    // SAFETY: the function lives as long as the process, and looks at no argument.
+    unsafe { on_exit(end, std::ptr::null_mut()) };
+}
+
+/// Elsewhere no such end was seen.
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+fn skip_destructors() {}
+
 type CreateInstance = unsafe extern "C" fn(*const Guid, *const Guid, *mut Object) -> i32;
 
 /// A COM object: a pointer to its table of functions.
@@ -124,6 +144,7 @@ impl Dxc {
         unsafe {
             let library = Library::new(&path).map_err(failed)?;
             let create = *library.get::<CreateInstance>(b"DxcCreateInstance\0").map_err(failed)?;
+            skip_destructors();
             Ok(Dxc {
                 create,
                 _library: library,
