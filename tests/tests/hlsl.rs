@@ -44,9 +44,9 @@ pub fn loops(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
         total += color.load(pixel * k);
     }
     for k in 0..4 {
-        total += color.load(pixel * k + 1);
+        total += color.load(pixel * k + (128 >> k));
     }
-    total
+    total * (1 << (n & 15)) as f32
 }
 ";
 

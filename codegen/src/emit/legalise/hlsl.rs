@@ -126,11 +126,20 @@ fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
         }
         And | Or if bools && (!expr.ty.is_scalar() || !is_simple(&expr.args[1])) => both(op, expr),
         Shl | Shr => {
-            let count = expr.args.pop().expect("two arguments");
-            expr.args.push(below_32(count));
+            let [value, count] = take(std::mem::take(&mut expr.args));
+            expr.args = vec![typed(value), below_32(count)];
             expr
         }
         _ => expr,
+    }
+}
+
+/// A value that is shifted. A literal of `int` has no suffix, and DXC leaves open how many bits of it are shifted.
+fn typed(value: Expr) -> Expr {
+    let ty = value.ty;
+    match ty.kind() == Some(Scalar::I32) && ty.is_scalar() && value.as_constant().is_some() {
+        true => Expr::call("int", vec![value], ty),
+        false => value,
     }
 }
 
