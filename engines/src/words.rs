@@ -16,7 +16,7 @@ pub fn shortened(text: &str, bytes: usize) -> String {
 /// Markdown in which no HTML is live: `<` that would open a tag outside of code is escaped.
 pub fn markdown(text: &str) -> String {
     // Of an odd number of backquotes one opens no code.
-    let has_code = text.matches('`').count() % 2 == 0;
+    let has_code = text.matches('`').count().is_multiple_of(2);
     let mut in_code = false;
     let mut out = String::with_capacity(text.len());
     let mut chars = text.chars().peekable();

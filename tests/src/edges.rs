@@ -3,6 +3,7 @@
 /// Zeros, ones and their neighbours, halves, where exponentials end, where integers end, the largest and the smallest numbers, and
 /// what is no number.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "the floats as they are written")]
 pub const FLOATS: [f32; 48] = [
     0.0, -0.0,
     1.0, -1.0, 0.999_999_94, -0.999_999_94, 1.000_000_1, -1.000_000_1,

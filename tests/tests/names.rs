@@ -79,8 +79,11 @@ fn written_and_read(name: &str, renamed: &Compiled, ways: Vec<EmitOptions>) -> u
     texts
 }
 
-/// What a kernel makes of inputs by name, on a GPU.
-fn on_gpu(bench: &Bench, compiled: &Compiled, inputs: &Inputs) -> (Vec<Vec<[f64; 4]>>, Vec<Vec<[f64; 4]>>) {
+/// Values of each target, or of each buffer.
+type Values = Vec<Vec<[f64; 4]>>;
+
+/// Results of a kernel on inputs by name, on a GPU.
+fn on_gpu(bench: &Bench, compiled: &Compiled, inputs: &Inputs) -> (Values, Values) {
     let written = bench.all_written(compiled, Stage::Compute, inputs);
     let (targets, buffers) = written.unwrap_or_else(|e| panic!("{}: {e}", compiled.kernel));
     let targets = targets.into_iter().map(|target| target.texels).collect();

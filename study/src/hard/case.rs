@@ -208,7 +208,7 @@ impl Place {
 
     /// Whether the pixel is one lane of its quad: the second of the first row.
     pub fn is_one_lane(&self) -> bool {
-        self.pixel.x % 2 == 1 && self.pixel.y % 2 == 0
+        self.pixel.x % 2 == 1 && self.pixel.y.is_multiple_of(2)
     }
 
     /// Coordinates in a shadow map that lie well inside, at depths around its own.

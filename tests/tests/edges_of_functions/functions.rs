@@ -1,4 +1,8 @@
 //! The functions, each as text and as rustc compiles it.
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a negated comparison is one of the functions"
+)]
 
 use straightline_kernels::prelude::*;
 

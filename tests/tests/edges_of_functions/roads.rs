@@ -17,6 +17,7 @@ pub struct Road {
     way: Way,
 }
 
+#[expect(clippy::large_enum_variant, reason = "there are few roads")]
 enum Way {
     /// WGSL through wgpu.
     Wgpu(Bench),

@@ -172,7 +172,7 @@ fn bad_coordinates_spoil_no_other_lane() {
     let texture = DepthTexture::new(map.size(), map.texels().iter().map(|t| t.x).collect());
     let (sampler, lookup) = (ComparisonSampler::default(), Texture::new(UVec2::ONE, vec![Vec4::ZERO]));
     let one = |at: UVec2| at == uvec2(20, 10);
-    let some = |at: UVec2| at.y == 14 && at.x % 5 == 0;
+    let some = |at: UVec2| at.y == 14 && at.x.is_multiple_of(5);
     let all = |_: UVec2| true;
     let plain = coordinates(Vec3::ZERO, |_| false);
     for (words, bad, is_bad) in [

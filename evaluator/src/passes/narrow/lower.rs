@@ -146,7 +146,7 @@ impl<'a> Lower<'a> {
             Op::Binary(op) if op.is_comparison() => of(0).is_ordered_with(of(1)),
             Op::Clamp => of(0).is_ordered_with(of(1)) && of(0).larger(of(1)).is_ordered_with(of(2)),
             Op::Loop(_) => of(0).is_ordered_with(of(1)),
-            Op::Convert if node.ty == Type::F32 => of(0).is_exact() || self.from_float(id).is_some(),
+            Op::Convert if node.ty == Type::F32 => of(0).is_exact() || self.source_of_float(id).is_some(),
             Op::Convert if !is_wide(self.graph, id) => of(0).has_bits() || self.of.float_of(node.args[0]).is_some(),
             Op::Bitcast => of(0) != Extent::Lost,
             Op::Unary(UnaryOp::BitNot) => true,
@@ -156,7 +156,7 @@ impl<'a> Lower<'a> {
     }
 
     /// The float that a float is the `usize` of.
-    fn from_float(&self, id: NodeId) -> Option<NodeId> {
+    fn source_of_float(&self, id: NodeId) -> Option<NodeId> {
         let inner = self.graph.node(self.graph.node(id).args[0]);
         let float = *inner.args.first()?;
         (inner.op == Op::Convert && self.graph.ty(float) == Type::F32).then_some(float)
@@ -182,7 +182,7 @@ impl<'a> Lower<'a> {
     fn to_float(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
         let whole = self.graph.node(old).args[0];
         let kind = self.ordered(&[whole]);
-        let (Some(float), false) = (self.from_float(old), self.of.known(whole).is_exact()) else {
+        let (Some(float), false) = (self.source_of_float(old), self.of.known(whole).is_exact()) else {
             let whole = self.as_kind(b, whole, kind, new);
             return convert(b, whole, Scalar::F32);
         };

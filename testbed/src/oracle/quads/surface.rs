@@ -66,7 +66,8 @@ fn occlusion(ao: &Ao, from: [f64; 3], there: [f64; 3], n: [f64; 4]) -> Light {
     let way_off = 4.0 * unit * (length(from) + length(there));
     let near_off = (2.0 * far + way_off) * way_off / (ao.radius * ao.radius) + 8.0 * unit * (1.0 + near.abs());
     let facing_off = steep * (2.0 * way_off / distance + 16.0 * unit) + 2.0 * unit * ao.bias;
-    if !(near > -near_off) || facing.is_nan() {
+    let is_near = near > -near_off;
+    if !is_near || facing.is_nan() {
         return Light::default();
     }
     if !steep.is_finite() || steep * (length(from) + length(there)) > f64::from(f32::MAX) {

@@ -29,6 +29,9 @@ pub enum Overloads {
     Scalars,
 }
 
+/// The result of a guard from its arguments.
+type Value = Box<dyn Fn(&mut Body<'_, '_>, &[Expr]) -> Expr>;
+
 /// A function to be written: its name, what it is for, how many arguments it takes, and what it returns.
 struct Guard {
     name: String,
@@ -36,7 +39,7 @@ struct Guard {
     arguments: &'static [&'static str],
     /// A loop in it goes by scalars.
     scalar: bool,
-    value: Box<dyn Fn(&mut Body<'_, '_>, &[Expr]) -> Expr>,
+    value: Value,
 }
 
 /// The expression without guarded operations: a call of a function, or another expression.
