@@ -1,11 +1,10 @@
 //! A kernel with everything decided: what the interpreter computes and emission writes.
 
-use crate::emit::EmitError;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
-use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
+use straightline_evaluator::diagnostic::{File, Span};
 use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::Graph;
 use straightline_evaluator::limits::Limits;
@@ -68,32 +67,6 @@ pub struct Places {
 }
 
 impl Compiled {
-    /// An error of emission at the place that it concerns: the input that it names, or else the kernel.
-    pub fn locate(&self, error: &EmitError) -> Errors {
-        let named = error.input().and_then(|input| {
-            // Parts of structures and arrays are called by both names.
-            let is_part = |name: &str| {
-                input
-                    .strip_prefix(name)
-                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
-            };
-            let inputs = self.places.inputs.iter().filter(|(name, _)| is_part(name));
-            inputs.max_by_key(|(name, _)| name.len()).map(|(_, span)| *span)
-        });
-        let (what, label) = (
-            error.to_string(),
-            if named.is_some() { "this input" } else { "this kernel" },
-        );
-        let error = match named.or(self.places.kernel) {
-            Some(span) => Diagnostic::at(span, what).label(label),
-            None => Diagnostic::new(what),
-        };
-        Errors {
-            diagnostics: vec![error],
-            files: Arc::clone(&self.places.files),
-        }
-    }
-
     /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;

@@ -1,5 +1,8 @@
 //! Why a kernel cannot be emitted.
 
+use crate::compiled::Compiled;
+use std::sync::Arc;
+use straightline_evaluator::diagnostic::{Diagnostic, Errors};
 use straightline_evaluator::limits::Excess;
 
 /// Why a kernel cannot be emitted.
@@ -247,6 +250,34 @@ impl EmitError {
             EmitError::Image { image, .. } => Some(image),
             EmitError::Layers { texture, .. } => Some(texture),
             _ => None,
+        }
+    }
+}
+
+impl Compiled {
+    /// An error of emission at the place that it concerns: the input that it names, or else the kernel.
+    pub fn locate(&self, error: &EmitError) -> Errors {
+        let named = error.input().and_then(|input| {
+            // Parts of structures and arrays are called by both names.
+            let is_part = |name: &str| {
+                input
+                    .strip_prefix(name)
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+            };
+            let inputs = self.places.inputs.iter().filter(|(name, _)| is_part(name));
+            inputs.max_by_key(|(name, _)| name.len()).map(|(_, span)| *span)
+        });
+        let (what, label) = (
+            error.to_string(),
+            if named.is_some() { "this input" } else { "this kernel" },
+        );
+        let error = match named.or(self.places.kernel) {
+            Some(span) => Diagnostic::at(span, what).label(label),
+            None => Diagnostic::new(what),
+        };
+        Errors {
+            diagnostics: vec![error],
+            files: Arc::clone(&self.places.files),
         }
     }
 }
