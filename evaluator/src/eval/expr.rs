@@ -353,7 +353,10 @@ fn too_many_parts(span: Span) -> Exit {
 pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
     Diagnostic::at(span, format!("index {index} of an array of {len}"))
         .label("out of range")
-        .help(format!("indices go from 0 to {}", len - 1))
+        .help(match len.checked_sub(1) {
+            Some(last) => format!("indices go from 0 to {last}"),
+            None => "the array is empty".to_owned(),
+        })
 }
 
 /// Number of a component by its name.
