@@ -1,4 +1,4 @@
-//! Texts that nest without brackets, which a parser goes down with: none may use up a small stack.
+//! Texts that nest without brackets, which a parser goes down with: none may use up the stack that it is read on.
 
 use crate::diagnostic::File;
 use std::sync::Arc;
@@ -121,16 +121,27 @@ const NESTED: &[(&str, &str, &str)] = &[
     ("fn k() { ", "#[cfg(test)] {} ", "}"),
 ];
 
-/// The front end on a stack of the size of a thread's: nothing of this may end the process.
+/// The stack of a thread, on which the kernel of a file is found, and that on which a kernel is compiled (`STACK` in
+/// `codegen/src/pipeline.rs`).
+const STACKS: [usize; 2] = [2 << 20, 256 << 20];
+
+/// The front end on the stacks that it runs on: nothing of this may end the process.
 fn read(text: String) {
-    let work = move || {
+    let of_parsing = text.clone();
+    let find = move || drop(super::kernel_of(&text, "k", "k.rs"));
+    let parse = move || {
         let file = File {
             path: "k.rs".to_owned(),
-            text,
+            text: of_parsing,
         };
         drop(super::parse(&Arc::new(vec![file]), "k"));
     };
-    let thread = std::thread::Builder::new().stack_size(2 << 20).spawn(work);
+    on_stack(STACKS[0], find);
+    on_stack(STACKS[1], parse);
+}
+
+fn on_stack(size: usize, work: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(size).spawn(work);
     thread.expect("a thread").join().expect("no panic");
 }
 

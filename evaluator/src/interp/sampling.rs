@@ -130,7 +130,7 @@ impl Sampled<'_> {
                 texel(x, y, layer)
             };
             if !linear {
-                let at = self.at(place, level).map(|v| floor(v).to_f64() as i64);
+                let at = self.at(place, level).map(|v| index(floor(v)));
                 return texel([at[0], at[1]]);
             }
             let ([x, y], [tx, ty]) = self.footprint(place, level);
@@ -144,11 +144,11 @@ impl Sampled<'_> {
         let depth = self.image.extent(level)[2];
         let (at, wrapped) = (self.at(place, level)[2], |k| wrap(self.state.address, k, depth));
         if !linear {
-            return flat(wrapped(floor(at).to_f64() as i64));
+            return flat(wrapped(index(floor(at))));
         }
         let from = at - R::from_f64(0.5);
         let slice = floor(from);
-        let k = slice.to_f64() as i64;
+        let k = index(slice);
         between(flat(wrapped(k)), flat(wrapped(k + 1)), from - slice)
     }
 
@@ -176,7 +176,7 @@ pub fn footprint<R: Real>(at: [R; 2]) -> ([i64; 2], [R; 2]) {
     let from = at.map(|v| v - R::from_f64(0.5));
     let corner = from.map(floor);
     let t = [from[0] - corner[0], from[1] - corner[1]];
-    (corner.map(|v| v.to_f64() as i64), t)
+    (corner.map(index), t)
 }
 
 /// From `a` to `b` as `t` goes from 0 to 1.
@@ -184,6 +184,12 @@ pub fn between<R: Real>(a: [R; 4], b: [R; 4], t: R) -> [R; 4] {
     let one = R::from_f64(1.0);
     let lane = |k: usize| a[k] * (one - t) + b[k] * t;
     [lane(0), lane(1), lane(2), lane(3)]
+}
+
+/// A column, row or slice by number. One that is far from any texture stands for all beyond, as natively.
+fn index<R: Real>(whole: R) -> i64 {
+    const FARTHEST: i64 = 1 << 30;
+    (whole.to_f64() as i64).clamp(-FARTHEST, FARTHEST)
 }
 
 /// The largest integer that is not above.

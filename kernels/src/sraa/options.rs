@@ -192,7 +192,8 @@ pub enum Guards {
     /// Each that is read is tested, in one basic block.
     Inline,
     /// Only the pixel is: where it is not finite, it is filtered again, with all tests, in loops. A depth or a normal that is not
-    /// a number may escape, as `max` may drop it: then the other of the two decides.
+    /// a number may escape, as `max` may drop it: then the other of the two decides. A depth below -1e30 stays what it is, where
+    /// `inline` takes it for the sky.
     Fallback,
     /// Nothing is: who calls promises finite colours and normals, and depths that are numbers.
     None,

@@ -336,8 +336,9 @@ impl Definition<'_> {
         let (rs, rt) = (reading(at), reading(tap));
         let two = matches!(self.params.metric, Metric::PlanesNormals | Metric::DepthNormals);
         let is_nan = |point: &Point, read: &Reading| read.is_nan || point.normal.iter().any(|axis| axis.is_nan());
-        if self.params.escapes && two && (is_nan(&s, &rs) || is_nan(&t, &rt)) {
-            // `max` of the two may drop it.
+        // `max` of the two differences may drop what is not a number, and `min` of a depth and the sky's keeps what is far below 0.
+        let may_be_dropped = two && (is_nan(&s, &rs) || is_nan(&t, &rt));
+        if self.params.escapes && (may_be_dropped || rs.is_below || rt.is_below) {
             return Range {
                 low: 0.0,
                 high: bounded(f64::INFINITY),

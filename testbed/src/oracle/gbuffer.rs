@@ -55,6 +55,8 @@ pub struct Reading {
     pub stored: f64,
     /// Whether depth is not a number.
     pub is_nan: bool,
+    /// Whether depth is a number so far below 0 that it is taken for the sky.
+    pub is_below: bool,
     /// The texel of the normal.
     pub texel: [f64; 4],
     /// Most that linear depth is off, as a share of it.
@@ -353,6 +355,7 @@ impl<'a> GBuffer<'a> {
                 _ => value,
             };
             let depth = self.linear(value);
+            reading.is_below = depth <= -DEEPEST;
             let [near, far] = self.planes;
             // (stored / depth) d depth / d stored, of the definitions below.
             let condition = match self.params.depth {

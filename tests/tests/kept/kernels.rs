@@ -35,7 +35,7 @@ pub fn elements(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
         s = s * 1.5 + w;
     }
     let mut v = [c.x, c.y, 1.0];
-    v[n as usize % 3] = 7.0;
+    v[n.rem_euclid(3) as usize] = 7.0;
     for x in v {
         s = s * 1.5 + x;
     }
@@ -89,7 +89,7 @@ pub fn grid(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
             s = s * 1.1 + x;
         }
     }
-    vec4(s, t[n as usize % 3][n as usize % 2], 0.0, 1.0)
+    vec4(s, t[n.rem_euclid(3) as usize][n.rem_euclid(2) as usize], 0.0, 1.0)
 }
 
 pub fn whiles(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
@@ -280,7 +280,7 @@ pub fn old_versions(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     let c = color.load(pixel);
     let mut v = [c.x, c.y, 1.0];
     let mut w = [0.0, 1.0, 2.0];
-    v[n as usize % 3] = 7.0;
+    v[n.rem_euclid(3) as usize] = 7.0;
     let mut s = 0.0;
     for i in 0..6 {
         let old = v;
@@ -294,8 +294,8 @@ pub fn old_versions(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     }
     if c.x > 0.1 {
         let mut t = v;
-        t[n as usize % 2] = 100.0;
-        s += t[n as usize % 3] + t[(n as usize + 1) % 3];
+        t[n.rem_euclid(2) as usize] = 100.0;
+        s += t[n.rem_euclid(3) as usize] + t[(n + 1).rem_euclid(3) as usize];
     }
     vec4(v[0] + v[1] + v[2], w[0] + 2.0 * w[1], w[2], s)
 }

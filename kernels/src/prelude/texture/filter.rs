@@ -40,8 +40,12 @@ pub(super) fn filtered<T: Filterable>(filter: Filter, at: Vec2, texel: impl Fn(I
 fn footprint(at: Vec2) -> (IVec2, Vec2) {
     let from = at - 0.5;
     let corner = from.floor();
-    (corner.as_ivec2(), from - corner)
+    let far = IVec2::splat(FARTHEST);
+    (corner.as_ivec2().clamp(-far, far), from - corner)
 }
+
+/// A column, row or slice this far from a texture stands for all beyond, so that its neighbour has a number, too.
+const FARTHEST: i32 = 1 << 30;
 
 /// What `sampler` makes of a volume of `size` at `place`; `texel` is only asked inside.
 pub(super) fn sample_volume<T: Filterable>(
@@ -58,8 +62,8 @@ pub(super) fn sample_volume<T: Filterable>(
             let from = at.z - 0.5;
             let (slice, t) = (from.floor(), from - from.floor());
             let of = |z: i32| filtered(Filter::Linear, at.truncate(), |coord| texel(coord.extend(z)));
-            let z = slice as i32;
-            of(z) * (1.0 - t) + of(z.saturating_add(1)) * t
+            let z = (slice as i32).clamp(-FARTHEST, FARTHEST);
+            of(z) * (1.0 - t) + of(z + 1) * t
         }
     }
 }

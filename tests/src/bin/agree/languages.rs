@@ -170,6 +170,7 @@ fn has_no_such_text(error: &EmitError) -> bool {
             | EmitError::NoFrame { .. }
             | EmitError::NoColour { .. }
             | EmitError::GroupStage { .. }
+            | EmitError::Image { .. }
     )
 }
 

@@ -37,7 +37,7 @@ impl World {
         World::with(seed, if seed == 0 { &[] } else { &edges::FLOATS })
     }
 
-    /// The inputs of a seed without what drivers may take for another number: NaN and subnormal numbers.
+    /// The inputs of a seed without what drivers may take for another number, or sum up to another.
     pub fn for_drivers(seed: u64) -> World {
         World::with(seed, &edges::of_drivers())
     }
