@@ -108,7 +108,7 @@ kernel!(SCAN, scan, {
         let mut first = 0;
         for step in 0..steps {
             group.each(|thread| {
-                let reach = 1 << step as usize;
+                let reach = 1 << (step & 31);
                 let here = values.load(from + thread.index);
                 let other = if thread.index >= reach {
                     values.load(from + thread.index - reach)

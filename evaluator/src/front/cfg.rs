@@ -4,6 +4,7 @@
 
 use super::expr::Lower;
 use crate::diagnostic::Diagnostic;
+use crate::suggest::suggest;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::spanned::Spanned;
@@ -11,12 +12,14 @@ use syn::spanned::Spanned;
 /// What stands after attributes, and so which of the generator's own it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
-    /// `for`, `while` or `loop`: `unroll(..)`.
+    /// `for`, `while` or `loop`: `unroll(..)`, `bound(..)`, `exact`.
     Loop,
-    /// `if`, `match`, or a `let` that takes its value: `branch` and `select`.
+    /// `if`, `match`, or a `let` that takes its value: `branch`, `select`, `exact`.
     Branch,
-    /// A function: `unroll(..)`, which is said of all loops in it.
+    /// A function: `unroll(..)`, which is said of all loops in it, and `exact`.
     Function,
+    /// Another `let`, or a block: `exact`.
+    Statement,
     /// Anything else.
     Other,
 }
@@ -27,11 +30,17 @@ impl Carrier {
     fn takes(self, attribute: &str) -> bool {
         match self {
             Carrier::Loop | Carrier::Branch => true,
-            Carrier::Function => attribute == "unroll",
+            Carrier::Function => ["unroll", EXACT].contains(&attribute),
+            Carrier::Statement => attribute == EXACT,
             Carrier::Other => false,
         }
     }
 }
+
+/// The generator's own attributes.
+const OWN: [&str; 5] = ["unroll", "bound", "branch", "select", EXACT];
+
+const EXACT: &str = "exact";
 
 /// Attributes that neither remove nor change the code after them.
 const INERT: [&str; 26] = [
@@ -135,7 +144,7 @@ impl Lower {
         }
         for part in parts {
             let name = first_word(&part);
-            let own = ["unroll", "branch", "select"].contains(&name.as_str());
+            let own = OWN.contains(&name.as_str());
             match known {
                 _ if own && !literal => self.unsupported(
                     attr.span(),
@@ -148,6 +157,11 @@ impl Lower {
                             "a loop or a function",
                             "put it right before a `for`, `while`, `loop` or `fn`",
                         ),
+                        "bound" => ("a `while` or `loop`", "put it right before a `while` or `loop`"),
+                        EXACT => (
+                            "a function, a statement or a block",
+                            "put it right before a `fn`, a `let`, a block, an `if`, a `match` or a loop",
+                        ),
                         _ => (
                             "an `if`",
                             "put it right before an `if`, or before the `let` that takes its value",
@@ -159,6 +173,14 @@ impl Lower {
                             .label(format!("not before {of}"))
                             .help(help),
                     );
+                }
+                // Loops and conditions look at theirs where they are lowered.
+                Some(false) if literal && !own && !INERT.contains(&name.as_str()) && !carrier.takes(&name) => {
+                    let span = self.span(attr.span());
+                    let what = format!("there is no attribute `{name}`");
+                    let help = suggest(&name, &OWN, "the generator has");
+                    self.errors
+                        .push(Diagnostic::at(span, what).label("not understood").help(help));
                 }
                 Some(false) => {}
                 Some(true) => match syn::parse2::<syn::Meta>(part.clone()) {
@@ -176,11 +198,11 @@ impl Lower {
         let name = path.segments.first().map(|s| s.ident.to_string()).unwrap_or_default();
         match name.as_str() {
             known if INERT.contains(&known) => {}
-            "unroll" | "branch" | "select" => {
-                let shown = if name == "unroll" {
-                    "unroll(none)"
-                } else {
-                    name.as_str()
+            own if OWN.contains(&own) => {
+                let shown = match own {
+                    "unroll" => "unroll(none)",
+                    "bound" => "bound(64)",
+                    _ => own,
                 };
                 self.unsupported(
                     span,

@@ -38,9 +38,9 @@ const BUILTINS: [Case; 11] = [
     case("quad_upsampling", 0.0, 0.0, 2.0),
     case("downsampling", 0.0, 0.0, 4.0),
     case("quad_bilateral", 0.0, 0.0, 3.0),
-    // A mean of three lanes is rounded, and then the place may lie in the next texel.
+    // A mean of three lanes is rounded, and then a place in the shadow map may lie in the next texel.
     case("pcf", 0.0, 0.1, 40.0),
-    case("pcss", 2.0, 0.0, 40.0),
+    case("pcss", 2.0, 0.1, 40.0),
     case("quad_ssao", 2.0, 0.0, 10.0),
 ];
 

@@ -300,9 +300,9 @@ impl Check {
         let carrier = match &local.init {
             Some(init) => match carrier(&init.expr) {
                 Carrier::Branch => Carrier::Branch,
-                _ => Carrier::Other,
+                _ => Carrier::Statement,
             },
-            None => Carrier::Other,
+            None => Carrier::Statement,
         };
         if !self.lower.keeps(&mut local.attrs, carrier) {
             return false;
@@ -402,6 +402,7 @@ fn carrier(expr: &syn::Expr) -> Carrier {
     match expr {
         syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Loop(_) => Carrier::Loop,
         syn::Expr::If(_) | syn::Expr::Match(_) => Carrier::Branch,
+        syn::Expr::Block(_) => Carrier::Statement,
         _ => Carrier::Other,
     }
 }

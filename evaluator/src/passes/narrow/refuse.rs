@@ -101,8 +101,13 @@ fn cause(graph: &Graph, id: NodeId) -> (&'static str, &'static str) {
     if matches!(graph.node(id).op, Op::Unary(_)) {
         return ("of 64 bits", "count those of a u32: `(x as u32).leading_zeros()`");
     }
-    if matches!(graph.node(id).op, Op::Binary(BinaryOp::Shl | BinaryOp::Shr)) {
-        cause = ("the count may be 32 or more", "mask the count: `x << (n & 31)`");
+    let by_unknown = |args: &[NodeId]| graph.constant(args[1]).is_none();
+    match &graph.node(id).op {
+        Op::Binary(BinaryOp::Shl) => return ("the count may be 32 or more", "mask the count: `x << (n & 31)`"),
+        Op::Binary(BinaryOp::Shr) if by_unknown(&graph.node(id).args) => {
+            return ("the count may be 32 or more", "mask the count: `x >> (n & 31)`");
+        }
+        _ => {}
     }
     for leaf in leaves(graph, &[id]) {
         let from = graph.node(leaf).args[0];

@@ -183,3 +183,27 @@ pub(super) fn sample_cube<T: Filterable>(
     let lower = c * (1.0 - t.x) + d * t.x;
     upper * (1.0 - t.y) + lower * t.y
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Filter, filtered};
+    use crate::prelude::Address;
+    use glam::{UVec2, Vec2};
+
+    #[test]
+    fn places_beyond_all_numbers_read_the_border() {
+        let size = UVec2::new(4, 2);
+        let read = |filter, x: f32, address: Address| {
+            filtered(filter, Vec2::new(x, 0.5), |at| address.inside(at, size).x as f32)
+        };
+        for far in [f32::INFINITY, f32::MAX, 3.0e9] {
+            assert_eq!(read(Filter::Nearest, far, Address::Clamp), 3.0);
+            assert_eq!(read(Filter::Nearest, -far, Address::Clamp), 0.0);
+            for address in [Address::Clamp, Address::Repeat, Address::Mirror] {
+                // A weight may be infinity less infinity; the texels are there.
+                read(Filter::Linear, far, address);
+                read(Filter::Linear, -far, address);
+            }
+        }
+    }
+}
