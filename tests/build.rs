@@ -47,7 +47,7 @@ fn example(source: &str) -> (String, String) {
     let arguments: Vec<String> = kernel.sig.inputs.iter().map(argument).collect();
     let module = format!(
         "pub mod {name} {{\n#![allow(dead_code, unused, unsafe_code, static_mut_refs, clippy::all)]\nuse straightline_kernels::prelude::*;\n{source}\n\
-         pub fn native(w: &crate::World, at: IVec2) -> Vec<[f64; 4]> {{ let given = {name}({}); {} }}\n}}\n",
+         pub fn native(w: &crate::language::World, at: IVec2) -> Vec<[f64; 4]> {{ let given = {name}({}); {} }}\n}}\n",
         arguments.join(", "),
         texels(&file, &kernel.sig.output)
     );
@@ -92,7 +92,7 @@ fn blocks(page: &str) -> Vec<String> {
 
 /// What makes texels of what a kernel gives: of each field of a structure one, of a value itself.
 fn texels(file: &syn::File, output: &syn::ReturnType) -> String {
-    let texel = |value: &str| format!("crate::Texel::texel(&{value})");
+    let texel = |value: &str| format!("crate::language::Texel::texel(&{value})");
     let syn::ReturnType::Type(_, ty) = output else {
         panic!("a kernel gives something")
     };

@@ -1,5 +1,5 @@
 //! What half precision does to the picture of a built-in kernel: what hard cases showed (`straightline study hard --precision
-//! f16`), said of options by rules that a test compares with the cases (`tests/tests/hard.rs`).
+//! f16`), said of options by rules that a test compares with the cases (`tests/tests/filters/hard.rs`).
 
 use crate::OptionValue;
 

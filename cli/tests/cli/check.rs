@@ -1,0 +1,339 @@
+//! `check` as an editor runs it: what it prints is read by the crate that rust-analyzer reads cargo's messages with.
+
+use crate::common;
+
+use cargo_metadata::Message;
+use cargo_metadata::diagnostic::{Diagnostic, DiagnosticLevel, DiagnosticSpan};
+use common::{example, fails, finishes, scratch, straightline, write};
+use std::path::Path;
+
+/// Three errors: behind characters of two, three and four bytes; over two lines; and in a function that the kernel calls.
+const BROKEN: &str = "\
+use straightline_kernels::prelude::*;
+
+fn sharper(color: Vec4) -> Vec4 {
+    let half: f32 = color;
+    color * half
+}
+
+/// Größer – 🦀.
+pub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    /* größer – 🦀 */ let x: f32 = true;
+    let y: f32 = color
+        .load(pixel);
+    sharper(color.load(pixel) * x + y)
+}
+";
+
+/// The messages of a run, and whether it succeeded.
+fn messages(arguments: &[&str]) -> (Vec<Diagnostic>, bool) {
+    let output = straightline(arguments);
+    let (mut found, mut finished) = (Vec::new(), None);
+    for message in Message::parse_stream(&output.stdout[..]) {
+        assert!(finished.is_none(), "a message comes after the last");
+        match message.expect("a line") {
+            Message::CompilerMessage(message) => {
+                assert!(message.target.src_path.is_absolute() && !message.package_id.repr.is_empty());
+                found.push(message.message);
+            }
+            Message::BuildFinished(last) => finished = Some(last.success),
+            other => panic!("{other:?} is no message of a check"),
+        }
+    }
+    let finished = finished.expect("a last message");
+    assert_eq!(
+        output.status.code(),
+        Some(if finished { 0 } else { 1 }),
+        "{arguments:?}"
+    );
+    (found, finished)
+}
+
+/// What a span marks in its file, read by lines and columns; bytes and the quoted lines must say the same.
+fn marked(span: &DiagnosticSpan) -> String {
+    assert!(Path::new(&span.file_name).is_absolute(), "{}", span.file_name);
+    let text = std::fs::read_to_string(&span.file_name).expect("the file is there");
+    let lines: Vec<&str> = text.lines().collect();
+    let lines = &lines[span.line_start - 1..span.line_end];
+    let quoted: Vec<&str> = span.text.iter().map(|line| line.text.as_str()).collect();
+    assert_eq!(quoted, lines);
+    let mut marked = Vec::new();
+    for (k, line) in lines.iter().enumerate() {
+        let characters: Vec<char> = line.chars().collect();
+        let first = if k == 0 { span.column_start } else { 1 };
+        let last = if k + 1 == lines.len() {
+            span.column_end
+        } else {
+            characters.len() + 1
+        };
+        let quote = &span.text[k];
+        assert_eq!((quote.highlight_start, quote.highlight_end), (first, last));
+        marked.push(characters[first - 1..last - 1].iter().collect::<String>());
+    }
+    let marked = marked.join("\n");
+    assert_eq!(&text[span.byte_start as usize..span.byte_end as usize], marked);
+    marked
+}
+
+#[test]
+fn an_editor_reads_every_error_and_its_place() {
+    let folder = scratch("check-json");
+    let kernel = write(&folder, "lens.rs", BROKEN);
+    let (found, finished) = messages(&["check", &kernel, "--message-format=json"]);
+    assert!(!finished);
+    let told: Vec<(String, String)> = found
+        .iter()
+        .map(|error| {
+            assert_eq!(error.level, DiagnosticLevel::Error);
+            assert!(
+                error
+                    .rendered
+                    .as_ref()
+                    .is_some_and(|text| text.contains(&error.message))
+            );
+            let primary: Vec<_> = error.spans.iter().filter(|span| span.is_primary).collect();
+            assert_eq!(primary.len(), 1, "{error:?}");
+            (error.message.clone(), marked(primary[0]))
+        })
+        .collect();
+    let expected = [
+        ("Vec4", "color"),
+        ("bool", "true"),
+        ("Vec4", "color\n        .load(pixel)"),
+    ];
+    assert_eq!(told.len(), expected.len(), "{told:?}");
+    for ((message, place), (name, marks)) in told.iter().zip(expected) {
+        assert!(
+            message.contains(&format!("found `{name}`")) && place == marks,
+            "{message}: {place}"
+        );
+    }
+    let of_people = straightline(&["check", &kernel]);
+    let said = String::from_utf8_lossy(&of_people.stderr);
+    for error in &found {
+        assert!(said.contains(error.rendered.as_deref().expect("a text")), "{said}");
+    }
+    assert!(said.ends_with("error: 3 errors in 1 of 1 kernel\n"), "{said}");
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_a_message_too() {
+    let output = straightline(&["check", "no/such/lens.rs", "--message-format=json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let messages: Vec<Message> = Message::parse_stream(&output.stdout[..])
+        .map(|m| m.expect("a line"))
+        .collect();
+    let [Message::CompilerMessage(first), Message::BuildFinished(last)] = messages.as_slice() else {
+        panic!("{messages:?}");
+    };
+    assert!(
+        first
+            .message
+            .message
+            .contains("cannot read the kernel file `no/such/lens.rs`"),
+        "{first:?}"
+    );
+    assert!(first.target.src_path.is_absolute() && !last.success);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_of_a_folder_whose_name_is_not_utf8_is_named() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = scratch("check-names");
+    let name = std::ffi::OsStr::from_bytes(b"gr\xf6sser.rs");
+    std::fs::write(Path::new(&folder).join(name), "pub fn k(pixel: IVec2) -> f32 { 1.0 }").expect("a file");
+    let shown = folder.display().to_string();
+    fails(&["check", &shown], 2, &["is not UTF-8", "rename the file"]);
+}
+
+#[test]
+fn an_error_behind_the_graph_stands_at_its_input() {
+    let folder = scratch("check-places");
+    let text = "// the old fn layers read depth wrongly\npub fn layers(depth: &FrameLayers<f32>, layer: u32, pixel: IVec2) -> Vec4 {\n    \
+        Vec4::splat(depth.load(pixel, layer as usize))\n}\n";
+    let kernel = write(&folder, "layers.rs", text);
+    let (found, _) = messages(&["check", &kernel, "--message-format=json"]);
+    let [error] = found.as_slice() else { panic!("{found:?}") };
+    assert!(error.message.contains("whose index is a runtime value"), "{error:?}");
+    assert_eq!(
+        (error.spans[0].line_start, marked(&error.spans[0]).as_str()),
+        (2, "depth"),
+        "{error:?}"
+    );
+    let out = folder.display().to_string();
+    fails(&["emit", &kernel, "--out", &out], 1, &["layers.rs:2:15", "this input"]);
+    // A stage without what the kernel needs is told at the kernel's name.
+    let writes = "// fn writes\npub fn writes(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {\n    \
+        bins.add((color.load(pixel).x * 8.0) as usize, 1);\n}\n";
+    let kernel = write(&folder, "writes.rs", writes);
+    fails(
+        &["emit", &kernel, "--stage", "fragment", "--out", &out],
+        1,
+        &["writes.rs:2:8", "this kernel"],
+    );
+}
+
+#[test]
+fn functions_that_no_kernel_reaches_are_checked_for_their_types() {
+    let folder = scratch("check-others");
+    let kernel = "use straightline_kernels::prelude::*;\n\npub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    // What a kernel does not reach may be outside of its language.
+    let outside =
+        "\nfn printed(x: f32) {\n    println!(\"{x}\");\n}\n\nfn others(x: f32) -> u64 {\n    elsewhere::of(x)\n}\n";
+    let fine = write(&folder, "lens.rs", &format!("{kernel}{outside}"));
+    finishes(&["check", &fine]);
+    let broken = write(
+        &folder,
+        "lens.rs",
+        &format!("{kernel}{outside}\nfn broken() -> f32 {{\n    1\n}}\n"),
+    );
+    let (found, _) = messages(&["check", &broken, "--message-format=json"]);
+    let [error] = found.as_slice() else { panic!("{found:?}") };
+    assert_eq!(
+        (error.message.as_str(), marked(&error.spans[0]).as_str()),
+        ("mismatched types: expected `f32`, found an integer", "1")
+    );
+}
+
+#[test]
+fn notes_help_and_further_places_are_kept() {
+    let folder = scratch("check-parts");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let b = color.load(pixel).x.round();\n    Vec4::splat(b)\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    let (found, _) = messages(&["check", &kernel, "--message-format", "json"]);
+    let children: Vec<_> = found[0]
+        .children
+        .iter()
+        .map(|child| (child.level, child.message.as_str()))
+        .collect();
+    let label = found[0].spans[0].label.as_deref().expect("a label");
+    assert!(children.contains(&(DiagnosticLevel::Note, label)), "{children:?}");
+    assert!(
+        children.contains(&(DiagnosticLevel::Help, "write `round(x)`")),
+        "{children:?}"
+    );
+    assert_eq!(
+        found[0].code.as_ref().map(|code| code.code.as_str()),
+        Some("straightline::kernel")
+    );
+}
+
+#[test]
+fn an_error_of_all_of_a_kernel_is_at_its_name() {
+    let folder = scratch("check-whole");
+    let text =
+        "// fn lens is below\npub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    let kernel = write(&folder, "lens.rs", text);
+    let (found, _) = messages(&["check", &kernel, "--message-format=json", "--set", "radius=3"]);
+    assert_eq!(
+        (found.len(), marked(&found[0].spans[0]).as_str()),
+        (1, "lens"),
+        "{found:?}"
+    );
+    // A file of several public functions, none of its name, is shown at the first of them.
+    let several = format!(
+        "{text}{}",
+        text.lines()
+            .skip(1)
+            .collect::<Vec<_>>()
+            .join("\n")
+            .replace("lens", "glow")
+    );
+    let other = write(&folder, "other.rs", &several);
+    let (found, _) = messages(&["check", &other, "--message-format=json"]);
+    let primary = found[0].spans.iter().find(|span| span.is_primary).expect("a place");
+    assert_eq!(marked(primary), "lens");
+    assert!(
+        found[0]
+            .message
+            .contains("several functions that may be its kernel: `lens`, `glow`"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_folder_is_checked_whole_and_shared_errors_once() {
+    let folder = scratch("check-folder");
+    let kernel = |name: &str| {
+        format!("pub fn {name}(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{\n    shared(color.load(pixel))\n}}\n")
+    };
+    for name in ["a", "b"] {
+        write(&folder, &format!("{name}.rs"), &kernel(name));
+    }
+    let shared = write(
+        &folder,
+        "shared.rs",
+        "pub fn shared(x: Vec4) -> Vec4 {\n    x.missing()\n}\n",
+    );
+    write(&folder, "mod.rs", "mod a;\nmod b;\nmod shared;\n");
+    let all = folder.to_str().expect("a path");
+    let (found, _) = messages(&["check", all, "--source", &shared, "--message-format=json"]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    fails(
+        &["check", all, "--source", &shared],
+        1,
+        &["error: 1 error in 2 of 2 kernels"],
+    );
+    write(
+        &folder,
+        "shared.rs",
+        "pub fn shared(x: Vec4) -> Vec4 {\n    x * 0.5\n}\n",
+    );
+    let said = finishes(&["check", all, "--source", &shared]);
+    assert_eq!(said.matches(": no errors\n").count(), 2, "{said}");
+    let (found, finished) = messages(&["check", all, "--source", &shared, "--message-format=json"]);
+    assert!(found.is_empty() && finished);
+}
+
+#[test]
+fn what_is_not_there_is_bad_use() {
+    let folder = scratch("check-nothing");
+    let empty = folder.to_str().expect("a path");
+    fails(&["check"], 2, &["<KERNEL>"]);
+    fails(&["check", empty], 2, &["no .rs file lies in the folder"]);
+    fails(&["check", "sraaa", "--message-format=json"], 2, &["no kernel `sraaa`"]);
+    fails(
+        &["check", "nowhere.rs"],
+        2,
+        &["cannot read the kernel file `nowhere.rs`"],
+    );
+    fails(&["check", "sraa", "--message-format=xml"], 2, &["human", "json"]);
+}
+
+/// The command that an editor would otherwise run: here the binary itself, on another kernel.
+#[test]
+fn messages_of_a_command_come_first_and_its_failure_counts() {
+    let folder = scratch("check-before");
+    let kernel = write(&folder, "lens.rs", BROKEN);
+    let good = example("sobel");
+    let binary = env!("CARGO_BIN_EXE_straightline");
+    let before = |first: &str, second: &str| {
+        messages(&[
+            "check",
+            second,
+            "--message-format=json",
+            "--",
+            binary,
+            "check",
+            first,
+            "--message-format=json",
+        ])
+    };
+    let (found, finished) = before(&good, &kernel);
+    assert!(found.len() == 3 && !finished);
+    let (found, finished) = before(&kernel, &good);
+    assert!(found.len() == 3 && !finished);
+    let (found, finished) = before(&good, &good);
+    assert!(found.is_empty() && finished);
+    fails(
+        &["check", &good, "--", "no-such-program"],
+        1,
+        &["cannot run `no-such-program`"],
+    );
+    fails(
+        &["check", &good, "--", binary, "check", &kernel],
+        1,
+        &["lens.rs:10", "failed: exit status: 1"],
+    );
+}

@@ -1,0 +1,22 @@
+//! The command, as a user runs it.
+
+mod budget;
+mod captions;
+mod capture;
+mod check;
+#[path = "../common/mod.rs"]
+mod common;
+mod compare;
+mod emit;
+mod features;
+mod figures;
+mod output;
+mod page;
+mod precision;
+mod run;
+mod sources;
+mod study;
+mod sweep;
+mod tune;
+mod watch;
+mod words;

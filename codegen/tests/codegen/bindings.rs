@@ -1,0 +1,238 @@
+//! The Rust that binds a shader compiles, whatever its uniforms are called.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use straightline_codegen::emit::{self, Module};
+use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
+
+/// As much of the runtime as bindings name.
+const RUNTIME: &str = r#"
+pub mod wgpu {
+    pub struct Device; pub struct Queue; pub struct CommandEncoder; pub struct RenderPass<'a>(pub &'a ());
+    #[derive(Debug)] pub struct TextureView; #[derive(Debug)] pub struct Sampler; #[derive(Debug)] pub struct Buffer;
+    pub struct BindGroupLayoutDescriptor<'a> { pub label: Option<&'a str>, pub entries: &'a [BindGroupLayoutEntry] }
+    pub struct BindGroupLayoutEntry { pub binding: u32, pub visibility: ShaderStages, pub ty: BindingType, pub count: Option<u32> }
+    pub struct ShaderStages; impl ShaderStages { pub const COMPUTE: ShaderStages = ShaderStages; pub const FRAGMENT: ShaderStages = ShaderStages; }
+    pub struct BufferSize; impl BufferSize { pub const fn new(_: u64) -> Option<BufferSize> { None } }
+    pub enum BindingType {
+        Buffer { ty: BufferBindingType, has_dynamic_offset: bool, min_binding_size: Option<BufferSize> },
+        Texture { sample_type: TextureSampleType, view_dimension: TextureViewDimension, multisampled: bool },
+        Sampler(SamplerBindingType),
+        StorageTexture { access: StorageTextureAccess, format: TextureFormat, view_dimension: TextureViewDimension },
+    }
+    pub enum BufferBindingType { Uniform, Storage { read_only: bool } }
+    pub enum TextureSampleType { Float { filterable: bool }, Depth, Sint, Uint }
+    pub enum TextureViewDimension { D2, D2Array, D3, Cube }
+    pub enum SamplerBindingType { Filtering, Comparison }
+    pub enum StorageTextureAccess { WriteOnly } pub enum TextureFormat { Rgba16Float }
+}
+#[derive(Debug)] pub struct Error;
+pub struct Resource<'a>(pub &'a ());
+impl<'a> From<&'a wgpu::Buffer> for Resource<'a> { fn from(_: &'a wgpu::Buffer) -> Self { Resource(&()) } }
+impl<'a> From<&'a wgpu::Sampler> for Resource<'a> { fn from(_: &'a wgpu::Sampler) -> Self { Resource(&()) } }
+impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
+#[derive(Debug)] pub struct Pass;
+impl Pass {
+    pub fn from_json(_: &wgpu::Device, _: &str, _: &str) -> Result<Pass, Error> { Ok(Pass) }
+    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
+}
+#[derive(Default)] pub struct BindOptions<'a> { pub uniforms: &'a [u8] }
+impl<'a> BindOptions<'a> {
+    pub fn uniforms(self, uniforms: &'a [u8]) -> Self { BindOptions { uniforms } }
+    pub fn region(self, _: Region) -> Self { self }
+}
+pub struct Region;
+#[derive(Debug)] pub struct Bound;
+impl Bound {
+    pub fn encode(&self, _: &mut wgpu::CommandEncoder) {}
+    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
+    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+}
+pub struct DrawOptions<'a>(pub &'a ());
+#[derive(Debug)] pub struct Draw;
+impl Draw {
+    pub fn from_json(_: &wgpu::Device, _: &str, _: &str, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }
+    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &BindOptions<'_>) -> Result<BoundDraw, Error> { Ok(BoundDraw) }
+}
+#[derive(Debug)] pub struct BoundDraw;
+impl BoundDraw {
+    pub fn set(&self, _: &mut wgpu::RenderPass<'_>) {}
+    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
+    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+}
+pub struct UniformValue;
+impl UniformValue {
+    pub fn array(_: &[f32]) -> Option<Self> { None }
+    pub fn vectors<const N: usize>(_: &[[f32; N]]) -> Option<Self> { None }
+}
+"#;
+
+fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
+    let run = Command::new("rustc")
+        .current_dir(folder)
+        .args([
+            "--edition",
+            "2024",
+            "--crate-type",
+            "lib",
+            "--emit",
+            "metadata",
+            "-D",
+            "warnings",
+        ])
+        .args(arguments)
+        .arg(file)
+        .output()
+        .expect("rustc is on the path");
+    let said = String::from_utf8_lossy(&run.stderr);
+    let text = std::fs::read_to_string(folder.join(file)).unwrap_or_default();
+    assert!(run.status.success(), "{said}\n{text}");
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("straightline-bindings-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// The runtime that bindings are compiled against, in a folder.
+fn runtime(folder: &Path) {
+    std::fs::write(folder.join("straightline_runtime.rs"), RUNTIME).expect("written");
+    rustc(
+        folder,
+        "straightline_runtime.rs",
+        &["--crate-name", "straightline_runtime"],
+    );
+}
+
+/// Has rustc compile the bindings of a kernel `k`, unless its text is refused before.
+fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
+    let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
+    let compiled = compiled.map_err(|e| e.to_string())?;
+    // What is interpolated is so in a fragment shader.
+    let stage = match compiled.graph.varyings.is_empty() {
+        true => Stage::Compute,
+        false => Stage::Fragment,
+    };
+    let emitted = compiled
+        .emit(&EmitOptions::new().stage(stage))
+        .map_err(|e| e.to_string())?;
+    let module = Module {
+        name: "shader",
+        compiled: &compiled,
+        manifest: &emitted.manifest,
+    };
+    for (file, contents) in emitted.named("shader") {
+        std::fs::write(folder.join(file), contents).expect("written");
+    }
+    std::fs::write(folder.join(file), emit::bindings(&[module])).expect("written");
+    rustc(
+        folder,
+        file,
+        &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
+    );
+    Ok(())
+}
+
+/// Elements of buffers are structures of the layout that rustc checks; textures of every kind are in the layout.
+#[test]
+fn bindings_compile_whatever_is_read() {
+    let folder = folder("read");
+    runtime(&folder);
+    let reads = [
+        "pub struct Inputs { position: Vec3, kind: u32, powers: [f32; 3], turned: Mat3, tints: [Vec3; 2], last: IVec2 }
+        pub fn k(lights: &Buffer<Inputs>, others: &Buffer<Inputs>, gain: f32, pixel: IVec2) -> Vec4 {
+            let light = lights.load(1);
+            let tint = light.tints[pixel.x as usize] + light.turned * light.position;
+            tint.extend(others.load(2).powers[1] * gain)
+        }",
+        "pub fn k(a: &Texture3D<Vec4>, b: &TextureCube<f32>, c: &TextureArray<i32>, d: &DepthTextureArray, e: &DepthCube, f: &Texture<UVec2>,
+            s: &Sampler, t: &ComparisonSampler, pixel: IVec2) -> Vec4 {
+            let place = pixel.as_vec2().extend(1.0);
+            let shadow = d.compare(t, place.xy(), 1, 0.5) + e.compare(t, place, 0.5);
+            a.load(pixel.extend(0)) + b.sample(s, place) + c.load(pixel, 1) as f32 + shadow + f.load(pixel).y as f32
+        }",
+        "pub fn k(grade: Mat3, turns: &[Mat2; 2], palette: &[Vec3; 4], weights: &[f32; 3], pixel: IVec2) -> Vec4 {
+            let step = (pixel.x & 3) as usize;
+            let turned = turns[1] * palette[step].xy() * weights[2];
+            (grade * palette[2]).extend(turned.x + turned.y)
+        }",
+        // Drawn behind a vertex shader: with all, and with nothing to read but what is interpolated.
+        "pub fn k(shadow: &DepthTexture, compare: &ComparisonSampler, bias: f32, coord: Quad<Vec3>, shade: Quad<f32>) -> Quad<Vec4> {
+            let lit = shadow.compare(compare, coord.truncate(), coord.z() - bias);
+            Vec4::ONE * (lit * shade).average()
+        }",
+        "pub fn k(place: Quad<Vec2>) -> Quad<Vec4> {
+            Vec4::ONE * place.average().x()
+        }",
+    ];
+    for (k, text) in reads.into_iter().enumerate() {
+        compiles(&folder, &format!("bindings_{k}.rs"), text).unwrap_or_else(|e| panic!("{e}"));
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// rustc takes no bare carriage return and no mark of writing direction in documentation.
+#[test]
+fn bindings_compile_whatever_is_documented() {
+    let folder = folder("words");
+    runtime(&folder);
+    for (k, words) in [
+        "a\\rb */ c \\\\",
+        "\\u{202e}back\\u{2066}",
+        "line\\nline\\u{2028}line",
+        "\\\"quoted\\\" `${x}` */",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let text = format!(
+            "#[doc = \"{words}\"]\npub fn k(color: &Frame<Vec4>, gain: f32, pixel: IVec2) -> Vec4 {{ color.load(pixel) * gain }}"
+        );
+        compiles(&folder, &format!("words_{k}.rs"), &text).unwrap_or_else(|e| panic!("{e}"));
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn bindings_compile_whatever_uniforms_are_called() {
+    let folder = folder("names");
+    runtime(&folder);
+    let names = [
+        "Pass",
+        "Some",
+        "Ok",
+        "None",
+        "Err",
+        "MANIFEST",
+        "WGSL",
+        "ENTRY_POINT",
+        "padding_0",
+        "padding_1",
+        "value_0",
+        "bytes",
+        "queue",
+        "value",
+        "Inputs",
+        "Error",
+        "Resource",
+        "wgpu",
+        "dyn",
+        "gen",
+        "place",
+        "u32",
+        "Self_",
+        "Default",
+        "to_bytes",
+    ];
+    for (k, name) in names.into_iter().enumerate() {
+        let text = format!(
+            "pub fn k(color: &Frame<Vec4>, first: f32, {name}: Vec2, last: Vec3, pixel: IVec2) -> Vec4 {{
+                color.load(pixel) * first + {name}.x * last.y
+            }}"
+        );
+        // Some are no names of Rust's, or of a shading language's: those are refused before.
+        let _ = compiles(&folder, &format!("bindings_{k}.rs"), &text);
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}

@@ -1,0 +1,120 @@
+//! The builder of a `build.rs`: what it refuses, and what its options come to in what is written.
+
+use std::path::PathBuf;
+use straightline_codegen::config::KernelConfig;
+use straightline_codegen::emit::Target;
+use straightline_codegen::{Config, Form, Manifest, Origin, Stage, Transport, Unroll};
+
+fn said(config: &Config) -> String {
+    config.compile().expect_err("a refusal").to_string()
+}
+
+#[test]
+fn factors_and_folders_that_say_nothing_are_refused() {
+    let out = std::env::temp_dir().join(format!("straightline-config-{}", std::process::id()));
+    let unrolled = |unroll| Config::new().kernel("sraa", |k| k.unroll(unroll)).out_dir(&out);
+    for n in [0, 1, 4096] {
+        let error = said(&unrolled(Unroll::Partial(n)));
+        assert!(error.contains(&format!("cannot be unrolled by {n}")), "{error}");
+    }
+    let of_one = Config::new().kernel("sraa", |k| k.unroll_loop("sraa.tap", Unroll::Partial(0)));
+    let error = said(&of_one.out_dir(&out));
+    assert!(error.contains("the loop `sraa.tap` cannot be unrolled by 0"), "{error}");
+    let twice = Config::new().kernel("sraa", |k| k.set("pattern", "latin4").set("pattern", "latin16"));
+    let error = said(&twice.out_dir(&out));
+    assert!(
+        error.contains("`pattern` is set twice, to `latin4` and to `latin16`"),
+        "{error}"
+    );
+    let error = said(&Config::new().kernel("stalker", |k| k).out_dir(""));
+    assert!(error.contains("the folder to write to is empty"), "{error}");
+    assert!(!out.exists());
+}
+
+/// The manifest, the shader and the Rust of one built-in kernel.
+fn written(kernel: &str, options: impl FnOnce(KernelConfig) -> KernelConfig) -> (Manifest, String, String) {
+    let folder = folder(kernel);
+    let config = Config::new().kernel(kernel, options).out_dir(&folder);
+    config.compile().unwrap_or_else(|e| panic!("{e}"));
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let manifest = Manifest::from_json(&read(&format!("{kernel}.json"))).expect("a manifest");
+    let all = (manifest, read(&format!("{kernel}.wgsl")), read("straightline.rs"));
+    std::fs::remove_dir_all(&folder).expect("it goes");
+    all
+}
+
+fn folder(name: &str) -> PathBuf {
+    let name = format!(
+        "straightline-config-{name}-{}-{:?}",
+        std::process::id(),
+        std::thread::current().id()
+    );
+    std::env::temp_dir().join(name.replace(['(', ')'], "-"))
+}
+
+#[test]
+fn places_and_names_come_to_the_shader_and_its_rust() {
+    let (manifest, wgsl, rust) = written("stalker", |k| {
+        k.group(1)
+            .binding("color", 5)
+            .entry("edges")
+            .target(Target::Hlsl)
+            .register("color", "t3".parse().expect("a register"))
+    });
+    assert!(
+        wgsl.contains("@group(1) @binding(5) var color") && wgsl.contains("fn edges("),
+        "{wgsl}"
+    );
+    assert_eq!(manifest.entry_point, "edges");
+    let registers: Vec<_> = manifest
+        .language_bindings
+        .iter()
+        .filter(|b| b.name == "color")
+        .map(|b| b.register.as_deref())
+        .collect();
+    assert_eq!(registers, [Some("t3")]);
+    for line in [
+        "Layout of bind group 1, ",
+        "binding: 5",
+        r#"ENTRY_POINT: &str = "edges""#,
+    ] {
+        assert!(rust.contains(line), "no `{line}` in\n{rust}");
+    }
+    let error = said(
+        &Config::new()
+            .kernel("stalker", |k| k.binding("colr", 5))
+            .out_dir(folder("refused")),
+    );
+    assert!(error.contains("did you mean `color`"), "{error}");
+}
+
+#[test]
+fn a_function_is_a_module_without_a_pass() {
+    let (manifest, wgsl, rust) = written("stalker", |k| k.form(Form::Function).origin(Origin::LowerLeft));
+    assert_eq!((manifest.form, manifest.origin), (Form::Function, Origin::LowerLeft));
+    assert!(wgsl.starts_with("fn stalker("), "{wgsl}");
+    assert!(
+        rust.contains(r#"FUNCTION: &str = "stalker""#) && !rust.contains("Pass"),
+        "{rust}"
+    );
+}
+
+#[test]
+fn transports_and_blocks_are_the_command_lines() {
+    let (manifest, ..) = written("sraa", |k| k.block(2, 2));
+    assert_eq!(manifest.block, [2, 2]);
+    let (manifest, wgsl, _) = written("pcf", |k| k.transport(Transport::Derivatives).stage(Stage::Fragment));
+    assert!(manifest.features.is_empty() && wgsl.contains("dpdyFine"), "{wgsl}");
+    let error = said(
+        &Config::new()
+            .kernel("pcf", |k| k.transport(Transport::Subgroup))
+            .out_dir(folder("refused")),
+    );
+    assert!(error.contains("no pixel quads"), "{error}");
+    let error = said(
+        &Config::new()
+            .kernel("sraa", |k| k.block(9, 9))
+            .out_dir(folder("refused")),
+    );
+    assert!(error.contains("a block of 9x9 pixels"), "{error}");
+}

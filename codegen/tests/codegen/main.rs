@@ -1,0 +1,11 @@
+//! The generator as a build script uses it: configuration, emission, bindings, rules of graphs and of imports.
+
+mod bindings;
+mod config;
+mod emission;
+mod floor;
+mod front;
+mod imports;
+mod places;
+mod syn_variants;
+mod verify;

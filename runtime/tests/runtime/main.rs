@@ -1,0 +1,13 @@
+//! Passes on a device: making, binding, dispatching, drawing, and every error.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod dispatch;
+mod draw;
+mod errors_binding;
+mod errors_making;
+mod errors_resources;
+mod errors_uniforms;
+mod quads;
+mod resources;
+mod timer;

@@ -1,0 +1,8 @@
+//! Studies and documents: what they measure, and whether tables and sentences follow the records.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod quality;
+mod readme;
+mod sweep;
+mod tune;
