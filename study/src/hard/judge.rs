@@ -6,6 +6,7 @@ use super::expected::{Expected, expected, half_limit};
 use super::form::Form;
 use super::inputs::{Reads, reads};
 use super::reals::{Flushed, Loose};
+use crate::builtin::builtin;
 use crate::record::{Executor, HardResult};
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
@@ -31,8 +32,9 @@ struct Found {
 impl<'a> Trial<'a> {
     /// A form with `options` on a case.
     pub fn new(case: &'a Case, form: &'a Form, options: Vec<(String, String)>) -> Result<Trial<'a>, HardError> {
-        let reads = reads(case, form, &options)?;
-        let expected = expected(form, &options, &reads)?;
+        let values = form.values(&options)?;
+        let reads = reads(case, form, &values)?;
+        let expected = expected(form, &values, &reads)?;
         Ok(Trial {
             case,
             form,
@@ -212,8 +214,7 @@ pub fn compile(form: &Form, options: &[(String, String)]) -> Result<Compiled, Ha
         math: form.math,
         ..Default::default()
     };
-    let kernel = straightline_codegen::Kernel::builtin(&form.kernel);
-    let compiled = kernel.and_then(|kernel| kernel.compile(&settings));
+    let compiled = builtin(&form.kernel).and_then(|kernel| kernel.compile(&settings));
     compiled.map_err(|errors| HardError::Kernel {
         form: form.name.clone(),
         errors,

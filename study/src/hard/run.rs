@@ -100,7 +100,7 @@ pub fn run(
     circumstances.complete = done.len() == selection.cases.len();
     Ok(HardRecord {
         circumstances,
-        half: verdicts(&selection.forms, &done),
+        half: verdicts(&selection.forms, &done)?,
         cases: done,
     })
 }
