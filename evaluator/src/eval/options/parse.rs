@@ -27,7 +27,8 @@ pub fn parse_settings(
             Err(found) => errors.extend(found),
         }
     }
-    let names: Vec<&str> = infos.iter().map(|info| info.name.as_str()).collect();
+    let mut names: Vec<&str> = infos.iter().map(|info| info.name.as_str()).collect();
+    names.sort_unstable();
     errors.extend(unknown(kernel, &names, settings));
     match errors.is_empty() {
         true => Ok(values),
