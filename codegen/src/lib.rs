@@ -26,5 +26,5 @@ pub use straightline_evaluator::eval::{LoopReport, Numeric, OptionInfo, OptionKi
 pub use straightline_evaluator::limits::Limits;
 pub use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 pub use straightline_evaluator::{diagnostic, interp, ir, passes, policy, shorten};
-pub use straightline_kernels::{OptionValue, OptionValues};
+pub use straightline_kernels::{OptionText, OptionValue, OptionValues};
 pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

@@ -13,7 +13,7 @@ use straightline_evaluator::ir::{Graph, Invocation, verify};
 use straightline_evaluator::limits::{self, Limits, Meter};
 use straightline_evaluator::passes;
 use straightline_evaluator::policy::{Branches, LoopPolicy, Math, Policy, ReadOrder, Share, Transport, Unroll};
-use straightline_kernels::OptionValues;
+use straightline_kernels::{OptionText, OptionValues};
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
@@ -35,7 +35,7 @@ pub struct Kernel {
 pub struct Settings {
     /// Option and value, in any spelling that its declaration takes; an option that is not named stays at its default, and one
     /// named twice is refused.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// What becomes of loops.
     pub unroll: Unroll,
     /// What becomes of single loops, by `function.counter` or `counter`; before all else that is said of them.
@@ -267,7 +267,7 @@ impl Kernel {
     ///
     /// Each setting that the kernel has no option for, that stands twice, or that is no value of its option; an error in the
     /// kernel's text.
-    pub fn option_values(&self, settings: &[(String, String)]) -> Result<OptionValues, Errors> {
+    pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, Errors> {
         let library = deep(|| self.library())?;
         let infos = deep(|| self.described(&library))?;
         eval::parse_settings(&self.name, infos, settings).map_err(|found| Errors::new(found, &self.files))

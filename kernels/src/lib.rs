@@ -26,4 +26,4 @@ mod values;
 
 pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};
 pub use half::HalfPrecision;
-pub use values::{OptionValue, OptionValues};
+pub use values::{OptionText, OptionValue, OptionValues};

@@ -73,6 +73,10 @@ impl fmt::Display for OptionValue {
     }
 }
 
+/// Name and value of an option as a user typed them or a file holds them. An edge: the generator parses the value by the option's
+/// declaration, and only [`OptionValue`]s are compared.
+pub type OptionText = (String, String);
+
 /// Values of all options of one kernel, by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OptionValues(BTreeMap<String, OptionValue>);

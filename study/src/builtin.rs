@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
-use straightline_kernels::{CATALOGUE, OptionValue};
+use straightline_kernels::{CATALOGUE, OptionText, OptionValue};
 
 /// The built-in kernel `name`. Its text is parsed on the first call: options are read of many forms of one kernel.
 ///
@@ -35,7 +35,7 @@ pub type Setting = (String, OptionValue);
 /// # Errors
 ///
 /// As [`Kernel::option_values`].
-pub fn parse_settings(kernel: &Kernel, settings: &[(String, String)]) -> Result<Vec<Setting>, Errors> {
+pub fn parse_settings(kernel: &Kernel, settings: &[OptionText]) -> Result<Vec<Setting>, Errors> {
     let values = kernel.option_values(settings)?;
     let named = settings
         .iter()
@@ -44,7 +44,7 @@ pub fn parse_settings(kernel: &Kernel, settings: &[(String, String)]) -> Result<
 }
 
 /// The same as text, for the generator and for records.
-pub fn spell_settings(settings: &[Setting]) -> Vec<(String, String)> {
+pub fn spell_settings(settings: &[Setting]) -> Vec<OptionText> {
     let spelled = settings.iter().map(|(name, value)| (name.clone(), value.to_string()));
     spelled.collect()
 }

@@ -10,11 +10,11 @@ use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{BinaryOp, Invocation, NodeId, Op, Part, Scalar, Type};
 use std::collections::BTreeMap;
-use straightline_kernels::OptionValues;
+use straightline_kernels::{OptionText, OptionValues};
 
 impl Evaluator<'_> {
     /// Evaluates the kernel `entry`: its results, the options chosen, its documentation.
-    pub fn kernel(&mut self, entry: &str, settings: &[(String, String)]) -> Eval<(Vec<NodeId>, OptionValues, String)> {
+    pub fn kernel(&mut self, entry: &str, settings: &[OptionText]) -> Eval<(Vec<NodeId>, OptionValues, String)> {
         let library = self.library;
         let Some(function) = library.functions.get(entry) else {
             let mut names: Vec<&str> = library
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
         name: &str,
         ty: &SourceType,
         span: Span,
-        settings: &[(String, String)],
+        settings: &[OptionText],
         options: &mut OptionValues,
     ) -> Eval {
         self.inputs.push((name.to_owned(), span));

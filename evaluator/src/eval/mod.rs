@@ -61,7 +61,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::rc::Rc;
 use std::sync::Arc;
-use straightline_kernels::OptionValues;
+use straightline_kernels::{OptionText, OptionValues};
 use value::{Eval, Exit, Value};
 
 pub use budget::{BUDGET_HELP, LoopReport, blame};
@@ -93,7 +93,7 @@ pub fn evaluate(
     library: &Library,
     files: &Arc<Vec<File>>,
     entry: &str,
-    settings: &[(String, String)],
+    settings: &[OptionText],
     policy: &Policy,
     invocation: Invocation,
 ) -> Result<Evaluated, Errors> {

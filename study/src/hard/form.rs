@@ -4,7 +4,7 @@ use super::HardError;
 use super::case::Case;
 use crate::builtin::builtin;
 use straightline_codegen::Math;
-use straightline_kernels::{HalfPrecision, OptionValues};
+use straightline_kernels::{HalfPrecision, OptionText, OptionValues};
 use straightline_testbed::render::PlacedBy;
 
 /// What a kernel reads, and which definition judges it.
@@ -40,7 +40,7 @@ pub struct Form {
     /// What it reads.
     pub family: Family,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// Which algebra is done.
     pub math: Math,
     /// Whether it promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
@@ -193,7 +193,7 @@ impl Form {
     }
 
     /// A built-in kernel with options, if it is of a family that is studied.
-    pub fn of(kernel: &str, options: &[(String, String)]) -> Option<Form> {
+    pub fn of(kernel: &str, options: &[OptionText]) -> Option<Form> {
         let family = Family::ALL.into_iter().find(|family| family.kernel() == kernel)?;
         let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
         Some(Form {
@@ -205,7 +205,7 @@ impl Form {
     }
 
     /// The options that it has in a case; `None` if the case is not for it.
-    pub fn in_case(&self, case: &Case) -> Option<Vec<(String, String)>> {
+    pub fn in_case(&self, case: &Case) -> Option<Vec<OptionText>> {
         if case.coord.is_some() && !self.family.reads_shadows() {
             return None;
         }
@@ -230,7 +230,7 @@ impl Form {
     /// # Errors
     ///
     /// [`HardError::Kernel`] if the kernel does not take them.
-    pub fn values(&self, settings: &[(String, String)]) -> Result<OptionValues, HardError> {
+    pub fn values(&self, settings: &[OptionText]) -> Result<OptionValues, HardError> {
         let values = builtin(&self.kernel).and_then(|kernel| kernel.option_values(settings));
         values.map_err(|errors| HardError::Kernel {
             form: self.name.clone(),
@@ -298,7 +298,7 @@ pub fn texels(options: &OptionValues) -> i64 {
     }
 }
 
-fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
+fn owned(options: &[(&str, &str)]) -> Vec<OptionText> {
     options
         .iter()
         .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))

@@ -8,7 +8,7 @@ use super::{HardError, cases};
 use crate::record::{Executor, HalfVerdict, HardCase, HardResult};
 use rayon::prelude::*;
 use straightline_codegen::Precision;
-use straightline_kernels::{OptionValue, OptionValues};
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
 /// Whether a built-in kernel with `options` may compute in half precision: by the interpreter, with and without subnormal
 /// numbers, on every case that scenes have. How far it would be off on a device that is as inexact as WGSL allows is told, but
@@ -20,7 +20,7 @@ use straightline_kernels::{OptionValue, OptionValues};
 ///
 /// [`HardError::NotStudied`] for a kernel that has no hard cases, for ambient occlusion and bilinear taps, whose pictures here are too
 /// small, and for demodulated colours and earlier frames, which none has; others if it does not compile.
-pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Result<HalfVerdict, HardError> {
+pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
     let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
     let values = form.values(&options)?;

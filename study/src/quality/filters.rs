@@ -9,6 +9,7 @@ use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::Instant;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
+use straightline_kernels::OptionText;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
 use straightline_runtime::Pass;
@@ -274,7 +275,7 @@ fn merged(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
 }
 
 impl Shader {
-    fn new(bench: &Bench, kernel: &Kernel, options: &[(String, String)]) -> Result<Shader, QualityError> {
+    fn new(bench: &Bench, kernel: &Kernel, options: &[OptionText]) -> Result<Shader, QualityError> {
         let settings = Settings {
             options: options.to_vec(),
             ..Settings::default()

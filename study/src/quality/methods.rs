@@ -5,7 +5,7 @@ use crate::builtin::builtin;
 use crate::record::Family;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
-use straightline_kernels::OptionValues;
+use straightline_kernels::{OptionText, OptionValues};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::gbuffer;
 use straightline_testbed::render::PlacedBy;
@@ -53,7 +53,7 @@ pub struct Method {
     /// The kernel, if it is the user's.
     pub kernel: Option<Kernel>,
     /// Options of its kernel that are set, for records and for compiling it.
-    options: Vec<(String, String)>,
+    options: Vec<OptionText>,
     /// Values of all of its kernel's options.
     values: OptionValues,
     /// Whether its pictures are written.
@@ -84,7 +84,7 @@ impl Method {
     }
 
     /// The same with these options set, in their canonical spelling. Those that its kernel refuses are an error where it is compiled.
-    fn with_options(self, mut options: Vec<(String, String)>) -> Method {
+    fn with_options(self, mut options: Vec<OptionText>) -> Method {
         let values = self.parse_options(&options).unwrap_or_default();
         for (name, text) in &mut options {
             if let Some(value) = values.get(name) {
@@ -99,7 +99,7 @@ impl Method {
     }
 
     /// Values of all options of its kernel, of `sraa` where it has none, under these settings.
-    fn parse_options(&self, options: &[(String, String)]) -> Result<OptionValues, Errors> {
+    fn parse_options(&self, options: &[OptionText]) -> Result<OptionValues, Errors> {
         match (&self.kernel, self.kind) {
             (Some(kernel), _) => kernel.option_values(options),
             (None, Kind::Edge(name)) => builtin(name)?.option_values(options),
@@ -108,7 +108,7 @@ impl Method {
     }
 
     /// Options of its kernel that are set.
-    pub fn options(&self) -> &[(String, String)] {
+    pub fn options(&self) -> &[OptionText] {
         &self.options
     }
 
@@ -126,7 +126,7 @@ impl Method {
         if stem(name).is_empty() || kernel.is_empty() {
             return Err(usage());
         }
-        let mut options: Vec<(String, String)> = Vec::new();
+        let mut options: Vec<OptionText> = Vec::new();
         for part in parts {
             match (part.split_once('='), options.last_mut()) {
                 (Some((option, value)), _) => options.push((option.to_owned(), value.to_owned())),

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use straightline_codegen::emit::EmitOptions;
 use straightline_codegen::{Kernel, Settings, Stage, Unroll};
+use straightline_kernels::OptionText;
 
 /// What becomes of a loop that stays one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,7 +42,7 @@ pub const RESERVED: [&str; 5] = ["unroll", "loops", "stage", "workgroup", "block
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// Options that are not left at their default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// What becomes of loops.
     pub unroll: Unroll,
     /// What becomes of those that stay.
@@ -117,9 +118,9 @@ impl Space {
     /// Every combination, the last axis fastest. A fragment has neither workgroup nor block: in that stage their first values
     /// stand for all.
     pub fn variants(&self) -> Vec<Variant> {
-        let mut options: Vec<Vec<(String, String)>> = vec![Vec::new()];
+        let mut options: Vec<Vec<OptionText>> = vec![Vec::new()];
         for (name, values) in &self.options {
-            let with = |known: &Vec<(String, String)>| {
+            let with = |known: &Vec<OptionText>| {
                 let known = known.clone();
                 let each = values.iter().map(|value| (name.clone(), value.clone()));
                 each.map(move |option| [known.as_slice(), &[option]].concat())

@@ -12,7 +12,7 @@ use crate::front::{Library, raw};
 use crate::ir::{Op, Scalar, Type, Uniform};
 use crate::policy::Policy;
 use std::sync::Arc;
-use straightline_kernels::{OptionValue, OptionValues};
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
 pub use parse::parse_settings;
 pub(super) use parse::unknown;
@@ -131,7 +131,7 @@ fn twice(fields: &[&OptionField]) -> Vec<Exit> {
 
 impl Evaluator<'_> {
     /// A structure of options with each field set or at its default.
-    pub fn configure(&mut self, ty: &str, settings: &[(String, String)], chosen: &mut OptionValues) -> Eval {
+    pub fn configure(&mut self, ty: &str, settings: &[OptionText], chosen: &mut OptionValues) -> Eval {
         let library = self.library;
         let mut values = Vec::new();
         let declared = &library.options[ty];

@@ -4,7 +4,7 @@ use super::{Numeric, OptionInfo, OptionKind, canonical};
 use crate::diagnostic::Diagnostic;
 use crate::ir::Scalar;
 use crate::shorten::shorten;
-use straightline_kernels::{OptionValue, OptionValues};
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
 /// The word for an option that is set at run time.
 const UNIFORM: &str = "uniform";
@@ -17,7 +17,7 @@ const UNIFORM: &str = "uniform";
 pub fn parse_settings(
     kernel: &str,
     infos: &[OptionInfo],
-    settings: &[(String, String)],
+    settings: &[OptionText],
 ) -> Result<OptionValues, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let mut values = OptionValues::default();
@@ -37,7 +37,7 @@ pub fn parse_settings(
 }
 
 /// An error for each setting that names none of the options `names`.
-pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[(String, String)]) -> Vec<Diagnostic> {
+pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[OptionText]) -> Vec<Diagnostic> {
     let unknown = settings.iter().filter(|(name, _)| !names.contains(&name.as_str()));
     let errors = unknown.map(|(name, _)| {
         let help = match names.is_empty() {
@@ -50,7 +50,7 @@ pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[(String
 }
 
 /// Value of one option under `settings`.
-pub(super) fn setting(info: &OptionInfo, settings: &[(String, String)]) -> Result<OptionValue, Vec<Diagnostic>> {
+pub(super) fn setting(info: &OptionInfo, settings: &[OptionText]) -> Result<OptionValue, Vec<Diagnostic>> {
     let mut set = settings.iter().filter(|(name, _)| *name == info.name);
     let Some((_, first)) = set.next() else {
         return Ok(info.unset());

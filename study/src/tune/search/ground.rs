@@ -6,7 +6,7 @@ use crate::tune::space::{Offer, SampleSet, Space, Variant};
 use crate::tune::steps::depth_scale;
 use crate::tune::{Question, Subject, Term, TuneError};
 use straightline_codegen::{Compiled, Kernel, Manifest, Settings, Stage};
-use straightline_kernels::OptionValue;
+use straightline_kernels::{OptionText, OptionValue};
 use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::Pass;
 use straightline_testbed::capture::Capture;
@@ -204,7 +204,7 @@ fn shaded(space: &Space, variant: Variant, place: &str) -> Settings {
 
 /// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
 /// the filter does.
-fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<(String, String)> {
+fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText> {
     let given: Vec<_> = space.fixed.iter().chain(&samples.options).cloned().collect();
     PlacedBy::Depths.instead_of(&spell_settings(&given))
 }
