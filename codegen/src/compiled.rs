@@ -1,7 +1,6 @@
 //! A kernel with everything decided: what the interpreter computes and emission writes.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 use straightline_evaluator::diagnostic::{File, Span};
@@ -10,7 +9,7 @@ use straightline_evaluator::ir::Graph;
 use straightline_evaluator::limits::Limits;
 use straightline_evaluator::passes::{self, Gathered, Schedule, Sharing};
 use straightline_evaluator::policy::{Math, Policy, Transport};
-use straightline_kernels::{Entry, HalfPrecision, PaperCounts};
+use straightline_kernels::{Entry, HalfPrecision, OptionValues, PaperCounts};
 use straightline_manifest::Counts;
 
 /// A kernel with everything decided, ready to be emitted or interpreted.
@@ -22,8 +21,8 @@ pub struct Compiled {
     pub builtin: Option<&'static Entry>,
     /// What it does, in a line.
     pub summary: String,
-    /// Every option with its value.
-    pub options: BTreeMap<String, String>,
+    /// Value of every option.
+    pub options: OptionValues,
     /// Names of the options that are not at their defaults.
     pub changed: Vec<String>,
     /// What was asked to become of loops and branches.
@@ -70,7 +69,7 @@ impl Compiled {
     /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
-        (entry.paper)(&|option| self.options.get(option).cloned())
+        (entry.paper)(&self.options)
     }
 
     /// Places whose order of operations drivers are kept from changing, each with its file, its line from 1 and what it computes: the
@@ -89,9 +88,7 @@ impl Compiled {
     /// What half precision does to the picture of a built-in kernel with these options; an option that a host sets is judged at
     /// its default.
     pub fn half_precision(&self) -> HalfPrecision {
-        let half = self
-            .builtin
-            .map(|entry| (entry.half)(&|option| self.options.get(option).cloned()));
+        let half = self.builtin.map(|entry| (entry.half)(&self.options));
         half.unwrap_or(HalfPrecision::Unstudied)
     }
 

@@ -3,7 +3,6 @@
 use crate::compiled::{Compiled, Places};
 use crate::emit;
 use crate::files;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
@@ -14,6 +13,7 @@ use straightline_evaluator::ir::{Graph, Invocation, verify};
 use straightline_evaluator::limits::{self, Limits, Meter};
 use straightline_evaluator::passes;
 use straightline_evaluator::policy::{Branches, LoopPolicy, Math, Policy, ReadOrder, Share, Transport, Unroll};
+use straightline_kernels::{OptionText, OptionValues};
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
@@ -33,8 +33,9 @@ pub struct Kernel {
 /// How a kernel is to be evaluated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Option and value; what is not named stays at its default, and an option named twice is refused.
-    pub options: Vec<(String, String)>,
+    /// Option and value, in any spelling that its declaration takes; an option that is not named stays at its default, and one
+    /// named twice is refused.
+    pub options: Vec<OptionText>,
     /// What becomes of loops.
     pub unroll: Unroll,
     /// What becomes of single loops, by `function.counter` or `counter`; before all else that is said of them.
@@ -259,6 +260,19 @@ impl Kernel {
         deep(|| self.described(&*self.library()?).map(|infos| infos.to_vec()))
     }
 
+    /// Values of all options of the kernel under `settings`, pairs of option and text, without compiling it: the same that
+    /// [`Compiled::options`] has.
+    ///
+    /// # Errors
+    ///
+    /// Each setting that the kernel has no option for, that stands twice, or that is no value of its option; an error in the
+    /// kernel's text.
+    pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, Errors> {
+        let library = deep(|| self.library())?;
+        let infos = deep(|| self.described(&library))?;
+        eval::parse_settings(&self.name, infos, settings).map_err(|found| Errors::new(found, &self.files))
+    }
+
     fn described(&self, library: &Library) -> Result<&[OptionInfo], Errors> {
         if let Some(infos) = self.described.get() {
             return Ok(infos);
@@ -311,23 +325,14 @@ impl Kernel {
         deep(|| self.stages(settings, observer))
     }
 
-    /// Names of the options that were set to something else than their defaults.
-    fn changed(
-        &self,
-        library: &Library,
-        settings: &Settings,
-        values: &BTreeMap<String, String>,
-    ) -> Result<Vec<String>, Errors> {
+    /// Names of the options whose values differ from those of a kernel without settings.
+    fn changed(&self, library: &Library, settings: &Settings, values: &OptionValues) -> Result<Vec<String>, Errors> {
         if settings.options.is_empty() {
             return Ok(Vec::new());
         }
-        let known = self.described(library)?;
-        let differs = |option: &OptionInfo| {
-            option.uniform || values.get(&option.name).is_none_or(|value| *value != option.default)
-        };
-        let is_set = |option: &&OptionInfo| settings.options.iter().any(|(name, _)| *name == option.name);
-        let changed = known.iter().filter(is_set).filter(|option| differs(option));
-        Ok(changed.map(|option| option.name.clone()).collect())
+        let infos = self.described(library)?.iter();
+        let changed = infos.filter(|info| values.get(&info.name).is_some_and(|value| *value != info.unset()));
+        Ok(changed.map(|info| info.name.clone()).collect())
     }
 
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {

@@ -285,7 +285,7 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             .iter()
             .find(|option| option.name.replace('-', "_") == field.name);
         let range = match option.map(|option| &option.kind) {
-            Some(OptionKind::Number { min, max, .. }) => [*min, *max],
+            Some(OptionKind::Number(of)) => [of.min, of.max],
             _ => [None, None],
         };
         let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, scalar)));

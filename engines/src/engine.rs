@@ -171,7 +171,7 @@ impl Engine {
         let changed = compiled
             .changed
             .iter()
-            .filter_map(|name| compiled.options.get_key_value(name));
+            .filter_map(|name| Some((name, compiled.options.get(name)?)));
         context.changed = changed
             .map(|(name, value)| comment(&format!("{name}={value}")))
             .collect();

@@ -1,5 +1,6 @@
 //! The built-in kernels, as source text for the generator.
 
+use crate::OptionValues;
 use crate::half::{self, HalfPrecision};
 
 /// One built-in kernel.
@@ -11,14 +12,11 @@ pub struct Entry {
     pub summary: &'static str,
     /// Every file that the kernel is made of.
     pub sources: &'static [SourceFile],
-    /// What its publication counts, for the options that a function tells the values of.
-    pub paper: fn(&OptionValue<'_>) -> Option<PaperCounts>,
-    /// What half precision does to its picture, likewise.
-    pub half: fn(&OptionValue<'_>) -> HalfPrecision,
+    /// Counts of its publication for a kernel with these options.
+    pub paper: fn(&OptionValues) -> Option<PaperCounts>,
+    /// Verdict on half precision for a kernel with these options.
+    pub half: fn(&OptionValues) -> HalfPrecision,
 }
-
-/// Tells an option's value by its name.
-pub type OptionValue<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
 /// A file of Rust text.
 #[derive(Clone, Copy, Debug)]
@@ -188,15 +186,15 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// Section 2.8: "a 3×3 blur with four samples, while Figure 2.4 illustrates this process for a 5×5 blur using nine".
-fn convolution_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
-    if option("taps")? == "bilinear" {
+fn convolution_paper(options: &OptionValues) -> Option<PaperCounts> {
+    if options.choice("taps")? == "bilinear" {
         return None;
     }
-    let texture_reads = match (option("sharing")?.as_str(), option("radius")?.as_str()) {
-        ("quad", "1") => 4,
-        ("quad", "2") => 9,
-        ("alone", "1") => 9,
-        ("alone", "2") => 25,
+    let texture_reads = match (options.choice("sharing")?, options.number("radius")? as u32) {
+        ("quad", 1) => 4,
+        ("quad", 2) => 9,
+        ("alone", 1) => 9,
+        ("alone", 2) => 25,
         _ => return None,
     };
     Some(PaperCounts {
@@ -206,8 +204,8 @@ fn convolution_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
 }
 
 /// Section 2.7: "a bilateral upsample with only one or two texture fetches ... instead of eight".
-fn upsampling_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
-    let texture_reads = match option("reads")?.as_str() {
+fn upsampling_paper(options: &OptionValues) -> Option<PaperCounts> {
+    let texture_reads = match options.choice("reads")? {
         "packed" => 1,
         "apart" => 2,
         _ => 8,
@@ -219,13 +217,13 @@ fn upsampling_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
 }
 
 /// Section 2.9: N² comparisons each by itself, one for 4×4 texels and four for 8×8 shared.
-fn pcf_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
-    let on_axis = match option("width")?.as_str() {
+fn pcf_paper(options: &OptionValues) -> Option<PaperCounts> {
+    let on_axis = match options.choice("width")? {
         "four" => 1,
         "eight" => 2,
         _ => return None,
     };
-    let texture_reads = match option("method")?.as_str() {
+    let texture_reads = match options.choice("method")? {
         "naive" => 16 * on_axis * on_axis,
         "bilinear" => 4 * on_axis * on_axis,
         "quad" => on_axis * on_axis,
@@ -238,13 +236,13 @@ fn pcf_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
 }
 
 /// Its publication counts nothing.
-fn no_paper(_: &OptionValue<'_>) -> Option<PaperCounts> {
+fn no_paper(_: &OptionValues) -> Option<PaperCounts> {
     None
 }
 
 /// Section 3.5: "we read the G-buffers 58x per pixel (194 for 16x). The filter is evaluated 25 (81) times."
-fn sraa_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
-    match option("pattern")?.as_str() {
+fn sraa_paper(options: &OptionValues) -> Option<PaperCounts> {
+    match options.choice("pattern")? {
         "ordered4" | "latin4" => Some(PaperCounts {
             weight_evaluations: 25,
             texture_reads: 58,

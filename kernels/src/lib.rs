@@ -22,6 +22,8 @@ pub mod prelude;
 pub mod quad;
 #[cfg(feature = "native")]
 pub mod sraa;
+mod values;
 
-pub use catalogue::{CATALOGUE, Entry, OptionValue, PaperCounts, SourceFile, find};
+pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};
 pub use half::HalfPrecision;
+pub use values::{OptionText, OptionValue, OptionValues};

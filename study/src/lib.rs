@@ -5,6 +5,7 @@
 //! What runs kernels, and what judges them, is `straightline-testbed`.
 
 pub mod baselines;
+mod builtin;
 pub mod hard;
 pub mod isa;
 pub mod loops;

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use straightline_codegen::emit::Target;
 use straightline_codegen::passes::{Gathered, Sharing};
 use straightline_codegen::{Compiled, EmitOptions, ReadOrder, Unroll};
-use straightline_kernels::PaperCounts;
+use straightline_kernels::{OptionValue, PaperCounts};
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
 /// Prints the counts of one kernel and option set.
@@ -88,7 +88,7 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
     let mut out = Map::new();
     out.insert("kernel".into(), json!(compiled.kernel));
     out.insert("unroll".into(), json!(compiled.policy.to_string()));
-    out.insert("options".into(), json!(compiled.options));
+    out.insert("options".into(), json!(compiled.options.spelled()));
     out.insert("inputs".into(), json!(bound.inputs));
     out.insert("uniforms".into(), json!(bound.uniforms));
     if let Value::Object(figures) = json!(counts) {
@@ -166,7 +166,8 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         summary => format!("{}: {summary}", compiled.kernel),
     };
     outln!("{}\n", table::wrapped(&title, WIDTH, "", "  "));
-    let given = compiled.options.iter().filter(|(_, value)| !value.is_empty());
+    let is_empty = |value: &OptionValue| value.numbers().is_some_and(<[f64]>::is_empty);
+    let given = compiled.options.iter().filter(|(_, value)| !is_empty(value));
     let options = given.map(|(name, value)| format!("{name}={value}"));
     section("Options", &options.collect::<Vec<_>>().join(" "));
     section("Unroll", &compiled.policy.to_string());

@@ -101,22 +101,29 @@ fn print_option(option: &OptionInfo) {
     match &option.kind {
         OptionKind::Choice(values) => {
             for (name, docs) in values {
-                let mark = if *name == option.default { " (default)" } else { "" };
+                let mark = if option.default.choice() == Some(name.as_str()) {
+                    " (default)"
+                } else {
+                    ""
+                };
                 line("    ", &format!("{name}{mark}: {docs}"));
             }
         }
-        OptionKind::Number { min, max, .. } => {
+        OptionKind::Number(of) => {
             let bound = |b: &Option<f64>| b.map_or("any".to_owned(), shortest);
             let (or, default) = match option.uniform {
                 true => ("", "default: uniform, "),
                 false => (", or uniform", "default "),
             };
             let default = format!("({default}{})", option.default);
-            line("    ", &format!("{} to {}{or} {default}", bound(min), bound(max)));
+            line(
+                "    ",
+                &format!("{} to {}{or} {default}", bound(&of.min), bound(&of.max)),
+            );
         }
         OptionKind::List { len, .. } => {
             let many = len.map_or("any number of".to_owned(), |len| len.to_string());
-            let default = default_list(&option.default);
+            let default = default_list(&option.default.to_string());
             line(
                 "    ",
                 &format!("{many} numbers, separated by commas (default {default})"),
@@ -166,16 +173,16 @@ fn option_json(option: &OptionInfo) -> Value {
                 .map(|(name, docs)| json!({ "value": name, "docs": docs }))
                 .collect::<Vec<_>>()
         ),
-        OptionKind::Number { integer, min, max } => {
-            json!({ "integer": integer, "min": min, "max": max, "uniform": true })
+        OptionKind::Number(of) => {
+            json!({ "integer": of.is_integer(), "min": of.min, "max": of.max, "uniform": true })
         }
-        OptionKind::List { len, integer, min, max } => {
-            json!({ "numbers": len, "integer": integer, "min": min, "max": max })
+        OptionKind::List { len, of } => {
+            json!({ "numbers": len, "integer": of.is_integer(), "min": of.min, "max": of.max })
         }
         OptionKind::Flag => json!(["true", "false"]),
     };
     json!({
-        "name": option.name, "docs": option.docs, "default": option.default, "values": values,
+        "name": option.name, "docs": option.docs, "default": option.default.to_string(), "values": values,
         "uniform_by_default": option.uniform,
     })
 }

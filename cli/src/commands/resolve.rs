@@ -5,8 +5,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
-use std::collections::BTreeMap;
-use straightline_codegen::{Compiled, Kernel, files};
+use straightline_codegen::{Compiled, Kernel, OptionValue, OptionValues, files};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::interpret;
@@ -21,8 +20,9 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     check_extension(args)?;
     files::try_file(&args.out, false).map_err(Failure::of)?;
     let capture = Capture::read(&args.capture).map_err(Failure::of)?;
-    let settings = with_capture(&args.options, &capture)?;
-    let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
+    let kernel = Kernel::builtin("sraa")?;
+    let settings = with_capture(&kernel, &args.options, &capture)?;
+    let compiled = kernel.compile(&settings.settings())?;
     let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
     let warnings = warnings(&capture, &compiled.options);
     for warning in &warnings {
@@ -45,12 +45,12 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
 }
 
 /// What makes a picture worse than it need be, and shows in the capture.
-fn warnings(capture: &Capture, options: &BTreeMap<String, String>) -> Vec<String> {
+fn warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(misplaced) = gbuffer::misplaced(capture) {
         warnings.push(misplaced.words().to_owned());
     }
-    let by_planes = options.get("metric").is_some_and(|metric| metric == "planes-normals");
+    let by_planes = options.choice("metric") == Some("planes-normals");
     if let Some(share) = gbuffer::bent_normals(capture).filter(|_| by_planes) {
         warnings.push(format!(
             "{:.0} % of the normals stand off the planes of the depths, as those of normal maps do: write the normals of the geometry, or use \
@@ -85,7 +85,7 @@ fn report(
     let bad = metrics::non_finite(resolved);
     if args.json {
         let mut out = json!({
-            "out": args.out, "executor": by, "options": compiled.options,
+            "out": args.out, "executor": by, "options": compiled.options.spelled(),
             "size": resolved.size().to_array(), "non_finite_pixels": bad, "warnings": warnings,
         });
         if let Some((before, after)) = errors {
@@ -120,19 +120,25 @@ fn errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failu
 }
 
 /// The options asked for, with those that the capture decides: where it was sampled.
-fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, Failure> {
+fn with_capture(kernel: &Kernel, options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, Failure> {
     let mut options = options.clone();
-    for (name, decided) in gbuffer::sampled_at(capture) {
-        if let Some((_, asked)) = options.set.iter().find(|(n, v)| *n == name && *v != decided) {
+    let sampled = gbuffer::sampled_at(capture);
+    let (asked, decided) = (kernel.option_values(&options.set)?, kernel.option_values(&sampled)?);
+    for (name, text) in sampled {
+        let is_set = options.set.iter().any(|(known, _)| *known == name);
+        if let (Some(asked), Some(decided)) = (asked.get(&name), decided.get(&name))
+            && is_set
+            && asked != decided
+        {
             return Err(Failure::Usage(format!(
                 "--set {name}={asked}, but the capture was sampled with {name}={decided}"
             )));
         }
-        if !options.set.iter().any(|(known, _)| *known == name) {
-            options.set.push((name, decided));
+        if !is_set {
+            options.set.push((name, text));
         }
     }
-    if let Some((name, _)) = options.set.iter().find(|(_, value)| value == "uniform") {
+    if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {
         return Err(Failure::Usage(format!(
             "`{name}=uniform` leaves the value to a host; here give a number"
         )));

@@ -122,7 +122,7 @@ impl Resources {
             bindings,
             language_bindings: self.language_bindings()?,
             outputs: outputs.collect(),
-            options: compiled.options.clone(),
+            options: compiled.options.spelled(),
             counts: counts.clone(),
             files: Default::default(),
             hashes: Default::default(),

@@ -6,6 +6,7 @@ mod emission;
 mod floor;
 mod front;
 mod imports;
+mod option_values;
 mod places;
 mod syn_variants;
 mod verify;

@@ -1,6 +1,7 @@
 //! The kernel's own parameters and result.
 
 use super::Evaluator;
+use super::options::unknown;
 // Booleans are in no buffer.
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
@@ -9,14 +10,11 @@ use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{BinaryOp, Invocation, NodeId, Op, Part, Scalar, Type};
 use std::collections::BTreeMap;
+use straightline_kernels::{OptionText, OptionValues};
 
 impl Evaluator<'_> {
     /// Evaluates the kernel `entry`: its results, the options chosen, its documentation.
-    pub fn kernel(
-        &mut self,
-        entry: &str,
-        settings: &[(String, String)],
-    ) -> Eval<(Vec<NodeId>, BTreeMap<String, String>, String)> {
+    pub fn kernel(&mut self, entry: &str, settings: &[OptionText]) -> Eval<(Vec<NodeId>, OptionValues, String)> {
         let library = self.library;
         let Some(function) = library.functions.get(entry) else {
             let mut names: Vec<&str> = library
@@ -33,7 +31,7 @@ impl Evaluator<'_> {
             );
         };
         self.parameters = self.names_of_parameters(&function.params);
-        let mut options = BTreeMap::new();
+        let mut options = OptionValues::default();
         let mut args = Vec::new();
         for Param { name, ty, span, .. } in &function.params {
             if ty.is_mutable_reference() {
@@ -57,17 +55,9 @@ impl Evaluator<'_> {
                 .help("leave it out, and take `thread.pixel` in a `group.each(|thread| ...)`");
             self.note(error.into());
         }
-        for (name, _) in settings {
-            if !options.contains_key(name) {
-                let known: Vec<&str> = options.keys().map(String::as_str).collect();
-                let help = if known.is_empty() {
-                    "it has no options".to_owned()
-                } else {
-                    format!("its options are {}", known.join(", "))
-                };
-                let error = Diagnostic::new(format!("`{entry}` has no option `{name}`")).help(help);
-                self.note(error.into());
-            }
+        let names: Vec<&str> = options.iter().map(|(name, _)| name.as_str()).collect();
+        for error in unknown(entry, &names, settings) {
+            self.note(error.into());
         }
         if !self.errors.is_empty() {
             return Err(Exit::Noted);
@@ -102,8 +92,8 @@ impl Evaluator<'_> {
         name: &str,
         ty: &SourceType,
         span: Span,
-        settings: &[(String, String)],
-        options: &mut BTreeMap<String, String>,
+        settings: &[OptionText],
+        options: &mut OptionValues,
     ) -> Eval {
         self.inputs.push((name.to_owned(), span));
         if let Some(resource) = self.resource(name, ty, span)? {

@@ -61,17 +61,18 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::rc::Rc;
 use std::sync::Arc;
+use straightline_kernels::{OptionText, OptionValues};
 use value::{Eval, Exit, Value};
 
 pub use budget::{BUDGET_HELP, LoopReport, blame};
-pub use options::{OptionInfo, OptionKind, describe};
+pub use options::{Numeric, OptionInfo, OptionKind, describe, parse_settings};
 
 /// A kernel with its options decided.
 pub struct Evaluated {
     /// What is left to compute.
     pub graph: Graph,
     /// Every option with its value.
-    pub options: BTreeMap<String, String>,
+    pub options: OptionValues,
     /// First paragraph of the kernel's documentation.
     pub docs: String,
     /// Every loop, in order of the source, with what became of it.
@@ -92,7 +93,7 @@ pub fn evaluate(
     library: &Library,
     files: &Arc<Vec<File>>,
     entry: &str,
-    settings: &[(String, String)],
+    settings: &[OptionText],
     policy: &Policy,
     invocation: Invocation,
 ) -> Result<Evaluated, Errors> {

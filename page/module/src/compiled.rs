@@ -122,7 +122,7 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
         "kernel": compiled.kernel,
         "summary": compiled.summary,
         "options": infos,
-        "values": compiled.options,
+        "values": compiled.options.spelled(),
         "paper": paper(&compiled),
         "loops": loops.collect::<Vec<_>>(),
         "quad": compiled.quad.is_some() || compiled.transport.is_some(),

@@ -51,9 +51,15 @@ struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// An option's value.
-    fn option(&self, name: &str) -> &str {
-        self.compiled.options.get(name).map_or("", String::as_str)
+    /// Choice of an option; empty of a kernel that has none of this name.
+    fn choice(&self, name: &str) -> &str {
+        self.compiled.options.choice(name).unwrap_or_default()
+    }
+
+    /// Numbers of an option that is a list.
+    fn numbers(&self, name: &str) -> impl Iterator<Item = f32> {
+        let numbers = self.compiled.options.numbers(name).unwrap_or_default().iter();
+        numbers.map(|number| *number as f32)
     }
 }
 

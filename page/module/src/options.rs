@@ -11,15 +11,18 @@ pub fn to_json(option: &OptionInfo) -> Value {
             let values = values.map(|(name, docs)| json!({ "value": name, "docs": docs }));
             ("choice", json!({ "values": values.collect::<Vec<_>>() }))
         }
-        OptionKind::Number { integer, min, max } => ("number", json!({ "integer": integer, "min": min, "max": max })),
-        OptionKind::List { len, integer, min, max } => (
+        OptionKind::Number(of) => (
+            "number",
+            json!({ "integer": of.is_integer(), "min": of.min, "max": of.max }),
+        ),
+        OptionKind::List { len, of } => (
             "list",
-            json!({ "len": len, "integer": integer, "min": min, "max": max }),
+            json!({ "len": len, "integer": of.is_integer(), "min": of.min, "max": of.max }),
         ),
         OptionKind::Flag => ("flag", json!({})),
     };
     let mut all = json!({
-        "name": option.name, "docs": option.docs, "default": option.default, "uniform": option.uniform, "kind": kind,
+        "name": option.name, "docs": option.docs, "default": option.default.to_string(), "uniform": option.uniform, "kind": kind,
     });
     if let (Value::Object(all), Value::Object(more)) = (&mut all, more) {
         all.extend(more);

@@ -1,8 +1,10 @@
 //! Which kernels hard cases are run with, in which options.
 
+use super::HardError;
 use super::case::Case;
+use crate::builtin::builtin;
 use straightline_codegen::Math;
-use straightline_kernels::HalfPrecision;
+use straightline_kernels::{HalfPrecision, OptionText, OptionValues};
 use straightline_testbed::render::PlacedBy;
 
 /// What a kernel reads, and which definition judges it.
@@ -38,7 +40,7 @@ pub struct Form {
     /// What it reads.
     pub family: Family,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// Which algebra is done.
     pub math: Math,
     /// Whether it promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
@@ -191,7 +193,7 @@ impl Form {
     }
 
     /// A built-in kernel with options, if it is of a family that is studied.
-    pub fn of(kernel: &str, options: &[(String, String)]) -> Option<Form> {
+    pub fn of(kernel: &str, options: &[OptionText]) -> Option<Form> {
         let family = Family::ALL.into_iter().find(|family| family.kernel() == kernel)?;
         let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
         Some(Form {
@@ -203,7 +205,7 @@ impl Form {
     }
 
     /// The options that it has in a case; `None` if the case is not for it.
-    pub fn in_case(&self, case: &Case) -> Option<Vec<(String, String)>> {
+    pub fn in_case(&self, case: &Case) -> Option<Vec<OptionText>> {
         if case.coord.is_some() && !self.family.reads_shadows() {
             return None;
         }
@@ -215,20 +217,31 @@ impl Form {
         fits.then(|| [self.options.clone(), owned(case.options)].concat())
     }
 
-    /// What 11 bits cannot hold of what it computes.
-    pub fn why(&self) -> &'static str {
-        let value = |name: &str| Some(Form::value(&self.options, name, "").to_owned());
-        match straightline_kernels::find(&self.kernel).map(|entry| (entry.half)(&value)) {
+    /// What 11 bits cannot hold of what a kernel with `options` computes.
+    pub fn why(&self, options: &OptionValues) -> &'static str {
+        match straightline_kernels::find(&self.kernel).map(|entry| (entry.half)(options)) {
             Some(HalfPrecision::Lost(reason)) => reason,
             _ => "what it reads has 11 bits, and so has all that is computed of it",
         }
     }
 
-    /// The value of an option among `options`, or `default`.
-    pub fn value<'a>(options: &'a [(String, String)], name: &str, default: &'a str) -> &'a str {
-        let found = options.iter().rev().find(|(known, _)| known == name);
-        found.map_or(default, |(_, value)| value.as_str())
+    /// Values of all of its kernel's options under `settings`.
+    ///
+    /// # Errors
+    ///
+    /// [`HardError::Kernel`] if the kernel does not take them.
+    pub fn values(&self, settings: &[OptionText]) -> Result<OptionValues, HardError> {
+        let values = builtin(&self.kernel).and_then(|kernel| kernel.option_values(settings));
+        values.map_err(|errors| HardError::Kernel {
+            form: self.name.clone(),
+            errors,
+        })
     }
+}
+
+/// A kernel's choice, or `default` of a kernel without such an option.
+pub fn choice<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
+    options.choice(name).unwrap_or(default)
 }
 
 impl Family {
@@ -276,8 +289,8 @@ impl Family {
 }
 
 /// Texels on an axis of a filter of shadow maps.
-pub fn texels(options: &[(String, String)]) -> i64 {
-    match Form::value(options, "width", "eight") {
+pub fn texels(options: &OptionValues) -> i64 {
+    match choice(options, "width", "eight") {
         "four" => 4,
         "eight" => 8,
         "twelve" => 12,
@@ -285,7 +298,7 @@ pub fn texels(options: &[(String, String)]) -> i64 {
     }
 }
 
-fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
+fn owned(options: &[(&str, &str)]) -> Vec<OptionText> {
     options
         .iter()
         .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))

@@ -2,9 +2,10 @@
 
 use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
-use super::form::{self, Family, Form};
+use super::form::{self, Family, Form, choice};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
+use straightline_kernels::{OptionValue, OptionValues};
 use straightline_testbed::encode::{self, DepthEncoding, NormalEncoding};
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::oracle::{self, Shading, SraaParams};
@@ -18,7 +19,7 @@ pub struct Reads {
 }
 
 /// What a form with `options` reads of a case.
-pub fn reads(case: &Case, form: &Form, options: &[(String, String)]) -> Result<Reads, HardError> {
+pub fn reads(case: &Case, form: &Form, options: &OptionValues) -> Result<Reads, HardError> {
     let inputs = match form.family {
         Family::Sraa => {
             let params = params(case, options)?;
@@ -28,7 +29,7 @@ pub fn reads(case: &Case, form: &Form, options: &[(String, String)]) -> Result<R
             });
         }
         Family::Stalker | Family::TabulaRasa => {
-            let projected = form.family == Family::Stalker && Form::value(options, "depth", "projected") == "projected";
+            let projected = form.family == Family::Stalker && choice(options, "depth", "projected") == "projected";
             let near = f64::from(case.planes[0]);
             let depth = centres(case, |seen| {
                 Vec4::splat(match projected {
@@ -62,10 +63,10 @@ pub fn reads(case: &Case, form: &Form, options: &[(String, String)]) -> Result<R
 }
 
 /// The definition's numbers: those that are uniforms as the case gives them.
-fn params(case: &Case, options: &[(String, String)]) -> Result<SraaParams, OracleFailure> {
+fn params(case: &Case, options: &OptionValues) -> Result<SraaParams, OracleFailure> {
     let mut params = SraaParams::default();
     for (name, value) in options {
-        if value != "uniform" {
+        if *value != OptionValue::Uniform {
             params.set(name, value)?;
             continue;
         }
@@ -74,7 +75,7 @@ fn params(case: &Case, options: &[(String, String)]) -> Result<SraaParams, Oracl
             match name.as_str() {
                 "tau" => params.tau = *number,
                 "depth-scale" => params.depth_scale = *number,
-                _ => params.set(name, &number.to_string())?,
+                _ => params.set(name, &OptionValue::Number(*number))?,
             }
         }
     }
@@ -198,12 +199,12 @@ fn vector(seen: &Seen) -> Vec3 {
 }
 
 /// The frame in full, and every corner of 2×2 pixels (or 4×4) as the low resolution.
-fn upsampling(case: &Case, options: &[(String, String)]) -> Inputs {
-    let factor = match Form::value(options, "factor", "twice") {
+fn upsampling(case: &Case, options: &OptionValues) -> Inputs {
+    let factor = match choice(options, "factor", "twice") {
         "four-times" => 4,
         _ => 2,
     };
-    let packed = Form::value(options, "reads", "packed") == "packed";
+    let packed = choice(options, "reads", "packed") == "packed";
     let size = case.size.map(|n| n.div_ceil(factor) + 1);
     let low = |texel: &dyn Fn(&Seen) -> Vec4| {
         image(size, |corner| {

@@ -6,9 +6,11 @@ use super::expected::{Expected, expected, half_limit};
 use super::form::Form;
 use super::inputs::{Reads, reads};
 use super::reals::{Flushed, Loose};
+use crate::builtin::builtin;
 use crate::record::{Executor, HardResult};
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
+use straightline_kernels::OptionText;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
 use straightline_testbed::execute::{Bench, ExecuteError, Inputs, interpret};
@@ -17,7 +19,7 @@ use straightline_testbed::execute::{Bench, ExecuteError, Inputs, interpret};
 pub struct Trial<'a> {
     case: &'a Case,
     form: &'a Form,
-    options: Vec<(String, String)>,
+    options: Vec<OptionText>,
     reads: Reads,
     expected: Expected,
 }
@@ -30,9 +32,10 @@ struct Found {
 
 impl<'a> Trial<'a> {
     /// A form with `options` on a case.
-    pub fn new(case: &'a Case, form: &'a Form, options: Vec<(String, String)>) -> Result<Trial<'a>, HardError> {
-        let reads = reads(case, form, &options)?;
-        let expected = expected(form, &options, &reads)?;
+    pub fn new(case: &'a Case, form: &'a Form, options: Vec<OptionText>) -> Result<Trial<'a>, HardError> {
+        let values = form.values(&options)?;
+        let reads = reads(case, form, &values)?;
+        let expected = expected(form, &values, &reads)?;
         Ok(Trial {
             case,
             form,
@@ -201,7 +204,7 @@ fn place(x: f64, precision: Precision) -> f64 {
 }
 
 /// A form compiled with the options that it has in a case.
-pub fn compile(form: &Form, options: &[(String, String)]) -> Result<Compiled, HardError> {
+pub fn compile(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
     let settings = straightline_codegen::Settings {
         options: options.to_vec(),
         // One invocation computes a quad: the stage is a compute shader.
@@ -212,8 +215,7 @@ pub fn compile(form: &Form, options: &[(String, String)]) -> Result<Compiled, Ha
         math: form.math,
         ..Default::default()
     };
-    let kernel = straightline_codegen::Kernel::builtin(&form.kernel);
-    let compiled = kernel.and_then(|kernel| kernel.compile(&settings));
+    let compiled = builtin(&form.kernel).and_then(|kernel| kernel.compile(&settings));
     compiled.map_err(|errors| HardError::Kernel {
         form: form.name.clone(),
         errors,

@@ -10,6 +10,7 @@ use crate::record::{Circumstances, Executor, HardCase, HardRecord, HardResult};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Precision, Stage};
+use straightline_kernels::OptionText;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
 use straightline_testbed::execute::{Bench, ExecuteError};
@@ -37,7 +38,7 @@ impl Default for Selection {
 }
 
 /// Kernel and options.
-type Key = (String, Vec<(String, String)>);
+type Key = (String, Vec<OptionText>);
 
 /// A compiled shader, or why the device cannot have it.
 type Shader = Result<(Pass, Manifest), String>;
@@ -100,7 +101,7 @@ pub fn run(
     circumstances.complete = done.len() == selection.cases.len();
     Ok(HardRecord {
         circumstances,
-        half: verdicts(&selection.forms, &done),
+        half: verdicts(&selection.forms, &done)?,
         cases: done,
     })
 }

@@ -8,6 +8,7 @@ use super::{HardError, cases};
 use crate::record::{Executor, HalfVerdict, HardCase, HardResult};
 use rayon::prelude::*;
 use straightline_codegen::Precision;
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
 /// Whether a built-in kernel with `options` may compute in half precision: by the interpreter, with and without subnormal
 /// numbers, on every case that scenes have. How far it would be off on a device that is as inexact as WGSL allows is told, but
@@ -19,22 +20,20 @@ use straightline_codegen::Precision;
 ///
 /// [`HardError::NotStudied`] for a kernel that has no hard cases, for ambient occlusion and bilinear taps, whose pictures here are too
 /// small, and for demodulated colours and earlier frames, which none has; others if it does not compile.
-pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Result<HalfVerdict, HardError> {
+pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
-    if let Some((name, value)) = options
-        .iter()
-        .find(|(name, value)| (name == "demodulate" && value != "none") || (name == "history" && value != "0"))
-    {
-        return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
+    let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
+    let values = form.values(&options)?;
+    let is_plain = |value: &OptionValue| value.choice() == Some("none") || value.number() == Some(0.0);
+    for name in ["demodulate", "history"] {
+        if let Some(value) = values.get(name).filter(|value| !is_plain(value)) {
+            return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
+        }
     }
     // What their places lose in 11 bits, larger pictures than those of the cases show.
-    let is_bilinear = options
-        .iter()
-        .any(|(name, value)| name == "taps" && value == "bilinear");
-    if kernel == "quad_ssao" || is_bilinear {
+    if kernel == "quad_ssao" || values.choice("taps") == Some("bilinear") {
         return Err(HardError::NotStudied(kernel.to_owned()));
     }
-    let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
     let forms = [form];
     let common: Vec<Case> = cases::all().into_iter().filter(|case| case.common).collect();
     let plain = common.iter().filter(|case| case.options.is_empty());
@@ -53,13 +52,19 @@ pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Res
     });
     let mut done = done.collect::<Result<Vec<_>, HardError>>()?;
     done.sort_by(|a, b| a.name.cmp(&b.name));
-    Ok(verdict(&forms[0], &done))
+    Ok(verdict(&forms[0], &values, &done))
 }
 
 /// The verdict on every form that ran in half precision.
-pub fn verdicts(forms: &[Form], done: &[HardCase]) -> Vec<HalfVerdict> {
+///
+/// # Errors
+///
+/// [`HardError::Kernel`] for a form with an option that its kernel does not take.
+pub fn verdicts(forms: &[Form], done: &[HardCase]) -> Result<Vec<HalfVerdict>, HardError> {
     let ran = |form: &&Form| done.iter().any(|case| own(case, form).next().is_some());
-    forms.iter().filter(ran).map(|form| verdict(form, done)).collect()
+    let ran = forms.iter().filter(ran);
+    ran.map(|form| Ok(verdict(form, &form.values(&form.options)?, done)))
+        .collect()
 }
 
 fn own<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardResult> {
@@ -70,7 +75,7 @@ fn own<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardR
     half.filter(|r| r.kernel == form.name)
 }
 
-fn verdict(form: &Form, done: &[HardCase]) -> HalfVerdict {
+fn verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict {
     let common = done.iter().filter(|case| case.common);
     let all: Vec<(&HardCase, &HardResult)> = common.flat_map(|c| own(c, form).map(move |r| (c, r))).collect();
     let is_loose = |r: &HardResult| r.executor == Executor::InterpreterLoose;
@@ -103,7 +108,7 @@ fn verdict(form: &Form, done: &[HardCase]) -> HalfVerdict {
             2 => ", and more than can be seen on another".to_owned(),
             n => format!(", and more than can be seen on {} others", n - 1),
         };
-        format!("{what}{others}: {}", form.why())
+        format!("{what}{others}: {}", form.why(values))
     });
     HalfVerdict {
         kernel: form.name.clone(),

@@ -9,6 +9,7 @@ use std::process::Command;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::{Invocation, print};
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Math, ReadOrder, Settings, Share, Stage, Unroll};
+use straightline_kernels::OptionText;
 
 /// A form by one way to SPIR-V.
 pub struct Spirv {
@@ -82,7 +83,7 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
 }
 
 fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStudyError> {
-    let settings = |unroll, options: &[(String, String)]| Settings {
+    let settings = |unroll, options: &[OptionText]| Settings {
         unroll,
         options: options.to_vec(),
         ..Settings::default()

@@ -2,6 +2,7 @@
 
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
+use straightline_kernels::OptionText;
 use straightline_kernels::filters::FILTERS;
 
 /// What a kernel is run on.
@@ -20,7 +21,7 @@ pub struct ByHand {
     /// The kernel; it reads what the other reads, by the same names.
     pub kernel: Kernel,
     /// Options that are not its default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
 }
 
 /// A kernel to be studied.
@@ -29,7 +30,7 @@ pub struct Subject {
     /// A name for people.
     pub name: String,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// The kernel.
     pub kernel: Kernel,
     /// The same by hand, or why there is no such thing.
@@ -109,7 +110,7 @@ pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
 
 fn sraa(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
     let owned = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
-    let options: Vec<(String, String)> = options.iter().map(owned).collect();
+    let options: Vec<OptionText> = options.iter().map(owned).collect();
     Ok(Subject {
         name: name.to_owned(),
         options: options.clone(),

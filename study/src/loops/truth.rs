@@ -47,13 +47,13 @@ impl<'a> Truth<'a> {
                 Ok(inputs)
             }
             Input::Roof => {
-                let pattern = full.options.get("pattern").cloned().unwrap_or_default();
-                let known = self.captures.iter().position(|(name, _)| *name == pattern);
+                let pattern = full.options.choice("pattern").unwrap_or_default();
+                let known = self.captures.iter().position(|(name, _)| name == pattern);
                 let at = match known {
                     Some(at) => at,
                     None => {
-                        let capture = self.capture(&pattern)?;
-                        self.captures.push((pattern, capture));
+                        let capture = self.capture(pattern)?;
+                        self.captures.push((pattern.to_owned(), capture));
                         self.captures.len() - 1
                     }
                 };

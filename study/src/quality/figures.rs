@@ -4,9 +4,9 @@ use super::filters::Filters;
 use super::methods::{Method, methods};
 use super::shot::{Shot, supersampled};
 use super::{QualityError, SIDE, check};
+use crate::builtin::builtin;
 use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
-use std::collections::BTreeMap;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::Bench;
@@ -181,7 +181,7 @@ impl Figure {
 
 /// The detail, of which each pixel is 2x2 texels.
 fn interleaved(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, QualityError> {
-    let options = BTreeMap::from([("layout".to_owned(), "superresolution".to_owned())]);
+    let options = builtin("sraa")?.option_values(&[("layout".to_owned(), "superresolution".to_owned())])?;
     let inputs = gbuffer::inputs(capture, &options)?;
     let grid = |name: &str, shown: &dyn Fn(Vec4) -> Vec4| {
         let found = inputs.images.iter().find(|(known, _)| known == name);

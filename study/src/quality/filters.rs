@@ -9,6 +9,7 @@ use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::Instant;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
+use straightline_kernels::OptionText;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
 use straightline_runtime::Pass;
@@ -220,17 +221,17 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
             return Ok(Runner::Resolved(shaders.collect::<Result<_, _>>()?));
         }
     };
-    let shader = Shader::new(bench, &kernel, &method.options)?;
+    let shader = Shader::new(bench, &kernel, method.options())?;
     Ok(match method.shading() {
         _ if method.kind == Kind::Merged => Runner::Merged(Box::new(shader)),
         shading => {
             let mut shaders = Vec::new();
             if shading == ShadingSample::Placed {
-                let placing = method.placed_by().instead_of(&method.options);
+                let placing = method.placed_by().instead_of(method.options());
                 shaders.push(Shader::new(bench, &Kernel::builtin("sraa_place")?, &placing)?);
             }
             if method.has_extra() {
-                let listing = render::listing_options(&method.options);
+                let listing = render::listing_options(method.options());
                 shaders.push(Shader::new(bench, &Kernel::builtin("sraa_extra")?, &listing)?);
             }
             shaders.push(shader);
@@ -274,7 +275,7 @@ fn merged(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
 }
 
 impl Shader {
-    fn new(bench: &Bench, kernel: &Kernel, options: &[(String, String)]) -> Result<Shader, QualityError> {
+    fn new(bench: &Bench, kernel: &Kernel, options: &[OptionText]) -> Result<Shader, QualityError> {
         let settings = Settings {
             options: options.to_vec(),
             ..Settings::default()
@@ -347,7 +348,7 @@ fn one_a_pixel(capture: &Capture, compiled: &Compiled) -> Result<Inputs, Quality
     let near = capture.camera.map_or(NEAR, |camera| camera.near);
     let depth = capture.depth.layers()[layer].texels().iter();
     let depth = depth.map(|z| Vec4::splat(near / z.max(near))).collect();
-    let encoding = match compiled.options.get("normals").map(String::as_str) {
+    let encoding = match compiled.options.choice("normals") {
         Some("unorm") => NormalEncoding::Rgb8,
         Some("octahedral") => NormalEncoding::Octahedral8,
         _ => NormalEncoding::Float,

@@ -1,9 +1,11 @@
 //! The methods that are compared.
 
 use crate::baselines::Transfer;
+use crate::builtin::builtin;
 use crate::record::Family;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
+use straightline_kernels::{OptionText, OptionValues};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::gbuffer;
 use straightline_testbed::render::PlacedBy;
@@ -50,8 +52,10 @@ pub struct Method {
     pub kind: Kind,
     /// The kernel, if it is the user's.
     pub kernel: Option<Kernel>,
-    /// Options of its kernel that are not the default.
-    pub options: Vec<(String, String)>,
+    /// Options of its kernel that are set, for records and for compiling it.
+    options: Vec<OptionText>,
+    /// Values of all of its kernel's options.
+    values: OptionValues,
     /// Whether its pictures are written.
     pub pictured: bool,
     /// Whether it is watched over the pan.
@@ -65,16 +69,47 @@ pub struct Method {
 impl Method {
     pub(super) fn new(name: &str, kind: Kind, options: &[(&str, &str)]) -> Method {
         let own = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
-        Method {
+        let method = Method {
             name: name.to_owned(),
             kind,
             kernel: None,
-            options: options.iter().map(own).collect(),
+            options: Vec::new(),
+            values: OptionValues::default(),
             pictured: false,
             panned: false,
             last: false,
             explained: false,
+        };
+        method.with_options(options.iter().map(own).collect())
+    }
+
+    /// The same with these options set, in their canonical spelling. Those that its kernel refuses are an error where it is compiled.
+    fn with_options(self, mut options: Vec<OptionText>) -> Method {
+        let values = self.parse_options(&options).unwrap_or_default();
+        for (name, text) in &mut options {
+            if let Some(value) = values.get(name) {
+                *text = value.to_string();
+            }
         }
+        Method {
+            options,
+            values,
+            ..self
+        }
+    }
+
+    /// Values of all options of its kernel, of `sraa` where it has none, under these settings.
+    fn parse_options(&self, options: &[OptionText]) -> Result<OptionValues, Errors> {
+        match (&self.kernel, self.kind) {
+            (Some(kernel), _) => kernel.option_values(options),
+            (None, Kind::Edge(name)) => builtin(name)?.option_values(options),
+            (None, _) => builtin("sraa")?.option_values(options),
+        }
+    }
+
+    /// Options of its kernel that are set.
+    pub fn options(&self) -> &[OptionText] {
+        &self.options
     }
 
     /// A method of the user's, `NAME=KERNEL[,OPTION=VALUE...]`: a set of options of `sraa` or of an edge filter, or a kernel of a
@@ -91,7 +126,7 @@ impl Method {
         if stem(name).is_empty() || kernel.is_empty() {
             return Err(usage());
         }
-        let mut options: Vec<(String, String)> = Vec::new();
+        let mut options: Vec<OptionText> = Vec::new();
         for part in parts {
             match (part.split_once('='), options.last_mut()) {
                 (Some((option, value)), _) => options.push((option.to_owned(), value.to_owned())),
@@ -107,9 +142,10 @@ impl Method {
         };
         let method = Method {
             kernel: own,
-            options,
             ..Method::new(name, kind, &[]).main()
         };
+        method.parse_options(&options)?;
+        let method = method.with_options(options);
         match gbuffer::samples(method.pattern()) {
             Some(_) => Ok(method),
             None => Err(OwnError::Pattern(name.to_owned(), method.pattern().to_owned())),
@@ -119,13 +155,13 @@ impl Method {
     /// The same where only the capture's own samples are.
     pub fn on(&self, capture: &Capture) -> Method {
         let given = |name: &str| self.options.iter().any(|(own, _)| own == name);
-        let mut method = self.clone();
-        if self.kind == Kind::Sraa {
-            let sampled = gbuffer::sampled_at(capture).into_iter();
-            method.options = sampled.filter(|(name, _)| !given(name)).collect();
-            method.options.extend(self.options.iter().cloned());
+        if self.kind != Kind::Sraa {
+            return self.clone();
         }
-        method
+        let sampled = gbuffer::sampled_at(capture).into_iter();
+        let sampled = sampled.filter(|(name, _)| !given(name));
+        self.clone()
+            .with_options(sampled.chain(self.options.iter().cloned()).collect())
     }
 
     fn explained(self) -> Method {
@@ -172,59 +208,57 @@ impl Method {
 
     /// The pattern of its geometry samples.
     pub fn pattern(&self) -> &str {
-        let asked = self.options.iter().find(|(name, _)| name == "pattern");
         match self.kind {
             Kind::Supersampled(16) | Kind::Covered => "latin16",
-            _ => asked.map_or("latin4", |(_, pattern)| pattern.as_str()),
+            _ => self.values.choice("pattern").unwrap_or("latin4"),
         }
     }
 
     /// Where its picture is shaded.
     pub fn shading(&self) -> ShadingSample {
-        let is_placed = |(name, value): &(String, String)| name == "shading" && value == "placed";
-        if self.options.iter().any(is_placed) {
+        if self.values.choice("shading") == Some("placed") {
             return ShadingSample::Placed;
         }
-        let asked = self.options.iter().find(|(name, _)| name == "shaded");
-        let listed = asked.map(|(_, list)| list.split(',').filter_map(|k| k.parse().ok()).collect::<Vec<usize>>());
-        match listed.as_deref() {
-            None => ShadingSample::Centre,
-            Some([only]) => ShadingSample::Sample(*only),
-            Some(several) => ShadingSample::Samples(several.to_vec()),
+        match self.shaded() {
+            [] => ShadingSample::Centre,
+            [only] => ShadingSample::Sample(*only as usize),
+            several => ShadingSample::Samples(several.iter().map(|k| *k as usize).collect()),
         }
+    }
+
+    /// Geometry samples at which its picture is shaded; none where it is shaded elsewhere.
+    fn shaded(&self) -> &[f64] {
+        self.values.numbers("shaded").unwrap_or_default()
     }
 
     /// What tells surfaces apart where its picture is placed: planes if the filter goes by them.
     pub fn placed_by(&self) -> PlacedBy {
-        PlacedBy::of(self.options.iter().map(|(name, value)| (name, value)))
+        PlacedBy::of(&self.values)
     }
 
     /// Whether it reads albedo at every geometry sample.
     pub fn reads_albedo(&self) -> bool {
-        let of_albedo = |(name, value): &(String, String)| name == "demodulate" && value != "none";
-        self.options.iter().any(of_albedo)
+        self.values.choice("demodulate").is_some_and(|what| what != "none")
     }
 
     /// Whether some pixels are shaded once more for it.
     pub fn has_extra(&self) -> bool {
-        self.options
-            .iter()
-            .any(|(name, value)| name == "extra" && value == "true")
+        self.values.flag("extra") == Some(true)
     }
 
     /// What names the capture that it reads, of all that a scene is drawn in: its pattern, and where it is shaded unless that is
     /// the pixel's centre.
     pub fn reads(&self) -> String {
-        match (self.options.iter().find(|(name, _)| name == "shaded"), self.shading()) {
-            (Some((_, list)), _) => format!("{} shaded at {list}", self.pattern()),
-            (None, ShadingSample::Placed) => {
+        match (self.values.get("shaded"), self.shading()) {
+            (Some(list), _) if !self.shaded().is_empty() => format!("{} shaded at {list}", self.pattern()),
+            (_, ShadingSample::Placed) => {
                 let by = match self.placed_by() {
                     PlacedBy::Depths => "depths",
                     PlacedBy::Planes => "planes",
                 };
                 format!("{} placed by {by}", self.pattern())
             }
-            (None, _) => self.pattern().to_owned(),
+            _ => self.pattern().to_owned(),
         }
     }
 
@@ -455,9 +489,8 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
             .collect::<Vec<_>>()
     };
     let samples = capture.samples.len();
-    let sraa = |what: &str, options: &[(&str, &str)]| Method {
-        options: with(options),
-        ..Method::new(&format!("SRAA {samples}{what}"), Kind::Sraa, &[])
+    let sraa = |what: &str, options: &[(&str, &str)]| {
+        Method::new(&format!("SRAA {samples}{what}"), Kind::Sraa, &[]).with_options(with(options))
     };
     let normals = capture.normal.is_some();
     let mut all = vec![Method::new("1x", Kind::Plain, &[]).pictured()];
@@ -525,6 +558,14 @@ mod tests {
             assert_eq!(stems.len(), all.len());
         }
         assert_eq!(stem("SRAA 4, no falloff"), "sraa-4-no-falloff");
+    }
+
+    #[test]
+    fn options_are_those_of_the_kernels() {
+        for method in methods(false) {
+            let values = method.parse_options(&method.options);
+            assert_eq!(values.expect(&method.name), method.values);
+        }
     }
 
     #[test]

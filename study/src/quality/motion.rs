@@ -157,13 +157,14 @@ impl Sequence {
 
     fn filtered(&mut self, bench: &Bench, method: &Method, samples: &[Vec2]) -> Result<Vec<Frame<Vec4>>, QualityError> {
         let settings = Settings {
-            options: method.options.clone(),
+            options: method.options().to_vec(),
             ..Settings::default()
         };
         let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
         // The frame alone has all but what history reads.
         let mut alone = compiled.options.clone();
-        let history: usize = alone.remove("history").and_then(|n| n.parse().ok()).unwrap_or(0);
+        let history = alone.number("history").unwrap_or(0.0) as usize;
+        alone.remove("history");
         let (judged, before) = (self.references.len(), if history == 0 { 0 } else { BEFORE });
         let key = format!("{} {before} {}", method.reads(), method.reads_albedo());
         if !self.moments.contains_key(&key) {
@@ -220,7 +221,7 @@ impl Sequence {
         let changes = wrong.windows(2).map(|pair| mean_square(&pair[0], &pair[1]));
         MovedMethod {
             method: method.name.clone(),
-            options: method.options.clone(),
+            options: method.options().to_vec(),
             psnr: mean(pairs().map(|(a, b)| metrics::psnr(a, b).min(MOST_DB)).collect()),
             flip: mean(pairs().map(|(a, b)| metrics::flip(a, b)).collect()),
             flicker: mean(changes.collect()).sqrt(),

@@ -83,12 +83,10 @@ pub fn the_other_order() -> Vec<Method> {
     let all = super::methods(true)
         .into_iter()
         .filter(|method| named.contains(&method.name.as_str()));
-    let late = all.map(|method| Method {
-        name: format!("{}, after post-processing", method.name),
-        panned: false,
-        explained: false,
-        last: true,
-        ..method
+    let late = all.map(|mut method| {
+        method.name += ", after post-processing";
+        (method.panned, method.explained, method.last) = (false, false, true);
+        method
     });
     late.collect()
 }

@@ -18,7 +18,7 @@ pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, clas
     MethodErrors {
         method: method.name.clone(),
         family: method.family(),
-        options: method.options.clone(),
+        options: method.options().to_vec(),
         psnr: psnr(made, reference),
         ssim: metrics::ssim(made, reference),
         flip: metrics::flip(made, reference),

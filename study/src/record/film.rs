@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_kernels::OptionText;
 
 /// How wrong what changes from a frame to the next is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,7 +24,7 @@ pub struct FilmedMethod {
     /// A name for people.
     pub method: String,
     /// Options of its kernel that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// For each frame after the first: the root of the mean squared error of what changed since the last, in colours of 0..=1.
     pub errors: Vec<f64>,
 }

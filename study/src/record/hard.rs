@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_kernels::OptionText;
 
 /// What computed it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -25,7 +26,7 @@ pub struct HardResult {
     /// The kernel with what distinguishes its options: `sraa default`, `sraa paper`, `stalker`.
     pub kernel: String,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// `f16` or `f32`.
     pub precision: String,
     /// What computed it.
@@ -72,7 +73,7 @@ pub struct HalfVerdict {
     /// The kernel, as in [`HardResult::kernel`].
     pub kernel: String,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// The case that it is farthest off in, measured by what can be seen there.
     pub worst: Option<String>,
     /// How far that is; `None` if nothing was finite.

@@ -4,6 +4,7 @@ use super::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use straightline_isa::{Family, Figures};
+use straightline_kernels::OptionText;
 
 /// A form of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -87,7 +88,7 @@ pub struct Asked {
     /// The kernel.
     pub kernel: String,
     /// Options that are not its default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// The form.
     pub form: IsaForm,
     /// How it came to SPIR-V.

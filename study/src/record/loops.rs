@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_kernels::OptionText;
 use straightline_testbed::execute::{Ratio, Times};
 
 /// What became of a kernel's loops.
@@ -112,7 +113,7 @@ pub struct KernelForms {
     /// A name for people: the kernel's, with what distinguishes it.
     pub kernel: String,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// What it was run on.
     pub input: String,
     /// Its forms, `Looped` first. One that a kernel does not have is left out.

@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_kernels::OptionText;
 
 /// What moves from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,7 +62,7 @@ pub struct MovedMethod {
     /// A name for people.
     pub method: String,
     /// Options of its kernel that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// PSNR in dB.
     pub psnr: f64,
     /// Mean FLIP.

@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_kernels::OptionText;
 use straightline_testbed::execute::Times;
 
 pub use straightline_testbed::metrics::MOST_DB;
@@ -33,7 +34,7 @@ pub struct MethodErrors {
     /// Its kind.
     pub family: Family,
     /// Options of its kernel that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// All pixels.
     pub psnr: f64,
     /// Structural similarity, 1 for equal pictures.

@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_kernels::OptionText;
 use straightline_testbed::execute::{Ratio, Times};
 
 /// A variant that was tried.
@@ -10,7 +11,7 @@ pub struct Candidate {
     /// The variant in words, each of its values: `16 samples, planes-normals, ...`.
     pub name: String,
     /// Options that are not the default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// `f16` or `f32`.
     pub precision: String,
     /// Which algebra was done: `exact` or `fast`.
@@ -124,7 +125,7 @@ pub struct TuneRecord {
     /// Error of the picture before the filter, by the metric.
     pub unfiltered: f64,
     /// Options that are the same for all variants.
-    pub fixed: Vec<(String, String)>,
+    pub fixed: Vec<OptionText>,
     /// Every variant.
     pub candidates: Vec<Candidate>,
     /// Index of the chosen one; `None` if none is within the budget.
@@ -178,7 +179,7 @@ impl Candidate {
 
     /// Whether it is placed, searches, or borrows light apart.
     pub fn goes_beyond(&self) -> bool {
-        let is_beyond = |(name, value): &(String, String)| match name.as_str() {
+        let is_beyond = |(name, value): &OptionText| match name.as_str() {
             "shading" => value == "placed",
             "search" | "demodulate" => value != "none",
             _ => false,

@@ -15,6 +15,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use straightline_codegen::files;
+use straightline_kernels::OptionText;
 use tera::{Context, Tera};
 
 /// Name of the page.
@@ -173,7 +174,7 @@ fn caption(circumstances: &Circumstances) -> String {
 }
 
 /// Options as one would write them on a command line.
-fn options(options: &[(String, String)]) -> String {
+fn options(options: &[OptionText]) -> String {
     let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
     words.join(" ")
 }

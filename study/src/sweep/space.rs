@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use straightline_codegen::emit::EmitOptions;
-use straightline_codegen::{Settings, Stage, Unroll};
+use straightline_codegen::{Kernel, Settings, Stage, Unroll};
+use straightline_kernels::OptionText;
 
 /// What becomes of a loop that stays one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,7 +42,7 @@ pub const RESERVED: [&str; 5] = ["unroll", "loops", "stage", "workgroup", "block
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// Options that are not left at their default.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<OptionText>,
     /// What becomes of loops.
     pub unroll: Unroll,
     /// What becomes of those that stay.
@@ -103,12 +104,23 @@ impl Space {
             .collect()
     }
 
+    /// The same with the values of options as `kernel` spells them, so that a value has one name in records. A value that the kernel
+    /// refuses stays as it is, and its variants are refused.
+    pub fn spelled_by(mut self, kernel: &Kernel) -> Space {
+        for (name, values) in &mut self.options {
+            values
+                .iter_mut()
+                .for_each(|value| *value = spelled(kernel, name, value));
+        }
+        self
+    }
+
     /// Every combination, the last axis fastest. A fragment has neither workgroup nor block: in that stage their first values
     /// stand for all.
     pub fn variants(&self) -> Vec<Variant> {
-        let mut options: Vec<Vec<(String, String)>> = vec![Vec::new()];
+        let mut options: Vec<Vec<OptionText>> = vec![Vec::new()];
         for (name, values) in &self.options {
-            let with = |known: &Vec<(String, String)>| {
+            let with = |known: &Vec<OptionText>| {
                 let known = known.clone();
                 let each = values.iter().map(|value| (name.clone(), value.clone()));
                 each.map(move |option| [known.as_slice(), &[option]].concat())
@@ -169,6 +181,13 @@ impl Variant {
 
 fn by(size: &[u32; 2]) -> String {
     format!("{}x{}", size[0], size[1])
+}
+
+/// A value of an option as `kernel` spells it; as it is if the kernel refuses it.
+pub fn spelled(kernel: &Kernel, name: &str, value: &str) -> String {
+    let values = kernel.option_values(&[(name.to_owned(), value.to_owned())]).ok();
+    let value_of = values.as_ref().and_then(|values| values.get(name));
+    value_of.map_or_else(|| value.to_owned(), ToString::to_string)
 }
 
 /// The values that a text names: numbers from one to another as Rust has them, `1..9` or `1..=8`; or values separated by

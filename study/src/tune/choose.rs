@@ -3,6 +3,7 @@
 use super::front::front;
 use super::search::{Entry, Search};
 use super::{Chosen, Term, TuneError, Variant};
+use crate::builtin::spell_settings;
 use crate::progress::Progress;
 use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord};
 use std::collections::BTreeMap;
@@ -240,7 +241,7 @@ impl Search {
             best: self.best(),
             reference: self.referred_to.clone(),
             unfiltered: self.unfiltered(),
-            fixed: self.space.fixed.clone(),
+            fixed: spell_settings(&self.space.fixed),
             candidates: seen.iter().map(candidate).collect(),
             chosen: chosen.and_then(|k| place.get(&k).copied()),
             general: place.get(&0).copied().unwrap_or(0),
@@ -255,12 +256,12 @@ impl Search {
 
     fn candidate(&self, entry: &Entry) -> Candidate {
         let settings = self.space.settings(entry.variant);
-        let mut options = settings.options;
+        let mut options = self.space.options(entry.variant);
         options.retain(|(name, value)| self.defaults.get(name) != Some(value));
         let (error, non_finite) = entry.error.unwrap_or_default();
         Candidate {
             name: self.space.name(entry.variant),
-            options,
+            options: spell_settings(&options),
             precision: self.space.precision(entry.variant).to_string(),
             math: settings.math.to_string(),
             block: settings.block,

@@ -23,6 +23,7 @@ use std::str::FromStr;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Precision};
 use straightline_isa::IsaError;
+use straightline_kernels::OptionText;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Tuned;
 use straightline_testbed::execute::{Bench, ExecuteError};
@@ -116,7 +117,7 @@ pub struct Question {
     /// Why half precision is not to be searched; `None` if it is.
     pub no_half: Option<String>,
     /// Options that all variants have.
-    pub fixed: Vec<(String, String)>,
+    pub fixed: Vec<OptionText>,
 }
 
 /// What was found.

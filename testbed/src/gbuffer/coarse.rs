@@ -1,11 +1,11 @@
 //! Whether depth is held in steps that a metric takes for edges.
 
-use super::{depth_encoding, option, planes};
+use super::{choice, depth_encoding, planes};
 use crate::capture::Capture;
 use crate::encode::{DepthEncoding, DepthStorage};
 use crate::scene::SKY_DEPTH;
 use glam::{UVec2, Vec2};
-use std::collections::BTreeMap;
+use straightline_kernels::OptionValues;
 
 /// Depth in steps that count as differences of surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,14 +31,14 @@ const MANY: f64 = 0.35;
 
 /// Whether depths, as a shader with these options reads them, lie in steps that its metric takes for more than its smallest threshold in
 /// many samples; `None` if not, and of a metric that reads none.
-pub fn coarse(capture: &Capture, options: &BTreeMap<String, String>) -> Option<Coarse> {
-    if option(options, "metric", "depth-normals") == "normals" {
+pub fn coarse(capture: &Capture, options: &OptionValues) -> Option<Coarse> {
+    if choice(options, "metric", "depth-normals") == "normals" {
         return None;
     }
     let encoding = depth_encoding(options, planes(capture, options).ok()?);
-    let number = |name: &str, default: f64| option(options, name, "").parse().unwrap_or(default);
+    let number = |name: &str, default: f64| options.number(name).unwrap_or(default);
     let scale = number("depth-scale", 1.0);
-    let relative = option(options, "difference", "absolute") == "relative";
+    let relative = choice(options, "difference", "absolute") == "relative";
     let (name, threshold) = smallest_threshold(options, number);
     let layers = read(capture, encoding);
     if !in_steps(&layers) {
@@ -110,12 +110,12 @@ fn off_planes(capture: &Capture, layers: &[Vec<f64>]) -> Vec<(f64, f64)> {
 }
 
 /// The least difference that changes what a filter does, and the option that says so.
-fn smallest_threshold(options: &BTreeMap<String, String>, number: impl Fn(&str, f64) -> f64) -> (&'static str, f64) {
+fn smallest_threshold(options: &OptionValues, number: impl Fn(&str, f64) -> f64) -> (&'static str, f64) {
     let mut all = vec![("tau", 1.0 / number("tau", 500.0).max(1.0e-30))];
-    if option(options, "mask", "none") != "none" {
+    if choice(options, "mask", "none") != "none" {
         all.push(("mask-threshold", number("mask-threshold", 0.002)));
     }
-    if option(options, "search", "none") != "none" {
+    if choice(options, "search", "none") != "none" {
         all.push(("search-threshold", number("search-threshold", 0.05)));
     }
     let smallest = all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));

@@ -9,7 +9,7 @@ use crate::capture::Capture;
 use crate::encode::{self, DepthEncoding, DepthStorage, NormalEncoding};
 use crate::execute::Inputs;
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4};
-use std::collections::BTreeMap;
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use coarse::{Coarse, coarse};
@@ -65,9 +65,9 @@ pub enum GBufferError {
     },
 }
 
-/// The option of a compiled kernel, or its default.
-fn option<'a>(options: &'a BTreeMap<String, String>, name: &str, default: &'a str) -> &'a str {
-    options.get(name).map_or(default, String::as_str)
+/// Choice of a compiled kernel's option, or its default.
+fn choice<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
+    options.choice(name).unwrap_or(default)
 }
 
 /// Everything that SRAA with these options may read, by the names of its bindings.
@@ -79,23 +79,22 @@ fn option<'a>(options: &'a BTreeMap<String, String>, name: &str, default: &'a st
 ///
 /// [`GBufferError`] if the capture lacks normals, a camera or samples that the options need, and for `history`, as no capture has
 /// earlier frames: [`sequence`](crate::sequence) has.
-pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
-    let history = option(options, "history", "0");
-    if history != "0" {
+pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
+    if let Some(history) = options.get("history").filter(|frames| frames.number() != Some(0.0)) {
         return Err(GBufferError::Missing {
             what: "earlier frames",
             option: format!("history={history}"),
             help: "use history=0; `straightline study motion` has frames that follow on each other",
         });
     }
-    if option(options, "extra", "false") == "true" {
+    if options.flag("extra") == Some(true) {
         return Err(GBufferError::Missing {
             what: "further shading samples",
             option: "extra=true".to_owned(),
             help: "use extra=false; `straightline study error` has renderers that shade some",
         });
     }
-    let projection = option(options, "projection", "perspective");
+    let projection = choice(options, "projection", "perspective");
     let found = pattern::projection_of(capture);
     if capture.camera.is_some() && projection != found {
         return Err(GBufferError::Projection {
@@ -103,10 +102,10 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             asked: projection.to_owned(),
         });
     }
-    let metric = option(options, "metric", "depth-normals");
-    let layout = option(options, "layout", "layers");
-    let needed = match option(options, "pattern", "latin4") {
-        "listed" => option(options, "offsets", "").split(',').count() / 2,
+    let metric = choice(options, "metric", "depth-normals");
+    let layout = choice(options, "layout", "layers");
+    let needed = match choice(options, "pattern", "latin4") {
+        "listed" => options.numbers("offsets").map_or(0, |axes| axes.len() / 2),
         name => samples(name).map_or(0, |samples| samples.len()),
     };
     if needed != capture.samples.len() {
@@ -129,7 +128,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
         }
     };
     let mut images = Vec::new();
-    match (option(options, "normals", "float"), normals) {
+    match (choice(options, "normals", "float"), normals) {
         ("packed", Some(normals)) => {
             images.push(("packed", encode::packed(normals, &capture.depth, depth_encoding)));
         }
@@ -144,7 +143,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             }
         }
     }
-    let demodulate = option(options, "demodulate", "none");
+    let demodulate = choice(options, "demodulate", "none");
     if demodulate != "none" {
         images.push(("albedo", needed_of(&capture.albedo, "albedo (albedo.exr)", demodulate)?));
     }
@@ -155,7 +154,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             needed_of(&capture.direct, "direct light (direct.exr)", demodulate)?,
         );
     }
-    if demodulate != "none" && option(options, "rest", "false") == "true" {
+    if demodulate != "none" && options.flag("rest") == Some(true) {
         let rest = needed_of(&capture.rest, "what does not follow the albedo (rest.exr)", demodulate)?;
         inputs = inputs.image("rest", rest);
     }
@@ -233,8 +232,8 @@ fn with_rays(inputs: Inputs, name: &str, [first, right, down]: [Vec3; 3]) -> Inp
 }
 
 /// Near and far plane that depth is encoded with.
-fn planes(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Vec2, GBufferError> {
-    let camera = match (&capture.camera, option(options, "depth", "linear")) {
+fn planes(capture: &Capture, options: &OptionValues) -> Result<Vec2, GBufferError> {
+    let camera = match (&capture.camera, choice(options, "depth", "linear")) {
         (Some(camera), _) => camera,
         (None, "linear") => return Ok(Vec2::ONE),
         (None, encoding) => {
@@ -253,10 +252,10 @@ fn planes(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Vec2,
     Ok(Vec2::new(camera.near, 1.01 * farthest))
 }
 
-fn depth_encoding(options: &BTreeMap<String, String>, planes: Vec2) -> DepthEncoding {
+fn depth_encoding(options: &OptionValues, planes: Vec2) -> DepthEncoding {
     let (near, far) = (f64::from(planes.x), f64::from(planes.y));
-    let is_parallel = option(options, "projection", "perspective") == "parallel";
-    match option(options, "depth", "linear") {
+    let is_parallel = choice(options, "projection", "perspective") == "parallel";
+    match choice(options, "depth", "linear") {
         "perspective" if is_parallel => DepthEncoding::Parallel { near, far },
         "reversed" if is_parallel => DepthEncoding::ParallelReversed { near, far },
         "perspective" => DepthEncoding::Perspective { near, far },

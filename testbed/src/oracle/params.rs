@@ -1,6 +1,7 @@
 //! What an SRAA filter is made of, by the names that the kernel's options have.
 
 use std::fmt::Display;
+use straightline_kernels::{OptionValue, OptionValues};
 
 /// An enumeration whose values have names.
 macro_rules! choices {
@@ -398,12 +399,12 @@ pub enum OracleError {
 }
 
 impl SraaParams {
-    /// The filter of a manifest's `options`.
+    /// The filter of a compiled kernel's options.
     ///
     /// # Errors
     ///
     /// [`OracleError`] for an option or a value that there is not.
-    pub fn of<'a>(options: impl IntoIterator<Item = (&'a String, &'a String)>) -> Result<Self, OracleError> {
+    pub fn of(options: &OptionValues) -> Result<Self, OracleError> {
         let mut params = SraaParams::default();
         for (option, value) in options {
             params.set(option, value)?;
@@ -411,12 +412,12 @@ impl SraaParams {
         Ok(params)
     }
 
-    /// Sets an option by name, both spelled as on the command line or in a manifest's `options`.
+    /// Sets an option by name.
     ///
     /// # Errors
     ///
     /// [`OracleError`] for an option or a value that there is not.
-    pub fn set(&mut self, option: &str, value: &str) -> Result<(), OracleError> {
+    pub fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), OracleError> {
         match option {
             "pattern" => self.pattern = choice(option, value, Pattern::ALL, Pattern::name)?,
             "offsets" => self.offsets = numbers(option, value)?,
@@ -438,23 +439,23 @@ impl SraaParams {
             "plane" => self.plane = choice(option, value, Plane::ALL, Plane::name)?,
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
             "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
-            "extra" => self.extra = value == "true",
+            "extra" => self.extra = flag(option, value)?,
             "search" => self.search = choice(option, value, Search::ALL, Search::name)?,
             "search-threshold" => self.search_threshold = number(option, value)?,
             "unseen" => self.unseen = number(option, value)?,
             "demodulate" => self.demodulate = choice(option, value, Demodulate::ALL, Demodulate::name)?,
             "albedo-floor" => self.albedo_floor = number(option, value)?,
             "unseen-floor" => self.unseen_floor = number(option, value)?,
-            "rest" => self.rest = value == "true",
+            "rest" => self.rest = flag(option, value)?,
             "history" => self.history = number(option, value)? as usize,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "variation" => self.variation = choice(option, value, Variation::ALL, Variation::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
             "turn" => self.turn = choice(option, value, Turn::ALL, Turn::name)?,
-            "renormalise" => self.renormalise = value == "true",
+            "renormalise" => self.renormalise = flag(option, value)?,
             // How what is no number is found changes nothing of what comes of it, but that some of it may escape.
-            "guards" => self.escapes = value != "inline",
+            "guards" => self.escapes = value.choice() != Some("inline"),
             "tau" => self.tau = number(option, value)?,
             "depth-scale" => self.depth_scale = number(option, value)?,
             _ => {
@@ -511,37 +512,39 @@ impl SraaParams {
     }
 }
 
-fn choice<T: Copy>(option: &str, value: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, OracleError> {
+fn choice<T: Copy>(
+    option: &str,
+    value: &OptionValue,
+    all: &[T],
+    name: fn(T) -> &'static str,
+) -> Result<T, OracleError> {
     all.iter()
         .copied()
-        .find(|candidate| name(*candidate) == value)
+        .find(|candidate| value.choice() == Some(name(*candidate)))
         .ok_or_else(|| {
             let names: Vec<_> = all.iter().map(|candidate| name(*candidate)).collect();
             bad_value(option, value, names.join(", "))
         })
 }
 
-fn number(option: &str, value: &str) -> Result<f64, OracleError> {
-    match value.parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
-        _ => Err(bad_value(option, value, "a number of at least 0")),
-    }
+fn flag(option: &str, value: &OptionValue) -> Result<bool, OracleError> {
+    value.flag().ok_or_else(|| bad_value(option, value, "true or false"))
 }
 
-fn numbers(option: &str, value: &str) -> Result<Vec<f64>, OracleError> {
-    if value.is_empty() {
-        return Ok(Vec::new());
-    }
-    let parts = value.split(',').map(|part| part.trim().parse::<f64>().ok());
-    parts
-        .map(|part| part.ok_or_else(|| bad_value(option, value, "numbers, separated by commas")))
-        .collect()
+fn number(option: &str, value: &OptionValue) -> Result<f64, OracleError> {
+    let number = value.number().filter(|number| number.is_finite() && *number >= 0.0);
+    number.ok_or_else(|| bad_value(option, value, "a number of at least 0"))
 }
 
-fn bad_value(option: &str, value: &str, expected: impl Display) -> OracleError {
+fn numbers(option: &str, value: &OptionValue) -> Result<Vec<f64>, OracleError> {
+    let numbers = value.numbers().map(<[f64]>::to_vec);
+    numbers.ok_or_else(|| bad_value(option, value, "numbers"))
+}
+
+fn bad_value(option: &str, value: &OptionValue, expected: impl Display) -> OracleError {
     OracleError::BadValue {
         option: option.to_owned(),
-        value: value.to_owned(),
+        value: value.to_string(),
         expected: expected.to_string(),
     }
 }
@@ -550,20 +553,24 @@ fn bad_value(option: &str, value: &str, expected: impl Display) -> OracleError {
 mod tests {
     use super::*;
 
+    fn named(choice: &str) -> OptionValue {
+        OptionValue::Choice(choice.to_owned())
+    }
+
     #[test]
     fn options_are_set_by_name() {
         let mut params = SraaParams::default();
         for (option, value) in [
-            ("pattern", "listed"),
-            ("offsets", "0.25, -0.25"),
-            ("shading", "sample0"),
-            ("metric", "depth"),
-            ("falloff", "none"),
-            ("normalisation", "paper"),
-            ("tau", "12.5"),
-            ("depth-scale", "0"),
+            ("pattern", named("listed")),
+            ("offsets", OptionValue::Numbers(vec![0.25, -0.25])),
+            ("shading", named("sample0")),
+            ("metric", named("depth")),
+            ("falloff", named("none")),
+            ("normalisation", named("paper")),
+            ("tau", OptionValue::Number(12.5)),
+            ("depth-scale", OptionValue::Number(0.0)),
         ] {
-            params.set(option, value).unwrap();
+            params.set(option, &value).unwrap();
         }
         let expected = SraaParams {
             pattern: Pattern::Listed,
@@ -584,16 +591,18 @@ mod tests {
         let mut params = SraaParams::default();
         assert!(
             params
-                .set("patern", "latin4")
+                .set("patern", &named("latin4"))
                 .unwrap_err()
                 .to_string()
                 .contains("patern")
         );
-        let error = params.set("falloff", "gauss").unwrap_err();
+        let error = params.set("falloff", &named("gauss")).unwrap_err();
         assert_eq!(error.to_string(), "falloff=gauss: expected none, tent, gaussian");
-        for bad in ["-1", "NaN", "inf", "many"] {
-            assert!(params.set("tau", bad).is_err(), "{bad}");
+        let numbers = [-1.0, f64::NAN, f64::INFINITY].map(OptionValue::Number);
+        for bad in numbers.into_iter().chain([named("many"), OptionValue::Uniform]) {
+            assert!(params.set("tau", &bad).is_err(), "{bad}");
         }
+        assert!(params.set("extra", &named("yes")).is_err());
         assert_eq!(params, SraaParams::default());
     }
 }

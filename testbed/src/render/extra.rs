@@ -6,7 +6,7 @@ use crate::capture::{Capture, ShadingSample};
 use crate::execute::Inputs;
 use crate::gbuffer::{self, GBufferError};
 use glam::{UVec2, Vec2, Vec4, ivec2};
-use std::collections::BTreeMap;
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
 use straightline_kernels::sraa::{Shading, Sraa, sraa_extra};
 
@@ -37,7 +37,7 @@ impl Extra {
     /// # Errors
     ///
     /// As [`gbuffer::inputs`].
-    pub fn inputs(&self, capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
+    pub fn inputs(&self, capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
         let mut alone = options.clone();
         alone.remove("extra");
         let counts = COUNTS.map(|count| [f64::from(count), 0.0, 0.0, 1.0]);

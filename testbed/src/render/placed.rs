@@ -5,6 +5,7 @@ use crate::capture::{Capture, MAX_SAMPLES};
 use crate::gbuffer;
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_kernels::sraa::{Difference, GBuffer, Metric, Pattern, Sraa, View, sraa_place};
 
@@ -31,12 +32,10 @@ pub enum PlacedBy {
 
 impl PlacedBy {
     /// What goes with the options of a filter.
-    pub fn of<'a>(options: impl IntoIterator<Item = (&'a String, &'a String)>) -> PlacedBy {
-        let by_planes = |(name, value): (&String, &String)| name == "metric" && value == "planes-normals";
-        if options.into_iter().any(by_planes) {
-            PlacedBy::Planes
-        } else {
-            PlacedBy::Depths
+    pub fn of(options: &OptionValues) -> PlacedBy {
+        match options.choice("metric") {
+            Some("planes-normals") => PlacedBy::Planes,
+            _ => PlacedBy::Depths,
         }
     }
 

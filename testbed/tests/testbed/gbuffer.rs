@@ -4,8 +4,8 @@ use crate::common;
 
 use common::Scratch;
 use glam::{Mat3, Quat, Vec2, Vec3, uvec2};
-use std::collections::BTreeMap;
 use straightline_codegen::{Kernel, Settings};
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample};
 use straightline_testbed::encode::{DepthEncoding, DepthStorage};
@@ -25,11 +25,12 @@ fn captured(shading: ShadingSample) -> Capture {
     render::capture(&renderer(), &samples, shading).expect("a capture")
 }
 
-fn options(words: &[(&str, &str)]) -> BTreeMap<String, String> {
-    words
+fn options(words: &[(&str, &str)]) -> OptionValues {
+    let words = words
         .iter()
-        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
-        .collect()
+        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    let kernel = Kernel::builtin("sraa").expect("it is built in");
+    kernel.option_values(&words.collect::<Vec<_>>()).expect("options")
 }
 
 fn by_planes(capture: &Capture) -> Result<Vec<[f64; 4]>, GBufferError> {

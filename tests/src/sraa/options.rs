@@ -1,8 +1,9 @@
 //! Sets of options: all values of each, and those that a device cannot run.
 
 use super::Random;
+use std::sync::LazyLock;
 use straightline_codegen::Kernel;
-use straightline_codegen::OptionKind;
+use straightline_codegen::{OptionKind, OptionValues};
 
 /// Names and values, as on the command line.
 pub type Options = Vec<(String, String)>;
@@ -24,6 +25,14 @@ pub fn options(words: &[(&str, &str)]) -> Options {
         .iter()
         .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
         .collect()
+}
+
+/// Values of all options of the kernel `sraa` under a set.
+pub fn values(set: &Options) -> OptionValues {
+    static SRAA: LazyLock<Kernel> =
+        LazyLock::new(|| Kernel::builtin("sraa").unwrap_or_else(|errors| panic!("{errors}")));
+    let values = SRAA.option_values(set);
+    values.unwrap_or_else(|errors| panic!("{set:?}:\n{errors}"))
 }
 
 /// The value of an option, or its default.

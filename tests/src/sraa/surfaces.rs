@@ -1,6 +1,6 @@
 //! Slanted surfaces with steps between them, slopes, creases and a sky, as a G-buffer sees them.
 
-use super::options::{Options, value};
+use super::options::{Options, value, values};
 use super::{Random, compiled};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2, vec3, vec4};
 use straightline_codegen::Unroll;
@@ -13,7 +13,7 @@ use straightline_testbed::scene::{Camera, SKY_DEPTH};
 
 /// Surfaces sampled where the options of a set say, with random colours.
 pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
-    let params = SraaParams::of(options.iter().map(|(name, value)| (name, value)));
+    let params = SraaParams::of(&values(options));
     let params = params.unwrap_or_else(|error| panic!("{error}"));
     let samples: Vec<Vec2> = params
         .samples()

@@ -14,7 +14,7 @@ use straightline_testbed::oracle::{self, Resolved, SraaParams};
 use straightline_testbed::render::{self, CpuRenderer, Renderer};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
-use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed};
+use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, values};
 use straightline_tests::sraa::{Random, compiled, native, surfaces};
 
 const SIZE: UVec2 = uvec2(21, 17);
@@ -66,7 +66,7 @@ fn made(set: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
-    let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+    let params = SraaParams::of(&values(set)).expect("options");
     oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 
@@ -270,7 +270,7 @@ fn what_cannot_be_taken_apart_is_refused_with_the_reason() {
     let renderer = CpuRenderer::new(&scene, uvec2(16, 9)).expect("a renderer");
     let samples = gbuffer::samples("latin4").expect("a pattern");
     let mut capture = render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture");
-    let set = options(&[("demodulate", "albedo-shadow")]).into_iter().collect();
+    let set = values(&options(&[("demodulate", "albedo-shadow")]));
     let refused = gbuffer::inputs(&capture, &set).expect_err("no albedo").to_string();
     assert!(
         refused.contains("albedo.exr") && refused.contains("capture --albedo"),
@@ -280,9 +280,7 @@ fn what_cannot_be_taken_apart_is_refused_with_the_reason() {
     capture.direct = None;
     let refused = gbuffer::inputs(&capture, &set).expect_err("no light").to_string();
     assert!(refused.contains("direct.exr"), "{refused}");
-    let set = options(&[("demodulate", "albedo"), ("rest", "true")])
-        .into_iter()
-        .collect();
+    let set = values(&options(&[("demodulate", "albedo"), ("rest", "true")]));
     capture.rest = None;
     let refused = gbuffer::inputs(&capture, &set).expect_err("no rest").to_string();
     assert!(refused.contains("rest.exr"), "{refused}");

@@ -16,7 +16,7 @@ use straightline_testbed::oracle::{self, Placed, Resolved, SraaParams};
 use straightline_testbed::render::{self, CpuRenderer, Extra, GpuRenderer, Listed, PlacedBy};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
-use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, value};
+use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, value, values};
 use straightline_tests::sraa::{self, Random, native, surfaces};
 
 const SIZE: UVec2 = uvec2(37, 29);
@@ -26,7 +26,7 @@ fn compiled(kernel: &str, options: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn params(set: &Options) -> SraaParams {
-    SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options")
+    SraaParams::of(&values(set)).expect("options")
 }
 
 /// With a list of `room` entries that is empty.

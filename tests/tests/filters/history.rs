@@ -16,7 +16,7 @@ use straightline_testbed::execute::{Bench, Inputs, interpret};
 use straightline_testbed::oracle::{self, Resolved, SraaParams};
 use straightline_testbed::render::{CpuRenderer, Renderer};
 use straightline_testbed::scene::Scene;
-use straightline_tests::sraa::options::{Options, options, samples_needed};
+use straightline_tests::sraa::options::{Options, options, samples_needed, values};
 use straightline_tests::sraa::{Random, compiled, native, surfaces};
 
 const SIZE: UVec2 = uvec2(21, 17);
@@ -81,7 +81,7 @@ fn made(set: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
-    let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+    let params = SraaParams::of(&values(set)).expect("options");
     oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 

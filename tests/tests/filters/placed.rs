@@ -12,7 +12,7 @@ use straightline_testbed::oracle::{self, Placed, SraaParams};
 use straightline_testbed::render::{self, CpuRenderer, PlacedBy, Renderer};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
-use straightline_tests::sraa::options::{Options, one_at_a_time, options, refusal, samples_needed, value};
+use straightline_tests::sraa::options::{Options, one_at_a_time, options, refusal, samples_needed, value, values};
 use straightline_tests::sraa::{self, surfaces};
 
 const SIZE: UVec2 = uvec2(61, 47);
@@ -73,7 +73,7 @@ fn agree(found: &[u32], expected: &[Placed], what: &str) -> usize {
 
 /// In every form what the definition says; gives how many pixels are shaded at a sample.
 fn places_agree(bench: &Bench, set: &Options, inputs: &Inputs) -> usize {
-    let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+    let params = SraaParams::of(&values(set)).expect("options");
     let expected = oracle::place(inputs, &params).unwrap_or_else(|e| panic!("{set:?}: {e}"));
     for unroll in [Unroll::Full, Unroll::None] {
         let compiled = compiled("sraa_place", set, unroll);
@@ -120,7 +120,7 @@ fn captured(placed: Option<PlacedBy>) -> (Capture, Inputs, CpuRenderer) {
     };
     let capture = capture.expect("a capture");
     let planes = PlacedBy::Planes.instead_of(&gbuffer::sampled_at(&capture));
-    let inputs = gbuffer::inputs(&capture, &planes.into_iter().collect()).expect("inputs");
+    let inputs = gbuffer::inputs(&capture, &values(&planes)).expect("inputs");
     (capture, inputs, renderer)
 }
 

@@ -8,7 +8,7 @@ use straightline_codegen::{EmitOptions, Kernel, ReadOrder, Settings, Stage, Unro
 use straightline_kernels::prelude::*;
 use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_testbed::oracle::{self, SraaParams};
-use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal, samples_needed};
+use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal, samples_needed, values};
 use straightline_tests::sraa::{Difference, Options, compiled, difference, scenes, surfaces};
 
 /// Most that a result may be off, for colours in 0..1 and before output rounding.
@@ -179,7 +179,7 @@ fn a_pixel_without_variation_within_keeps_its_colour() {
         for mask in ["select", "branch"] {
             let set = options(&[&[("mask", mask), ("variation", "within")], more].concat());
             let inputs = surfaces::inputs(&set, size, 5);
-            let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+            let params = SraaParams::of(&values(&set)).expect("options");
             let expected = oracle::sraa(&inputs, &params).expect("a definition");
             let color = image(&inputs, "color");
             let own = |k: usize| color.texels()[k].to_array();

@@ -106,8 +106,8 @@ fn filmed(methods: Vec<Method>, film: &Film) -> Vec<FilmedMethod> {
     let filmed = methods.into_iter().zip(&film.errors);
     filmed
         .map(|(method, errors)| FilmedMethod {
+            options: method.options().to_vec(),
             method: method.name,
-            options: method.options,
             errors: errors.clone(),
         })
         .collect()

@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use crate::scene;
 use glam::UVec2;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{EmitOptions, Kernel, Settings, files};
+use straightline_codegen::{EmitOptions, Kernel, OptionValue, OptionValues, Settings, files};
 use straightline_isa::Compiler;
 use straightline_study::progress::Progress;
 use straightline_study::record::Record;
@@ -23,13 +23,13 @@ const SIZE: UVec2 = UVec2::new(640, 360);
 
 /// Searches, writes the record and the shader, prints what was found.
 pub fn run(args: &TuneArgs) -> Result<(), Failure> {
-    check_options(args)?;
+    let asked = asked_options(args)?;
     files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::require(&args.adapter)?;
     // A compiler that is not there is told of before anything is drawn.
     let gauge = gauge(args.cost)?;
     let mut progress = ProgressBars::new();
-    let Some(subject) = subject(args, &gpu, &mut progress)? else {
+    let Some(subject) = subject(args, &asked, &gpu, &mut progress)? else {
         return Err(nothing_measured());
     };
     let no_half = match (gpu.has_half(), args.target.contains(&Target::Glsl450)) {
@@ -84,7 +84,12 @@ fn gauge(cost: Cost) -> Result<Gauge, Failure> {
 }
 
 /// What is to be tuned for; `None` if it was stopped before all was drawn.
-fn subject(args: &TuneArgs, gpu: &Gpu, progress: &mut dyn Progress) -> Result<Option<Subject>, Failure> {
+fn subject(
+    args: &TuneArgs,
+    asked: &OptionValues,
+    gpu: &Gpu,
+    progress: &mut dyn Progress,
+) -> Result<Option<Subject>, Failure> {
     if let Some(folder) = &args.subject.capture {
         let capture = Capture::read(folder).map_err(Failure::of)?;
         return Ok(Some(Subject::of_capture(&folder.display().to_string(), capture)));
@@ -96,16 +101,12 @@ fn subject(args: &TuneArgs, gpu: &Gpu, progress: &mut dyn Progress) -> Result<Op
         None => name.to_owned(),
     };
     let renderer = scene::renderer(Some(gpu), &world, args.size.unwrap_or(SIZE))?;
-    let asked = |option: &str| {
-        let found = args.set.iter().rev().find(|(name, _)| name == option);
-        found.map(|(_, value)| value.as_str())
-    };
     // What is not searched need not be drawn.
     let beyond = Beyond {
-        placing: asked("shading").is_none_or(|place| place == "placed"),
-        light: asked("demodulate").is_none_or(|what| what != "none"),
+        placing: asked.choice("shading").is_none_or(|place| place == "placed"),
+        light: asked.choice("demodulate").is_none_or(|what| what != "none"),
     };
-    let patterns: Vec<&str> = match asked("pattern") {
+    let patterns: Vec<&str> = match asked.choice("pattern") {
         Some(pattern) if gbuffer::PATTERNS.contains(&pattern) => vec![pattern],
         Some(other) => {
             return Err(Failure::Usage(format!(
@@ -118,19 +119,21 @@ fn subject(args: &TuneArgs, gpu: &Gpu, progress: &mut dyn Progress) -> Result<Op
     Subject::of_scene(&name, renderer.as_ref(), &patterns, beyond, progress).map_err(failure)
 }
 
-/// Refuses options that the kernel does not have before anything is drawn, and those left to a host.
-fn check_options(args: &TuneArgs) -> Result<(), Failure> {
-    if let Some((name, _)) = args.set.iter().find(|(_, value)| value == "uniform") {
-        return Err(Failure::Usage(format!(
-            "`{name}=uniform` leaves the value to a host; here give a number"
-        )));
-    }
+/// Values of the options that are set. Refuses those that the kernel does not have before anything is drawn, and those left to a
+/// host.
+fn asked_options(args: &TuneArgs) -> Result<OptionValues, Failure> {
     let settings = Settings {
         options: args.set.clone(),
         ..Settings::default()
     };
-    Kernel::builtin("sraa")?.compile(&settings)?;
-    Ok(())
+    let mut asked = Kernel::builtin("sraa")?.compile(&settings)?.options;
+    asked.retain(|name, _| args.set.iter().any(|(set, _)| set == name));
+    if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {
+        return Err(Failure::Usage(format!(
+            "`{name}=uniform` leaves the value to a host; here give a number"
+        )));
+    }
+    Ok(asked)
 }
 
 fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {

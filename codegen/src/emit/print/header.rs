@@ -23,8 +23,8 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     let changed = compiled
         .changed
         .iter()
-        .filter_map(|name| compiled.options.get_key_value(name));
-    lines.extend(changed.map(|(name, value)| format!("{name} = {}", shortened(value))));
+        .filter_map(|name| Some((name, compiled.options.get(name)?)));
+    lines.extend(changed.map(|(name, value)| format!("{name} = {}", shortened(&value.to_string()))));
     let options = &resources.options;
     let (what, output) = match options.form {
         Form::Entry => (format!("Stage {}", options.stage.name()), outputs(resources)),

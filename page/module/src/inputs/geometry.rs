@@ -61,17 +61,10 @@ pub fn plane(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> Option<P
     })
 }
 
-/// The numbers of an option that is a list.
-fn list(text: &str) -> Vec<f32> {
-    text.split(',')
-        .filter_map(|number| number.trim().parse().ok())
-        .collect()
-}
-
 /// Offsets of the geometry samples from a pixel's centre; last the centre, where that is shaded. Of kernels without a pattern
 /// the centre alone.
 fn samples(wanted: &Wanted<'_>) -> Vec<Vec2> {
-    let pattern = match wanted.option("pattern") {
+    let pattern = match wanted.choice("pattern") {
         "ordered4" => Pattern::Ordered4,
         "latin4" => Pattern::Latin4,
         "standard8" => Pattern::Standard8,
@@ -79,7 +72,7 @@ fn samples(wanted: &Wanted<'_>) -> Vec<Vec2> {
         "latin16" => Pattern::Latin16,
         "standard16" => Pattern::Standard16,
         "listed" => {
-            let offsets = list(wanted.option("offsets"));
+            let offsets: Vec<f32> = wanted.numbers("offsets").collect();
             let listed = offsets.chunks_exact(2).map(|pair| vec2(pair[0], pair[1]));
             return centred(wanted, listed.collect());
         }
@@ -94,7 +87,7 @@ fn samples(wanted: &Wanted<'_>) -> Vec<Vec2> {
 
 /// With the pixel's centre as the last one, if that is shaded and the layout is one of layers.
 fn centred(wanted: &Wanted<'_>, mut offsets: Vec<Vec2>) -> Vec<Vec2> {
-    if matches!(wanted.option("shading"), "centre" | "placed") && wanted.layered {
+    if matches!(wanted.choice("shading"), "centre" | "placed") && wanted.layered {
         offsets.push(Vec2::ZERO);
     }
     offsets
@@ -103,7 +96,7 @@ fn centred(wanted: &Wanted<'_>, mut offsets: Vec<Vec2>) -> Vec<Vec2> {
 /// Offsets of the shading samples, where there are several.
 fn shaded(wanted: &Wanted<'_>) -> Vec<Vec2> {
     let offsets = samples(wanted);
-    let listed = list(wanted.option("shaded")).into_iter();
+    let listed = wanted.numbers("shaded");
     listed.filter_map(|k| offsets.get(k as usize).copied()).collect()
 }
 
@@ -160,13 +153,13 @@ impl Encoding {
     fn of(wanted: &Wanted<'_>) -> Encoding {
         let share = NEAR / FAR;
         let scale = 1.0 / (1.0 - share);
-        let depth = match wanted.option("depth") {
+        let depth = match wanted.choice("depth") {
             "perspective" => Some([-scale, scale]),
             "reversed" | "projected" => Some([scale, -share * scale]),
             "reversed-infinite" => Some([1.0, 0.0]),
             _ => None,
         };
-        let holds = match wanted.option("normals") {
+        let holds = match wanted.choice("normals") {
             _ if wanted.name.contains("depth") => Holds::Depth,
             "packed" => Holds::Packed,
             "octahedral" => Holds::Octahedral,
@@ -232,7 +225,7 @@ fn low(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Vec
     let texel = |colour: [f32; 4], surface: &Surface| match wanted.name {
         "low_depth" => [surface.depth, 0.0, 0.0, 0.0],
         "low_surface" => surface.normal.extend(surface.depth).to_array(),
-        _ if wanted.option("reads") == "packed" => [colour[0], colour[1], colour[2], surface.depth],
+        _ if wanted.choice("reads") == "packed" => [colour[0], colour[1], colour[2], surface.depth],
         _ => colour,
     };
     if wanted.compiled.kernel != "quad_upsampling" {
@@ -245,7 +238,7 @@ fn low(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Vec
             vec![texels.map(|(colour, surface)| texel(*colour, surface)).collect()],
         );
     }
-    let factor = if wanted.option("factor") == "four-times" { 4 } else { 2 };
+    let factor = if wanted.choice("factor") == "four-times" { 4 } else { 2 };
     let corners = size.map(|n| n.div_ceil(factor) + 1);
     let at = (0..corners[1]).flat_map(|y| (0..corners[0]).map(move |x| vec2((x * factor) as f32, (y * factor) as f32)));
     let texels = at.map(|at| {

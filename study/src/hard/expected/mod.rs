@@ -20,9 +20,10 @@ mod sums;
 
 use super::HardError;
 use super::case::Case;
-use super::form::{Family, Form};
+use super::form::{Family, Form, choice};
 use super::inputs::Reads;
 use glam::{IVec2, Vec4};
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::oracle;
@@ -45,7 +46,7 @@ pub struct Expected {
 }
 
 /// What a form with `options` should give.
-pub fn expected(form: &Form, options: &[(String, String)], reads: &Reads) -> Result<Expected, HardError> {
+pub fn expected(form: &Form, options: &OptionValues, reads: &Reads) -> Result<Expected, HardError> {
     let inputs = &reads.inputs;
     match form.family {
         Family::Sraa => {
@@ -92,15 +93,15 @@ fn frame<T: Copy>(inputs: &Inputs, name: &str, of: impl Fn(Vec4) -> T) -> Frame<
     }
 }
 
-fn number(options: &[(String, String)], name: &str, default: f64) -> f64 {
-    Form::value(options, name, "").parse().unwrap_or(default)
+fn number(options: &OptionValues, name: &str, default: f64) -> f64 {
+    options.number(name).unwrap_or(default)
 }
 
 /// Decisions closer than this, of numbers relative to what they are computed from, may go either way: products of three,
 /// their sums, a reciprocal of 2.5 ULP.
 const CLOSE: f64 = 32.0 * Rounding::SINGLE.unit;
 
-fn edges(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expected {
+fn edges(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
     let (depth, normal) = (
         frame(inputs, "depth", |t| t.x),
         frame(inputs, "normal", |t| t.truncate()),
@@ -110,12 +111,12 @@ fn edges(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expec
         depth: &depth,
         normal: &normal,
     };
-    let printed = Form::value(options, "form", "corrected") == "paper";
+    let printed = choice(options, "form", "corrected") == "paper";
     let (edges, colors) = match family {
         Family::Stalker => {
             let filter = Stalker {
                 printed,
-                linear_depth: Form::value(options, "depth", "projected") == "linear",
+                linear_depth: choice(options, "depth", "projected") == "linear",
                 normal_barrier: number(options, "normal-barrier", 0.8),
                 depth_barrier: number(options, "depth-barrier", 1.0e-5),
                 normal_weight: number(options, "normal-weight", 1.0),
@@ -222,7 +223,7 @@ fn size(color: &[f64; 4]) -> f64 {
     color.iter().fold(0.0, |most, lane| most.max(lane.abs()))
 }
 
-fn blurred(options: &[(String, String)], inputs: &Inputs) -> Expected {
+fn blurred(options: &OptionValues, inputs: &Inputs) -> Expected {
     let (radius, sigma) = (number(options, "radius", 2.0) as i64, number(options, "sigma", 2.0));
     let depth_sigma = number(options, "depth-sigma", 0.1);
     let image = picture(inputs, "image", |t| t);
@@ -263,14 +264,14 @@ fn color_of(texel: [f64; 4]) -> [f64; 4] {
     [texel[0], texel[1], texel[2], 0.0]
 }
 
-fn upsampled(options: &[(String, String)], inputs: &Inputs) -> Expected {
-    let factor: i64 = if Form::value(options, "factor", "twice") == "four-times" {
+fn upsampled(options: &OptionValues, inputs: &Inputs) -> Expected {
+    let factor: i64 = if choice(options, "factor", "twice") == "four-times" {
         4
     } else {
         2
     };
-    let packed = Form::value(options, "reads", "packed") == "packed";
-    let normals = !packed && Form::value(options, "normals", "false") == "true";
+    let packed = choice(options, "reads", "packed") == "packed";
+    let normals = !packed && options.flag("normals") == Some(true);
     let low = picture(inputs, "low", |t| if packed { [t[0], t[1], t[2], 1.0] } else { t });
     let surface = picture(inputs, if packed { "low" } else { "low_surface" }, |t| t);
     let (depth, normal) = (picture(inputs, "depth", |t| t), picture(inputs, "normal", |t| t));
@@ -282,8 +283,7 @@ fn upsampled(options: &[(String, String)], inputs: &Inputs) -> Expected {
         normal: &normal,
         depth_sigma: number(options, "depth-sigma", 0.1),
         normal_sigma: normals.then(|| number(options, "normal-sigma", 0.1)),
-        screen_sigma: (Form::value(options, "screen", "tent") == "gaussian")
-            .then(|| number(options, "screen-sigma", 0.5)),
+        screen_sigma: (choice(options, "screen", "tent") == "gaussian").then(|| number(options, "screen-sigma", 0.5)),
     };
     let colors = places(inputs).map(|at| quads::upsampling(&given, at)).collect();
     let bounds: Vec<f64> = places(inputs).map(|at| upsampling_off(&given, at)).collect();

@@ -5,13 +5,14 @@
 //! of those decisions, as all are off by the same.
 
 use super::{Expected, number, picture, places};
-use crate::hard::form::{self, Family, Form};
+use crate::hard::form::{self, Family, choice};
+use straightline_kernels::OptionValues;
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::oracle::bound::Rounding;
 use straightline_testbed::oracle::quads::{self, Counted, Shadow};
 
 /// What a form with `options` should give for coordinates and a shadow map.
-pub fn shadowed(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expected {
+pub fn shadowed(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
     let coord = picture(inputs, "coord", |t| t);
     let depths = picture(inputs, "shadow", |t| t);
     let filter = Filter::new(
@@ -43,7 +44,7 @@ pub fn shadowed(family: Family, options: &[(String, String)], inputs: &Inputs) -
 
 /// A filter of a shadow map.
 struct Filter<'a> {
-    options: &'a [(String, String)],
+    options: &'a OptionValues,
     family: Family,
     map: Shadow,
     texels: i64,
@@ -54,17 +55,17 @@ struct Filter<'a> {
 }
 
 impl<'a> Filter<'a> {
-    fn new(family: Family, options: &'a [(String, String)], size: [i64; 2], depths: Vec<f64>) -> Filter<'a> {
+    fn new(family: Family, options: &'a OptionValues, size: [i64; 2], depths: Vec<f64>) -> Filter<'a> {
         let texels = form::texels(options);
-        let is_lookup = Form::value(options, "weights", "box") == "lookup";
-        let is_gathered = Form::value(options, "method", "quad") == "gather";
+        let is_lookup = choice(options, "weights", "box") == "lookup";
+        let is_gathered = choice(options, "method", "quad") == "gather";
         let map = Shadow {
             size,
             depths,
             // The table holds a cubic B-spline.
             weights: match is_lookup {
                 true => "cubic".to_owned(),
-                false => Form::value(options, "weights", "box").to_owned(),
+                false => choice(options, "weights", "box").to_owned(),
             },
             half: if is_gathered { 3.0 } else { texels as f64 / 2.0 },
         };
@@ -119,7 +120,7 @@ impl<'a> Filter<'a> {
 
     /// What the search for blockers finds.
     fn blockers(&self, own: [f64; 3], mean: [f64; 3]) -> Vec<f64> {
-        let from = match Form::value(self.options, "sharing", "quad") {
+        let from = match choice(self.options, "sharing", "quad") {
             "quad" => mean,
             _ => own,
         };
@@ -131,7 +132,7 @@ impl<'a> Filter<'a> {
     fn light(&self, own: [f64; 3], mean: [f64; 3]) -> (f64, f64) {
         let of = |c: [f64; 3]| [0, 1].map(|axis| c[axis] * self.map.size[axis] as f64);
         let (own_place, place) = (of(own), of(mean));
-        let value = |name: &str, default| Form::value(self.options, name, default);
+        let value = |name: &str, default| choice(self.options, name, default);
         if self.family == Family::Pcss {
             let numbers = [("search", 16.0), ("light", 400.0), ("narrowest", 2.0), ("widest", 24.0)];
             let numbers = numbers.map(|(name, default)| number(self.options, name, default));

@@ -1,17 +1,18 @@
 //! Convolutions and ambient occlusion, by definition.
 
 use super::{Expected, number, picture, places, size};
-use crate::hard::form::Form;
+use crate::hard::form::choice;
+use straightline_kernels::OptionValues;
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::oracle::bound::Rounding;
 use straightline_testbed::oracle::quads::{self, Ao, Picture};
 
 /// What a convolution should give. A sum of n products is off by n + 2 roundings of the largest; bilinear taps by the place between
 /// texels, too, and on a device by its steps of 1/256 on each axis.
-pub fn convolved(options: &[(String, String)], inputs: &Inputs) -> Expected {
+pub fn convolved(options: &OptionValues, inputs: &Inputs) -> Expected {
     let radius = number(options, "radius", 1.0) as i64;
-    let is_bilinear = Form::value(options, "taps", "pixels") == "bilinear";
-    let is_box = Form::value(options, "weights", "box") == "box";
+    let is_bilinear = choice(options, "taps", "pixels") == "bilinear";
+    let is_box = choice(options, "weights", "box") == "box";
     let raw = picture(inputs, "image", |t| t);
     let image = quads::bounded_image(&raw, 1.0);
     let width = (2 * radius + 1) as f64;
@@ -60,7 +61,7 @@ fn brightest_around(image: &Picture, radius: i64, [x, y]: [i64; 2]) -> f64 {
 }
 
 /// What ambient occlusion should give, between the least and the most that roundings make of each tap and of its place.
-pub fn occluded(options: &[(String, String)], inputs: &Inputs) -> Expected {
+pub fn occluded(options: &OptionValues, inputs: &Inputs) -> Expected {
     // Options are numbers of 32 bits.
     let option = |name: &str, default: f64| f64::from(number(options, name, default) as f32);
     let ao = Ao {
@@ -72,7 +73,7 @@ pub fn occluded(options: &[(String, String)], inputs: &Inputs) -> Expected {
         depth_sigma: option("depth-sigma", 0.2),
     };
     let (depth, normal) = (picture(inputs, "depth", |t| t), picture(inputs, "normal", |t| t));
-    let is_shared = Form::value(options, "sharing", "quad") == "quad";
+    let is_shared = choice(options, "sharing", "quad") == "quad";
     let light = places(inputs).map(|at| quads::ssao_between(&ao, &depth, &normal, is_shared, at));
     let (colors, bounds): (Vec<_>, Vec<f64>) = light
         .map(|light| {

@@ -1,10 +1,12 @@
 //! What variants read, on the device: once for each set of geometry samples.
 
+use crate::builtin::{Setting, parse_settings, spell_settings};
 use crate::tune::features::Static;
 use crate::tune::space::{Offer, SampleSet, Space, Variant};
 use crate::tune::steps::depth_scale;
 use crate::tune::{Question, Subject, Term, TuneError};
 use straightline_codegen::{Compiled, Kernel, Manifest, Settings, Stage};
+use straightline_kernels::{OptionText, OptionValue};
 use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::Pass;
 use straightline_testbed::capture::Capture;
@@ -63,7 +65,7 @@ impl Ground {
         let reads = |place: &str| -> Result<Vec<(Compiled, Manifest)>, TuneError> {
             // A capture that is shaded elsewhere stays so.
             let settings = richest(space, samples).into_iter().map(|v| match placed {
-                Some(_) => shaded(space.settings(v), place),
+                Some(_) => shaded(space, v, place),
                 None => space.settings(v),
             });
             settings.map(|settings| manifest_of(bench, kernel, &settings)).collect()
@@ -186,21 +188,25 @@ fn manifest_of(bench: &Bench, kernel: &Kernel, settings: &Settings) -> Result<(C
     Ok((compiled, emitted.manifest))
 }
 
-/// The same where shading is searched, with one place of it.
-fn shaded(mut settings: Settings, place: &str) -> Settings {
-    for (name, value) in &mut settings.options {
-        if name == "shading" && ["centre", "placed"].contains(&value.as_str()) {
-            place.clone_into(value);
+/// Settings of a variant, with one place of shading where that is searched.
+fn shaded(space: &Space, variant: Variant, place: &str) -> Settings {
+    let mut options = space.options(variant);
+    for (name, value) in &mut options {
+        if name == "shading" && matches!(value.choice(), Some("centre" | "placed")) {
+            *value = OptionValue::Choice(place.to_owned());
         }
     }
-    settings
+    Settings {
+        options: spell_settings(&options),
+        ..space.settings(variant)
+    }
 }
 
 /// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
 /// the filter does.
-fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<(String, String)> {
+fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText> {
     let given: Vec<_> = space.fixed.iter().chain(&samples.options).cloned().collect();
-    PlacedBy::Depths.instead_of(&given)
+    PlacedBy::Depths.instead_of(&spell_settings(&given))
 }
 
 /// What a filter reads of what was placed.
@@ -215,20 +221,25 @@ fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
 }
 
 /// What may be searched of a subject.
-pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> Offer {
+///
+/// # Errors
+///
+/// If an option that all variants are to have is wrong.
+pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> Result<Offer, TuneError> {
     let first = subject.captures.first();
+    let samples = subject.captures.iter().map(|capture| sample_set(kernel, capture));
     let mut offer = Offer {
-        samples: subject.captures.iter().map(sample_set).collect(),
+        samples: samples.collect::<Result<_, _>>()?,
         normals: first.is_some_and(|capture| capture.normal.is_some()),
         camera: first.is_some_and(|capture| capture.camera.is_some()),
         depth_scale: first.and_then(depth_scale),
         no_half: question.no_half.clone(),
-        fixed: question.fixed.clone(),
+        fixed: parse_settings(kernel, &question.fixed)?,
         ..Offer::default()
     };
-    let is_placed = ("shading".to_owned(), "placed".to_owned());
+    let is_placed = |(name, value): &Setting| name == "shading" && value.choice() == Some("placed");
     offer.no_placing = match () {
-        () if offer.fixes("shading") && !offer.fixed.contains(&is_placed) => Some("shading is set".to_owned()),
+        () if offer.fixes("shading") && !offer.fixed.iter().any(is_placed) => Some("shading is set".to_owned()),
         () if subject.placed.len() < subject.captures.len() => {
             Some("only what a renderer draws can be shaded elsewhere".to_owned())
         }
@@ -238,15 +249,16 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
     let blind = subject.reference.is_none();
     let blind = blind.then(|| "without a reference it cannot be judged by what computes less".to_owned());
     let refused = |more: &[(&str, &str)]| {
-        let mut options = offer.fixed.clone();
+        let mut options = spell_settings(&offer.fixed);
         options.retain(|(name, _)| more.iter().all(|(own, _)| own != name));
         options.extend(
             more.iter()
                 .map(|(name, value)| ((*name).to_owned(), (*value).to_owned())),
         );
         let sampled = offer.samples.first().map_or(&[][..], |set| &set.options);
-        let sampled = sampled.iter().filter(|(name, _)| !offer.fixes(name));
-        options.extend(sampled.cloned());
+        let mut sampled = spell_settings(sampled);
+        sampled.retain(|(name, _)| !offer.fixes(name));
+        options.extend(sampled);
         let settings = Settings {
             options,
             ..Settings::default()
@@ -260,11 +272,11 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
         true => blind.or_else(|| refused(&[("demodulate", "albedo-shadow")])),
         false => Some("there is no albedo, direct light and rest (`capture --albedo` writes them)".to_owned()),
     };
-    Offer {
+    Ok(Offer {
         no_search,
         no_light,
         ..offer
-    }
+    })
 }
 
 /// Why there can be no blocks, if so: they take no branch, and what all variants have may bring one.
@@ -287,9 +299,14 @@ fn refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
     errors.diagnostics.into_iter().next().map(|first| first.message)
 }
 
-pub(super) fn sample_set(capture: &Capture) -> SampleSet {
-    SampleSet {
+/// The geometry samples of a capture.
+///
+/// # Errors
+///
+/// If the kernel takes no such samples.
+pub(super) fn sample_set(kernel: &Kernel, capture: &Capture) -> Result<SampleSet, TuneError> {
+    Ok(SampleSet {
         count: capture.samples.len(),
-        options: gbuffer::sampled_at(capture),
-    }
+        options: parse_settings(kernel, &gbuffer::sampled_at(capture))?,
+    })
 }

@@ -8,17 +8,18 @@ mod pictures;
 mod time;
 
 use super::features::Static;
-use super::space::{Space, Variant};
+use super::space::{SampleSet, Space, Variant};
 use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Gauge, Question, Term, TuneError};
+use crate::builtin::builtin;
 use crate::record::Model;
 use glam::{UVec2, Vec4};
 use ground::{Ground, Placing, no_blocks, offer, sample_set};
 use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
-use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::{Bench, ExecuteError, Ratio, Times, Uploaded};
 use straightline_testbed::metrics;
 
@@ -67,7 +68,7 @@ impl Entry {
 pub struct Search {
     pub(in crate::tune) bench: Bench,
     pub(in crate::tune) kernel: Kernel,
-    pub(in crate::tune) defaults: BTreeMap<String, String>,
+    pub(in crate::tune) defaults: OptionValues,
     pub(in crate::tune) space: Space,
     pub(in crate::tune) question: Question,
     pub(in crate::tune) gauge: Gauge,
@@ -97,8 +98,8 @@ impl Search {
     ///
     /// If an option is wrong, or the capture lacks what the options need.
     pub fn new(bench: &Bench, subject: Subject, question: &Question, gauge: Gauge) -> Result<Search, TuneError> {
-        let kernel = Kernel::builtin("sraa")?;
-        let mut space = Space::new(&offer(&kernel, &subject, question)).map_err(TuneError::Space)?;
+        let kernel = builtin("sraa")?;
+        let mut space = Space::new(&offer(&kernel, &subject, question)?).map_err(TuneError::Space)?;
         if let Some(why) = no_blocks(&kernel, &space) {
             space.leave_aside(Term::Block, format!("blocks: {why}"));
         }
@@ -108,15 +109,16 @@ impl Search {
         };
         let mut colors = std::iter::once(&color).chain(subject.placed.iter().map(|placed| &placed.color));
         let finite_colors = colors.all(|color| metrics::non_finite(color) == 0);
+        let sets = subject.captures.iter().map(|capture| sample_set(&kernel, capture));
+        let sets = sets.collect::<Result<Vec<_>, _>>()?;
         let mut grounds = Vec::new();
         for (place, value) in space.values(Term::Samples).iter().enumerate() {
             // Of the captures, one whose options a value has.
-            let is_own = |capture: &&Capture| {
-                let mut options = sample_set(capture).options;
-                options.retain(|(name, _)| name != "shading");
-                options.iter().all(|option| value.options.contains(option))
+            let is_own = |set: &SampleSet| {
+                let mut options = set.options.iter().filter(|(name, _)| name != "shading");
+                options.all(|option| value.options.contains(option))
             };
-            let Some(k) = subject.captures.iter().position(|capture| is_own(&capture)) else {
+            let Some(k) = sets.iter().position(is_own) else {
                 continue;
             };
             let may_be_placed = space.values(Term::Placing).iter().any(|v| v.beyond);
@@ -125,10 +127,9 @@ impl Search {
             grounds.push(Ground::new(bench, (&kernel, &space), place, view)?);
         }
         let entries: Vec<Entry> = space.variants().into_iter().map(Entry::new).collect();
-        let defaults = kernel.options()?.into_iter().map(|info| (info.name, info.default));
         Ok(Search {
             bench: bench.clone(),
-            defaults: defaults.collect(),
+            defaults: kernel.option_values(&[])?,
             kernel,
             question: question.clone(),
             gauge,

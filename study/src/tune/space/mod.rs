@@ -2,8 +2,9 @@
 
 mod terms;
 
-use std::collections::BTreeMap;
+use crate::builtin::{Setting, spell_settings};
 use straightline_codegen::{Precision, Settings};
+use straightline_kernels::{OptionValue, OptionValues};
 
 pub use terms::{Offer, SampleSet, Term, Value};
 
@@ -42,7 +43,7 @@ pub struct Added {
 pub struct Space {
     terms: [Vec<Value>; Term::ALL.len()],
     /// Options that all variants have.
-    pub fixed: Vec<(String, String)>,
+    pub fixed: Vec<Setting>,
     /// What is not searched, and why.
     pub left_aside: Vec<String>,
 }
@@ -63,9 +64,8 @@ impl Space {
                 continue;
             };
             let term = &mut terms[place];
-            let stands_for = |(n, v): &(String, String)| {
-                n == name && (v == value || (name == "mask" && v == "branch" && value == "select"))
-            };
+            let selects = name == "mask" && value.choice() == Some("select");
+            let stands_for = |(n, v): &Setting| n == name && (v == value || (selects && v.choice() == Some("branch")));
             let line = Offer::set(name, value);
             if !left_aside.contains(&line) {
                 left_aside.push(line);
@@ -84,7 +84,7 @@ impl Space {
             fixed.retain(|(n, _)| n != name);
         }
         let light = &terms[Term::Light as usize][0];
-        let is_apart = |(name, value): &(String, String)| name == "demodulate" && value != "none";
+        let is_apart = |(name, value): &Setting| name == "demodulate" && value.choice() != Some("none");
         if fixed.iter().chain(&light.options).any(is_apart) {
             terms[Term::Mask as usize].retain(|v| v.sets("mask", "none"));
             left_aside.push("mask: it would leave paint and shadow as they are".to_owned());
@@ -206,22 +206,27 @@ impl Space {
 
     /// How the kernel is generated for a variant.
     pub fn settings(&self, variant: Variant) -> Settings {
+        Settings {
+            options: spell_settings(&self.options(variant)),
+            block: self.value(variant, Term::Block).block,
+            math: self.value(variant, Term::Math).math,
+            ..Settings::default()
+        }
+    }
+
+    /// Options that a variant sets.
+    pub fn options(&self, variant: Variant) -> Vec<Setting> {
         let terms = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
         let block = self.value(variant, Term::Block).block;
         let mut options = self.fixed.clone();
         options.extend(terms.flat_map(|term| self.value(variant, term).options.iter().cloned()));
         // The pixels of a block go the same way: there the mask selects.
         for (name, value) in &mut options {
-            if name == "mask" && value == "branch" && block != [1, 1] {
-                *value = "select".to_owned();
+            if name == "mask" && value.choice() == Some("branch") && block != [1, 1] {
+                *value = OptionValue::Choice("select".to_owned());
             }
         }
-        Settings {
-            options,
-            block,
-            math: self.value(variant, Term::Math).math,
-            ..Settings::default()
-        }
+        options
     }
 
     /// Whether a term does anything in a variant: normals alone have no depths to compare.
@@ -244,7 +249,7 @@ impl Space {
     }
 
     /// The variant that has the kernel's defaults, if it is searched.
-    pub fn of_defaults(&self, defaults: &BTreeMap<String, String>) -> Option<Variant> {
+    pub fn of_defaults(&self, defaults: &OptionValues) -> Option<Variant> {
         let all_default = |value: &&Value| value.options.iter().all(|(name, v)| defaults.get(name) == Some(v));
         let mut variant = self.general();
         for term in Term::ALL {
@@ -283,7 +288,7 @@ impl Space {
             }
             // Neither does another scale.
             let own = &self.value(variant, term).options;
-            if term == Term::Difference && own.iter().any(|(_, value)| value == "relative") {
+            if term == Term::Difference && own.iter().any(|(_, value)| value.choice() == Some("relative")) {
                 continue;
             }
             if term == Term::Metric {

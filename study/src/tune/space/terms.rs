@@ -1,6 +1,8 @@
 //! Terms of the filter and the values that each can have, the one that computes most first; of what goes beyond the paper, none first.
 
+use crate::builtin::Setting;
 use straightline_codegen::{Math, Precision};
+use straightline_kernels::OptionValue;
 
 /// What can be left out of a filter, be had cheaper, or be added. `docs/tune.md` has the same table, with reasons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -61,7 +63,7 @@ pub struct Value {
     /// paper, what it adds: `placing`.
     pub needs: String,
     /// Options of the kernel that it stands for.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<Setting>,
     /// What shaders compute in.
     pub precision: Precision,
     /// Which algebra is done.
@@ -73,7 +75,7 @@ pub struct Value {
 }
 
 impl Value {
-    pub(super) fn of(label: &str, needs: &str, options: &[(&str, &str)]) -> Value {
+    pub(super) fn of(label: &str, needs: &str, options: &[(&str, OptionValue)]) -> Value {
         Value {
             label: label.to_owned(),
             needs: needs.to_owned(),
@@ -85,9 +87,11 @@ impl Value {
         }
     }
 
-    /// Whether it gives an option this value.
-    pub(super) fn sets(&self, name: &str, value: &str) -> bool {
-        self.options.iter().any(|(n, v)| n == name && v == value)
+    /// Whether it gives an option this choice.
+    pub(super) fn sets(&self, name: &str, choice: &str) -> bool {
+        self.options
+            .iter()
+            .any(|(n, v)| n == name && v.choice() == Some(choice))
     }
 }
 
@@ -97,7 +101,7 @@ pub struct SampleSet {
     /// Geometry samples of a pixel.
     pub count: usize,
     /// The options that say where they are.
-    pub options: Vec<(String, String)>,
+    pub options: Vec<Setting>,
 }
 
 /// What a subject and a device allow to be searched.
@@ -120,7 +124,7 @@ pub struct Offer {
     /// Why light is not borrowed apart from paint and shadow, if it is not.
     pub no_light: Option<String>,
     /// Options that all variants have. One that the search varies is thereby taken out of it.
-    pub fixed: Vec<(String, String)>,
+    pub fixed: Vec<Setting>,
 }
 
 impl Offer {
@@ -130,7 +134,7 @@ impl Offer {
     }
 
     /// Why an option that all variants have is not searched.
-    pub(super) fn set(name: &str, value: &str) -> String {
+    pub(super) fn set(name: &str, value: &OptionValue) -> String {
         format!("{name}: it was set to {value}")
     }
 }
@@ -155,17 +159,21 @@ pub(super) fn of(offer: &Offer, left_aside: &mut Vec<String>) -> [Vec<Value>; Te
         metrics(offer, left_aside),
         differences(offer),
         vec![
-            Value::of("gaussian", "nine taps a sample, weighted", &[("falloff", "gaussian")]),
-            Value::of("no falloff", "nine taps a sample", &[("falloff", "none")]),
-            Value::of("tent", "tent", &[("falloff", "tent")]),
+            Value::of(
+                "gaussian",
+                "nine taps a sample, weighted",
+                &[("falloff", named("gaussian"))],
+            ),
+            Value::of("no falloff", "nine taps a sample", &[("falloff", named("none"))]),
+            Value::of("tent", "tent", &[("falloff", named("tent"))]),
         ],
         masks(offer),
         vec![
-            Value::of("finite test", "finite test", &[("non-finite", "skip")]),
+            Value::of("finite test", "finite test", &[("non-finite", named("skip"))]),
             Value::of(
                 "no finite test",
                 "no finite test",
-                &[("non-finite", "spread"), ("guards", "none")],
+                &[("non-finite", named("spread")), ("guards", named("none"))],
             ),
         ],
         precision,
@@ -186,8 +194,8 @@ pub(super) fn of(offer: &Offer, left_aside: &mut Vec<String>) -> [Vec<Value>; Te
         placing(offer, left_aside),
         beyond(
             (offer, &offer.no_search),
-            Value::of("not searched", "search", &[("search", "none")]),
-            Value::of("searched", "search", &[("search", "five")]),
+            Value::of("not searched", "search", &[("search", named("none"))]),
+            Value::of("searched", "search", &[("search", named("five"))]),
             left_aside,
         ),
         light(offer, left_aside),
@@ -227,18 +235,21 @@ fn metrics(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     }
     let values = all.iter().filter(|(name, _)| has(name));
     values
-        .map(|(name, needs)| Value::of(name, needs, &[("metric", name)]))
+        .map(|(name, needs)| Value::of(name, needs, &[("metric", named(name))]))
         .collect()
 }
 
 /// Ways to compare depths. Two of them have a scale of their own, unless one was set: with one a tenth of the depth is a step, and
 /// a floor that recedes to the horizon is one surface; the other is what the steps of the view call for.
 fn differences(offer: &Offer) -> Vec<Value> {
-    let coarse = [("difference", "relative"), ("depth-scale", "0.1")];
+    let coarse = [
+        ("difference", named("relative")),
+        ("depth-scale", OptionValue::Number(0.1)),
+    ];
     let mut values = vec![
         Value::of("relative depth", "relative depth", &coarse[..1]),
         Value::of("coarse relative depth", "coarse relative depth", &coarse),
-        Value::of("absolute depth", "absolute depth", &[("difference", "absolute")]),
+        Value::of("absolute depth", "absolute depth", &[("difference", named("absolute"))]),
     ];
     let is_set = offer.fixes("depth-scale");
     if is_set {
@@ -246,7 +257,10 @@ fn differences(offer: &Offer) -> Vec<Value> {
     }
     if let Some(scale) = offer.depth_scale.filter(|_| !is_set) {
         let name = "absolute depth, scaled";
-        let options = [("difference", "absolute"), ("depth-scale", &*scale.to_string())];
+        let options = [
+            ("difference", named("absolute")),
+            ("depth-scale", OptionValue::Number(scale)),
+        ];
         values.insert(2, Value::of(name, name, &options));
     }
     values
@@ -254,10 +268,10 @@ fn differences(offer: &Offer) -> Vec<Value> {
 
 /// A mask that looks within the pixel leaves out the most; one that looks around it, too, if that is set.
 fn masks(offer: &Offer) -> Vec<Value> {
-    let options = [("mask", "branch"), ("variation", "within")];
+    let options = [("mask", named("branch")), ("variation", named("within"))];
     let count = if offer.fixes("variation") { 1 } else { 2 };
     vec![
-        Value::of("no mask", "filter where geometry is even", &[("mask", "none")]),
+        Value::of("no mask", "filter where geometry is even", &[("mask", named("none"))]),
         Value::of("mask", "mask", &options[..count]),
     ]
 }
@@ -266,8 +280,8 @@ fn placing(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     let name = "placing";
     beyond(
         (offer, &offer.no_placing),
-        Value::of("shaded at centres", name, &[("shading", "centre")]),
-        Value::of("placed", name, &[("shading", "placed")]),
+        Value::of("shaded at centres", name, &[("shading", named("centre"))]),
+        Value::of("placed", name, &[("shading", named("placed"))]),
         left_aside,
     )
 }
@@ -275,11 +289,18 @@ fn placing(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
 /// Of `rest` that which is set, if it is; else highlights and haze are borrowed as they are.
 fn light(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     let name = "light apart from paint and shadow";
-    let options = [("demodulate", "albedo-shadow"), ("rest", "true")];
+    let options = [
+        ("demodulate", named("albedo-shadow")),
+        ("rest", OptionValue::Flag(true)),
+    ];
     let count = if offer.fixes("rest") { 1 } else { 2 };
     beyond(
         (offer, &offer.no_light),
-        Value::of("light with its paint and shadow", name, &[("demodulate", "none")]),
+        Value::of(
+            "light with its paint and shadow",
+            name,
+            &[("demodulate", named("none"))],
+        ),
         Value::of(name, name, &options[..count]),
         left_aside,
     )
@@ -295,7 +316,7 @@ fn beyond(
     let Some(why) = no else {
         return vec![without, Value { beyond: true, ..with }];
     };
-    let is_own = |(name, _): &&(String, String)| without.options.iter().any(|(own, _)| own == name);
+    let is_own = |(name, _): &&Setting| without.options.iter().any(|(own, _)| own == name);
     left_aside.push(match offer.fixed.iter().find(is_own) {
         Some((name, value)) => Offer::set(name, value),
         None => format!("{}: {why}", without.needs),
@@ -312,9 +333,12 @@ pub(super) fn unsaid(value: Value) -> Value {
     }
 }
 
-pub(super) fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
-    options
-        .iter()
-        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
-        .collect()
+/// A choice by its name.
+fn named(choice: &str) -> OptionValue {
+    OptionValue::Choice(choice.to_owned())
+}
+
+fn owned(options: &[(&str, OptionValue)]) -> Vec<Setting> {
+    let owned = options.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
+    owned.collect()
 }

@@ -1,6 +1,14 @@
-use super::terms::owned;
 use super::*;
+use crate::builtin::{builtin, parse_settings};
 use std::collections::BTreeSet;
+
+fn owned(options: &[(&str, &str)]) -> Vec<Setting> {
+    let options = options
+        .iter()
+        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    let kernel = builtin("sraa").expect("it is built in");
+    parse_settings(&kernel, &options.collect::<Vec<_>>()).expect("options of sraa")
+}
 
 fn offer() -> Offer {
     let set = |count: usize, pattern: &str| SampleSet {
@@ -29,13 +37,13 @@ fn every_variant_is_searched_once() {
         .collect();
     assert_eq!(settings.len(), all.len());
     assert_eq!(all[0], space.general());
-    let general = space.settings(space.general());
+    let general = space.options(space.general());
     for option in [
         ("pattern", "latin16"),
         ("metric", "planes-normals"),
         ("non-finite", "skip"),
     ] {
-        assert!(general.options.contains(&owned(&[option])[0]), "{option:?}");
+        assert!(general.contains(&owned(&[option])[0]), "{option:?}");
     }
 }
 
@@ -71,12 +79,7 @@ fn what_is_missing_or_fixed_is_not_searched_and_that_is_said() {
     };
     let space = Space::new(&set).unwrap();
     assert_eq!(space.values(Term::Falloff).len(), 1);
-    assert!(
-        space
-            .settings(space.general())
-            .options
-            .contains(&owned(&[("tau", "300")])[0])
-    );
+    assert!(space.options(space.general()).contains(&owned(&[("tau", "300")])[0]));
     assert_eq!(space.values(Term::Difference).len(), 2);
 
     let no_such = Offer {
@@ -132,9 +135,9 @@ fn what_is_left_out_is_named() {
 }
 
 /// Each of the general variant's options that goes beyond the paper.
-fn beyond(space: &Space, variant: Variant) -> Vec<(String, String)> {
+fn beyond(space: &Space, variant: Variant) -> Vec<Setting> {
     let names = ["shading", "search", "demodulate", "rest"];
-    let mut options = space.settings(variant).options;
+    let mut options = space.options(variant);
     options.retain(|(name, _)| names.contains(&name.as_str()));
     options
 }

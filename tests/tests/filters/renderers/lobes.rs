@@ -6,7 +6,7 @@ use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::execute::{Inputs, interpret};
 use straightline_testbed::oracle::{self, SraaParams};
-use straightline_tests::sraa::options::{Options, options};
+use straightline_tests::sraa::options::{Options, options, values};
 use straightline_tests::sraa::{compiled, native, surfaces};
 
 const SIZE: UVec2 = uvec2(16, 11);
@@ -55,7 +55,7 @@ fn no_component_leaves_the_range_of_the_samples() {
             let found = interpret::<f32>(&form(unroll), &inputs, false).expect("it runs").texels;
             same_bits(&expected, &found).unwrap_or_else(|e| panic!("{set:?} {unroll}: {e}"));
         }
-        let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+        let params = SraaParams::of(&values(&set)).expect("options");
         let defined = oracle::sraa(&inputs, &params).expect("a definition");
         let device = bench
             .run(&form(Unroll::Full), Stage::Compute, &inputs)

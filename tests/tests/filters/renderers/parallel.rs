@@ -9,7 +9,7 @@ use straightline_testbed::execute::interpret;
 use straightline_testbed::gbuffer;
 use straightline_testbed::oracle::{self, SraaParams};
 use straightline_testbed::scene::{Camera, SKY_DEPTH};
-use straightline_tests::sraa::options::{Options, options};
+use straightline_tests::sraa::options::{Options, options, values};
 use straightline_tests::sraa::{compiled, difference, kernel, native, surfaces};
 
 const SIZE: UVec2 = uvec2(31, 23);
@@ -93,7 +93,7 @@ fn every_form_gives_what_the_definition_says() {
                 let found = interpret::<f32>(form, &inputs, false).expect("it runs").texels;
                 same_bits(&expected, &found).unwrap_or_else(|e| panic!("{set:?}: {e}"));
             }
-            let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+            let params = SraaParams::of(&values(&set)).expect("options");
             let defined = oracle::sraa(&inputs, &params).expect("a definition");
             let found = bench.run(&full, Stage::Compute, &inputs).expect("a picture");
             let off = difference(&found, &defined);

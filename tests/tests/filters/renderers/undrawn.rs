@@ -12,7 +12,7 @@ use straightline_testbed::oracle::{self, SraaParams};
 use straightline_testbed::render::{self, CpuRenderer};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, picture};
-use straightline_tests::sraa::options::{Options, options};
+use straightline_tests::sraa::options::{Options, options, values};
 use straightline_tests::sraa::{compiled, difference, kernel, native, surfaces};
 
 const SIZE: UVec2 = uvec2(15, 11);
@@ -49,7 +49,7 @@ fn form(set: &Options, unroll: Unroll) -> straightline_codegen::Compiled {
 
 /// Largest difference to the definition, by a shader.
 fn off(bench: &Bench, set: &Options, inputs: &Inputs) -> f64 {
-    let params = SraaParams::of(set.iter().map(|(name, value)| (name, value))).expect("options");
+    let params = SraaParams::of(&values(set)).expect("options");
     let expected = oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"));
     let found = bench.run(&form(set, Unroll::Full), Stage::Compute, inputs);
     let found = found.unwrap_or_else(|error| panic!("{set:?}: {error}"));

@@ -26,9 +26,9 @@ pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -
         .source
         .iter()
         .fold(Kernel::locate(&args.kernel), |kernel, path| kernel?.with_file(path))?;
-    let space = space(args)?;
+    let space = space(args, &kernel)?;
     let sweep = Sweep {
-        baseline: baseline(args)?,
+        baseline: baseline(args, &kernel)?,
         kernel,
         space,
         rivals: args
@@ -116,7 +116,7 @@ fn written(common: &CommonArgs) {
 }
 
 /// Everything that is varied, each value once.
-fn space(args: &SweepArgs) -> Result<Space, Failure> {
+fn space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
     let space = Space {
         options: args.set.clone(),
         unroll: args.unroll.clone(),
@@ -138,6 +138,7 @@ fn space(args: &SweepArgs) -> Result<Space, Failure> {
             )));
         }
     }
+    let space = space.spelled_by(kernel);
     for axis in space.axes() {
         let mut values = BTreeSet::new();
         if let Some(twice) = axis.values.iter().find(|value| !values.insert(*value)) {
@@ -147,10 +148,13 @@ fn space(args: &SweepArgs) -> Result<Space, Failure> {
     Ok(space)
 }
 
-fn baseline(args: &SweepArgs) -> Result<BTreeMap<String, String>, Failure> {
+fn baseline(args: &SweepArgs, kernel: &Kernel) -> Result<BTreeMap<String, String>, Failure> {
     let mut baseline = BTreeMap::new();
     for (name, value) in &args.baseline {
-        if baseline.insert(name.clone(), value.clone()).is_some() {
+        if baseline
+            .insert(name.clone(), sweep::spelled(kernel, name, value))
+            .is_some()
+        {
             return Err(Failure::Usage(format!("--baseline has `{name}` twice")));
         }
     }

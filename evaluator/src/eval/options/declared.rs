@@ -1,0 +1,189 @@
+//! Declarations of options: kind, default and range of each, read from `options!`.
+
+use super::super::Evaluator;
+use super::super::value::{Eval, Exit, Value};
+use super::{Numeric, OptionInfo, OptionKind, canonical, kebab};
+use crate::diagnostic::Diagnostic;
+use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
+use crate::front::unraw;
+use crate::ir::{Scalar, Type};
+use straightline_kernels::OptionValue;
+
+impl Evaluator<'_> {
+    /// Declaration of an option, with its default evaluated.
+    pub(super) fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
+        let default = self.expr(&field.default)?;
+        let default = self.ascribe(default, Some(&field.ty), field.default.span)?;
+        let ty = match field.ty.bare() {
+            SourceType::Name(ty, _) => ty,
+            SourceType::Array(..) => return self.list_info(field, &default),
+            SourceType::Tuple(_) | SourceType::Ref(..) | SourceType::Fn(..) | SourceType::Const(_) => {
+                return Err(self.bad_type(field));
+            }
+        };
+        let (kind, default) = match (ty.as_str(), &default) {
+            ("bool", Value::Node(id)) => {
+                let on = self.known_bool(*id).unwrap_or_default();
+                (OptionKind::Flag, OptionValue::Flag(on))
+            }
+            ("f32" | "i32" | "u32", value) => {
+                let number = self.number(value).ok_or_else(|| self.bad_type(field))?;
+                let of = self.numeric(field, ty)?;
+                in_range(field, &[number], &of)?;
+                (OptionKind::Number(of), OptionValue::Number(canonical(number)))
+            }
+            (_, Value::Enum(choice)) => {
+                let definition = self.library.enums.get(&*choice.ty);
+                let variants = definition.map_or(&[][..], |e| &e.variants);
+                let holds = variants.iter().any(|variant| !variant.fields.is_empty());
+                let variant = self.known_variant(choice).filter(|_| !holds);
+                let variant = variant.ok_or_else(|| self.bad_type(field))?;
+                let choices = variants.iter().map(|v| (kebab(&v.name), v.docs.clone())).collect();
+                let default = OptionValue::Choice(kebab(&variants[variant].name));
+                (OptionKind::Choice(choices), default)
+            }
+            _ => return Err(self.bad_type(field)),
+        };
+        if field.uniform && !matches!(kind, OptionKind::Number(_)) {
+            return Err(only_numbers(field));
+        }
+        Ok(OptionInfo {
+            name: unraw(&field.name).replace('_', "-"),
+            docs: field.docs.clone(),
+            kind,
+            default,
+            uniform: field.uniform,
+        })
+    }
+
+    /// An option that is an array of numbers.
+    fn list_info(&mut self, field: &OptionField, default: &Value) -> Eval<OptionInfo> {
+        let element = match field.ty.bare() {
+            SourceType::Array(element, _) => match &**element {
+                SourceType::Name(name, _) if matches!(name.as_str(), "f32" | "i32" | "u32") => name.clone(),
+                _ => return Err(self.bad_type(field)),
+            },
+            _ => return Err(self.bad_type(field)),
+        };
+        let numbers: Option<Vec<f64>> = match default {
+            Value::Array(values) => values.iter().map(|v| self.number(v)).collect(),
+            _ => None,
+        };
+        let numbers = numbers.ok_or_else(|| self.bad_type(field))?;
+        let of = self.numeric(field, &element)?;
+        in_range(field, &numbers, &of)?;
+        if field.uniform {
+            return Err(only_numbers(field));
+        }
+        Ok(OptionInfo {
+            name: unraw(&field.name).replace('_', "-"),
+            docs: field.docs.clone(),
+            kind: OptionKind::List {
+                len: match field.ty.bare() {
+                    SourceType::Array(_, None) => None,
+                    _ => Some(numbers.len()),
+                },
+                of,
+            },
+            default: OptionValue::Numbers(numbers.into_iter().map(canonical).collect()),
+            uniform: false,
+        })
+    }
+
+    pub(super) fn bad_type(&self, field: &OptionField) -> Exit {
+        Diagnostic::at(
+            field.span,
+            format!(
+                "the option `{}` is neither a number, a boolean, an enum nor an array of numbers",
+                field.name
+            ),
+        )
+        .label("of this type")
+        .help("options are f32, i32, u32, bool, an enum of the kernel's files, or an array of numbers")
+        .into()
+    }
+
+    /// Numbers that the option `field`, of the scalar type `ty`, can hold.
+    fn numeric(&mut self, field: &OptionField, ty: &str) -> Eval<Numeric> {
+        let (min, max) = self.limits(field)?;
+        let scalar = match ty {
+            "i32" => Scalar::I32,
+            "u32" => Scalar::U32,
+            _ => Scalar::F32,
+        };
+        Ok(Numeric { scalar, min, max })
+    }
+
+    /// Smallest and largest value of a number.
+    fn limits(&mut self, field: &OptionField) -> Eval<(Option<f64>, Option<f64>)> {
+        let Some(range) = &field.range else {
+            return Ok((None, None));
+        };
+        let ExprKind::Range(low, high, true) = &range.kind else {
+            return Err(Diagnostic::at(range.span, "the range of an option includes both ends")
+                .help("write `[0.0..=1.0]`")
+                .into());
+        };
+        let (low, high) = (self.expr(low)?, self.expr(high)?);
+        let limits = (self.number(&low), self.number(&high));
+        if let (Some(low), Some(high)) = limits
+            && low > high
+        {
+            let text = format!("the range of the option `{}` holds no number", field.name);
+            let help = format!(
+                "it goes from {} to {}: write the lower end first",
+                canonical(low),
+                canonical(high)
+            );
+            return Err(Diagnostic::at(range.span, text).help(help).into());
+        }
+        Ok(limits)
+    }
+
+    fn number(&self, value: &Value) -> Option<f64> {
+        match value {
+            Value::Int(n) => Some(*n as f64),
+            Value::Node(id) => {
+                let bits = self.builder.graph().constant(*id)?[0];
+                match self.ty(*id) {
+                    Type::F32 => Some(f64::from(f32::from_bits(bits))),
+                    Type::I32 => Some(f64::from(bits as i32)),
+                    Type::U32 => Some(f64::from(bits)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Refuses a default with a number outside of the option's range.
+fn in_range(field: &OptionField, defaults: &[f64], of: &Numeric) -> Result<(), Exit> {
+    let (low, high) = (of.min.unwrap_or(f64::NEG_INFINITY), of.max.unwrap_or(f64::INFINITY));
+    match defaults.iter().find(|n| !(low..=high).contains(*n)) {
+        None => Ok(()),
+        Some(n) => {
+            let text = format!(
+                "the default of the option `{}` is {}, outside of its range from {} to {}",
+                field.name,
+                canonical(*n),
+                canonical(low),
+                canonical(high)
+            );
+            Err(Diagnostic::at(field.default.span, text)
+                .label("not in the range")
+                .help("widen the range, or choose a default within it")
+                .into())
+        }
+    }
+}
+
+fn only_numbers(field: &OptionField) -> Exit {
+    Diagnostic::at(
+        field.default.span,
+        format!("the option `{}` cannot be set at run time", field.name),
+    )
+    .label("its default")
+    .help("only single numbers can: give this one a default without `uniform(...)`")
+    .into()
+}

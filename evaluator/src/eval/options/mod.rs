@@ -1,0 +1,243 @@
+//! A kernel's options: what there are, and the values of one setting.
+
+mod declared;
+mod parse;
+
+use super::Evaluator;
+use super::enums::Choice;
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Errors, File};
+use crate::front::tree::{OptionField, Type as SourceType};
+use crate::front::{Library, raw};
+use crate::ir::{Op, Scalar, Type, Uniform};
+use crate::policy::Policy;
+use std::sync::Arc;
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
+
+pub use parse::parse_settings;
+pub(super) use parse::unknown;
+
+/// One option of a kernel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OptionInfo {
+    /// Name on the command line: the field's, with `-` for `_`.
+    pub name: String,
+    /// What it decides.
+    pub docs: String,
+    /// What it can be.
+    pub kind: OptionKind,
+    /// Default; of a number that is set at run time, the one it has until then.
+    pub default: OptionValue,
+    /// Whether it is `uniform` unless a setting says otherwise: a number that is set at run time, with this default.
+    pub uniform: bool,
+}
+
+impl OptionInfo {
+    /// Value of the option where no setting names it.
+    pub fn unset(&self) -> OptionValue {
+        match self.uniform {
+            true => OptionValue::Uniform,
+            false => self.default.clone(),
+        }
+    }
+}
+
+/// What an option can be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OptionKind {
+    /// One of some values, each with its meaning.
+    Choice(Vec<(String, String)>),
+    /// A number; or `uniform`, to be set at run time.
+    Number(Numeric),
+    /// As many numbers, separated by commas.
+    List {
+        /// How many; any number of them if there is none.
+        len: Option<usize>,
+        /// What each of them can be.
+        of: Numeric,
+    },
+    /// `true` or `false`.
+    Flag,
+}
+
+/// Numbers that an option can hold: those of a scalar type within a range, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numeric {
+    /// `f32`, `i32` or `u32`.
+    pub scalar: Scalar,
+    /// Smallest value, if it is bounded.
+    pub min: Option<f64>,
+    /// Largest value, if it is bounded.
+    pub max: Option<f64>,
+}
+
+impl Numeric {
+    /// Returns whether it holds whole numbers only.
+    pub fn is_integer(&self) -> bool {
+        self.scalar != Scalar::F32
+    }
+}
+
+/// The options of the kernel `entry`, in order of declaration.
+pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Result<Vec<OptionInfo>, Errors> {
+    let (entry, policy) = (&*raw(entry), Policy::default());
+    let mut evaluator = Evaluator::new(library, files, &policy);
+    let mut infos = Vec::new();
+    let fields = fields(library, entry);
+    for error in twice(&fields) {
+        evaluator.note(error);
+    }
+    for field in fields {
+        match evaluator.info(field) {
+            Ok(info) => infos.push(info),
+            Err(exit) => {
+                evaluator.note(exit);
+            }
+        }
+    }
+    if evaluator.errors.is_empty() {
+        Ok(infos)
+    } else {
+        Err(Errors::new(evaluator.errors, files))
+    }
+}
+
+/// The options declared for `entry`, of whichever of its parameters is made of options.
+fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
+    let params = library
+        .functions
+        .get(entry)
+        .map(|f| f.params.as_slice())
+        .unwrap_or_default();
+    let declared = params.iter().filter_map(|param| match param.ty.bare() {
+        SourceType::Name(name, _) => library.options.get(name),
+        _ => None,
+    });
+    declared.flatten().collect()
+}
+
+/// An error for every field that has the name of one before it.
+fn twice(fields: &[&OptionField]) -> Vec<Exit> {
+    let again = fields.iter().enumerate().filter_map(|(k, field)| {
+        let first = fields[..k].iter().find(|other| other.name == field.name)?;
+        let error = Diagnostic::at(field.span, format!("the option `{}` is declared twice", field.name))
+            .label("declared again")
+            .other(first.span, "first declared here")
+            .help("give one of them another name");
+        Some(error.into())
+    });
+    again.collect()
+}
+
+impl Evaluator<'_> {
+    /// A structure of options with each field set or at its default.
+    pub fn configure(&mut self, ty: &str, settings: &[OptionText], chosen: &mut OptionValues) -> Eval {
+        let library = self.library;
+        let mut values = Vec::new();
+        let declared = &library.options[ty];
+        for error in twice(&declared.iter().collect::<Vec<_>>()) {
+            self.note(error);
+        }
+        for field in declared {
+            let info = match self.info(field) {
+                Ok(info) => info,
+                Err(exit) => {
+                    self.note(exit);
+                    values.push(((&field.name).into(), Value::Poison));
+                    continue;
+                }
+            };
+            let (chosen_value, value) = match parse::setting(&info, settings) {
+                Ok(parsed) => {
+                    let value = self.value_of(field, &info, &parsed)?;
+                    (parsed, value)
+                }
+                Err(errors) => {
+                    errors.into_iter().for_each(|error| {
+                        self.note(error.into());
+                    });
+                    (info.unset(), Value::Poison)
+                }
+            };
+            chosen.insert(info.name, chosen_value);
+            values.push(((&field.name).into(), value));
+        }
+        Ok(Value::structure(ty, values))
+    }
+
+    /// The kernel's value of an option. Settings equal to the default share its node, so that both give the same text.
+    fn value_of(&mut self, field: &OptionField, info: &OptionInfo, value: &OptionValue) -> Eval {
+        if *value == info.default {
+            let default = self.expr(&field.default)?;
+            return self.ascribe(default, Some(&field.ty), field.default.span);
+        }
+        match (value, &info.kind) {
+            (OptionValue::Flag(on), _) => Ok(Value::Node(self.builder.bool(*on))),
+            (OptionValue::Choice(name), _) => {
+                let SourceType::Name(ty, _) = field.ty.bare() else {
+                    return Err(self.bad_type(field));
+                };
+                let definition = self.library.enums.get(ty).ok_or_else(|| self.bad_type(field))?;
+                let variant = definition.variants.iter().position(|v| kebab(&v.name) == *name);
+                let variant = variant.ok_or_else(|| self.bad_type(field))?;
+                Ok(Choice::known(ty, definition, variant, Vec::new()))
+            }
+            (OptionValue::Number(number), OptionKind::Number(of)) => Ok(self.number_of(of.scalar, *number)),
+            (OptionValue::Numbers(numbers), OptionKind::List { of, .. }) => {
+                let numbers = numbers.iter().map(|number| self.number_of(of.scalar, *number));
+                Ok(Value::array(numbers.collect()))
+            }
+            (OptionValue::Uniform, OptionKind::Number(of)) => Ok(self.uniform(
+                &self.option_name(&field.name),
+                Type::scalar(of.scalar),
+                info.default.number(),
+            )),
+            _ => Err(self.bad_type(field)),
+        }
+    }
+
+    fn number_of(&mut self, scalar: Scalar, number: f64) -> Value {
+        Value::Node(match scalar {
+            Scalar::F32 => self.builder.f32(number as f32),
+            Scalar::U32 => self.builder.constant(Type::U32, [number as u32, 0, 0, 0]),
+            _ => self.builder.i32(number as i32),
+        })
+    }
+
+    /// A value that is set at run time.
+    pub fn uniform(&mut self, name: &str, ty: Type, default: Option<f64>) -> Value {
+        let uniforms = &mut self.builder.graph_mut().uniforms;
+        uniforms.push(Uniform {
+            name: name.to_owned(),
+            ty,
+            default,
+            part: None,
+        });
+        let index = uniforms.len() as u32 - 1;
+        Value::Node(self.builder.add(Op::Uniform(index), Vec::new(), ty))
+    }
+}
+
+/// `DepthNormals` as `depth-normals`.
+fn kebab(name: &str) -> String {
+    let mut text = String::new();
+    for (k, c) in name.chars().enumerate() {
+        if c.is_uppercase() && k > 0 {
+            text.push('-');
+        }
+        text.extend(c.to_lowercase());
+    }
+    text
+}
+
+/// The one form of a number among the spellings of the same `f32` or integer: the shortest decimal, a whole number in all of its
+/// digits.
+fn canonical(number: f64) -> f64 {
+    if number.fract() == 0.0 && number.abs() < 1e15 {
+        // -0 + 0 is 0.
+        number + 0.0
+    } else {
+        // `Display` of an f32 always parses.
+        (number as f32).to_string().parse().unwrap_or(number)
+    }
+}

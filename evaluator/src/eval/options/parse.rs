@@ -1,0 +1,169 @@
+//! Text of options as values, by their declarations.
+
+use super::{Numeric, OptionInfo, OptionKind, canonical};
+use crate::diagnostic::Diagnostic;
+use crate::ir::Scalar;
+use crate::shorten::shorten;
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
+
+/// The word for an option that is set at run time.
+const UNIFORM: &str = "uniform";
+
+/// Values of all options under `settings`, pairs of name and text.
+///
+/// # Errors
+///
+/// A diagnostic for each name that is no option or stands twice, and for each text that is no value of its option.
+pub fn parse_settings(
+    kernel: &str,
+    infos: &[OptionInfo],
+    settings: &[OptionText],
+) -> Result<OptionValues, Vec<Diagnostic>> {
+    let mut errors = Vec::new();
+    let mut values = OptionValues::default();
+    for info in infos {
+        match setting(info, settings) {
+            Ok(value) => values.insert(info.name.clone(), value),
+            Err(found) => errors.extend(found),
+        }
+    }
+    let mut names: Vec<&str> = infos.iter().map(|info| info.name.as_str()).collect();
+    names.sort_unstable();
+    errors.extend(unknown(kernel, &names, settings));
+    match errors.is_empty() {
+        true => Ok(values),
+        false => Err(errors),
+    }
+}
+
+/// An error for each setting that names none of the options `names`.
+pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[OptionText]) -> Vec<Diagnostic> {
+    let unknown = settings.iter().filter(|(name, _)| !names.contains(&name.as_str()));
+    let errors = unknown.map(|(name, _)| {
+        let help = match names.is_empty() {
+            true => "it has no options".to_owned(),
+            false => format!("its options are {}", names.join(", ")),
+        };
+        Diagnostic::new(format!("`{kernel}` has no option `{name}`")).help(help)
+    });
+    errors.collect()
+}
+
+/// Value of one option under `settings`.
+pub(super) fn setting(info: &OptionInfo, settings: &[OptionText]) -> Result<OptionValue, Vec<Diagnostic>> {
+    let mut set = settings.iter().filter(|(name, _)| *name == info.name);
+    let Some((_, first)) = set.next() else {
+        return Ok(info.unset());
+    };
+    let mut errors = Vec::new();
+    if let Some((_, again)) = set.next() {
+        let error = Diagnostic::new(format!(
+            "the option `{}` is set twice, to `{}` and to `{}`",
+            info.name,
+            shorten(first),
+            shorten(again)
+        ));
+        errors.push(error.help("set it once"));
+    }
+    match parse(info, first) {
+        Ok(value) if errors.is_empty() => return Ok(value),
+        Ok(_) => {}
+        Err(error) => errors.push(error),
+    }
+    Err(errors)
+}
+
+/// The value that `text` stands for.
+fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Diagnostic> {
+    let refuse = |text: &str, allowed: String| {
+        let what = format!("`{}` is not a value of the option `{}`", shorten(text), info.name);
+        Diagnostic::new(what).help(allowed)
+    };
+    match &info.kind {
+        OptionKind::Flag => match text {
+            "true" => Ok(OptionValue::Flag(true)),
+            "false" => Ok(OptionValue::Flag(false)),
+            _ => Err(refuse(text, "use true or false".to_owned())),
+        },
+        OptionKind::Choice(choices) => match choices.iter().any(|(name, _)| name == text) {
+            true => Ok(OptionValue::Choice(text.to_owned())),
+            false => {
+                let names: Vec<&str> = choices.iter().map(|(name, _)| name.as_str()).collect();
+                Err(refuse(text, format!("use one of {}", names.join(", "))))
+            }
+        },
+        OptionKind::Number(_) if text == UNIFORM => Ok(OptionValue::Uniform),
+        OptionKind::Number(of) => match of.parse(text) {
+            Some(number) => Ok(OptionValue::Number(number)),
+            None => Err(refuse(text, of.allowed())),
+        },
+        OptionKind::List { len, of } => {
+            let mut parts: Vec<&str> = text.split(',').map(str::trim).collect();
+            let many = len.map_or("any number of".to_owned(), |len| len.to_string());
+            match len {
+                None if text.trim().is_empty() => parts.clear(),
+                Some(len) if parts.len() != *len => {
+                    return Err(refuse(text, format!("give {many} numbers, separated by commas")));
+                }
+                _ => {}
+            }
+            if parts.contains(&UNIFORM) {
+                let allowed = format!("give {many} numbers; a list is a compile-time constant");
+                return Err(refuse(text, allowed));
+            }
+            let numbers = parts
+                .iter()
+                .map(|part| of.parse(part).ok_or_else(|| refuse(part, of.allowed())));
+            Ok(OptionValue::Numbers(numbers.collect::<Result<_, _>>()?))
+        }
+    }
+}
+
+impl Numeric {
+    /// Smallest and largest number, by the range and the type.
+    fn bounds(&self) -> (f64, f64) {
+        let (low, high) = match self.scalar {
+            Scalar::I32 => (f64::from(i32::MIN), f64::from(i32::MAX)),
+            Scalar::U32 => (0.0, f64::from(u32::MAX)),
+            _ => (f64::from(f32::MIN), f64::from(f32::MAX)),
+        };
+        (
+            self.min.map_or(low, |min| min.max(low)),
+            self.max.map_or(high, |max| max.min(high)),
+        )
+    }
+
+    /// The number that `text` stands for, in its canonical form.
+    fn parse(&self, text: &str) -> Option<f64> {
+        let number = text.parse::<f64>().ok()?;
+        // An `f32` is compared with the bounds as the `f32` that it becomes: 0.001 is not below 0.001f32.
+        let held = match self.scalar {
+            Scalar::F32 => f64::from(number as f32),
+            _ => number,
+        };
+        let (low, high) = self.bounds();
+        let is_held = number.is_finite() && (!self.is_integer() || number.fract() == 0.0);
+        (is_held && (low..=high).contains(&held)).then(|| canonical(held))
+    }
+
+    /// Help for a text that is none of its numbers.
+    fn allowed(&self) -> String {
+        let what = if self.is_integer() {
+            "a whole number"
+        } else {
+            "a number"
+        };
+        let range = match self {
+            Numeric {
+                scalar: Scalar::F32,
+                min: None,
+                max: None,
+            } => "that an f32 can hold".to_owned(),
+            _ => {
+                let (low, high) = self.bounds();
+                format!("from {} to {}", canonical(low), canonical(high))
+            }
+        };
+        format!("use {what} {range}, or `{UNIFORM}` to set it at run time")
+    }
+}
