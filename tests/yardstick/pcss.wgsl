@@ -1,5 +1,5 @@
 // Contact-hardening shadows, split over pixel quads, written by hand: the yardstick for shaders-out/pcss.wgsl.
-// tests/tests/yardstick.rs runs it; docs/emitted-code.md compares the two.
+// tests/tests/shaders/yardstick.rs runs it; docs/emitted-code.md compares the two.
 
 @group(0) @binding(0) var shadow: texture_depth_2d;
 @group(0) @binding(1) var shadow_sampler: sampler_comparison;

@@ -1,5 +1,5 @@
 // SRAA with 4 geometry samples and default options, written by hand: the yardstick for shaders-out/sraa4.wgsl.
-// tests/tests/yardstick.rs runs it; docs/emitted-code.md compares the two.
+// tests/tests/shaders/yardstick.rs runs it; docs/emitted-code.md compares the two.
 
 @group(0) @binding(0) var depth: texture_2d_array<f32>;
 @group(0) @binding(1) var normal: texture_2d_array<f32>;
