@@ -215,7 +215,7 @@ fn notes_help_and_further_places_are_kept() {
     );
     assert_eq!(
         found[0].code.as_ref().map(|code| code.code.as_str()),
-        Some("straightline::kernel")
+        Some("straightline::E0411")
     );
 }
 

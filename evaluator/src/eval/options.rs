@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::enums::Choice;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Errors, File};
+use crate::diagnostic::{Code, Diagnostic, Errors, File};
 use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
 use crate::front::{Library, unraw};
 use crate::ir::{Op, Scalar, Type, Uniform};
@@ -101,10 +101,14 @@ fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
 fn twice(fields: &[&OptionField]) -> Vec<Exit> {
     let again = fields.iter().enumerate().filter_map(|(k, field)| {
         let first = fields[..k].iter().find(|other| other.name == field.name)?;
-        let error = Diagnostic::at(field.span, format!("the option `{}` is declared twice", field.name))
-            .label("declared again")
-            .other(first.span, "first declared here")
-            .help("give one of them another name");
+        let error = Diagnostic::at(
+            Code::DefinedTwice,
+            field.span,
+            format!("the option `{}` is declared twice", field.name),
+        )
+        .label("declared again")
+        .other(first.span, "first declared here")
+        .help("give one of them another name");
         Some(error.into())
     });
     again.collect()
@@ -136,12 +140,15 @@ impl Evaluator<'_> {
             let mut set = settings.iter().filter(|(name, _)| *name == info.name);
             let first = set.next().map(|(_, value)| value.as_str());
             if let Some((_, again)) = set.next() {
-                let error = Diagnostic::new(format!(
-                    "the option `{}` is set twice, to `{}` and to `{}`",
-                    info.name,
-                    shorten(first.unwrap_or_default()),
-                    shorten(again)
-                ));
+                let error = Diagnostic::new(
+                    Code::OptionValue,
+                    format!(
+                        "the option `{}` is set twice, to `{}` and to `{}`",
+                        info.name,
+                        shorten(first.unwrap_or_default()),
+                        shorten(again)
+                    ),
+                );
                 self.note(error.help("set it once").into());
             }
             let text = first.or(info.uniform.then_some(UNIFORM));
@@ -247,6 +254,7 @@ impl Evaluator<'_> {
 
     fn bad_type(&self, field: &OptionField) -> Exit {
         Diagnostic::at(
+            Code::OptionDeclaration,
             field.span,
             format!(
                 "the option `{}` is neither a number, a boolean, an enum nor an array of numbers",
@@ -264,9 +272,13 @@ impl Evaluator<'_> {
             return Ok((None, None));
         };
         let ExprKind::Range(low, high, true) = &range.kind else {
-            return Err(Diagnostic::at(range.span, "the range of an option includes both ends")
-                .help("write `[0.0..=1.0]`")
-                .into());
+            return Err(Diagnostic::at(
+                Code::OptionDeclaration,
+                range.span,
+                "the range of an option includes both ends",
+            )
+            .help("write `[0.0..=1.0]`")
+            .into());
         };
         let (low, high) = (self.expr(low)?, self.expr(high)?);
         let limits = (self.number(&low), self.number(&high));
@@ -279,7 +291,9 @@ impl Evaluator<'_> {
                 shortest(low),
                 shortest(high)
             );
-            return Err(Diagnostic::at(range.span, text).help(help).into());
+            return Err(Diagnostic::at(Code::OptionDeclaration, range.span, text)
+                .help(help)
+                .into());
         }
         Ok(limits)
     }
@@ -303,11 +317,10 @@ impl Evaluator<'_> {
     /// The value that `text` stands for.
     fn parse(&mut self, field: &OptionField, info: &OptionInfo, text: &str) -> Eval {
         let refuse = |allowed: String| -> Exit {
-            Diagnostic::new(format!(
-                "`{}` is not a value of the option `{}`",
-                shorten(text),
-                info.name
-            ))
+            Diagnostic::new(
+                Code::OptionValue,
+                format!("`{}` is not a value of the option `{}`", shorten(text), info.name),
+            )
             .help(allowed)
             .into()
         };
@@ -442,7 +455,7 @@ fn in_range(field: &OptionField, defaults: &[f64], min: Option<f64>, max: Option
                 shortest(low),
                 shortest(high)
             );
-            Err(Diagnostic::at(field.default.span, text)
+            Err(Diagnostic::at(Code::OptionDeclaration, field.default.span, text)
                 .label("not in the range")
                 .help("widen the range, or choose a default within it")
                 .into())
@@ -452,6 +465,7 @@ fn in_range(field: &OptionField, defaults: &[f64], min: Option<f64>, max: Option
 
 fn only_numbers(field: &OptionField) -> Exit {
     Diagnostic::at(
+        Code::OptionDeclaration,
         field.default.span,
         format!("the option `{}` cannot be set at run time", field.name),
     )

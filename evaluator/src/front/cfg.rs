@@ -3,7 +3,7 @@
 //! `#[cfg(..)]` is evaluated as far as a source text by itself allows. What depends on how a crate is built is refused.
 
 use super::expr::Lower;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::spanned::Spanned;
@@ -113,6 +113,7 @@ impl Lower {
         let span = self.span(span);
         self.errors.push(
             Diagnostic::at(
+                Code::Configuration,
                 span,
                 format!("`cfg({})` depends on how the crate is built", as_written(predicate)),
             )
@@ -155,7 +156,7 @@ impl Lower {
                     };
                     let span = self.span(attr.span());
                     self.errors.push(
-                        Diagnostic::at(span, format!("`{name}` is an attribute of {of}"))
+                        Diagnostic::at(Code::Attribute, span, format!("`{name}` is an attribute of {of}"))
                             .label(format!("not before {of}"))
                             .help(help),
                     );
