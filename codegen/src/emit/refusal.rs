@@ -24,7 +24,7 @@ impl Refusal {
         }))
     }
 
-    /// A text that a validator refuses: a mistake of the emitter's.
+    /// An emitted text that a validator refuses: a mistake of the emitter's.
     pub fn invalid(kernel: &str, target: &str, message: &str) -> Self {
         Refusal::new(
             Code::InvalidText,
@@ -53,18 +53,18 @@ impl Refusal {
         Refusal::new(Code::FunctionForm, format!("`{kernel}` cannot be a function: {why}")).help(help)
     }
 
-    /// About one input.
+    /// Names the input that the error is about.
     pub fn about(mut self, input: &str) -> Self {
         self.0.input = Some(input.to_owned());
         self
     }
 
-    /// With help.
+    /// Adds the help.
     pub fn help(self, help: impl Into<String>) -> Self {
         self.changed(|diagnostic| diagnostic.help(help))
     }
 
-    /// With a reason.
+    /// Adds a reason.
     pub fn note(self, note: impl Into<String>) -> Self {
         self.changed(|diagnostic| diagnostic.note(note))
     }
