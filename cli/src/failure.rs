@@ -4,9 +4,7 @@ use crate::output;
 use std::fmt::Display;
 use std::io::IsTerminal;
 use std::process::ExitCode;
-use straightline_codegen::Compiled;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::emit::EmitError;
 
 /// Why a command ended without doing what it was asked.
 #[derive(Debug)]
@@ -23,15 +21,6 @@ impl Failure {
     /// A failure of any error value.
     pub fn of(error: impl Display) -> Failure {
         Failure::Failed(error.to_string())
-    }
-
-    /// Why a kernel cannot be emitted, at its place.
-    pub fn of_emission(compiled: &Compiled, error: &EmitError) -> Failure {
-        let located = compiled.locate(error);
-        match located.diagnostics.iter().all(|d| d.span.is_none()) {
-            true => Failure::of(error),
-            false => Failure::Kernel(located),
-        }
     }
 
     /// Prints the failure and gives the exit status.

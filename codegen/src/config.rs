@@ -15,7 +15,7 @@
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
 use crate::compiled::Compiled;
-use crate::emit::{self, EmitError, EmitOptions, Register, Target};
+use crate::emit::{self, EmitOptions, Register, Target};
 use crate::files::{self, WriteError};
 use crate::pipeline::{Kernel, Settings};
 use std::collections::BTreeMap;
@@ -291,13 +291,9 @@ impl KernelConfig {
             settings.share = settings.share.of_size(size);
         }
         let compiled = kernel.compile(&settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
-        let emitted = compiled.emit(&self.emit).map_err(|error| {
-            let located = compiled.locate(&error);
-            Error::of(match located.diagnostics[0].span {
-                Some(_) => Problem::Kernel(located),
-                None => Problem::Emit(error),
-            })
-        })?;
+        let emitted = compiled
+            .emit(&self.emit)
+            .map_err(|errors| Error::of(Problem::Kernel(errors)))?;
         let files = emitted.named(&name);
         Ok(Built {
             name,
@@ -399,11 +395,9 @@ pub struct Error {
 /// One thing that is wrong.
 #[derive(Debug, thiserror::Error)]
 enum Problem {
-    #[error("{0}")]
+    #[error(transparent)]
     Kernel(Errors),
-    #[error("{0}")]
-    Emit(EmitError),
-    #[error("{0}")]
+    #[error(transparent)]
     Write(WriteError),
     #[error("`{0}` cannot name a module: give the shader another name with `.name(\"...\")`")]
     Name(String),
@@ -442,4 +436,9 @@ impl fmt::Debug for Error {
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for Error {
+    /// What the system says about the first file that could not be read or written, if one is the problem.
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.problems.iter().find_map(std::error::Error::source)
+    }
+}

@@ -2,10 +2,10 @@
 //! samples, and with its loops left in the shader; an edge filter; and filters of quads.
 
 use crate::compiled::Compiled;
-use crate::emit::{EmitError, EmitOptions, Target};
+use crate::emit::{EmitOptions, Target};
 use crate::pipeline::{Kernel, Settings};
 use std::collections::{BTreeMap, BTreeSet};
-use straightline_evaluator::diagnostic::Errors;
+use straightline_evaluator::diagnostic::{Code, Errors};
 use straightline_evaluator::policy::{Transport, Unroll};
 use straightline_manifest::Stage;
 
@@ -24,17 +24,6 @@ pub struct Entry {
     pub transport: Option<Transport>,
     /// Pipeline stage.
     pub stage: Stage,
-}
-
-/// Why the set could not be made.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// A kernel is wrong.
-    #[error("{0}")]
-    Kernel(Errors),
-    /// A shader cannot be emitted.
-    #[error(transparent)]
-    Emit(#[from] EmitError),
 }
 
 const SAMPLES4: &[(&str, &str)] = &[("pattern", "latin4")];
@@ -85,20 +74,20 @@ const fn entry(stem: &'static str, kernel: &'static str, options: Options, unrol
 }
 
 /// Languages that a shader can be written in.
-fn languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Target>, EmitError> {
+fn languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Target>, Errors> {
     let mut languages = BTreeSet::new();
     for target in Target::ALL {
         match compiled.emit(&options.clone().targets([target])) {
             Ok(_) => drop(languages.insert(target)),
-            Err(EmitError::Missing { .. } | EmitError::Derivatives { .. }) => {}
-            Err(error) => return Err(error),
+            Err(errors) if errors.code() == Some(Code::NotInTarget) => {}
+            Err(errors) => return Err(errors),
         }
     }
     Ok(languages)
 }
 
 /// Every file of the set by name: each shader in every language that has what it needs, and its manifest.
-pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
+pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Errors> {
     let mut all = BTreeMap::new();
     for entry in ENTRIES {
         let options = entry
@@ -112,9 +101,7 @@ pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
             transport: entry.transport,
             ..Settings::default()
         };
-        let compiled = Kernel::builtin(entry.kernel)
-            .and_then(|k| k.compile(&settings))
-            .map_err(Error::Kernel)?;
+        let compiled = Kernel::builtin(entry.kernel)?.compile(&settings)?;
         let options = EmitOptions::new().stage(entry.stage);
         let languages = languages(&compiled, &options)?;
         let emitted = compiled.emit(&options.targets(languages))?;

@@ -5,7 +5,7 @@ use crate::emit;
 use crate::files;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
-use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
+use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use straightline_evaluator::eval::{self, OptionInfo};
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
@@ -108,7 +108,10 @@ impl Compiled {
         let made = |graph: &Graph| -> Result<Graph, Errors> {
             let floor = passes::floor(graph).map_err(|why| {
                 let what = format!("`{}` has no floor: {why}", self.kernel);
-                Errors::of(Diagnostic::new(what).help("unroll it fully, and let its branches be selections"))
+                Errors::of(
+                    Diagnostic::new(Code::UnfitSetting, what)
+                        .help("unroll it fully, and let its branches be selections"),
+                )
             })?;
             let floor = passes::clean(&floor);
             verify::verify(&floor).map_err(|why| internal("floor", &why))?;
@@ -147,7 +150,7 @@ impl Kernel {
         let Some(entry) = straightline_kernels::find(name) else {
             let known: Vec<&str> = straightline_kernels::CATALOGUE.iter().map(|e| e.name).collect();
             return Err(Errors::of(
-                Diagnostic::new(format!("there is no kernel `{name}`")).help(format!(
+                Diagnostic::new(Code::UnknownKernel, format!("there is no kernel `{name}`")).help(format!(
                     "built in: {}; for one of your own give FILE.rs::FUNCTION",
                     known.join(", ")
                 )),
@@ -341,7 +344,7 @@ impl Kernel {
         let policy = settings.policy();
         policy.check().map_err(|what| {
             let help = "use full, none, or partial(N), and name each loop once";
-            Errors::of(Diagnostic::new(what).help(help))
+            Errors::of(Diagnostic::new(Code::SettingValue, what).help(help))
         })?;
         let invocation = match settings.block {
             [1, 1] => Invocation::Pixel,
@@ -359,7 +362,7 @@ impl Kernel {
             limits::spend(graph.nodes.len() as u64);
             if let Some(excess) = limits::exceeded(graph.nodes.len()) {
                 let what = format!("compiling `{}` takes {excess}", self.name);
-                let error = Diagnostic::at(evaluated.span, what)
+                let error = Diagnostic::at(Code::Limit, evaluated.span, what)
                     .label(format!("in the stage `{name}`, with {} operations", graph.nodes.len()))
                     .help(excess.help());
                 return Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files));
@@ -380,7 +383,9 @@ impl Kernel {
             graph = stage("fast", passes::clean(&passes::fast(&graph)))?;
         }
         let refused = |what: String, help: &str| {
-            let error = Diagnostic::at(evaluated.span, what).label("this kernel").help(help);
+            let error = Diagnostic::at(Code::UnfitSetting, evaluated.span, what)
+                .label("this kernel")
+                .help(help);
             Errors::new(vec![error], &self.files)
         };
         let mut quad = None;
@@ -479,7 +484,7 @@ impl Kernel {
                 "`{}` has {statements} statements, more than its budget of {}",
                 self.name, settings.budget
             );
-            let error = Diagnostic::at(evaluated.span, what)
+            let error = Diagnostic::at(Code::Budget, evaluated.span, what)
                 .label("this kernel")
                 .help(eval::BUDGET_HELP);
             Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files))
@@ -551,15 +556,20 @@ fn read(path: &Path) -> Result<String, Errors> {
     files::read_text(path, MAX_SOURCE).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
         Errors::of(
-            Diagnostic::new(what).help("paths are taken from the folder that the build runs in: the crate's own"),
+            Diagnostic::new(Code::UnreadableFile, what)
+                .help("paths are taken from the folder that the build runs in: the crate's own")
+                .caused_by(error),
         )
     })
 }
 
 fn internal(stage: &str, why: &str) -> Errors {
     Errors::of(
-        Diagnostic::new(format!("the stage `{stage}` made a graph that breaks a rule: {why}"))
-            .help("this is a mistake in Straightline, not in the kernel: please report it with the kernel's source"),
+        Diagnostic::new(
+            Code::Internal,
+            format!("the stage `{stage}` made a graph that breaks a rule: {why}"),
+        )
+        .help("this is a mistake in Straightline, not in the kernel: please report it with the kernel's source"),
     )
 }
 
@@ -575,7 +585,10 @@ fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, E
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
         match thread {
             Ok(handle) => handle.join().unwrap_or_else(|_| Err(internal("front", "it panicked"))),
-            Err(error) => Err(Errors::of(Diagnostic::new(format!("cannot start a thread: {error}")))),
+            Err(error) => {
+                let what = format!("cannot start a thread: {error}");
+                Err(Errors::of(Diagnostic::new(Code::Limit, what).caused_by(error)))
+            }
         }
     })
 }

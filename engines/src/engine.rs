@@ -3,10 +3,12 @@
 use crate::context::{self, Context};
 use crate::description::{Description, ShaderDescription};
 use crate::error::EngineError;
+use crate::fits::Misfit;
 use crate::{builtin, fits, names, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
-use straightline_codegen::emit::{EmitError, Emitted, Target, comment};
+use straightline_codegen::diagnostic::{Code, Diagnostic, Errors};
+use straightline_codegen::emit::{Emitted, Target, comment};
 use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage};
 use straightline_manifest::Manifest;
 
@@ -106,7 +108,7 @@ impl Engine {
     ///
     /// The kernel does not fit, with what would.
     pub fn context(&self, request: &Request<'_>) -> Result<Context, EngineError> {
-        let shaders = self.shaders(request).map_err(|unfit| unfit.told(self, request))?;
+        let shaders = self.shaders(request).map_err(|unfit| unfit.located(self, request))?;
         Ok(self.context_of(request, shaders))
     }
 
@@ -128,8 +130,8 @@ impl Engine {
             Ok(emitted) => emitted.manifest,
             Err(error) => return Err(error.into()),
         };
-        if let Some(why) = fits::why_not(&manifest, limits, &self.description.title) {
-            return Err(Unfit::Limits(why));
+        if let Some(misfit) = fits::why_not(&manifest, limits, &self.description.title) {
+            return Err(Unfit::Engine(misfit));
         }
         let each = self.description.shaders.iter().map(|(name, description)| {
             let shader = Shader::of(&self.description, description, request, &manifest)?;
@@ -213,7 +215,7 @@ impl Shader {
         request: &Request<'_>,
         bound: &Manifest,
     ) -> Result<Shader, Unfit> {
-        let unknown = |why: String| Unfit::Limits(why);
+        let unknown = |why: String| Unfit::Engine(Misfit::new(why));
         let options = description.options().map_err(unknown)?;
         let mut options = options
             .precision(request.precision)
@@ -242,41 +244,40 @@ fn text(emitted: &Emitted, target: Target) -> String {
 /// Why a kernel does not fit.
 enum Unfit {
     /// The engine cannot bind what it binds.
-    Limits(String),
+    Engine(Misfit),
     /// The generator cannot write it so.
-    Emit(Box<EmitError>),
+    Emit(Errors),
 }
 
-impl From<EmitError> for Unfit {
-    fn from(error: EmitError) -> Unfit {
-        Unfit::Emit(Box::new(error))
+impl From<Errors> for Unfit {
+    fn from(errors: Errors) -> Unfit {
+        Unfit::Emit(errors)
     }
 }
 
 impl Unfit {
-    /// As an error that says what would fit.
-    fn told(self, engine: &Engine, request: &Request<'_>) -> EngineError {
-        let kernel = request.compiled.kernel.clone();
-        let title = engine.description.title.clone();
+    /// The error at its place in the kernel, with the engines that would fit.
+    fn located(self, engine: &Engine, request: &Request<'_>) -> Errors {
         let others = names().filter(|name| *name != engine.name);
         let fitting = others.filter(|name| Engine::builtin(name).is_some_and(|other| other.fits(request)));
         let instead = match fitting.collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => "no built-in engine takes it: `--target` writes the shader alone".to_owned(),
             some => format!("these engines take it: {some}"),
         };
+        let compiled = request.compiled;
+        let what = format!("`{}` does not fit {}", compiled.kernel, engine.description.title);
         match self {
-            Unfit::Limits(why) => EngineError::Unfit {
-                kernel,
-                title,
-                why,
-                instead,
-            },
-            Unfit::Emit(source) => EngineError::Emit {
-                kernel,
-                title,
-                source,
-                instead,
-            },
+            Unfit::Engine(Misfit { why, input }) => {
+                let error = Diagnostic::new(Code::EngineUnfit, format!("{what}: it {why}")).help(instead);
+                compiled.locate(error, input.as_deref())
+            }
+            Unfit::Emit(mut errors) => {
+                for error in &mut errors.diagnostics {
+                    error.message = format!("{what}: {}", error.message);
+                    error.notes.push(instead.clone());
+                }
+                errors
+            }
         }
     }
 }

@@ -3,7 +3,6 @@
 use std::io;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::emit::EmitError;
 use straightline_codegen::files::WriteError;
 
 /// Why there are no files for an engine.
@@ -53,32 +52,8 @@ pub enum EngineError {
         /// Seconds that they had.
         seconds: u64,
     },
-    /// The kernel needs what the engine does not give.
-    #[error("`{kernel}` does not fit {title}: it {why}; {instead}")]
-    Unfit {
-        /// The kernel.
-        kernel: String,
-        /// The engine.
-        title: String,
-        /// What the kernel does, and what the engine gives.
-        why: String,
-        /// What would fit.
-        instead: String,
-    },
-    /// The generator cannot write what the engine takes.
-    #[error("`{kernel}` does not fit {title}: {source}; {instead}")]
-    Emit {
-        /// The kernel.
-        kernel: String,
-        /// The engine.
-        title: String,
-        /// What the generator says.
-        source: Box<EmitError>,
-        /// What would fit.
-        instead: String,
-    },
-    /// The kernel, or a setting of it, is wrong.
-    #[error("{}", .0.render(false))]
+    /// The kernel, or a setting of it, is wrong, or does not fit the engine: see its code.
+    #[error(transparent)]
     Kernel(#[from] Errors),
     /// The files cannot be written.
     #[error(transparent)]

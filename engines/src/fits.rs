@@ -3,8 +3,30 @@
 use crate::description::Limits;
 use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
 
-/// Why a kernel that binds what its manifest says does not fit an engine: what it does, and what the engine gives.
-pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<String> {
+/// Why a kernel does not fit an engine.
+pub struct Misfit {
+    /// What the kernel does, and what the engine gives.
+    pub why: String,
+    /// Name of the input that does not fit, if it is one.
+    pub input: Option<String>,
+}
+
+impl Misfit {
+    /// A misfit of the kernel as a whole.
+    pub fn new(why: String) -> Misfit {
+        Misfit { why, input: None }
+    }
+
+    fn of_input(input: &str, why: String) -> Misfit {
+        Misfit {
+            why,
+            input: Some(input.to_owned()),
+        }
+    }
+}
+
+/// Why a kernel that binds what its manifest says does not fit an engine.
+pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misfit> {
     let gives = |what: &str| match &limits.gives {
         Some(gives) => format!("{title} gives {gives}"),
         None => format!("{title} takes {what}"),
@@ -15,11 +37,11 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
         .filter(|b| matches!(b.kind, BindingKind::Texture { .. }));
     let count = textures.count() as u32;
     if let Some(most) = limits.textures.filter(|most| count > *most) {
-        return Some(format!(
+        return Some(Misfit::new(format!(
             "binds {}, and {}",
             many(count, "texture"),
             gives(&format!("at most {most}"))
-        ));
+        )));
     }
     let mut uniforms = 0;
     for binding in &manifest.bindings {
@@ -30,17 +52,14 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
             } => {
                 let shape = shape(*dimension);
                 if let Some(known) = limits.dimensions.as_ref().filter(|known| !holds(known, shape)) {
-                    return Some(format!(
-                        "binds `{name}`, a {shape} texture, and {}",
-                        gives(&listed(known))
-                    ));
+                    let why = format!("binds `{name}`, a {shape} texture, and {}", gives(&listed(known)));
+                    return Some(Misfit::of_input(name, why));
                 }
                 let what = texels(*sample_type);
                 if let Some(known) = limits.holds.as_ref().filter(|known| !holds(known, what)) {
-                    return Some(format!(
-                        "binds `{name}`, a texture of {what}, and {}",
-                        gives(&format!("textures of {}", listed(known)))
-                    ));
+                    let given = gives(&format!("textures of {}", listed(known)));
+                    let why = format!("binds `{name}`, a texture of {what}, and {given}");
+                    return Some(Misfit::of_input(name, why));
                 }
             }
             BindingKind::Sampler { sampler } => {
@@ -50,11 +69,13 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
                     SamplerType::Comparison => "comparison",
                 };
                 if limits.samplers.as_ref().is_some_and(|known| !holds(known, what)) {
-                    return Some(format!("binds `{name}`, a {what} sampler, which {title} does not give"));
+                    let why = format!("binds `{name}`, a {what} sampler, which {title} does not give");
+                    return Some(Misfit::of_input(name, why));
                 }
             }
             BindingKind::Buffer { .. } if !limits.buffers => {
-                return Some(format!("binds `{name}`, a storage buffer, which {title} does not give"));
+                let why = format!("binds `{name}`, a storage buffer, which {title} does not give");
+                return Some(Misfit::of_input(name, why));
             }
             BindingKind::Buffer { .. } => {}
             BindingKind::Uniform { fields, .. } => {
@@ -62,33 +83,41 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
                 let types = limits.uniform_types.clone().unwrap_or_else(vectors);
                 if let Some(field) = fields.iter().find(|field| !holds(&types, &field.ty.to_string())) {
                     let (field, ty) = (&field.name, &field.ty);
-                    return Some(format!(
+                    let why = format!(
                         "has the uniform `{field}` of type {ty}, and {title} takes {}",
                         listed(&types)
-                    ));
+                    );
+                    return Some(Misfit::of_input(field, why));
                 }
             }
         }
     }
     if let Some(most) = limits.uniforms.filter(|most| uniforms > *most) {
         let most = many(most, "uniform");
-        return Some(format!("has {}, and {title} gives {most}", many(uniforms, "uniform")));
+        let why = format!("has {}, and {title} gives {most}", many(uniforms, "uniform"));
+        return Some(Misfit::new(why));
     }
     let (outputs, most) = (manifest.outputs.len() as u32, limits.outputs.unwrap_or(1));
     if outputs > most {
-        return Some(format!("gives {}, and {title} takes {most}", many(outputs, "value")));
+        let why = format!("gives {}, and {title} takes {most}", many(outputs, "value"));
+        return Some(Misfit::new(why));
     }
     if let Some(varying) = manifest.varyings.first().filter(|_| !limits.varyings) {
-        return Some(format!(
+        let why = format!(
             "reads the interpolated value `{}`, which {title} does not give",
             varying.name
-        ));
+        );
+        return Some(Misfit::of_input(&varying.name, why));
     }
     let feature = manifest
         .features
         .iter()
         .find(|feature| !limits.features.contains(feature));
-    feature.map(|feature| format!("needs the device feature `{feature}`, which {title} is not asked for"))
+    feature.map(|feature| {
+        Misfit::new(format!(
+            "needs the device feature `{feature}`, which {title} is not asked for"
+        ))
+    })
 }
 
 /// Types of uniforms that every template can set: numbers and vectors of them.

@@ -1,7 +1,9 @@
 //! What is wrong with a kernel, where, and what to do about it.
 
+mod code;
 mod view;
 
+pub use code::Code;
 use codespan_reporting::diagnostic::Label;
 use std::fmt;
 use std::sync::Arc;
@@ -36,9 +38,11 @@ pub struct File {
     pub text: String,
 }
 
-/// One error.
+/// One error, or a remark on a kernel without errors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// Kind of the error; a remark has none.
+    code: Option<Code>,
     /// What is wrong, naming the thing.
     pub message: String,
     /// Where, if it is in a file.
@@ -53,20 +57,61 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Loops that are left in the shader, without which there would be no error.
     pub(crate) loops: Vec<Span>,
+    /// Error of the system that this one comes from.
+    cause: Option<Cause>,
 }
+
+#[derive(Clone, Debug)]
+struct Cause(Arc<dyn std::error::Error + Send + Sync>);
+
+/// Equal if it is one and the same: errors of the system do not compare.
+impl PartialEq for Cause {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for Cause {}
 
 impl Diagnostic {
     /// An error at a place.
-    pub fn at(span: Span, message: impl Into<String>) -> Self {
+    pub fn at(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
-            message: message.into(),
             span: Some(span),
+            ..Diagnostic::bare(Some(code), message.into())
+        }
+    }
+
+    /// An error that is in no file: an option, say.
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Diagnostic::bare(Some(code), message.into())
+    }
+
+    /// A remark at a place, which is no error and is shown as a note.
+    pub fn remark(span: Span, message: impl Into<String>) -> Self {
+        Diagnostic {
+            span: Some(span),
+            ..Diagnostic::bare(None, message.into())
+        }
+    }
+
+    fn bare(code: Option<Code>, message: String) -> Self {
+        Diagnostic {
+            code,
+            message,
+            span: None,
             label: String::new(),
             others: Vec::new(),
             notes: Vec::new(),
             help: None,
             loops: Vec::new(),
+            cause: None,
         }
+    }
+
+    /// Kind of the error; `None` for a remark.
+    pub fn code(&self) -> Option<Code> {
+        self.code
     }
 
     /// The error at the place where a function of the library was called, whose text nobody sees.
@@ -81,19 +126,6 @@ impl Diagnostic {
             label,
             others: Vec::new(),
             ..self
-        }
-    }
-
-    /// An error that is in no file: an option, say.
-    pub fn new(message: impl Into<String>) -> Self {
-        Diagnostic {
-            message: message.into(),
-            span: None,
-            label: String::new(),
-            others: Vec::new(),
-            notes: Vec::new(),
-            help: None,
-            loops: Vec::new(),
         }
     }
 
@@ -120,6 +152,12 @@ impl Diagnostic {
         self.help = Some(help.into());
         self
     }
+
+    /// With the error of the system that it comes from.
+    pub fn caused_by(mut self, cause: impl std::error::Error + Send + Sync + 'static) -> Self {
+        self.cause = Some(Cause(Arc::new(cause)));
+        self
+    }
 }
 
 /// Every error that was found, with the files that they are in.
@@ -135,6 +173,16 @@ impl Errors {
     /// Errors that are shown.
     pub const MOST: usize = 50;
 
+    /// Code of the first error.
+    pub fn code(&self) -> Option<Code> {
+        self.diagnostics.first().and_then(Diagnostic::code)
+    }
+
+    /// Message of the first error, in a line.
+    pub fn first_message(&self) -> &str {
+        self.diagnostics.first().map_or("refused", |first| &first.message)
+    }
+
     /// One error that is in no file.
     pub fn of(diagnostic: Diagnostic) -> Self {
         Errors {
@@ -143,18 +191,18 @@ impl Errors {
         }
     }
 
-    /// Errors in `files`, sorted by place: the first [`Errors::MOST`] of them, and how many more there are.
+    /// Errors in `files`, sorted by place: the first [`Errors::MOST`] of them, the last of which notes how many more there are.
     pub fn new(mut diagnostics: Vec<Diagnostic>, files: &Arc<Vec<File>>) -> Self {
         diagnostics.sort_by_key(|d| d.span);
         diagnostics.dedup();
         let more = diagnostics.len().saturating_sub(Self::MOST);
         if more > 0 {
             diagnostics.truncate(Self::MOST);
-            let what = match more {
+            let note = match more {
                 1 => "1 further error is not shown".to_owned(),
                 _ => format!("{more} further errors are not shown"),
             };
-            diagnostics.push(Diagnostic::new(what));
+            diagnostics.last_mut().expect("as many as are shown").notes.push(note);
         }
         Errors {
             diagnostics,
@@ -185,7 +233,7 @@ impl Errors {
                 return self
                     .diagnostics
                     .iter()
-                    .map(|d| format!("error: {}\n", message(&d.message)))
+                    .map(|d| format!("{}: {}\n", head(d), message(&d.message)))
                     .collect();
             }
         }
@@ -193,8 +241,20 @@ impl Errors {
     }
 }
 
+/// First word of an error or a remark, as codespan writes it.
+fn head(diagnostic: &Diagnostic) -> String {
+    diagnostic
+        .code
+        .map_or_else(|| "note".to_owned(), |code| format!("error[{code}]"))
+}
+
 fn shown(diagnostic: &Diagnostic, files: &Views) -> codespan_reporting::diagnostic::Diagnostic<usize> {
-    let mut shown = codespan_reporting::diagnostic::Diagnostic::error().with_message(message(&diagnostic.message));
+    use codespan_reporting::diagnostic::Diagnostic as Shown;
+    let shown = match diagnostic.code {
+        Some(code) => Shown::error().with_code(code.number()),
+        None => Shown::note(),
+    };
+    let mut shown = shown.with_message(message(&diagnostic.message));
     let place = |span: Span| files.range(span).map(|range| (span.file as usize, range));
     if let Some((file, range)) = diagnostic.span.and_then(place) {
         shown = shown.with_label(Label::primary(file, range).with_message(message(&diagnostic.label)));
@@ -219,4 +279,10 @@ impl fmt::Display for Errors {
     }
 }
 
-impl std::error::Error for Errors {}
+impl std::error::Error for Errors {
+    /// The system's error that the first of them with one comes from, such as that of a file that cannot be read.
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        let cause = self.diagnostics.iter().find_map(|diagnostic| diagnostic.cause.as_ref());
+        cause.map(|cause| &*cause.0 as &(dyn std::error::Error + 'static))
+    }
+}

@@ -168,7 +168,8 @@ export class Code {
     list.hidden = errors.length === 0;
     list.replaceChildren(
       ...errors.map((error) => {
-        const item = element("li", {}, element("strong", { textContent: error.message }));
+        const message = error.code ? `${error.code}: ${error.message}` : error.message;
+        const item = element("li", {}, element("strong", { textContent: message }));
         if (error.label) item.append(element("span", { textContent: ` — ${error.label}` }));
         for (const note of error.notes) item.append(element("p", { textContent: `note: ${note}` }));
         if (error.help) item.append(element("p", { textContent: `help: ${error.help}` }));

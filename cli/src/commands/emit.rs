@@ -65,9 +65,7 @@ pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<
     options.region = args.region;
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
-    let emitted = compiled
-        .emit(&options)
-        .map_err(|error| Failure::of_emission(compiled, &error))?;
+    let emitted = compiled.emit(&options)?;
     write_all(args, compiled, &emitted.named(name))
 }
 
@@ -79,10 +77,12 @@ fn for_engine(
     engine: &str,
     name: &str,
 ) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
-    let engine = Engine::find(engine).map_err(|error| match error {
+    let failure = |error| match error {
         EngineError::Unknown { .. } => Failure::Usage(error.to_string()),
+        EngineError::Kernel(errors) => Failure::Kernel(errors),
         error => Failure::of(error),
-    })?;
+    };
+    let engine = Engine::find(engine).map_err(failure)?;
     let options = kernel.options()?;
     let request = Request {
         name: name.to_owned(),
@@ -91,7 +91,7 @@ fn for_engine(
         format: args.format,
         ..Request::new(compiled, &options)
     };
-    engine.files(&request).map_err(Failure::of)
+    engine.files(&request).map_err(failure)
 }
 
 fn write_all(args: &EmitArgs, compiled: &Compiled, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {

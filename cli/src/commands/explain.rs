@@ -5,6 +5,7 @@ use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
+use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::passes::{Gathered, Sharing};
 use straightline_codegen::{Compiled, EmitOptions, ReadOrder, Unroll};
@@ -13,6 +14,10 @@ use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
 /// Prints the counts of one kernel and option set.
 pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
+    if let Some(code) = Code::from_number(&args.kernel.kernel) {
+        explain_code(code, args.json);
+        return Ok(());
+    }
     let kernel = args.kernel.locate()?;
     let compiled = kernel.compile_observed(&args.kernel.options.settings(), &mut |stage, graph| {
         if args.dump {
@@ -26,9 +31,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         .precision(args.precision)
         .accept_loss(true)
         .targets(targets);
-    let emitted = compiled
-        .emit(&options)
-        .map_err(|error| Failure::of_emission(&compiled, &error))?;
+    let emitted = compiled.emit(&options)?;
     let machine = args.isa.map(|family| machine::ask(&emitted, family)).transpose()?;
     let bound = bound(&emitted.manifest);
     let features = emitted.manifest.features.join(", ");
@@ -51,6 +54,18 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Prints what an error's code means.
+fn explain_code(code: Code, as_json: bool) {
+    let (number, title, explanation) = (code.number(), code.title(), code.explanation());
+    match as_json {
+        true => outln!(
+            "{:#}",
+            json!({ "code": number, "title": title, "explanation": explanation })
+        ),
+        false => outln!("{number}: {title}\n\n{}", explanation.trim_end()),
+    }
 }
 
 /// Columns of a screen.

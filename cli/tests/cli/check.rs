@@ -161,8 +161,29 @@ fn an_error_behind_the_graph_stands_at_its_input() {
         (2, "depth"),
         "{error:?}"
     );
+    let code = error.code.as_ref().expect("a code");
+    let explained = code
+        .explanation
+        .as_deref()
+        .is_some_and(|text| text.contains("Bound the index."));
+    assert!(code.code == "straightline::E0706" && explained, "{code:?}");
     let out = folder.display().to_string();
-    fails(&["emit", &kernel, "--out", &out], 1, &["layers.rs:2:15", "this input"]);
+    let says = [
+        "error[E0706]: ",
+        "layers.rs:2:15",
+        "this input",
+        "= help: bound it with",
+    ];
+    fails(&["emit", &kernel, "--out", &out], 1, &says);
+    // Engines find the input that they cannot bind.
+    let depth = "pub fn shade(depth: &DepthTexture, pixel: IVec2) -> Vec4 {\n    Vec4::splat(depth.load(pixel))\n}\n";
+    let shade = write(&folder, "shade.rs", depth);
+    let says = [
+        "error[E0801]: `shade` does not fit Godot",
+        "shade.rs:1:14",
+        "this input",
+    ];
+    fails(&["emit", &shade, "--engine", "godot", "--out", &out], 1, &says);
     // A stage without what the kernel needs is told at the kernel's name.
     let writes = "// fn writes\npub fn writes(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {\n    \
         bins.add((color.load(pixel).x * 8.0) as usize, 1);\n}\n";
@@ -215,7 +236,7 @@ fn notes_help_and_further_places_are_kept() {
     );
     assert_eq!(
         found[0].code.as_ref().map(|code| code.code.as_str()),
-        Some("straightline::kernel")
+        Some("straightline::E0411")
     );
 }
 

@@ -56,6 +56,10 @@ fn errors_of_evaluation_have_their_place_too() {
 #[test]
 fn unknown_names_and_values_are_bad_use() {
     fails(&["explain", "sraaa"], 2, &["no kernel `sraaa`", "sraa"]);
+    fails(&["explain", "E9999"], 2, &["error[E0211]", "no kernel `E9999`"]);
+    assert!(finishes(&["explain", "E0301"]).starts_with("E0301: mismatched types\n\n"));
+    let json: serde_json::Value = serde_json::from_str(&finishes(&["explain", "E0301", "--json"])).expect("JSON");
+    assert_eq!(json["code"], "E0301");
     fails(
         &["explain", "sraa", "--set", "pattrn=latin4"],
         2,
@@ -297,7 +301,10 @@ fn engines_get_their_folder_or_the_reason() {
     fails(
         &["emit", "sraa", "--engine", "mpv", "--out", none_text],
         1,
-        &["`sraa` does not fit mpv: it binds 3 textures, and mpv gives one picture; these engines take it: babylon, "],
+        &[
+            "error[E0801]: `sraa` does not fit mpv: it binds 3 textures, and mpv gives one picture",
+            "help: these engines take it: babylon, ",
+        ],
     );
     fails(
         &["emit", "sraa", "--engine", "gdot", "--out", none_text],

@@ -1,8 +1,8 @@
 //! GLSL shown to naga, which validates it. Its reader does not know all of GLSL: what it cannot take is shown to it as something
 //! of the same type. The tests have glslang read the text as it is.
 
-use super::error::EmitError;
 use super::print::{GATHER, LENGTH, MESSAGES, PRECISE};
+use super::refusal::Refusal;
 use super::translate::{stage, validate};
 use straightline_manifest::Stage;
 
@@ -10,7 +10,7 @@ use straightline_manifest::Stage;
 /// number in its place; it knows no quad operations, so it is shown what they are called with; it knows no gathers, so it is
 /// shown samples; it does not know `precise`; and it takes a texture that is `compared`, given by name and shape, for one of depths alone, so that its
 /// texels are shown to it as another texture's.
-pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]) -> Result<(), EmitError> {
+pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]) -> Result<(), Refusal> {
     let mut text = gathers_as_samples(&lengths_as_numbers(text)).replace(PRECISE, "");
     for message in MESSAGES {
         text = text.replace(message, "");
@@ -30,11 +30,7 @@ pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]
         text = text.replacen("#version 450\n", &other, 1);
     }
     let text = &text;
-    let invalid = |message| EmitError::Invalid {
-        kernel: kernel.to_owned(),
-        target: "glsl450",
-        message,
-    };
+    let invalid = |message: String| Refusal::invalid(kernel, "glsl450", &message);
     let options = naga::front::glsl::Options::from(stage(of));
     let module = naga::front::glsl::Frontend::default()
         .parse(&options, text)

@@ -1,7 +1,7 @@
 //! What the entry point is called.
 
-use super::error::EmitError;
 use super::options::EmitOptions;
+use super::refusal::Refusal;
 use super::spelled::is_own;
 use super::target::Target;
 use super::words::{LONGEST, Words, identifier, is_among};
@@ -13,17 +13,13 @@ use straightline_evaluator::shorten;
 /// # Errors
 ///
 /// The name that is asked for is none in a language that is written.
-pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, EmitError> {
+pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, Refusal> {
     let Some(name) = &options.entry else {
         return Ok(entry_point(kernel, options));
     };
     match why_not(name, options) {
         None => Ok(name.clone()),
-        Some(why) => Err(EmitError::Entry {
-            kernel: kernel.to_owned(),
-            name: shorten(name),
-            why,
-        }),
+        Some(why) => Err(Refusal::entry_name(kernel, &shorten(name), &why)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What cannot be a function of a shader of the host's.
 
-use super::error::EmitError;
 use super::options::EmitOptions;
+use super::refusal::Refusal;
 use super::resources::Resources;
 use super::target::Target;
 use crate::compiled::Compiled;
@@ -11,7 +11,7 @@ use crate::compiled::Compiled;
 /// # Errors
 ///
 /// The first thing that cannot be, and what to do.
-pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError> {
+pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
     let EmitOptions {
         targets,
         region,
@@ -19,41 +19,38 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
         workgroup,
         ..
     } = &resources.options;
-    let refused = |why: String| {
-        Err(EmitError::Function {
-            kernel: compiled.kernel.clone(),
-            why,
-        })
-    };
+    let refused = |why: &str, help: &str| Refusal::function(&compiled.kernel, why, help);
     if *region {
-        return refused("a function computes any position that it is called with: leave `region` out".to_owned());
+        return Err(refused(
+            "it computes any position that it is called with",
+            "leave `region` out",
+        ));
     }
     if workgroup.is_some() {
-        return refused("a function has no workgroup: leave `workgroup` out".to_owned());
+        return Err(refused("a function has no workgroup", "leave `workgroup` out"));
     }
     if *enable_subgroups {
-        return refused(
-            "`enable subgroups;` stands before everything else: write it in the shader that the function is put into"
-                .to_owned(),
-        );
+        return Err(refused(
+            "`enable subgroups;` stands before everything else",
+            "write it in the shader that the function is put into",
+        ));
     }
     if let Some(whole) = [Target::Spirv, Target::Msl].into_iter().find(|t| targets.contains(t)) {
-        return refused(format!(
-            "{whole} is written as a whole shader: leave it out, or emit the form `entry`"
+        return Err(refused(
+            &format!("{whole} is written as a whole shader"),
+            "leave it out, or emit the form `entry`",
         ));
     }
     if let Some((buffer, _)) = resources.read_buffers.iter().find(|(k, _)| resources.is_written(*k)) {
         let name = &resources.buffer(*buffer).name;
-        return refused(format!(
-            "it writes to `{name}`, and a function only gives values: emit the form `entry`"
-        ));
+        let why = format!("it writes to `{name}`, and a function only gives values");
+        return Err(refused(&why, "emit the form `entry`").about(name));
     }
     let takes_no_buffers = targets.iter().find(|t| **t != Target::Hlsl);
     if let (Some((buffer, _)), Some(target)) = (resources.read_buffers.first(), takes_no_buffers) {
         let name = &resources.buffer(*buffer).name;
-        return refused(format!(
-            "it reads the buffer `{name}`, which is no parameter in {target}: read a texture, write hlsl, or emit the form `entry`"
-        ));
+        let why = format!("it reads the buffer `{name}`, which is no parameter in {target}");
+        return Err(refused(&why, "read a texture, write hlsl, or emit the form `entry`").about(name));
     }
     Ok(())
 }

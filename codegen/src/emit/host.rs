@@ -2,7 +2,7 @@
 //!
 //! [`Reads::Functions`]: super::Reads::Functions
 
-use super::error::EmitError;
+use super::refusal::Refusal;
 use super::resources::Resources;
 use super::spelled::Derived;
 use super::target::Target;
@@ -122,13 +122,8 @@ pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
 /// # Errors
 ///
 /// The first read or language that they do not have.
-pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError> {
-    let refused = |why: String| {
-        Err(EmitError::Function {
-            kernel: compiled.kernel.clone(),
-            why,
-        })
-    };
+pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
+    let refused = |why: &str, help: &str| Refusal::function(&compiled.kernel, why, help);
     let options = &resources.options;
     if !(options.calls_host() || options.global_uniforms) {
         return Ok(());
@@ -137,8 +132,9 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
     let has = |target: &Target| declares(target) || (*target == Target::Wgsl && !options.global_uniforms);
     if let Some(target) = options.targets.iter().find(|target| !has(target)) {
         let also = if options.global_uniforms { "" } else { "wgsl, " };
-        return refused(format!(
-            "the host declares what it reads, which {target} does not have: write {also}glsl430, glsl330, essl310, essl300 or hlsl"
+        return Err(refused(
+            &format!("the host declares what it reads, which {target} does not have"),
+            &format!("write {also}glsl430, glsl330, essl310, essl300 or hlsl"),
         ));
     }
     if !options.calls_host() {
@@ -147,10 +143,11 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
     for bound in &resources.read {
         let texture = resources.texture(bound.index);
         if texture.kind != TextureKind::Flat || texture.scalar != Scalar::F32 {
-            return refused(format!(
-                "a function of the host's gives texels of a two-dimensional texture of floats, and `{}` is none: give it as a texture",
+            let why = format!(
+                "a function of the host's gives texels of a two-dimensional texture of floats, and `{}` is none",
                 texture.name
-            ));
+            );
+            return Err(refused(&why, "give it as a texture").about(&texture.name));
         }
     }
     let graph = &compiled.graph;
@@ -166,9 +163,8 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
             Op::Compare { .. } => "by comparison",
             _ => "and asks how many levels or layers it has",
         };
-        return refused(format!(
-            "it reads `{name}` {how}, for which the host has no function: give it as a texture"
-        ));
+        let why = format!("it reads `{name}` {how}, for which the host has no function");
+        return Err(refused(&why, "give it as a texture").about(name));
     }
     Ok(())
 }

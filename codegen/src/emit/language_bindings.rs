@@ -1,8 +1,8 @@
 //! What each language binds, by its own numbers, registers and names; of functions, what they take.
 
 use super::Target;
-use super::error::EmitError;
 use super::print::LOOSE_REGION;
+use super::refusal::Refusal;
 use super::resources::{Resources, SAMPLER, UNIFORMS};
 use straightline_manifest::{LanguageBinding, LanguageKind as Kind, REGION, Stage};
 
@@ -13,7 +13,7 @@ impl Resources {
     /// # Errors
     ///
     /// As [`Resources::spelled`].
-    pub fn language_bindings(&self) -> Result<Vec<LanguageBinding>, EmitError> {
+    pub fn language_bindings(&self) -> Result<Vec<LanguageBinding>, Refusal> {
         let mut all = Vec::new();
         for target in &self.options.targets {
             let mut list = List {

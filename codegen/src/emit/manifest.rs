@@ -1,8 +1,8 @@
 //! What a host is told of a shader: the manifest.
 
-use super::error::EmitError;
 use super::layout::value_type;
 use super::print::GENERATOR;
+use super::refusal::Refusal;
 use super::resources::{BoundTexture, Resources};
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
@@ -25,7 +25,7 @@ impl Resources {
     /// # Errors
     ///
     /// As [`Resources::spelled`].
-    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Result<Manifest, EmitError> {
+    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Result<Manifest, Refusal> {
         let mut bindings = Vec::new();
         let group = self.places.group();
         let mut add = |binding: u32, name: &str, kind: BindingKind| {

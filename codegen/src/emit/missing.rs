@@ -1,9 +1,10 @@
 //! What a GLSL does not have, found before anything is written.
 
-use super::error::EmitError;
+use super::refusal::Refusal;
 use super::resources::Resources;
 use super::target::Target;
 use crate::compiled::Compiled;
+use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{Op, TextureKind, UnaryOp};
 use straightline_manifest::{Precision, Stage};
 
@@ -12,8 +13,7 @@ use straightline_manifest::{Precision, Stage};
 /// # Errors
 ///
 /// The first thing that it does not have, and the languages that do.
-pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), EmitError> {
-    let kernel = || compiled.kernel.clone();
+pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), Refusal> {
     let (name, old, combined) = match target {
         Target::Glsl430 => ("glsl430", false, true),
         Target::Glsl330 => ("glsl330", true, true),
@@ -22,10 +22,13 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
         _ => ("glsl450", false, false),
     };
     if resources.options.precision == Precision::F16 {
-        return Err(EmitError::HalfGlsl {
-            kernel: kernel(),
-            target: name,
-        });
+        let what = format!(
+            "`{}` in half precision cannot be written in {name}, where naga knows no f16",
+            compiled.kernel
+        );
+        return Err(
+            Refusal::new(Code::NotInTarget, what).help("use wgsl, spirv, hlsl or msl, or leave the precision at f32")
+        );
     }
     let graph = &compiled.graph;
     let live = graph.ids().filter(|id| compiled.schedule.has(*id));
@@ -89,12 +92,13 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
         ),
     ];
     match needs.into_iter().find(|(needed, ..)| *needed) {
-        Some((_, what, instead)) => Err(EmitError::Missing {
-            kernel: kernel(),
-            target: name,
-            what,
-            instead,
-        }),
+        Some((_, does, instead)) => {
+            let what = format!(
+                "`{}` cannot be written in {name}: it {does}, which {name} does not have",
+                compiled.kernel
+            );
+            Err(Refusal::new(Code::NotInTarget, what).help(format!("use {instead}")))
+        }
         None => Ok(()),
     }
 }

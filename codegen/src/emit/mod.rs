@@ -9,7 +9,6 @@ mod bindings;
 mod check;
 mod comments;
 mod entry;
-mod error;
 mod function;
 mod half;
 mod host;
@@ -26,6 +25,7 @@ mod outputs;
 mod places;
 mod print;
 mod prose;
+mod refusal;
 mod register;
 mod resources;
 mod spelled;
@@ -38,8 +38,10 @@ mod variables;
 mod words;
 
 use crate::compiled::Compiled;
+use refusal::Refusal;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use straightline_evaluator::diagnostic::{Code, Errors};
 use straightline_evaluator::eval::LoopReport;
 use straightline_evaluator::ir::{Graph, Invocation, Op};
 use straightline_evaluator::limits::{self, Meter};
@@ -49,7 +51,6 @@ use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
-pub use error::EmitError;
 pub use options::{EmitOptions, Reads};
 pub use prose::comment;
 pub use register::Register;
@@ -113,21 +114,32 @@ const OPERATIONS: u32 = 32;
 const STATEMENTS: u32 = 4;
 
 /// The kernel as invocations of the stage compute it.
-fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, EmitError> {
-    let kernel = || compiled.kernel.clone();
+fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Refusal> {
+    let kernel = &compiled.kernel;
+    let refused = |why: String, help: &str| {
+        let what = format!("`{kernel}` {why}");
+        Err(Refusal::new(Code::StageUnfit, what).help(help))
+    };
     match (compiled.graph.invocation, stage) {
         (Invocation::Lane, Stage::Compute) => match compiled.transport {
             None => Ok(compiled.in_blocks()),
-            Some(transport) => Err(EmitError::NoQuads {
-                kernel: kernel(),
-                transport: transport.to_string(),
-            }),
+            Some(transport) => refused(
+                format!("sends messages by {transport}, and compute shaders have no pixel quads"),
+                "emit it for fragment, or use the transport `block`",
+            ),
         },
-        (Invocation::Group(_), Stage::Fragment) if compiled.sharing.is_some() => {
-            Err(EmitError::SharingStage { kernel: kernel() })
-        }
-        (Invocation::Group(_), Stage::Fragment) => Err(EmitError::GroupStage { kernel: kernel() }),
-        (Invocation::Block(size), Stage::Fragment) if size != [1, 1] => Err(EmitError::OnePixel { kernel: kernel() }),
+        (Invocation::Group(_), Stage::Fragment) if compiled.sharing.is_some() => refused(
+            "shares texels by workgroup, and fragments and functions are in none".to_owned(),
+            "emit it for compute, or leave `share` out",
+        ),
+        (Invocation::Group(_), Stage::Fragment) => refused(
+            "is a kernel of workgroups, which fragments and functions are not in".to_owned(),
+            "emit it for compute",
+        ),
+        (Invocation::Block(size), Stage::Fragment) if size != [1, 1] => refused(
+            "computes a block of pixels, and a fragment writes one".to_owned(),
+            "emit it for compute",
+        ),
         _ => Ok(Cow::Borrowed(compiled)),
     }
 }
@@ -166,14 +178,14 @@ impl Compiled {
     ///
     /// # Errors
     ///
-    /// It cannot be written so: what the stage or the language does not have.
-    pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, EmitError> {
-        emit(self, options)
+    /// Codes E07xx: what the stage or the language does not have, at the input that needs it or at the kernel.
+    pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, Errors> {
+        emit(self, options).map_err(|refusal| refusal.located(self))
     }
 }
 
 /// The error that a limit is exceeded, if one is.
-fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Excess>) -> Result<(), EmitError> {
+fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Excess>) -> Result<(), Refusal> {
     let Some(excess) = excess else { return Ok(()) };
     let largest = compiled.loops.iter().max_by_key(|report| report.operations);
     let named = |report: &LoopReport| {
@@ -183,35 +195,40 @@ fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Ex
             report.copies
         )
     };
-    Err(EmitError::Limit {
-        kernel: compiled.kernel.clone(),
-        excess,
-        statements,
-        largest: largest.map(named).unwrap_or_default(),
-    })
+    let what = format!(
+        "emitting `{}` takes {excess}, with {statements} statements{}",
+        compiled.kernel,
+        largest.map(named).unwrap_or_default()
+    );
+    Err(Refusal::new(Code::Limit, what).help(excess.help()))
 }
 
 /// Emits a kernel. Nothing is given out that naga does not validate.
-fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
+fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> {
     let _meter = Meter::resume(compiled.limits, compiled.time);
     if let Some([x, y]) = options.workgroup
         && (x == 0 || y == 0 || x.saturating_mul(y) > 1024)
     {
-        return Err(EmitError::Workgroup(x, y));
+        let what = format!("a workgroup of {x}x{y} is not possible");
+        return Err(Refusal::new(Code::WorkgroupSize, what)
+            .help("each side is at least 1, and both together at most 1024 invocations"));
     }
     if options.precision == Precision::F16
         && !options.accept_loss
         && let HalfPrecision::Lost(reason) = compiled.half_precision()
     {
-        return Err(EmitError::VisibleLoss {
-            kernel: compiled.kernel.clone(),
-            reason,
-        });
+        let what = format!("`{}` in f16 does not keep what can be seen: {reason}", compiled.kernel);
+        return Err(Refusal::new(Code::VisibleLoss, what).help(
+            "emit it in f32, or with options that keep it (`study hard --precision f16` tells which do); where your scenes do not \
+             show the loss, which `tune` measures, accept it: `--accept-loss`, or `.accept_loss(true)` in build.rs",
+        ));
     }
     if options.precision == Precision::F16 && !compiled.gathered.is_empty() {
-        return Err(EmitError::HalfGathers {
-            kernel: compiled.kernel.clone(),
-        });
+        let what = format!(
+            "`{}` gathers texels, and half precision does not hold where they lie",
+            compiled.kernel
+        );
+        return Err(Refusal::new(Code::HalfGathers, what).help("leave `reads` or the precision out"));
     }
     let mut options = options.clone();
     if options.is_function() {
@@ -261,10 +278,11 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
             Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
             Target::Hlsl => shader.hlsl(&counts)?.into_bytes(),
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
-                return Err(EmitError::Derivatives {
-                    kernel: compiled.kernel.clone(),
-                    target: "msl",
-                });
+                let what = format!(
+                    "`{}` sends messages by fine derivatives, which msl does not have",
+                    compiled.kernel
+                );
+                return Err(Refusal::new(Code::NotInTarget, what).help("use the transport `subgroup` or `block`"));
             }
             Target::Msl => {
                 let (text, name) = module.msl(&resources)?;
@@ -305,7 +323,7 @@ struct Wgsl {
 }
 
 impl Wgsl {
-    fn new(tree: &ast::Module<'_>, resources: &resources::Resources, marks: bool) -> Result<Wgsl, EmitError> {
+    fn new(tree: &ast::Module<'_>, resources: &resources::Resources, marks: bool) -> Result<Wgsl, Refusal> {
         let resources = resources.spelled(Target::Wgsl)?;
         let mut tree = tree.clone();
         legalise::wgsl(&mut tree, marks);
@@ -324,7 +342,7 @@ impl Wgsl {
 impl Shader<'_, '_> {
     /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else. With `marks`
     /// every exact value is marked ([`legalise::wgsl`]).
-    fn validated(&self, counts: &Counts, marks: bool) -> Result<translate::Module, EmitError> {
+    fn validated(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() && !marks {
             return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
@@ -344,7 +362,7 @@ impl Shader<'_, '_> {
         self.wgsl.under(&print::header(self.compiled, counts, self.resources))
     }
 
-    fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {
+    fn wgsl(&self, counts: &Counts) -> Result<String, Refusal> {
         let options = &self.resources.options;
         let wgsl = self.own_wgsl(counts);
         if options.is_function() {
@@ -361,7 +379,7 @@ impl Shader<'_, '_> {
         })
     }
 
-    fn glsl(&self, target: Target, counts: &Counts) -> Result<String, EmitError> {
+    fn glsl(&self, target: Target, counts: &Counts) -> Result<String, Refusal> {
         let resources = &self.resources.spelled(target)?;
         let mut tree = self.tree.clone();
         // Hosts compile functions with what stands around them, in a version of theirs.
@@ -378,7 +396,7 @@ impl Shader<'_, '_> {
         Ok(glsl)
     }
 
-    fn hlsl(&self, counts: &Counts) -> Result<String, EmitError> {
+    fn hlsl(&self, counts: &Counts) -> Result<String, Refusal> {
         let mut tree = self.tree.clone();
         legalise::hlsl(&mut tree, self.resources);
         let resources = self.resources.spelled(Target::Hlsl)?;

@@ -1,7 +1,7 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
 use super::ast::{Expr, Module, Stmt, StmtKind, VarId, Variable};
-use super::error::EmitError;
+use super::refusal::Refusal;
 use super::resources::Resources;
 use super::spelled::is_own;
 use super::target::Target;
@@ -67,7 +67,7 @@ impl Wanted {
 /// # Errors
 ///
 /// There are a million names like one of them.
-pub fn assign(module: &mut Module<'_>, resources: &Resources, target: Target) -> Result<(), EmitError> {
+pub fn assign(module: &mut Module<'_>, resources: &Resources, target: Target) -> Result<(), Refusal> {
     let mut taken: HashSet<String> = resources.taken(target).into_iter().collect();
     rename_functions(module, &resources.kernel, &taken)?;
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
@@ -84,7 +84,7 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, target: Target) ->
         scopes.declare(*var)?;
     }
     for function in &module.functions {
-        let declared: Result<Vec<String>, EmitError> =
+        let declared: Result<Vec<String>, Refusal> =
             function.params.iter().map(|param| scopes.declare(*param)).collect();
         scopes.block(&function.body)?;
         scopes.leave(declared?);
@@ -93,7 +93,7 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, target: Target) ->
 }
 
 /// Gives functions beside the entry point other names where the kernel has a use for theirs.
-fn rename_functions(module: &mut Module<'_>, kernel: &str, taken: &HashSet<String>) -> Result<(), EmitError> {
+fn rename_functions(module: &mut Module<'_>, kernel: &str, taken: &HashSet<String>) -> Result<(), Refusal> {
     let mut renamed: HashMap<String, String> = HashMap::new();
     for function in &module.functions {
         if taken.contains(&function.name) && !renamed.contains_key(&function.name) {
@@ -141,7 +141,7 @@ struct Scopes<'m> {
 }
 
 impl Scopes<'_> {
-    fn block(&mut self, block: &[Stmt<'_>]) -> Result<(), EmitError> {
+    fn block(&mut self, block: &[Stmt<'_>]) -> Result<(), Refusal> {
         let mut declared = Vec::new();
         for stmt in block {
             match stmt.kind {
@@ -169,7 +169,7 @@ impl Scopes<'_> {
     }
 
     /// Gives a variable its name. The entry point's own are named as they are.
-    fn declare(&mut self, var: VarId) -> Result<String, EmitError> {
+    fn declare(&mut self, var: VarId) -> Result<String, Refusal> {
         let variable = &mut self.variables[var.0 as usize];
         if var <= VarId::PLACE {
             return Ok(variable.name.clone());

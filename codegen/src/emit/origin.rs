@@ -1,9 +1,10 @@
 //! Kernels on pictures whose rows count from below.
 
-use super::error::EmitError;
 use super::options::EmitOptions;
+use super::refusal::Refusal;
 use crate::compiled::Compiled;
 use std::borrow::Cow;
+use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{Invocation, Op, verify};
 use straightline_evaluator::passes;
 use straightline_manifest::Precision;
@@ -13,33 +14,30 @@ use straightline_manifest::Precision;
 /// # Errors
 ///
 /// It has something that cannot be turned exactly.
-pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, EmitError> {
+pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, Refusal> {
     if !options.counts_from_below() {
         return Ok(Cow::Borrowed(compiled));
     }
-    let refused = |why| EmitError::FromBelow {
-        kernel: compiled.kernel.clone(),
-        why,
+    let refused = |why: &str, help: &str| {
+        let what = format!("`{}` cannot have its origin at the lower left: {why}", compiled.kernel);
+        Refusal::new(Code::LowerLeft, what).help(help)
     };
     let graph = &compiled.graph;
     if graph.invocation == Invocation::Lane {
         return Err(refused(
-            "its pixel quads begin at even rows from above, and in a picture of odd height those that a device has begin at odd \
-             ones: use the transport `block`, for compute",
+            "its pixel quads begin at even rows from above, and in a picture of odd height those that a device has begin at odd ones",
+            "use the transport `block`, for compute",
         ));
     }
     let filters = |op: &Op| op.sampler().is_some();
     if options.precision == Precision::F16 && graph.nodes.iter().any(|node| filters(&node.op)) {
         return Err(refused(
-            "it filters at places in half precision, and `1 - v` rounds small ones away: leave the precision at f32",
+            "it filters at places in half precision, and `1 - v` rounds small ones away",
+            "leave the precision at f32",
         ));
     }
     let graph = passes::clean(&passes::from_below(graph));
-    verify::verify(&graph).map_err(|message| EmitError::Invalid {
-        kernel: compiled.kernel.clone(),
-        target: "graph",
-        message,
-    })?;
+    verify::verify(&graph).map_err(|why| Refusal::invalid(&compiled.kernel, "graph", &why))?;
     let schedule = passes::schedule(&graph, compiled.policy.reads);
     let turned = Compiled {
         counts: passes::count(&graph, &schedule),

@@ -1,7 +1,7 @@
 //! Which numbers and registers everything bound has: those that the user gives, and the lowest free ones.
 
-use super::error::EmitError;
 use super::options::EmitOptions;
+use super::refusal::Refusal;
 use super::register::{LAST_BINDING, LAST_GROUP, Register};
 use super::target::Target;
 use std::collections::BTreeMap;
@@ -41,12 +41,8 @@ impl Places {
         bound: &[Named],
         outputs: &[String],
         sampler: &str,
-    ) -> Result<Places, EmitError> {
-        let refused = |what: String, help: String| EmitError::Place {
-            kernel: kernel.to_owned(),
-            what,
-            help,
-        };
+    ) -> Result<Places, Refusal> {
+        let refused = |what: String, help: String| Refusal::binding(kernel, &what, help);
         if options.is_function() {
             return match no_places(options) {
                 None => Ok(Places::in_order(bound)),
@@ -75,7 +71,8 @@ impl Places {
                 return Err(refused(
                     format!("the binding number {number} is given to `{name}`"),
                     format!("binding numbers are 0 to {LAST_BINDING}"),
-                ));
+                )
+                .about(name));
             }
             if let Some((other, _)) = places.numbers.iter().find(|(_, n)| *n == number)
                 && other != name
@@ -83,7 +80,8 @@ impl Places {
                 return Err(refused(
                     format!("the binding number {number} is given to `{other}` and to `{name}`"),
                     "give each a number of its own".to_owned(),
-                ));
+                )
+                .about(name));
             }
             if let Some(other) = places.numbers.insert(name.clone(), *number)
                 && other != *number
@@ -91,7 +89,8 @@ impl Places {
                 return Err(refused(
                     format!("`{name}` is given the binding numbers {other} and {number}"),
                     "give it one".to_owned(),
-                ));
+                )
+                .about(name));
             }
         }
         places.fill(bound);

@@ -1,16 +1,17 @@
 //! What a shader binds: only what it reads.
 
 use super::EmitOptions;
-use super::error::EmitError;
 use super::host::{self, HostFunction};
 use super::layout::{layout, value_type};
 use super::outputs::BoundOutput;
 use super::places::{Named, Places};
+use super::refusal::Refusal;
 use super::spelled::Derived;
 use super::target::Target;
 use super::words::free;
 use crate::compiled::Compiled;
 use std::collections::{BTreeMap, BTreeSet};
+use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
     Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Target as Picture, Texture,
     Type, Uniform, Varying,
@@ -130,13 +131,14 @@ pub struct Resources {
 
 impl Resources {
     /// What the scheduled graph reads.
-    pub fn of(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, EmitError> {
+    pub fn of(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, Refusal> {
         let graph = &compiled.graph;
         let live = |id: &NodeId| compiled.schedule.has(*id);
         let ops: Vec<&Op> = graph.ids().filter(live).map(|id| &graph.node(id).op).collect();
-        let kernel = || compiled.kernel.clone();
+        let kernel = &compiled.kernel;
         if options.region && (compiled.quad.is_some() || compiled.transport.is_some()) {
-            return Err(EmitError::QuadsOfRegion { kernel: kernel() });
+            let what = format!("`{kernel}` computes quads, which begin at even pixels, and a region may begin at any");
+            return Err(Refusal::new(Code::RegionUnfit, what).help("leave `region` out"));
         }
         let group = match graph.invocation {
             Invocation::Group(size) => Some(size),
@@ -145,23 +147,33 @@ impl Resources {
         if let (Some(own), Some(asked)) = (group, options.workgroup)
             && own != asked
         {
-            let kernel = kernel();
-            return Err(match compiled.sharing {
-                Some(_) => EmitError::Sharing { kernel, own, asked },
-                None => EmitError::Group { kernel, own, asked },
-            });
+            let sizes = format!("{}x{}, and {}x{} are asked for", own[0], own[1], asked[0], asked[1]);
+            let (what, help) = match compiled.sharing {
+                Some(_) => (
+                    format!("the pixels of `{kernel}` share texels by workgroups of {sizes}"),
+                    format!(
+                        "say `workgroup({}x{})` where sharing is asked for, or leave `workgroup` out",
+                        asked[0], asked[1]
+                    ),
+                ),
+                None => (
+                    format!("`{kernel}` is a kernel of workgroups of {sizes}"),
+                    "leave `workgroup` out, or change the kernel".to_owned(),
+                ),
+            };
+            return Err(Refusal::new(Code::WorkgroupSize, what).help(help));
         }
         let narrow = match options.stage {
-            _ if options.is_function() => Some("a function"),
-            Stage::Fragment => Some("a fragment shader"),
-            Stage::Compute => options.region.then_some("a shader of a region"),
+            _ if options.is_function() => Some((Code::StageUnfit, "a function")),
+            Stage::Fragment => Some((Code::StageUnfit, "a fragment shader")),
+            Stage::Compute => options.region.then_some((Code::RegionUnfit, "a shader of a region")),
         };
-        if let (Some(what), Some(image)) = (narrow, graph.images.first()) {
-            return Err(EmitError::Image {
-                kernel: kernel(),
-                image: image.name.clone(),
-                what,
-            });
+        if let (Some((code, narrow)), Some(image)) = (narrow, graph.images.first()) {
+            let image = &image.name;
+            let what = format!("`{kernel}` writes to `{image}` at any place, which {narrow} cannot");
+            return Err(Refusal::new(code, what)
+                .help("emit it as a compute shader of the whole frame")
+                .about(image));
         }
         let mut read = Vec::new();
         let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
@@ -181,9 +193,14 @@ impl Resources {
                 true => layers_read(graph, index),
                 false => Some(1),
             };
-            let layers = layers.ok_or_else(|| EmitError::Layers {
-                kernel: kernel(),
-                texture: graph.textures[index as usize].name.clone(),
+            let layers = layers.ok_or_else(|| {
+                let texture = &graph.textures[index as usize].name;
+                let what = format!(
+                    "`{kernel}` reads a layer or sample of `{texture}` whose index is a runtime value, so nothing tells how many it needs"
+                );
+                Refusal::new(Code::UnboundedLayers, what)
+                    .help("bound it with `.min(...)`")
+                    .about(texture)
             })?;
             read.push(BoundTexture {
                 index,
@@ -311,7 +328,7 @@ impl Resources {
             false => Vec::new(),
         };
         let resources = Resources {
-            kernel: kernel(),
+            kernel: kernel.clone(),
             entry,
             own_names,
             derived: BTreeMap::new(),
@@ -345,14 +362,18 @@ impl Resources {
             used_shared,
         };
         if options.stage == Stage::Fragment && resources.outputs.is_empty() {
-            return Err(EmitError::NoColour { kernel: kernel() });
+            let what = format!("`{kernel}` gives nothing for a pixel, and a fragment shader gives a colour");
+            return Err(Refusal::new(Code::StageUnfit, what).help("emit it for compute"));
         }
         let told = resources.framed().is_some() || sized_by_output;
         if needs_frame
             && !told
             && (options.stage == Stage::Fragment || !options.region || ops.contains(&&Op::FrameSize))
         {
-            return Err(EmitError::NoFrame { kernel: kernel() });
+            let what = format!("`{kernel}` needs the frame's size but reads no texture of that size");
+            return Err(Refusal::new(Code::FrameSize, what)
+                .note("only a compute shader with an output can know it then")
+                .help("emit a whole shader for compute, or take a `Frame`"));
         }
         Ok(resources)
     }

@@ -3,9 +3,9 @@
 //! Hosts know everything by the kernel's names. A name that a text cannot have is spelled otherwise there, and
 //! [`language_bindings`](super::language_bindings) says how.
 
-use super::error::EmitError;
 use super::host::HostFunction;
 use super::print::LOOSE_REGION;
+use super::refusal::Refusal;
 use super::resources::{Combined, OUTPUT, OUTPUTS, Resources, SAMPLER, UNIFORMS};
 use super::target::Target;
 use super::words::{Reserved, free, is_plain};
@@ -144,7 +144,7 @@ impl Resources {
     /// # Errors
     ///
     /// There are a million names like one of them.
-    pub fn spelled(&self, target: Target) -> Result<Resources, EmitError> {
+    pub fn spelled(&self, target: Target) -> Result<Resources, Refusal> {
         let mut spelled = self.clone();
         let reserved = Reserved::new(target, &self.options);
         let mut scope = Scope {
@@ -177,7 +177,7 @@ impl Resources {
                     (name.clone(), scope.members(target, fields, &[])?),
                 ))
             })
-            .collect::<Result<_, EmitError>>()?;
+            .collect::<Result<_, Refusal>>()?;
         for buffer in &mut spelled.buffers {
             if let Element::Struct(structure) = &mut buffer.element
                 && let Some((name, fields)) = structures.get(structure.name.as_str())
@@ -283,7 +283,7 @@ struct Scope<'r> {
 
 impl Scope<'_> {
     /// A name for something.
-    fn free(&mut self, name: &str) -> Result<String, EmitError> {
+    fn free(&mut self, name: &str) -> Result<String, Refusal> {
         let name = free(self.kernel, name, |name| {
             self.taken.contains(name) || self.reserved.has(name)
         })?;
@@ -292,7 +292,7 @@ impl Scope<'_> {
     }
 
     /// Names for many: first for those that can keep theirs.
-    fn give<'n>(&mut self, names: impl Iterator<Item = &'n str>) -> Result<Vec<String>, EmitError> {
+    fn give<'n>(&mut self, names: impl Iterator<Item = &'n str>) -> Result<Vec<String>, Refusal> {
         let names: Vec<&str> = names.collect();
         let mut given: Vec<Option<String>> = Vec::new();
         for name in &names {
@@ -310,7 +310,7 @@ impl Scope<'_> {
         target: Target,
         names: impl Iterator<Item = &'n str>,
         seen: &[String],
-    ) -> Result<Vec<String>, EmitError> {
+    ) -> Result<Vec<String>, Refusal> {
         let names: Vec<&str> = names.collect();
         // HLSL's padding is numbered by its place. naga reads no GLSL whose block has a member of the block's name.
         let is_own = |name: &&&str| match name.strip_prefix("padding_") {

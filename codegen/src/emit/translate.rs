@@ -1,11 +1,12 @@
 //! Validation by naga, and the languages that naga writes.
 
-use super::error::EmitError;
+use super::refusal::Refusal;
 use super::resources::Resources;
 use naga::back::{msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use std::time::Duration;
+use straightline_evaluator::diagnostic::Code;
 use straightline_manifest::Stage;
 
 /// Time that naga may take to read so many statements: the square of their number, 5 s for 10 000 on a slow machine.
@@ -22,12 +23,8 @@ pub struct Module {
 
 impl Module {
     /// Parses and validates WGSL.
-    pub fn parse_wgsl(kernel: &str, text: &str) -> Result<Module, EmitError> {
-        let invalid = |message| EmitError::Invalid {
-            kernel: kernel.to_owned(),
-            target: "wgsl",
-            message,
-        };
+    pub fn parse_wgsl(kernel: &str, text: &str) -> Result<Module, Refusal> {
+        let invalid = |message: String| Refusal::invalid(kernel, "wgsl", &message);
         let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
         let info = validate(&module, text).map_err(invalid)?;
         Ok(Module {
@@ -41,16 +38,17 @@ impl Module {
         stage(resources.options.stage)
     }
 
-    fn failed(&self, target: &'static str, message: impl ToString) -> EmitError {
-        EmitError::Translate {
-            kernel: self.kernel.clone(),
-            target,
-            message: message.to_string(),
-        }
+    fn failed(&self, target: &'static str, message: impl ToString) -> Refusal {
+        let what = format!(
+            "`{}` cannot be written in {target}: {}",
+            self.kernel,
+            message.to_string()
+        );
+        Refusal::new(Code::Untranslated, what).help(format!("leave the language {target} out"))
     }
 
     /// SPIR-V 1.3.
-    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u32>, EmitError> {
+    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u32>, Refusal> {
         let options = spv::Options {
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
@@ -74,7 +72,7 @@ impl Module {
 
     /// Metal, and what the entry point is called there: textures, buffers and samplers by their binding numbers, each kind by
     /// itself.
-    pub fn msl(&self, resources: &Resources) -> Result<(String, String), EmitError> {
+    pub fn msl(&self, resources: &Resources) -> Result<(String, String), Refusal> {
         let mut slots = msl::EntryPointResources::default();
         let group = resources.places.group();
         let mut bind = |binding: u32, target: msl::BindTarget| {
@@ -146,24 +144,20 @@ impl Module {
         // naga puts an underscore behind digits, and behind words of the language.
         let is_word = name != resources.entry && !resources.entry.ends_with(|c: char| c.is_ascii_digit());
         if is_word && resources.options.entry.is_some() {
-            return Err(EmitError::Entry {
-                kernel: self.kernel.clone(),
-                name: resources.entry.clone(),
-                why: "is a word of MSL".to_owned(),
-            });
+            return Err(Refusal::entry_name(&self.kernel, &resources.entry, "is a word of MSL"));
         }
         Ok((text, name))
     }
 
     /// A number that Metal has a place for.
-    fn slot(&self, kind: &str, binding: u32, last: u32) -> Result<u8, EmitError> {
+    fn slot(&self, kind: &str, binding: u32, last: u32) -> Result<u8, Refusal> {
         match u8::try_from(binding) {
             Ok(slot) if binding <= last => Ok(slot),
-            _ => Err(EmitError::Place {
-                kernel: self.kernel.clone(),
-                what: format!("the binding number {binding} is that of a {kind}, and MSL numbers {kind}s 0 to {last}"),
-                help: "give it a lower number, or leave the language msl out".to_owned(),
-            }),
+            _ => Err(Refusal::binding(
+                &self.kernel,
+                &format!("the binding number {binding} is that of a {kind}, and MSL numbers {kind}s 0 to {last}"),
+                "give it a lower number, or leave the language msl out",
+            )),
         }
     }
 }

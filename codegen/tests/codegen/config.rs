@@ -1,5 +1,7 @@
 //! The builder of a `build.rs`: what it refuses, and what its options come to in what is written.
 
+use std::error::Error;
+use std::io;
 use std::path::PathBuf;
 use straightline_codegen::config::KernelConfig;
 use straightline_codegen::emit::Target;
@@ -117,4 +119,21 @@ fn transports_and_blocks_are_the_command_lines() {
             .out_dir(folder("refused")),
     );
     assert!(error.contains("a block of 9x9 pixels"), "{error}");
+}
+
+/// The system's own error is behind that of a build.
+#[test]
+fn sources_are_kept() {
+    fn kind(config: &Config) -> Option<io::ErrorKind> {
+        let error = config.compile().expect_err("it fails");
+        let source = error.source()?.downcast_ref::<io::Error>()?;
+        Some(source.kind())
+    }
+    let none = Config::new().file("no/such/kernel.rs").out_dir(folder("sources"));
+    assert_eq!(kind(&none), Some(io::ErrorKind::NotFound));
+    let file = folder("sources-file");
+    std::fs::write(&file, "").expect("a file");
+    let no_folder = Config::new().kernel("stalker", |k| k).out_dir(&file);
+    assert!(kind(&no_folder).is_some());
+    std::fs::remove_file(&file).expect("it goes");
 }

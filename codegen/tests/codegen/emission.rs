@@ -4,7 +4,8 @@
 mod compilers;
 
 use compilers::{FUNCTION, LABEL, instructions, read};
-use straightline_codegen::emit::{EmitError, Emitted, Reads, Target};
+use straightline_codegen::diagnostic::Code;
+use straightline_codegen::emit::{Emitted, Reads, Target};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_manifest::LanguageKind;
 
@@ -262,8 +263,8 @@ fn every_kernel_is_read_in_the_languages_of_opengl() {
                         compilers::read(&emitted).unwrap_or_else(|e| panic!("{name} {target}: {e}"));
                         read += 1;
                     }
-                    Err(EmitError::Missing { .. }) => missing += 1,
-                    Err(EmitError::NoFrame { .. }) => {}
+                    Err(error) if error.code() == Some(Code::NotInTarget) => missing += 1,
+                    Err(error) if error.code() == Some(Code::FrameSize) => {}
                     Err(error) => panic!("{name} {target}: {error}"),
                 }
             }
@@ -287,7 +288,7 @@ fn basic_blocks_are_those_of_the_spirv() {
             let emitted = match compiled.emit(&options) {
                 Ok(emitted) => emitted,
                 // No texture of the frame's size tells a fragment of it.
-                Err(EmitError::NoFrame { .. }) => continue,
+                Err(error) if error.code() == Some(Code::FrameSize) => continue,
                 Err(error) => panic!("{error}"),
             };
             read(&emitted).unwrap_or_else(|e| panic!("{name}: {e}"));

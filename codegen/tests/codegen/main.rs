@@ -1,6 +1,7 @@
 //! The generator as a build script uses it: configuration, emission, bindings, rules of graphs and of imports.
 
 mod bindings;
+mod codes;
 mod config;
 mod emission;
 mod floor;

@@ -1,6 +1,5 @@
 //! Spellings of option values: each gives the shader, the manifest and the verdicts of the canonical one, to the byte.
 
-
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{
     Compiled, EmitOptions, Kernel, Numeric, OptionInfo, OptionKind, OptionValue, Precision, Settings, Transport, Unroll,

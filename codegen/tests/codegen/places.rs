@@ -4,7 +4,8 @@
 mod compilers;
 
 use compilers::read;
-use straightline_codegen::emit::{EmitError, Emitted, Target};
+use straightline_codegen::diagnostic::Code;
+use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Manifest, Origin, Precision, Settings, Stage};
 use straightline_manifest::{LanguageKind, hash_of_text};
 
@@ -468,7 +469,8 @@ fn what_cannot_be_a_function_is_refused() {
         "pub fn sized(resolution: UVec2, pixel: IVec2) -> Vec4 {\n    Vec4::splat(resolution.x as f32)\n}\n",
         "sized",
     );
-    assert!(matches!(sized.emit(&function()), Err(EmitError::NoFrame { .. })));
+    let code = sized.emit(&function()).err().and_then(|errors| errors.code());
+    assert_eq!(code, Some(Code::FrameSize));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::enums::Choice;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Generic, Type as SourceType};
 use crate::ir::{Scalar, Type};
 use std::rc::Rc;
@@ -28,12 +28,14 @@ impl Evaluator<'_> {
             (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
                 let len = self.expr(len)?;
                 let Some(len @ 1..=65536) = self.known_int(&len) else {
-                    return Err(
-                        Diagnostic::at(span, "the length of this array is no compile-time constant above 0")
-                            .label("made here")
-                            .help("use a constant, an option, or a loop counter")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        "the length of this array is no compile-time constant above 0",
+                    )
+                    .label("made here")
+                    .help("use a constant, an option, or a loop counter")
+                    .into());
                 };
                 let mut elements = Vec::new();
                 for k in 0..len {
@@ -93,6 +95,7 @@ impl Evaluator<'_> {
         match value {
             Value::Ref(_) | Value::Poison => Ok(value),
             other => Err(Diagnostic::at(
+                Code::MismatchedTypes,
                 span,
                 format!("{} where a mutable reference is stated", other.describe()),
             )
@@ -132,13 +135,20 @@ impl Evaluator<'_> {
                     _ => "add what lacks with `.extend(...)`".to_owned(),
                 };
                 let found = found.in_rust();
-                Err(Diagnostic::at(span, format!("{found} where `{name}` is stated"))
-                    .label("of another type")
-                    .help(help)
-                    .into())
+                Err(
+                    Diagnostic::at(Code::MismatchedTypes, span, format!("{found} where `{name}` is stated"))
+                        .label("of another type")
+                        .help(help)
+                        .into(),
+                )
             }
             Value::Poison => Ok(value),
-            other => Err(Diagnostic::at(span, format!("{} where `{name}` is stated", other.describe())).into()),
+            other => Err(Diagnostic::at(
+                Code::MismatchedTypes,
+                span,
+                format!("{} where `{name}` is stated", other.describe()),
+            )
+            .into()),
         }
     }
 }
@@ -150,11 +160,13 @@ fn check_length(stated: Option<&Expr>, found: usize, span: Span) -> Eval<()> {
     };
     match usize::try_from(*stated) == Ok(found) {
         true => Ok(()),
-        false => Err(
-            Diagnostic::at(span, format!("an array of {found} where one of {stated} is stated"))
-                .label("of another length")
-                .help(format!("give it {stated} elements, or state `; {found}]`"))
-                .into(),
-        ),
+        false => Err(Diagnostic::at(
+            Code::MismatchedTypes,
+            span,
+            format!("an array of {found} where one of {stated} is stated"),
+        )
+        .label("of another length")
+        .help(format!("give it {stated} elements, or state `; {found}]`"))
+        .into()),
     }
 }

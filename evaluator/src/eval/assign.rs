@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::expr::{lane, out_of_range};
 use super::value::{Eval, Exit, Step, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 use std::rc::Rc;
@@ -38,14 +38,22 @@ impl Evaluator<'_> {
             (Value::Struct { ty, mut fields }, Step::Field(name)) => {
                 match Rc::make_mut(&mut fields).iter_mut().find(|(field, _)| field == name) {
                     Some((_, slot)) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
-                    None => return Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`")).into()),
+                    None => {
+                        return Err(
+                            Diagnostic::at(Code::UnknownField, span, format!("`{ty}` has no field `{name}`")).into(),
+                        );
+                    }
                 }
                 Ok(Value::Struct { ty, fields })
             }
             (Value::Tuple(mut parts), Step::Field(name)) => {
                 match name.parse::<usize>().ok().and_then(|k| parts.get_mut(k)) {
                     Some(slot) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
-                    None => return Err(Diagnostic::at(span, format!("a tuple has no `.{name}`")).into()),
+                    None => {
+                        return Err(
+                            Diagnostic::at(Code::UnknownField, span, format!("a tuple has no `.{name}`")).into(),
+                        );
+                    }
                 }
                 Ok(Value::Tuple(parts))
             }
@@ -53,7 +61,14 @@ impl Evaluator<'_> {
                 let held = Rc::make_mut(&mut choice).held.get_mut(*k).and_then(Option::as_mut);
                 match held.and_then(|fields| fields.iter_mut().find(|(field, _)| field == name)) {
                     Some((_, slot)) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
-                    None => return Err(Diagnostic::at(span, format!("the variant has no field `{name}`")).into()),
+                    None => {
+                        return Err(Diagnostic::at(
+                            Code::UnknownField,
+                            span,
+                            format!("the variant has no field `{name}`"),
+                        )
+                        .into());
+                    }
                 }
                 Ok(Value::Enum(choice))
             }
@@ -84,7 +99,12 @@ impl Evaluator<'_> {
             }
             (Value::Node(id), Step::Field(name)) => self.set_lane(id, name, &new, span),
             (Value::Poison, _) => Err(Exit::Noted),
-            (other, _) => Err(Diagnostic::at(span, format!("{} has no such part", other.describe())).into()),
+            (other, _) => Err(Diagnostic::at(
+                Code::UnknownField,
+                span,
+                format!("{} has no such part", other.describe()),
+            )
+            .into()),
         }
     }
 
@@ -103,12 +123,14 @@ impl Evaluator<'_> {
         let ty = self.ty(vector);
         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
         let Some(changed) = lane(name).filter(|k| *k < ty.components() && ty.components() > 1) else {
-            return Err(
-                Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
-                    .label("not there")
-                    .help("vectors have x, y, z and w")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::UnknownField,
+                span,
+                format!("a {} has no field `{name}`", ty.in_rust()),
+            )
+            .label("not there")
+            .help("vectors have x, y, z and w")
+            .into());
         };
         let mut lanes = Vec::new();
         for k in 0..ty.components() {
@@ -125,9 +147,13 @@ impl Evaluator<'_> {
 
 fn not_a_place(target: &Expr) -> Diagnostic {
     if let ExprKind::Path(path) = &target.kind {
-        return Diagnostic::at(target.span, format!("there is no variable `{}`", path.join("::")));
+        return Diagnostic::at(
+            Code::UnknownName,
+            target.span,
+            format!("there is no variable `{}`", path.join("::")),
+        );
     }
-    Diagnostic::at(target.span, "this cannot be assigned to")
+    Diagnostic::at(Code::Immutable, target.span, "this cannot be assigned to")
         .label("not a variable")
         .help("assign to a variable, a field or an element")
 }

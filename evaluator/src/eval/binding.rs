@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Step, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Pattern;
 use crate::ir::Type;
 use std::rc::Rc;
@@ -45,6 +45,7 @@ impl Evaluator<'_> {
                     .iter()
                     .try_for_each(|part| self.bound(part, Value::Poison, matched, span)),
                 other => Err(Diagnostic::at(
+                    Code::Pattern,
                     *at,
                     format!("a pattern of {} parts for {}", parts.len(), other.describe()),
                 )
@@ -69,13 +70,17 @@ impl Evaluator<'_> {
                 }
                 Ok(())
             }
-            Pattern::Range(..) => Err(Diagnostic::at(span, "a `let` cannot compare")
+            Pattern::Range(..) => Err(Diagnostic::at(Code::RefutablePattern, span, "a `let` cannot compare")
                 .help("use `match`")
                 .into()),
-            Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare")
+            Pattern::Value(expr) => Err(
+                Diagnostic::at(Code::RefutablePattern, expr.span, "a `let` cannot compare")
+                    .help("use `match`")
+                    .into(),
+            ),
+            Pattern::Or(_) => Err(Diagnostic::at(Code::RefutablePattern, span, "a `let` cannot choose")
                 .help("use `match`")
                 .into()),
-            Pattern::Or(_) => Err(Diagnostic::at(span, "a `let` cannot choose").help("use `match`").into()),
         }
     }
 
@@ -91,7 +96,7 @@ impl Evaluator<'_> {
                         } else {
                             "parts of what is borrowed mutably"
                         };
-                        return Err(Diagnostic::at(*at, format!("`{name} @ ..` of {what}"))
+                        return Err(Diagnostic::at(Code::Pattern, *at, format!("`{name} @ ..` of {what}"))
                             .label("not supported")
                             .help("give each part a name, or leave the name of `..` out")
                             .into());
@@ -147,13 +152,19 @@ impl Evaluator<'_> {
         let Value::Enum(choice) = value else {
             return match value {
                 Value::Poison => Err(Exit::Noted),
-                other => Err(Diagnostic::at(span, format!("a pattern of an enum for {}", other.describe())).into()),
+                other => Err(Diagnostic::at(
+                    Code::Pattern,
+                    span,
+                    format!("a pattern of an enum for {}", other.describe()),
+                )
+                .into()),
             };
         };
         let fields = choice.fields(variant).unwrap_or_default();
         match fields.iter().find(|(field, _)| field == name) {
             Some((_, value)) => Ok(value.clone()),
             None => Err(Diagnostic::at(
+                Code::Pattern,
                 span,
                 format!(
                     "`{}` is not this variant, or the variant has no field `{name}`",

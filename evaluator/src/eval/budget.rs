@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::Eval;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::limits;
 use crate::policy::{self, Unroll};
 use std::collections::HashMap;
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
                     format!("its loops are {}", paths.join(", "))
                 };
                 self.errors
-                    .push(Diagnostic::new(format!("the kernel has no loop `{path}`")).help(help));
+                    .push(Diagnostic::new(Code::UnknownLoop, format!("the kernel has no loop `{path}`")).help(help));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, Type as SourceType};
 use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
@@ -23,6 +23,7 @@ impl Evaluator<'_> {
         let whole = [Element::Value(Type::I32), Element::Value(Type::U32)];
         if access == Access::Atomic && !whole.contains(&element) {
             return Err(Diagnostic::at(
+                Code::ResourceElement,
                 span,
                 format!("the buffer `{name}` has no elements that are changed at once"),
             )
@@ -32,6 +33,7 @@ impl Evaluator<'_> {
         }
         if access == Access::Write && matches!(element, Element::Struct(_)) {
             return Err(Diagnostic::at(
+                Code::ResourceElement,
                 span,
                 format!("the buffer `{name}` has no elements that a shader can write"),
             )
@@ -54,6 +56,7 @@ impl Evaluator<'_> {
     fn element_type(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<Element> {
         let refused = || -> Exit {
             Diagnostic::at(
+Code::ResourceElement,
                 span,
                 format!("the buffer `{name}` has no elements that a shader can read"),
             )
@@ -102,7 +105,7 @@ impl Evaluator<'_> {
             outer => format!("{outer}_{}", unraw(field)),
         };
         let refused = || -> Exit {
-            Diagnostic::at(span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))
+            Diagnostic::at(Code::ResourceElement, span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))
                 .label("of this type")
                 .help("fields are f32, i32, u32, vectors, matrices, structures of these, and arrays of numbers, vectors or structures")
                 .into()
@@ -131,7 +134,7 @@ impl Evaluator<'_> {
                     }
                     if fields.len() > LONGEST as usize {
                         let message = format!("an element of a buffer has more than {LONGEST} fields");
-                        return Err(Diagnostic::at(span, message)
+                        return Err(Diagnostic::at(Code::ResourceElement, span, message)
                             .label("with those of this array")
                             .help("keep the array in a buffer of its own")
                             .into());
@@ -166,6 +169,7 @@ impl Evaluator<'_> {
         match self.known_int(&count) {
             Some(n) if (1..=LONGEST).contains(&n) => Ok(n as u32),
             _ => Err(Diagnostic::at(
+                Code::ResourceElement,
                 len.span,
                 format!("an array that a host fills has 1 to {LONGEST} elements"),
             )
@@ -196,10 +200,12 @@ impl Evaluator<'_> {
                     _ => Err(Exit::Noted),
                 }
             }
-            _ => Err(Diagnostic::at(span, format!("a buffer has no method `{name}`"))
-                .label("not supported")
-                .help("buffers have `load` and `len`")
-                .into()),
+            _ => Err(
+                Diagnostic::at(Code::UnknownMethod, span, format!("a buffer has no method `{name}`"))
+                    .label("not supported")
+                    .help("buffers have `load` and `len`")
+                    .into(),
+            ),
         }
     }
 

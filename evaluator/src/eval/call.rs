@@ -3,7 +3,7 @@
 use super::departures::Tail;
 use super::value::{Eval, Exit, Value, Way};
 use super::{Evaluator, MAX_CALLS};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 use std::borrow::Cow;
@@ -125,7 +125,7 @@ impl<'a> Evaluator<'a> {
         match (path, values.as_slice()) {
             ([.., ty, splat], [value]) if splat == "splat" => {
                 let Some((kind, lanes)) = vector_type(ty) else {
-                    return Err(Diagnostic::at(span, format!("`{ty}` is not a vector")).into());
+                    return Err(Diagnostic::at(Code::UnknownFunction, span, format!("`{ty}` is not a vector")).into());
                 };
                 let value = self.lane_node(value, kind, span)?;
                 Ok(Value::Node(self.splat(value, lanes)))
@@ -178,7 +178,7 @@ impl<'a> Evaluator<'a> {
             Some(close) => format!("did you mean `{close}`?"),
             None => "define it in one of the kernel's files, or use a function of the prelude".to_owned(),
         };
-        Diagnostic::at(span, format!("there is no function `{name}`"))
+        Diagnostic::at(Code::UnknownFunction, span, format!("there is no function `{name}`"))
             .label("not found in the kernel's files")
             .help(help)
             .into()
@@ -188,7 +188,7 @@ impl<'a> Evaluator<'a> {
     pub fn inline(&mut self, name: &str, constants: &[Value], args: Vec<Value>, span: Span) -> Eval {
         let library = self.library;
         let Some((name, function)) = library.functions.get_key_value(name) else {
-            return Err(Diagnostic::at(span, format!("there is no function `{name}`")).into());
+            return Err(Diagnostic::at(Code::UnknownFunction, span, format!("there is no function `{name}`")).into());
         };
         match name == Self::PHASE && function.span.file == crate::front::std::FILE {
             true => self.phase(function, args, span),
@@ -207,6 +207,7 @@ impl<'a> Evaluator<'a> {
     ) -> Eval {
         if args.len() != function.params.len() {
             return Err(Diagnostic::at(
+                Code::ArgumentCount,
                 span,
                 format!(
                     "`{name}` takes {} argument{}, not {}",
@@ -221,6 +222,7 @@ impl<'a> Evaluator<'a> {
         }
         if self.calls.len() >= MAX_CALLS {
             return Err(Diagnostic::at(
+                Code::Recursion,
                 span,
                 format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
             )
@@ -282,7 +284,9 @@ impl<'a> Evaluator<'a> {
         match result {
             // What is wrong is how it was called.
             Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
-            Err(Exit::Left(_)) => Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into()),
+            Err(Exit::Left(_)) => {
+                Err(Diagnostic::at(Code::Leaving, function.span, "`break` or `continue` outside of a loop").into())
+            }
             other => other,
         }
     }
@@ -317,13 +321,15 @@ impl<'a> Evaluator<'a> {
                     bound.push((name.clone(), value));
                 }
                 None => {
-                    return Err(
-                        Diagnostic::at(span, format!("the constant `{name}` of this call is not known"))
-                            .label("called here")
-                            .other(function.span, "defined here")
-                            .help(format!("state it: `::<{name}>`"))
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::TypeNeeded,
+                        span,
+                        format!("the constant `{name}` of this call is not known"),
+                    )
+                    .label("called here")
+                    .other(function.span, "defined here")
+                    .help(format!("state it: `::<{name}>`"))
+                    .into());
                 }
             }
         }
@@ -361,7 +367,12 @@ impl<'a> Evaluator<'a> {
         }
         if definition.fields.len() != values.len() {
             let (wanted, found) = (definition.fields.len(), values.len());
-            return Err(Diagnostic::at(span, format!("`{name}` has {wanted} fields, not {found}")).into());
+            return Err(Diagnostic::at(
+                Code::ArgumentCount,
+                span,
+                format!("`{name}` has {wanted} fields, not {found}"),
+            )
+            .into());
         }
         let mut fields = Vec::new();
         for ((field, ty, _), value) in definition.fields.iter().zip(values) {
@@ -378,12 +389,14 @@ impl<'a> Evaluator<'a> {
             parts.extend(self.lanes(id));
         }
         if parts.len() != lanes as usize {
-            return Err(
-                Diagnostic::at(span, format!("a vector of {lanes} components from {}", parts.len()))
-                    .label("numbers and components of vectors count together")
-                    .help(format!("give {lanes}, or `splat` one"))
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::ArgumentCount,
+                span,
+                format!("a vector of {lanes} components from {}", parts.len()),
+            )
+            .label("numbers and components of vectors count together")
+            .help(format!("give {lanes}, or `splat` one"))
+            .into());
         }
         Ok(Value::Node(self.builder.add(
             Op::Compose,
@@ -400,12 +413,14 @@ impl<'a> Evaluator<'a> {
         if self.ty(id).kind() == Some(kind) && !self.ty(id).is_array() {
             return Ok(id);
         }
-        Err(
-            Diagnostic::at(span, format!("{} where {kind} is needed", self.ty(id).in_rust()))
-                .label("of another type")
-                .help(format!("convert it with `as {kind}`"))
-                .into(),
+        Err(Diagnostic::at(
+            Code::MismatchedTypes,
+            span,
+            format!("{} where {kind} is needed", self.ty(id).in_rust()),
         )
+        .label("of another type")
+        .help(format!("convert it with `as {kind}`"))
+        .into())
     }
 
     /// A known integer as a kind, or a node that is of it already.

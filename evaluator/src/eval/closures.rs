@@ -6,7 +6,7 @@
 use super::departures::Tail;
 use super::value::{Captured, Closed, Eval, Exit, Value, Way};
 use super::{Evaluator, MAX_CALLS};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Closure};
 use crate::front::{assigned, mentioned_in};
 use crate::ir::{BinaryOp, NodeId, Op, Type};
@@ -34,12 +34,14 @@ impl Evaluator<'_> {
                 Value::Alias(place) if is_written => Captured::Place(place),
                 Value::Alias(place) => Captured::Value(self.read(&place, span)?),
                 _ if is_written && code.moves => {
-                    return Err(
-                        Diagnostic::at(span, format!("a `move` closure that changes its own `{name}`"))
-                            .label("not supported")
-                            .help("leave out `move`, so that it changes the variable around it")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::NotInLanguage,
+                        span,
+                        format!("a `move` closure that changes its own `{name}`"),
+                    )
+                    .label("not supported")
+                    .help("leave out `move`, so that it changes the variable around it")
+                    .into());
                 }
                 _ if is_written => Captured::Place(Rc::new(self.scope.place(slot))),
                 value => Captured::Value(value),
@@ -61,15 +63,20 @@ impl Evaluator<'_> {
             Value::OneOf(number, all) => return self.invoke_one(*number, all, 0, args, span),
             Value::Poison => return Err(Exit::Noted),
             other => {
-                return Err(Diagnostic::at(span, format!("{} cannot be called", other.describe()))
-                    .label("not a function")
-                    .into());
+                return Err(Diagnostic::at(
+                    Code::NotAFunction,
+                    span,
+                    format!("{} cannot be called", other.describe()),
+                )
+                .label("not a function")
+                .into());
             }
         };
         let (wanted, given) = (closed.code.params.len(), args.len());
         if wanted != given {
             let plural = if wanted == 1 { "" } else { "s" };
             return Err(Diagnostic::at(
+                Code::ArgumentCount,
                 span,
                 format!("this closure takes {wanted} argument{plural}, not {given}"),
             )
@@ -77,11 +84,13 @@ impl Evaluator<'_> {
             .into());
         }
         if self.calls.len() >= MAX_CALLS {
-            return Err(
-                Diagnostic::at(span, format!("calls are nested more than {MAX_CALLS} deep"))
-                    .label("recursion that does not end?")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::Recursion,
+                span,
+                format!("calls are nested more than {MAX_CALLS} deep"),
+            )
+            .label("recursion that does not end?")
+            .into());
         }
         let outer = self.scope.enter_function();
         self.calls.push(closed.function.clone().into());
@@ -89,7 +98,9 @@ impl Evaluator<'_> {
         self.calls.pop();
         self.scope.leave_function(outer);
         match result {
-            Err(Exit::Left(_)) => Err(Diagnostic::at(span, "`break` or `continue` outside of a loop").into()),
+            Err(Exit::Left(_)) => {
+                Err(Diagnostic::at(Code::Leaving, span, "`break` or `continue` outside of a loop").into())
+            }
             other => other,
         }
     }
@@ -217,13 +228,15 @@ impl Evaluator<'_> {
     /// Refuses a closure that changes variables, where it is called in another order than natively or not as often.
     pub fn only_reads(&self, callee: &Value, method: &str, span: Span) -> Eval<()> {
         match callee.changes_variables() {
-            true => Err(
-                Diagnostic::at(span, format!("a closure that changes variables, in `{method}`"))
-                    .label("not supported")
-                    .note("how often it is called would depend on what takes the values")
-                    .help("write a `for` loop, or use `fold`")
-                    .into(),
-            ),
+            true => Err(Diagnostic::at(
+                Code::MisplacedWrite,
+                span,
+                format!("a closure that changes variables, in `{method}`"),
+            )
+            .label("not supported")
+            .note("how often it is called would depend on what takes the values")
+            .help("write a `for` loop, or use `fold`")
+            .into()),
             false => Ok(()),
         }
     }

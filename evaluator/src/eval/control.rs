@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::departures::{Departure, Side, Tail};
 use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Expr};
 use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
@@ -47,10 +47,12 @@ impl Evaluator<'_> {
         let value = self.value(condition)?;
         let id = self.node(&value, condition.span)?;
         if self.ty(id) != Type::BOOL {
-            return Err(Diagnostic::at(condition.span, "a condition must be a boolean")
-                .label(format!("of type {}", self.ty(id).in_rust()))
-                .help("compare it: `!= 0`")
-                .into());
+            return Err(
+                Diagnostic::at(Code::MismatchedTypes, condition.span, "a condition must be a boolean")
+                    .label(format!("of type {}", self.ty(id).in_rust()))
+                    .help("compare it: `!= 0`")
+                    .into(),
+            );
         }
         Ok(id)
     }
@@ -61,12 +63,16 @@ impl Evaluator<'_> {
         let id = self.node(&value, condition.span)?;
         match self.known_bool(id) {
             Some(true) => Ok(Value::unit()),
-            Some(false) => Err(Diagnostic::at(condition.span, message).label("does not hold").into()),
-            None => Err(Diagnostic::at(condition.span, "an assertion about a runtime value")
-                .label("not a compile-time constant")
-                .note("a shader has no way to fail")
-                .help("assert what follows from options and counters, and let run-time values choose with `if`")
+            Some(false) => Err(Diagnostic::at(Code::Assertion, condition.span, message)
+                .label("does not hold")
                 .into()),
+            None => Err(
+                Diagnostic::at(Code::Assertion, condition.span, "an assertion about a runtime value")
+                    .label("not a compile-time constant")
+                    .note("a shader has no way to fail")
+                    .help("assert what follows from options and counters, and let run-time values choose with `if`")
+                    .into(),
+            ),
         }
     }
 
@@ -185,6 +191,7 @@ impl Evaluator<'_> {
         match outcome {
             Ok(value) if !left => Ok(value),
             Ok(_) | Err(Exit::Left(_)) => Err(Diagnostic::at(
+                Code::Leaving,
                 span,
                 "`break`, `continue` or `return` on the right side of `&&` or `||`",
             )

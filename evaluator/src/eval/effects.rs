@@ -7,7 +7,7 @@
 use super::Evaluator;
 use super::buffers::value_named;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
 use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Target, Type};
 
@@ -81,6 +81,7 @@ impl Evaluator<'_> {
         };
         let Some(ty) = ty.filter(|ty| ty.kind() != Some(Scalar::Bool)) else {
             return Err(Diagnostic::at(
+                Code::ResourceElement,
                 span,
                 format!("the picture `{name}` has no texels that a shader can write"),
             )
@@ -110,6 +111,7 @@ impl Evaluator<'_> {
                 self.effect_on(Memory::Image(index), Effects::Store, args, span)
             }
             _ => Err(Diagnostic::at(
+                Code::UnknownMethod,
                 span,
                 format!("`{image}` is a `StorageTexture`, which has no method `{name}` with such arguments"),
             )
@@ -151,10 +153,14 @@ impl Evaluator<'_> {
             };
             if self.ty(value) != element {
                 let (wanted, found) = (element.in_rust(), self.ty(value).in_rust());
-                return Err(Diagnostic::at(span, format!("`{name}` holds {wanted}, not {found}"))
-                    .label("of this value")
-                    .help(format!("convert it to {wanted}"))
-                    .into());
+                return Err(Diagnostic::at(
+                    Code::MismatchedTypes,
+                    span,
+                    format!("`{name}` holds {wanted}, not {found}"),
+                )
+                .label("of this value")
+                .help(format!("convert it to {wanted}"))
+                .into());
             }
             given.push(value);
         }
@@ -238,10 +244,12 @@ impl Evaluator<'_> {
                 "pixels that lie outside of the frame compute too: leave the block out",
             ),
         };
-        Err(Diagnostic::at(span, format!("{what} writes to `{name}`"))
-            .label("not supported")
-            .help(help)
-            .into())
+        Err(
+            Diagnostic::at(Code::MisplacedWrite, span, format!("{what} writes to `{name}`"))
+                .label("not supported")
+                .help(help)
+                .into(),
+        )
     }
 }
 
@@ -255,6 +263,7 @@ fn no_such_method(buffer: &str, access: Access, name: &str, span: Span) -> Exit 
         ),
     };
     Diagnostic::at(
+        Code::UnknownMethod,
         span,
         format!("`{buffer}` is {ty}, which has no method `{name}` with such arguments"),
     )

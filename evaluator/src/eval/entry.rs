@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::options::unknown;
 // Booleans are in no buffer.
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
 use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
@@ -24,23 +24,26 @@ impl Evaluator<'_> {
                 .map(String::as_str)
                 .collect();
             names.sort_unstable();
-            return Err(
-                Diagnostic::new(format!("there is no function `{entry}` in the kernel's files"))
-                    .help(format!("there are {}: say which, FILE.rs::FUNCTION", names.join(", ")))
-                    .into(),
-            );
+            return Err(Diagnostic::new(
+                Code::UnknownKernel,
+                format!("there is no function `{entry}` in the kernel's files"),
+            )
+            .help(format!("there are {}: say which, FILE.rs::FUNCTION", names.join(", ")))
+            .into());
         };
         self.parameters = self.names_of_parameters(&function.params);
         let mut options = OptionValues::default();
         let mut args = Vec::new();
         for Param { name, ty, span, .. } in &function.params {
             if ty.is_mutable_reference() {
-                return Err(
-                    Diagnostic::at(*span, format!("a kernel cannot take `{name}` by `&mut`"))
-                        .label("not supported")
-                        .help("a kernel reads its parameters, and gives one colour")
-                        .into(),
-                );
+                return Err(Diagnostic::at(
+                    Code::KernelParameter,
+                    *span,
+                    format!("a kernel cannot take `{name}` by `&mut`"),
+                )
+                .label("not supported")
+                .help("a kernel reads its parameters, and gives one colour")
+                .into());
             }
             args.push(self.parameter(name, ty.bare(), *span, settings, &mut options)?);
         }
@@ -50,9 +53,13 @@ impl Evaluator<'_> {
         };
         let pixel = function.params.iter().find(is_pixel);
         if let (true, Some(pixel)) = (of_group, pixel) {
-            let error = Diagnostic::at(pixel.span, "a kernel of workgroups has a pixel for each thread")
-                .label("of which thread?")
-                .help("leave it out, and take `thread.pixel` in a `group.each(|thread| ...)`");
+            let error = Diagnostic::at(
+                Code::KernelParameter,
+                pixel.span,
+                "a kernel of workgroups has a pixel for each thread",
+            )
+            .label("of which thread?")
+            .help("leave it out, and take `thread.pixel` in a `group.each(|thread| ...)`");
             self.note(error.into());
         }
         let names: Vec<&str> = options.iter().map(|(name, _)| name.as_str()).collect();
@@ -135,7 +142,7 @@ impl Evaluator<'_> {
             };
             let Some(value) = value else {
                 return Err(
-                    Diagnostic::at(*at, format!("`{field}` is neither a resource nor a number"))
+                    Diagnostic::at(Code::KernelParameter, *at, format!("`{field}` is neither a resource nor a number"))
                         .label("not supported")
                         .help(
                             "a structure that a kernel takes holds textures, samplers, buffers, numbers, vectors and matrices, and arrays \
@@ -244,7 +251,7 @@ impl Evaluator<'_> {
 }
 
 fn bad_parameter(name: &str, span: Span) -> Exit {
-    Diagnostic::at(span, format!("a kernel cannot take `{name}` of this type"))
+    Diagnostic::at(Code::KernelParameter, span, format!("a kernel cannot take `{name}` of this type"))
         .label("not supported")
         .help(
             "a kernel takes options (`options!`), textures, samplers and buffers of the prelude, numbers, vectors and matrices, \

@@ -4,7 +4,7 @@
 use super::Evaluator;
 use super::departures::Tail;
 use super::value::{Eval, Exit, Value, Way};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{Enum, Expr};
 use crate::ir::{BinaryOp, NodeId, Op, Type};
@@ -122,6 +122,7 @@ impl Evaluator<'_> {
             let (wanted, found) = (variant.fields.len(), values.len());
             let plural = if wanted == 1 { "" } else { "s" };
             return Err(Diagnostic::at(
+                Code::ArgumentCount,
                 span,
                 format!("`{}` takes {wanted} argument{plural}, not {found}", path.join("::")),
             )
@@ -247,6 +248,7 @@ impl Evaluator<'_> {
             return match found {
                 Value::Poison => Err(Exit::Noted),
                 other => Err(Diagnostic::at(
+                    Code::QuestionMark,
                     span,
                     format!(
                         "the `?` operator on {}, which is neither an `Option` nor a `Result`",
@@ -292,16 +294,20 @@ impl Evaluator<'_> {
             .map(|(_, value)| value.clone());
         match (self.known_variant(choice), inside) {
             (Some(k), Some(inside)) if k == good => Ok(inside),
-            (Some(_), _) => Err(Diagnostic::at(span, format!("`{name}` of what is always `{empty}`"))
-                .label("Rust panics here")
-                .help("give what is to be there instead: `unwrap_or(..)`")
-                .into()),
-            (None, _) => Err(
-                Diagnostic::at(span, format!("`{name}` of what may be `{empty}` at run time"))
-                    .label("Rust would panic for some pixels, and a shader has no way to fail")
-                    .help("give what is to be there instead with `unwrap_or(..)`, or take it apart with `if let`")
+            (Some(_), _) => Err(
+                Diagnostic::at(Code::Unwrap, span, format!("`{name}` of what is always `{empty}`"))
+                    .label("Rust panics here")
+                    .help("give what is to be there instead: `unwrap_or(..)`")
                     .into(),
             ),
+            (None, _) => Err(Diagnostic::at(
+                Code::Unwrap,
+                span,
+                format!("`{name}` of what may be `{empty}` at run time"),
+            )
+            .label("Rust would panic for some pixels, and a shader has no way to fail")
+            .help("give what is to be there instead with `unwrap_or(..)`, or take it apart with `if let`")
+            .into()),
         }
     }
 

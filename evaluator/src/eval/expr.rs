@@ -4,7 +4,7 @@ use super::departures::Tail;
 use super::enums::Choice;
 use super::value::{Eval, Exit, Step, Value, Way};
 use super::{Evaluator, MAX_EXPRESSIONS, MAX_PARTS};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
@@ -20,7 +20,7 @@ impl Evaluator<'_> {
         self.step(expr.span)?;
         if self.depth >= MAX_EXPRESSIONS {
             let what = format!("calls and expressions are nested more than {MAX_EXPRESSIONS} deep");
-            let error = Diagnostic::at(expr.span, what).label("reached here");
+            let error = Diagnostic::at(Code::Recursion, expr.span, what).label("reached here");
             return Err(error.help("the command line goes deeper than a browser can").into());
         }
         self.depth += 1;
@@ -148,15 +148,19 @@ impl Evaluator<'_> {
                 Ok(Value::array(vec![element; n as usize]))
             }
             Some(1..=65536) => Err(too_many_parts(len.span)),
-            Some(n) => Err(Diagnostic::at(len.span, format!("an array of {n} elements"))
-                .help("use 1 to 65536")
-                .into()),
-            None => Err(
-                Diagnostic::at(len.span, "the length of an array must be a compile-time constant")
-                    .label("a runtime value")
-                    .help("use a constant, an option, or a loop counter")
+            Some(n) => Err(
+                Diagnostic::at(Code::TooLarge, len.span, format!("an array of {n} elements"))
+                    .help("use 1 to 65536")
                     .into(),
             ),
+            None => Err(Diagnostic::at(
+                Code::RuntimeValue,
+                len.span,
+                "the length of an array must be a compile-time constant",
+            )
+            .label("a runtime value")
+            .help("use a constant, an option, or a loop counter")
+            .into()),
         }
     }
 
@@ -175,17 +179,24 @@ impl Evaluator<'_> {
         let stated = variant.map(|(_, _, variant)| &variant.fields);
         let Some(stated) = stated.or_else(|| library.structs.get(name).map(|s| &s.fields)) else {
             let known: Vec<&str> = self.library.structs.keys().map(String::as_str).collect();
-            return Err(
-                Diagnostic::at(span, format!("there is no structure `{name}` in the kernel's files"))
-                    .label("not found")
-                    .help(crate::suggest::suggest(name, &known, "there are"))
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::UnknownType,
+                span,
+                format!("there is no structure `{name}` in the kernel's files"),
+            )
+            .label("not found")
+            .help(crate::suggest::suggest(name, &known, "there are"))
+            .into());
         };
         let mut given = Vec::new();
         for (field, value) in fields {
             let Some((_, ty, _)) = stated.iter().find(|(name, ..)| name == field) else {
-                return Err(Diagnostic::at(value.span, format!("`{name}` has no field `{field}`")).into());
+                return Err(Diagnostic::at(
+                    Code::UnknownField,
+                    value.span,
+                    format!("`{name}` has no field `{field}`"),
+                )
+                .into());
             };
             let given_value = self.expr(value)?;
             given.push((field.clone(), self.ascribe(given_value, Some(ty), value.span)?));
@@ -199,10 +210,14 @@ impl Evaluator<'_> {
                 None => match &rest {
                     Some(rest) => self.field(rest, field, span)?,
                     None => {
-                        return Err(Diagnostic::at(span, format!("`{name}` lacks its field `{field}`"))
-                            .label("here")
-                            .help(format!("add `{field}: ...`, or `..other`"))
-                            .into());
+                        return Err(Diagnostic::at(
+                            Code::UnknownField,
+                            span,
+                            format!("`{name}` lacks its field `{field}`"),
+                        )
+                        .label("here")
+                        .help(format!("add `{field}: ...`, or `..other`"))
+                        .into());
                     }
                 },
             };
@@ -253,15 +268,22 @@ impl Evaluator<'_> {
                 Some((_, value)) => Ok(value.clone()),
                 None => {
                     let names: Vec<&str> = fields.iter().map(|(field, _)| field.as_str()).collect();
-                    Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`"))
-                        .label("not there")
-                        .help(crate::suggest::suggest(name, &names, "it has"))
-                        .into())
+                    Err(
+                        Diagnostic::at(Code::UnknownField, span, format!("`{ty}` has no field `{name}`"))
+                            .label("not there")
+                            .help(crate::suggest::suggest(name, &names, "it has"))
+                            .into(),
+                    )
                 }
             },
             Value::Tuple(parts) => match name.parse::<usize>().ok().and_then(|k| parts.get(k)) {
                 Some(part) => Ok(part.clone()),
-                None => Err(Diagnostic::at(span, format!("a tuple of {} parts has no `.{name}`", parts.len())).into()),
+                None => Err(Diagnostic::at(
+                    Code::UnknownField,
+                    span,
+                    format!("a tuple of {} parts has no `.{name}`", parts.len()),
+                )
+                .into()),
             },
             Value::Node(id) => {
                 let ty = self.ty(*id);
@@ -270,19 +292,26 @@ impl Evaluator<'_> {
                         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
                         Ok(Value::Node(self.builder.add(Op::Extract(k), [*id], part)))
                     }
-                    _ => Err(
-                        Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
-                            .label("not there")
-                            .help(match ty.components() {
-                                1 => "a number has no fields".to_owned(),
-                                n => format!("it has {}", ["x", "y", "z", "w"][..n as usize].join(", ")),
-                            })
-                            .into(),
-                    ),
+                    _ => Err(Diagnostic::at(
+                        Code::UnknownField,
+                        span,
+                        format!("a {} has no field `{name}`", ty.in_rust()),
+                    )
+                    .label("not there")
+                    .help(match ty.components() {
+                        1 => "a number has no fields".to_owned(),
+                        n => format!("it has {}", ["x", "y", "z", "w"][..n as usize].join(", ")),
+                    })
+                    .into()),
                 }
             }
             Value::Poison => Err(Exit::Noted),
-            other => Err(Diagnostic::at(span, format!("{} has no field `{name}`", other.describe())).into()),
+            other => Err(Diagnostic::at(
+                Code::UnknownField,
+                span,
+                format!("{} has no field `{name}`", other.describe()),
+            )
+            .into()),
         }
     }
 
@@ -298,11 +327,13 @@ impl Evaluator<'_> {
             _ => 0,
         };
         if found != len {
-            return Err(
-                Diagnostic::at(span, format!("a pattern of {len} elements for {}", value.describe()))
-                    .label("of another length")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::Pattern,
+                span,
+                format!("a pattern of {len} elements for {}", value.describe()),
+            )
+            .label("of another length")
+            .into());
         }
         (0..len as i64)
             .map(|k| self.element(value, &Value::Int(k), span))
@@ -343,7 +374,7 @@ impl Evaluator<'_> {
 }
 
 fn too_many_parts(span: Span) -> Exit {
-    Diagnostic::at(span, format!("a value of more than {MAX_PARTS} parts"))
+    Diagnostic::at(Code::TooLarge, span, format!("a value of more than {MAX_PARTS} parts"))
         .label("too large")
         .help("keep less at a time: a shader has a few hundred registers")
         .into()
@@ -351,12 +382,16 @@ fn too_many_parts(span: Span) -> Exit {
 
 /// An index that is known to be wrong.
 pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
-    Diagnostic::at(span, format!("index {index} of an array of {len}"))
-        .label("out of range")
-        .help(match len.checked_sub(1) {
-            Some(last) => format!("indices go from 0 to {last}"),
-            None => "the array is empty".to_owned(),
-        })
+    Diagnostic::at(
+        Code::IndexOutOfRange,
+        span,
+        format!("index {index} of an array of {len}"),
+    )
+    .label("out of range")
+    .help(match len.checked_sub(1) {
+        Some(last) => format!("indices go from 0 to {last}"),
+        None => "the array is empty".to_owned(),
+    })
 }
 
 /// Number of a component by its name.

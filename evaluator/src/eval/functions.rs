@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
@@ -69,10 +69,12 @@ impl Evaluator<'_> {
         if least.into_iter().zip(most).take(lanes).all(ordered) {
             return Ok(());
         }
-        Err(Diagnostic::at(span, "the bounds of `clamp` are the wrong way round")
-            .label("the first is not at most the second, and Rust panics here")
-            .help("give the smaller bound first: `x.clamp(low, high)`")
-            .into())
+        Err(
+            Diagnostic::at(Code::Panic, span, "the bounds of `clamp` are the wrong way round")
+                .label("the first is not at most the second, and Rust panics here")
+                .help("give the smaller bound first: `x.clamp(low, high)`")
+                .into(),
+        )
     }
 
     fn saturated(&mut self, x: NodeId) -> NodeId {
@@ -86,9 +88,13 @@ impl Evaluator<'_> {
             return Ok(id);
         }
         let found = self.ty(id).in_rust();
-        Err(Diagnostic::at(span, format!("`{name}` takes floats, not {found}"))
-            .label("not a float")
-            .help("convert with `as f32`")
-            .into())
+        Err(Diagnostic::at(
+            Code::MismatchedTypes,
+            span,
+            format!("`{name}` takes floats, not {found}"),
+        )
+        .label("not a float")
+        .help("convert with `as f32`")
+        .into())
     }
 }

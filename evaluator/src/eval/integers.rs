@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 /// Methods that count or turn bits.
@@ -43,12 +43,14 @@ impl Evaluator<'_> {
                         let times = |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), [power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
-                    _ => Err(
-                        Diagnostic::at(span, "the power of `pow` must be a compile-time constant from 0 to 31")
-                            .label("a runtime value, or another number")
-                            .help("multiply in a loop")
-                            .into(),
-                    ),
+                    _ => Err(Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        "the power of `pow` must be a compile-time constant from 0 to 31",
+                    )
+                    .label("a runtime value, or another number")
+                    .help("multiply in a loop")
+                    .into()),
                 };
             }
             _ => return self.euclid(receiver, x, name, a, span).map(Some),

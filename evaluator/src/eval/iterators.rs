@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, Op, Type};
 
 /// Methods of iterators.
@@ -36,12 +36,14 @@ impl Evaluator<'_> {
             Value::Array(elements) => Ok(elements.to_vec()),
             Value::Range(range) => match self.range_values(range, span)? {
                 Some(values) => Ok(values),
-                None => Err(
-                    Diagnostic::at(span, "an iterator over a range whose bounds are runtime values")
-                        .label("a runtime value")
-                        .help("write a `for` loop over the range")
-                        .into(),
-                ),
+                None => Err(Diagnostic::at(
+                    Code::RuntimeValue,
+                    span,
+                    "an iterator over a range whose bounds are runtime values",
+                )
+                .label("a runtime value")
+                .help("write a `for` loop over the range")
+                .into()),
             },
             Value::Node(id) if self.ty(*id).is_array() => {
                 let Type::Array { len, .. } = self.ty(*id) else {
@@ -55,7 +57,12 @@ impl Evaluator<'_> {
                 Value::Array(elements) => Ok(elements.to_vec()),
                 _ => Err(Exit::Noted),
             },
-            other => Err(Diagnostic::at(span, format!("{} is no iterator", other.describe())).into()),
+            other => Err(Diagnostic::at(
+                Code::MismatchedTypes,
+                span,
+                format!("{} is no iterator", other.describe()),
+            )
+            .into()),
         }
     }
 
@@ -75,16 +82,20 @@ impl Evaluator<'_> {
             }
             ("skip" | "take" | "step_by", [count]) => {
                 let Some(n) = self.known_int(count).and_then(|n| usize::try_from(n).ok()) else {
-                    return Err(Diagnostic::at(span, format!("`{name}` needs a compile-time constant"))
-                        .label("a runtime value")
-                        .help("use a constant, an option, or a loop counter")
-                        .into());
+                    return Err(Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        format!("`{name}` needs a compile-time constant"),
+                    )
+                    .label("a runtime value")
+                    .help("use a constant, an option, or a loop counter")
+                    .into());
                 };
                 let items: Vec<Value> = match name {
                     "skip" => items.into_iter().skip(n).collect(),
                     "take" => items.into_iter().take(n).collect(),
                     _ if n > 0 => items.into_iter().step_by(n).collect(),
-                    _ => return Err(Diagnostic::at(span, "`step_by` needs a step of at least 1").into()),
+                    _ => return Err(Diagnostic::at(Code::Panic, span, "`step_by` needs a step of at least 1").into()),
                 };
                 Ok(Value::array(items))
             }
@@ -149,12 +160,14 @@ impl Evaluator<'_> {
                     .and_then(|n| usize::try_from(n).ok())
                     .filter(|n| *n > 0)
                 else {
-                    return Err(
-                        Diagnostic::at(span, format!("`{name}` needs a compile-time constant above 0"))
-                            .label("a runtime value, or 0")
-                            .help("use a constant, an option, or a loop counter")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        format!("`{name}` needs a compile-time constant above 0"),
+                    )
+                    .label("a runtime value, or 0")
+                    .help("use a constant, an option, or a loop counter")
+                    .into());
                 };
                 let parts: Vec<&[Value]> = match name {
                     "windows" => items.windows(n).collect(),
@@ -175,10 +188,14 @@ impl Evaluator<'_> {
                     _ => inlined(self),
                 }
             }
-            _ => Err(Diagnostic::at(span, format!("an iterator has no method `{name}` here"))
-                .label("not supported")
-                .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
-                .into()),
+            _ => Err(Diagnostic::at(
+                Code::UnknownMethod,
+                span,
+                format!("an iterator has no method `{name}` here"),
+            )
+            .label("not supported")
+            .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
+            .into()),
         }
     }
 
@@ -190,6 +207,7 @@ impl Evaluator<'_> {
         match self.builder.effects() == before {
             true => Ok(value),
             false => Err(Diagnostic::at(
+                Code::MisplacedWrite,
                 span,
                 format!("a closure that uses memory which the kernel changes, in `{method}`"),
             )
@@ -249,7 +267,7 @@ impl Evaluator<'_> {
         let op = if name == "sum" { BinaryOp::Add } else { BinaryOp::Mul };
         let mut items = items.into_iter();
         let Some(first) = items.next() else {
-            return Err(Diagnostic::at(span, format!("the {name} of no values"))
+            return Err(Diagnostic::at(Code::Panic, span, format!("the {name} of no values"))
                 .label("empty")
                 .help("give the iterator a value, or write out what it is to be")
                 .into());

@@ -5,7 +5,7 @@ use super::departures::{Departure, Side};
 use super::loops::Body;
 use super::shape::same_shape;
 use super::value::{Eval, Exit, Value, Way};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::assigned;
 use crate::ir::{Naming, NodeId, Op, Origin, RegionId, Type};
 use std::sync::Arc;
@@ -21,12 +21,14 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval<()> {
         if !self.may_nest() {
-            return Err(
-                Diagnostic::at(span, "loops and branches of the shader are nested more than 100 deep")
-                    .label("this loop is left in the shader")
-                    .help("put the condition of inner loops into outer ones")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::CannotStay,
+                span,
+                "loops and branches of the shader are nested more than 100 deep",
+            )
+            .label("this loop is left in the shader")
+            .help("put the condition of inner loops into outer ones")
+            .into());
         }
         let before = self.scope.clone();
         let pending = std::mem::take(&mut self.departed);
@@ -307,6 +309,7 @@ const MAX_WIDENED: usize = 16;
 
 fn changes(name: &str, span: Span) -> Exit {
     Diagnostic::at(
+        Code::CannotStay,
         span,
         format!("`{name}` changes its type, or what it stands for, in a loop that is left in the shader"),
     )

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::call::vector_type;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Op, Scalar, Type};
 
 impl Evaluator<'_> {
@@ -57,6 +57,7 @@ impl Evaluator<'_> {
         }
         if from != Type::BOOL {
             return Err(Diagnostic::at(
+                Code::Cast,
                 span,
                 format!("`{ty}::from` takes no {}, whose values it may not hold", from.in_rust()),
             )

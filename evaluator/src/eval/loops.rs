@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::departures::Tail;
 use super::partial::Count;
 use super::value::{Eval, Exit, Place, Step, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, ForLoop, Pattern};
 use crate::ir::{Counter, Type};
 use crate::policy::{Asked, Unroll};
@@ -84,6 +84,7 @@ impl Evaluator<'_> {
                 }
                 None if asked.by_name && asked.unroll == Unroll::Full => {
                     return Err(Diagnostic::at(
+                        Code::CannotUnroll,
                         f.over.span,
                         "a loop whose bounds are runtime values cannot be unrolled",
                     )
@@ -113,12 +114,14 @@ impl Evaluator<'_> {
             }
             Value::Poison => return Err(Exit::Noted),
             other => {
-                return Err(
-                    Diagnostic::at(f.over.span, format!("`for` cannot run over {}", other.describe()))
-                        .label("not a range")
-                        .help("run over a range such as `0..n`, or over an array")
-                        .into(),
-                );
+                return Err(Diagnostic::at(
+                    Code::MismatchedTypes,
+                    f.over.span,
+                    format!("`for` cannot run over {}", other.describe()),
+                )
+                .label("not a range")
+                .help("run over a range such as `0..n`, or over an array")
+                .into());
             }
         };
         values.iter().for_each(|value| self.targets(value, &mut body.written));
@@ -193,7 +196,8 @@ impl Evaluator<'_> {
                         Exit::Error(error) => Some(*error),
                         _ => noted,
                     };
-                    let why = why.unwrap_or_else(|| Diagnostic::at(wish.head, "its body has an error"));
+                    let why =
+                        why.unwrap_or_else(|| Diagnostic::at(Code::CannotStay, wish.head, "its body has an error"));
                     if !why.loops.is_empty() && !why.loops.contains(&span) {
                         // It comes from loops around or before this one.
                         return Err(why.into());
@@ -296,6 +300,7 @@ fn refusal(wish: &Wish, why: &Diagnostic) -> Diagnostic {
         other => format!("unroll({other})"),
     };
     let mut error = Diagnostic::at(
+        Code::CannotStay,
         wish.head,
         format!("this loop cannot be left in the shader: {}", why.message),
     )

@@ -7,7 +7,7 @@ use super::Evaluator;
 use super::departures::Tail;
 use super::sequence::has_choices;
 use super::value::{Eval, Exit, Step, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Arm, Expr, ExprKind, Pattern};
 use crate::ir::{BinaryOp, NodeId};
 use crate::policy::Branches;
@@ -57,6 +57,7 @@ impl Evaluator<'_> {
             let alternatives = alternatives(&arm.pattern);
             if alternatives.len() > MAX_ALTERNATIVES {
                 return Err(Diagnostic::at(
+                    Code::TooLarge,
                     arm.body.span,
                     format!("a pattern of more than {MAX_ALTERNATIVES} alternatives that bind names"),
                 )
@@ -77,11 +78,13 @@ impl Evaluator<'_> {
     fn cases(&mut self, value: &Value, cases: &[Case<'_>], keep: bool, tail: Tail<'_>, span: Span) -> Eval {
         self.step(span)?;
         let Some((case, rest)) = cases.split_first() else {
-            return Err(
-                Diagnostic::at(span, format!("no arm of this `match` takes {}", self.shown(value)))
-                    .help("add an arm for it, or `_`")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::NonExhaustive,
+                span,
+                format!("no arm of this `match` takes {}", self.shown(value)),
+            )
+            .help("add an arm for it, or `_`")
+            .into());
         };
         let mut condition = self.test(&case.pattern, value, span)?;
         if let Some(guard) = &case.arm.guard
@@ -163,7 +166,9 @@ impl Evaluator<'_> {
                 Value::Tuple(values) if Pattern::shared(parts, values.len()).is_some() => {
                     self.test_all(tested(parts, values), span)
                 }
-                other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
+                other => {
+                    Err(Diagnostic::at(Code::Pattern, span, format!("a tuple pattern on {}", other.describe())).into())
+                }
             },
             Pattern::Array(parts, at) => {
                 let elements = self.elements_of_pattern(value.clone(), parts, *at)?;
@@ -221,7 +226,12 @@ impl Evaluator<'_> {
         match self.loaded(value.clone(), span)? {
             Value::Enum(choice) => Ok(self.is_variant(&choice, variant)),
             Value::Poison => Err(Exit::Noted),
-            other => Err(Diagnostic::at(span, format!("a pattern of an enum for {}", other.describe())).into()),
+            other => Err(Diagnostic::at(
+                Code::Pattern,
+                span,
+                format!("a pattern of an enum for {}", other.describe()),
+            )
+            .into()),
         }
     }
 

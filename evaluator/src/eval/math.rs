@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::methods::{UNLIKE, known_methods};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
@@ -45,6 +45,7 @@ impl Evaluator<'_> {
         match result {
             Some(id) => Ok(Value::Node(id)),
             None => Err(Diagnostic::at(
+                Code::UnknownMethod,
                 span,
                 format!(
                     "there is no method `{name}` with {} argument{} on {}",
@@ -218,12 +219,14 @@ impl Evaluator<'_> {
             "powi" if ty.is_float() => match self.known_int(a) {
                 Some(n) => Some(self.power(x, n)),
                 None => {
-                    return Err(
-                        Diagnostic::at(span, "the power of `powi` must be a compile-time constant")
-                            .label("a runtime value")
-                            .help("write `powf`, which takes runtime powers: `x.powf(n as f32)`")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        "the power of `powi` must be a compile-time constant",
+                    )
+                    .label("a runtime value")
+                    .help("write `powf`, which takes runtime powers: `x.powf(n as f32)`")
+                    .into());
                 }
             },
             "dot" if float_vector => {
@@ -354,7 +357,7 @@ impl Evaluator<'_> {
 }
 
 fn instead(span: Span, message: &str, write: &str) -> super::value::Exit {
-    Diagnostic::at(span, message)
+    Diagnostic::at(Code::DiffersFromRust, span, message)
         .label("means two things")
         .help(format!("write `{write}`"))
         .into()

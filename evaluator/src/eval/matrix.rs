@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
@@ -50,6 +50,7 @@ impl Evaluator<'_> {
                     let id = self.node(value, span)?;
                     if self.ty(id) != column {
                         return Err(Diagnostic::at(
+                            Code::MismatchedTypes,
                             span,
                             format!(
                                 "a column of a {ty} is a {}, not {}",
@@ -66,9 +67,12 @@ impl Evaluator<'_> {
             ("from_diagonal", [diagonal]) => {
                 let id = self.node(diagonal, span)?;
                 if self.ty(id) != column {
-                    return Err(
-                        Diagnostic::at(span, format!("the diagonal of a {ty} is a {}", column.in_rust())).into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::MismatchedTypes,
+                        span,
+                        format!("the diagonal of a {ty} is a {}", column.in_rust()),
+                    )
+                    .into());
                 }
                 let lanes = self.lanes(id);
                 let zero = self.builder.f32(0.0);
@@ -110,6 +114,7 @@ impl Evaluator<'_> {
             {
                 Some(column) => Ok(Value::Node(*column)),
                 None => Err(Diagnostic::at(
+                    Code::RuntimeIndex,
                     span,
                     "the column of a matrix must be a compile-time constant, and one of its columns",
                 )
@@ -123,7 +128,7 @@ impl Evaluator<'_> {
             ("transform_point3" | "transform_vector3", [vector]) if columns.len() == 4 => {
                 let vector = self.node(vector, span)?;
                 if self.ty(vector) != Type::value(Scalar::F32, 3) {
-                    return Err(Diagnostic::at(span, format!("`{name}` takes a Vec3")).into());
+                    return Err(Diagnostic::at(Code::MismatchedTypes, span, format!("`{name}` takes a Vec3")).into());
                 }
                 let mut sum = self.scaled(columns[0], vector, 0);
                 for k in 1..3 {
@@ -154,7 +159,7 @@ impl Evaluator<'_> {
             Value::Struct { .. } => {
                 let (other, others) = self.columns(right, span)?;
                 if other != ty {
-                    return Err(Diagnostic::at(span, format!("a {ty} times a {other}")).into());
+                    return Err(Diagnostic::at(Code::OperatorTypes, span, format!("a {ty} times a {other}")).into());
                 }
                 let mut products = Vec::new();
                 for column in others {
@@ -168,12 +173,14 @@ impl Evaluator<'_> {
                     return self.matrix_by_number(left, right, span);
                 }
                 if self.ty(id) != self.ty(columns[0]) {
-                    return Err(
-                        Diagnostic::at(span, format!("a {ty} times a {}", self.ty(id).in_rust()))
-                            .label("of another size")
-                            .help("use `.truncate()` or `.extend(...)`, or another matrix")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::OperatorTypes,
+                        span,
+                        format!("a {ty} times a {}", self.ty(id).in_rust()),
+                    )
+                    .label("of another size")
+                    .help("use `.truncate()` or `.extend(...)`, or another matrix")
+                    .into());
                 }
                 Ok(Value::Node(self.times_vector(&columns, id)))
             }
@@ -214,7 +221,12 @@ impl Evaluator<'_> {
                 let nodes: Eval<Vec<NodeId>> = fields.iter().map(|(_, column)| self.node(column, span)).collect();
                 Ok((ty.clone(), nodes?))
             }
-            other => Err(Diagnostic::at(span, format!("{} where a matrix is needed", other.describe())).into()),
+            other => Err(Diagnostic::at(
+                Code::MismatchedTypes,
+                span,
+                format!("{} where a matrix is needed", other.describe()),
+            )
+            .into()),
         }
     }
 }
@@ -227,10 +239,14 @@ pub fn matrix(columns: &[NodeId]) -> Value {
 }
 
 fn unknown(ty: &str, name: &str, span: Span) -> Diagnostic {
-    Diagnostic::at(span, format!("a {ty} has no `{name}` with such arguments"))
-        .label("not supported")
-        .help(
-            "matrices have from_cols, from_diagonal, IDENTITY, x_axis .. w_axis, col, transpose, mul_vec3, \
+    Diagnostic::at(
+        Code::UnknownMethod,
+        span,
+        format!("a {ty} has no `{name}` with such arguments"),
+    )
+    .label("not supported")
+    .help(
+        "matrices have from_cols, from_diagonal, IDENTITY, x_axis .. w_axis, col, transpose, mul_vec3, \
              transform_point3, transform_vector3, and `*` with vectors, matrices and numbers",
-        )
+    )
 }

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Place, Step, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, Function};
 use crate::ir::{BinaryOp, Type};
 use std::rc::Rc;
@@ -80,10 +80,12 @@ impl<'a> Evaluator<'a> {
                     true => format!("it has none: write it in an `impl {ty}`"),
                     false => crate::suggest::suggest(name, &names, "it has"),
                 };
-                Err(Diagnostic::at(span, format!("`{ty}` has no method `{name}`"))
-                    .label("not there")
-                    .help(help)
-                    .into())
+                Err(
+                    Diagnostic::at(Code::UnknownMethod, span, format!("`{ty}` has no method `{name}`"))
+                        .label("not there")
+                        .help(help)
+                        .into(),
+                )
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),
@@ -165,7 +167,12 @@ impl<'a> Evaluator<'a> {
                 _ => 0,
             },
             other => {
-                return Err(Diagnostic::at(span, format!("{} has no elements to change", other.describe())).into());
+                return Err(Diagnostic::at(
+                    Code::MismatchedTypes,
+                    span,
+                    format!("{} has no elements to change", other.describe()),
+                )
+                .into());
             }
         };
         let element = |k: usize| Value::Ref(Rc::new(place.part(Step::Index(Value::Int(k as i64)))));

@@ -48,7 +48,7 @@ mod value;
 mod whiles;
 mod workgroups;
 
-use crate::diagnostic::{Diagnostic, Errors, File, Span};
+use crate::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use crate::front::Library;
 use crate::front::name::Name;
 use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type, usize_value};
@@ -175,10 +175,10 @@ pub fn evaluate(
                 evaluator.errors.push(*last);
                 Err(Errors::new(evaluator.errors, files))
             }
-            Err(_) => Err(Errors::of(Diagnostic::new(format!(
-                "`{}` does not end with a value",
-                crate::front::unraw(entry)
-            )))),
+            Err(_) => Err(Errors::of(Diagnostic::new(
+                Code::KernelResult,
+                format!("`{}` does not end with a value", crate::front::unraw(entry)),
+            ))),
         };
     }
 }
@@ -324,23 +324,23 @@ impl Evaluator<'_> {
         self.steps += 1;
         limits::spend(1);
         let made = self.builder.graph().nodes.len();
-        let (what, help) = if self.steps > MAX_STEPS {
+        let (code, what, help) = if self.steps > MAX_STEPS {
             let what = format!("evaluation takes more than {MAX_STEPS} steps");
-            (what, budget::BUDGET_HELP)
+            (Code::Budget, what, budget::BUDGET_HELP)
         } else if made > self.most_nodes {
             let what = format!("the kernel unrolls to more than {} operations", self.most_nodes);
-            (what, budget::BUDGET_HELP)
+            (Code::Budget, what, budget::BUDGET_HELP)
         } else {
             let due = self.steps >= self.checked + STEPS_BETWEEN_CHECKS;
             let Some(excess) = due.then(|| limits::exceeded(made)).flatten() else {
                 self.checked = if due { self.steps } else { self.checked };
                 return Ok(());
             };
-            (format!("evaluation takes {excess}"), excess.help())
+            (Code::Limit, format!("evaluation takes {excess}"), excess.help())
         };
         self.exhausted = true;
         let function = self.calls.last().cloned().unwrap_or_default();
-        let error = Diagnostic::at(span, what)
+        let error = Diagnostic::at(code, span, what)
             .label(format!("reached here, in `{function}`"))
             .help(help);
         Err(self.loops.blame(error).into())
@@ -515,7 +515,12 @@ impl Evaluator<'_> {
                 self.node(&value, span)
             }
             Value::Poison => Err(Exit::Noted),
-            other => Err(Diagnostic::at(span, format!("{} where a number is needed", other.describe())).into()),
+            other => Err(Diagnostic::at(
+                Code::MismatchedTypes,
+                span,
+                format!("{} where a number is needed", other.describe()),
+            )
+            .into()),
         }
     }
 
@@ -526,17 +531,23 @@ impl Evaluator<'_> {
             Scalar::U32 => u32::try_from(n).ok(),
             Scalar::Usize => return Ok(self.builder.usize(n as u64)),
             Scalar::F32 | Scalar::Bool => {
-                return Err(Diagnostic::at(span, format!("the integer {n} where {kind} is needed"))
-                    .label("an integer")
-                    .help(format!("write `{n}.0`, or convert with `as f32`"))
-                    .into());
+                return Err(Diagnostic::at(
+                    Code::MismatchedTypes,
+                    span,
+                    format!("the integer {n} where {kind} is needed"),
+                )
+                .label("an integer")
+                .help(format!("write `{n}.0`, or convert with `as f32`"))
+                .into());
             }
         };
         match bits {
             Some(bits) => Ok(self.builder.constant(Type::scalar(kind), [bits, 0, 0, 0])),
-            None => Err(Diagnostic::at(span, format!("{n} does not fit into {kind}"))
-                .label("too large for a shader")
-                .into()),
+            None => Err(
+                Diagnostic::at(Code::LiteralRange, span, format!("{n} does not fit into {kind}"))
+                    .label("too large for a shader")
+                    .into(),
+            ),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
@@ -31,15 +31,24 @@ impl Evaluator<'_> {
                 return match op {
                     BinaryOp::Mul => self.matrix_product(left, right, span),
                     BinaryOp::Add | BinaryOp::Sub => self.by_fields(op, left, right, span),
-                    _ => Err(Diagnostic::at(span, format!("this operator does not take a `{ty}`")).into()),
+                    _ => Err(Diagnostic::at(
+                        Code::OperatorTypes,
+                        span,
+                        format!("this operator does not take a `{ty}`"),
+                    )
+                    .into()),
                 };
             }
             (Value::Enum(choice), _) if !matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
                 let ty = &choice.ty;
-                return Err(Diagnostic::at(span, format!("this operator does not take a `{ty}`"))
-                    .label("not for this type")
-                    .help("values of enums can be compared with `==` and `!=`")
-                    .into());
+                return Err(Diagnostic::at(
+                    Code::OperatorTypes,
+                    span,
+                    format!("this operator does not take a `{ty}`"),
+                )
+                .label("not for this type")
+                .help("values of enums can be compared with `==` and `!=`")
+                .into());
             }
             _ => {}
         }
@@ -88,6 +97,7 @@ impl Evaluator<'_> {
                 Ok(Value::structure(ty.clone(), results))
             }
             _ => Err(Diagnostic::at(
+                Code::MismatchedTypes,
                 span,
                 format!("{} and {} do not go together", left.describe(), right.describe()),
             )
@@ -131,12 +141,14 @@ impl Evaluator<'_> {
         let known = match op {
             Add => a.checked_add(b),
             Sub if b > a => {
-                return Err(
-                    Diagnostic::at(span, format!("{a} - {b} is below 0, which no `usize` is"))
-                        .label("always")
-                        .help("compute it in i32, and convert the result with `as usize`")
-                        .into(),
-                );
+                return Err(Diagnostic::at(
+                    Code::Overflow,
+                    span,
+                    format!("{a} - {b} is below 0, which no `usize` is"),
+                )
+                .label("always")
+                .help("compute it in i32, and convert the result with `as usize`")
+                .into());
             }
             Sub => Some(a - b),
             Mul => a.checked_mul(b),
@@ -202,6 +214,7 @@ impl Evaluator<'_> {
             return Ok((a, self.splat(b, ta.components())));
         }
         Err(Diagnostic::at(
+            Code::MismatchedTypes,
             span,
             format!("{} and {} do not go together", ta.in_rust(), tb.in_rust()),
         )
@@ -237,7 +250,7 @@ impl Evaluator<'_> {
             if matches!(ty, SourceType::Fn(..)) && value.is_called() {
                 return Ok(value.clone());
             }
-            return Err(Diagnostic::at(span, "a cast to something that is not a number").into());
+            return Err(Diagnostic::at(Code::Cast, span, "a cast to something that is not a number").into());
         };
         let kind = match name.as_str() {
             "f32" => Scalar::F32,
@@ -245,7 +258,7 @@ impl Evaluator<'_> {
             "usize" => Scalar::Usize,
             "u32" => Scalar::U32,
             other => {
-                return Err(Diagnostic::at(span, format!("a cast to `{other}`"))
+                return Err(Diagnostic::at(Code::Cast, span, format!("a cast to `{other}`"))
                     .label("not supported")
                     .help("cast to f32, i32, u32 or usize")
                     .into());
@@ -264,9 +277,11 @@ impl Evaluator<'_> {
         }
         let id = self.node(value, span)?;
         if !self.ty(id).is_scalar() {
-            return Err(Diagnostic::at(span, "a cast of something that is not one number")
-                .help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...")
-                .into());
+            return Err(
+                Diagnostic::at(Code::Cast, span, "a cast of something that is not one number")
+                    .help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...")
+                    .into(),
+            );
         }
         let converted = Value::Node(self.convert(id, kind));
         Ok(match self.known_int(&converted) {
@@ -287,12 +302,14 @@ impl Evaluator<'_> {
             Type::I32 => Ok(id),
             Type::U32 => Ok(self.convert(id, Scalar::I32)),
             Type::USIZE => Ok(self.builder.add(Op::Bitcast, [id], Type::I32)),
-            other => Err(
-                Diagnostic::at(span, format!("an index must be an integer, not {}", other.in_rust()))
-                    .label("of this index")
-                    .help("convert it with `as usize`")
-                    .into(),
-            ),
+            other => Err(Diagnostic::at(
+                Code::IndexType,
+                span,
+                format!("an index must be an integer, not {}", other.in_rust()),
+            )
+            .label("of this index")
+            .help("convert it with `as usize`")
+            .into()),
         }
     }
 }
@@ -318,14 +335,18 @@ impl Evaluator<'_> {
 }
 
 fn too_large(span: Span) -> Exit {
-    Diagnostic::at(span, "the result does not fit into a `usize` of a shader")
-        .label("too large")
-        .help("compute it in u32, with `wrapping_add` and its like where it is to wrap")
-        .into()
+    Diagnostic::at(
+        Code::Overflow,
+        span,
+        "the result does not fit into a `usize` of a shader",
+    )
+    .label("too large")
+    .help("compute it in u32, with `wrapping_add` and its like where it is to wrap")
+    .into()
 }
 
 fn divided_by_zero(span: Span) -> Exit {
-    Diagnostic::at(span, "attempt to divide by zero")
+    Diagnostic::at(Code::DivisionByZero, span, "attempt to divide by zero")
         .label("the divisor is always 0")
         .help("only divide where the divisor is not 0: `if n != 0 { ... }`")
         .into()
@@ -337,8 +358,12 @@ fn not_taken(ty: Type, span: Span) -> Exit {
         Some(Scalar::Bool) => "booleans have & | ^ ! && || == and !=",
         _ => "integers have + - * / % & | ^ ! << >> and comparisons",
     };
-    Diagnostic::at(span, format!("this operator does not take {}", ty.in_rust()))
-        .label("not for this type")
-        .help(help)
-        .into()
+    Diagnostic::at(
+        Code::OperatorTypes,
+        span,
+        format!("this operator does not take {}", ty.in_rust()),
+    )
+    .label("not for this type")
+    .help(help)
+    .into()
 }

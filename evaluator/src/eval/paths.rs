@@ -4,7 +4,7 @@ use super::call::vector_type;
 use super::enums::Choice;
 use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_CALLS};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
@@ -43,10 +43,12 @@ impl Evaluator<'_> {
             }
             if !self.library.consts.contains_key(&path.join("::")) {
                 let names: Vec<&str> = found.variants.iter().map(|v| v.name.as_str()).collect();
-                return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
-                    .label("not there")
-                    .help(crate::suggest::suggest(variant, &names, "it has"))
-                    .into());
+                return Err(
+                    Diagnostic::at(Code::UnknownVariant, span, format!("`{ty}` has no variant `{variant}`"))
+                        .label("not there")
+                        .help(crate::suggest::suggest(variant, &names, "it has"))
+                        .into(),
+                );
             }
         }
         let joined = path.join("::");
@@ -66,10 +68,14 @@ impl Evaluator<'_> {
             None if self.is_function(path) => Ok(Value::Function(path.to_vec())),
             None => {
                 let names = self.scope.names();
-                Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
-                    .label("not found")
-                    .help(crate::suggest::suggest(last, &names, "variables here are"))
-                    .into())
+                Err(Diagnostic::at(
+                    Code::UnknownName,
+                    span,
+                    format!("there is no `{}` here", path.join("::")),
+                )
+                .label("not found")
+                .help(crate::suggest::suggest(last, &names, "variables here are"))
+                .into())
             }
         }
     }
@@ -99,10 +105,14 @@ impl Evaluator<'_> {
             return Ok(None);
         };
         if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself"))
-                .label("used here")
-                .help("write out one of the values in the cycle")
-                .into());
+            return Err(Diagnostic::at(
+                Code::EndlessDefinition,
+                span,
+                format!("the constant `{name}` needs itself"),
+            )
+            .label("used here")
+            .help("write out one of the values in the cycle")
+            .into());
         }
         let outer = self.scope.enter_function();
         self.calls.push(name.into());

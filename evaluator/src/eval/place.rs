@@ -5,7 +5,7 @@
 
 use super::Evaluator;
 use super::value::{Captured, Eval, Exit, Place, Step, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use std::rc::Rc;
 
@@ -126,6 +126,7 @@ impl Evaluator<'_> {
     /// A variable that is read before it is given a value.
     pub fn unset(&self, name: &str, span: Span) -> Exit {
         Diagnostic::at(
+            Code::Unassigned,
             span,
             format!("`{name}` is used before it is given a value on every way here"),
         )
@@ -164,10 +165,14 @@ impl Evaluator<'_> {
         if self.scope.holds(place) {
             return Ok(());
         }
-        Err(Diagnostic::at(span, "a mutable reference to a variable that is gone")
-            .label("used here")
-            .help("let the variable live as long as the reference")
-            .into())
+        Err(Diagnostic::at(
+            Code::MutableReference,
+            span,
+            "a mutable reference to a variable that is gone",
+        )
+        .label("used here")
+        .help("let the variable live as long as the reference")
+        .into())
     }
 
     /// Positions of the variables that references in a value lead to.

@@ -4,7 +4,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
 use crate::ir::{BinaryOp, Direction, Invocation, NodeId, Op, Scalar, Type, Varying};
 
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
             Some((Scalar::F32, lanes)) => Type::value(Scalar::F32, lanes),
             _ => {
                 return Err(
-                    Diagnostic::at(span, format!("`{name}` is a quad of `{lane}`, which no rasteriser interpolates"))
+                    Diagnostic::at(Code::KernelParameter, span, format!("`{name}` is a quad of `{lane}`, which no rasteriser interpolates"))
                         .label("not supported")
                         .help("a kernel takes `pixel: Quad<IVec2>`, and quads of f32, Vec2, Vec3 or Vec4 for what is interpolated")
                         .into(),
@@ -158,10 +158,14 @@ impl Evaluator<'_> {
         self.needs_lanes(name, span)?;
         let ty = self.ty(x);
         if ty.is_array() {
-            return Err(Diagnostic::at(span, "a message carries a number or a vector, no array")
-                .label("an array of a structured loop")
-                .help("send its elements one by one")
-                .into());
+            return Err(Diagnostic::at(
+                Code::QuadMessage,
+                span,
+                "a message carries a number or a vector, no array",
+            )
+            .label("an array of a structured loop")
+            .help("send its elements one by one")
+            .into());
         }
         Ok(Value::Node(self.builder.add(Op::Message(direction), [x], ty)))
     }
@@ -218,6 +222,7 @@ impl Evaluator<'_> {
             return Ok(());
         }
         Err(Diagnostic::at(
+            Code::QuadMessage,
             span,
             format!("`{name}` is of quads, and this kernel computes one pixel"),
         )

@@ -6,7 +6,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Range, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Expr;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
@@ -60,19 +60,23 @@ impl Evaluator<'_> {
             ("step_by", [step]) => match self.known_int(step) {
                 Some(step @ 1..) if !range.reversed => range.step = range.step.saturating_mul(step),
                 Some(1..) => {
-                    return Err(
-                        Diagnostic::at(span, "`step_by` of a range that is stepped and reversed")
-                            .label("a second step")
-                            .help("write one `step_by`, before or after `rev`")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::NotInLanguage,
+                        span,
+                        "`step_by` of a range that is stepped and reversed",
+                    )
+                    .label("a second step")
+                    .help("write one `step_by`, before or after `rev`")
+                    .into());
                 }
                 _ => {
-                    return Err(
-                        Diagnostic::at(span, "`step_by` needs a step that is a constant of at least 1")
-                            .label("of this step")
-                            .into(),
-                    );
+                    return Err(Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        "`step_by` needs a step that is a constant of at least 1",
+                    )
+                    .label("of this step")
+                    .into());
                 }
             },
             ("contains", [x]) if plain => {
@@ -82,9 +86,11 @@ impl Evaluator<'_> {
                 return self.binary(BinaryOp::And, &from, &to, span);
             }
             _ => {
-                return Err(Diagnostic::at(span, format!("a range has no method `{name}`"))
-                    .help("ranges have `rev`, `step_by` and `contains`")
-                    .into());
+                return Err(
+                    Diagnostic::at(Code::UnknownMethod, span, format!("a range has no method `{name}`"))
+                        .help("ranges have `rev`, `step_by` and `contains`")
+                        .into(),
+                );
             }
         }
         Ok(Value::Range(range))
@@ -105,10 +111,14 @@ impl Evaluator<'_> {
                         Value::Node(id) => self.ty(*id).in_rust(),
                         other => other.describe(),
                     };
-                    return Err(Diagnostic::at(span, format!("a range of {found} cannot be iterated"))
-                        .label("not of integers")
-                        .help("convert its ends with `as i32`, `as u32` or `as usize`")
-                        .into());
+                    return Err(Diagnostic::at(
+                        Code::MismatchedTypes,
+                        span,
+                        format!("a range of {found} cannot be iterated"),
+                    )
+                    .label("not of integers")
+                    .help("convert its ends with `as i32`, `as u32` or `as usize`")
+                    .into());
                 }
             }
         }
@@ -116,12 +126,14 @@ impl Evaluator<'_> {
             [] => Ok((Scalar::Usize, true)),
             [kind] => Ok((kind, kind == Scalar::Usize)),
             [a, b] if a == b => Ok((a, a == Scalar::Usize)),
-            _ => Err(
-                Diagnostic::at(span, "a range from an i32 to a u32, or the other way round")
-                    .label("two types")
-                    .help("convert one of them with `as`")
-                    .into(),
-            ),
+            _ => Err(Diagnostic::at(
+                Code::MismatchedTypes,
+                span,
+                "a range from an i32 to a u32, or the other way round",
+            )
+            .label("two types")
+            .help("convert one of them with `as`")
+            .into()),
         }
     }
 
@@ -141,10 +153,12 @@ impl Evaluator<'_> {
         };
         let rounds = iterations(range, start, end);
         if rounds > MAX_ROUNDS {
-            return Err(Diagnostic::at(span, format!("a loop of {rounds} iterations"))
-                .label("too many")
-                .help(format!("a loop may have up to {MAX_ROUNDS}"))
-                .into());
+            return Err(
+                Diagnostic::at(Code::TooManyIterations, span, format!("a loop of {rounds} iterations"))
+                    .label("too many")
+                    .help(format!("a loop may have up to {MAX_ROUNDS}"))
+                    .into(),
+            );
         }
         let (step, last) = (i128::from(range.step), last(range, end));
         let mut values: Vec<i128> = (0..rounds)

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Function;
 use crate::front::unraw;
 use crate::ir::{Invocation, NodeId, Scalar, Target, Type};
@@ -33,7 +33,7 @@ impl Evaluator<'_> {
                 0 => format!("a kernel that gives {written} values for each pixel"),
                 _ => format!("a kernel that writes {written} pictures"),
             };
-            return Err(Diagnostic::at(span, what)
+            return Err(Diagnostic::at(Code::KernelResult, span, what)
                 .label("the kernel")
                 .help(format!(
                     "a shader writes {MOST} targets at most: pack numbers into vectors"
@@ -62,7 +62,7 @@ impl Evaluator<'_> {
             Value::Tuple(parts) if of_group && parts.is_empty() => value,
             _ if of_group => {
                 let what = format!("a kernel of workgroups gives {}", value.describe());
-                return Err(Diagnostic::at(span, what)
+                return Err(Diagnostic::at(Code::KernelResult, span, what)
                     .label("one for all threads")
                     .help("give what a phase gives, a value for each of its threads: `-> PerThread<Vec4>`")
                     .into());
@@ -132,6 +132,9 @@ impl Evaluator<'_> {
                  of its own"
             }
         };
-        Diagnostic::at(span, what).label(label).help(help).into()
+        Diagnostic::at(Code::KernelResult, span, what)
+            .label(label)
+            .help(help)
+            .into()
     }
 }

@@ -8,7 +8,7 @@ use super::Evaluator;
 use super::loops::Body;
 use super::shape::same_shape;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Pattern;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 use std::rc::Rc;
@@ -69,6 +69,7 @@ impl Evaluator<'_> {
         let unlike = rows.iter().find(|row| !same_shape(row, &rows[0]));
         if let Some(unlike) = unlike {
             return Err(Diagnostic::at(
+                Code::UnlikeValues,
                 span,
                 format!(
                     "the elements are unlike: {} and {}",
@@ -89,6 +90,7 @@ impl Evaluator<'_> {
         let width = leaves[0].len();
         if width > MAX_COLUMNS {
             return Err(Diagnostic::at(
+                Code::TooLarge,
                 span,
                 format!("each element has {width} numbers, more than {MAX_COLUMNS}"),
             )
@@ -178,10 +180,10 @@ impl Evaluator<'_> {
             components: lanes,
         } = ty
         else {
-            return Err(Diagnostic::at(span, "its elements are arrays").into());
+            return Err(Diagnostic::at(Code::UnlikeValues, span, "its elements are arrays").into());
         };
         if nodes.iter().any(|id| self.ty(*id) != ty) {
-            return Err(Diagnostic::at(span, "its elements have several types").into());
+            return Err(Diagnostic::at(Code::UnlikeValues, span, "its elements have several types").into());
         }
         if matches!(ty, Type::I32 | Type::U32 | Type::USIZE)
             && let Some(even) = self.even(nodes)

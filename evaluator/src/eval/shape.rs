@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::enums::Tag;
 use super::value::{Eval, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
@@ -87,19 +87,24 @@ impl Evaluator<'_> {
             Value::Node(id) if self.ty(*id).is_array() => return Ok(*id),
             Value::Array(elements) if !elements.is_empty() => elements.to_vec(),
             Value::Elements(_) => {
-                return Err(
-                    Diagnostic::at(span, "the length of this array is not known: no type states it")
-                        .label("of which length?")
-                        .help("state the type of its variable: `let list: [f32; 4] = ...`")
-                        .into(),
-                );
+                return Err(Diagnostic::at(
+                    Code::TypeNeeded,
+                    span,
+                    "the length of this array is not known: no type states it",
+                )
+                .label("of which length?")
+                .help("state the type of its variable: `let list: [f32; 4] = ...`")
+                .into());
             }
             other => {
-                return Err(Diagnostic::at(span, format!("{} cannot be indexed", other.describe())).into());
+                return Err(
+                    Diagnostic::at(Code::IndexType, span, format!("{} cannot be indexed", other.describe())).into(),
+                );
             }
         };
         if elements.len() > MAX_INDEXED {
             return Err(Diagnostic::at(
+                Code::TooLarge,
                 span,
                 format!(
                     "an array of {} elements is indexed at run time, or changed in a loop",
@@ -116,6 +121,7 @@ impl Evaluator<'_> {
                 Value::Int(_) | Value::Node(_) => nodes.push(self.node(element, span)?),
                 other => {
                     return Err(Diagnostic::at(
+                        Code::RuntimeIndex,
                         span,
                         format!("an array of {} cannot be indexed at run time", kind(other)),
                     )
@@ -139,6 +145,7 @@ impl Evaluator<'_> {
                 Ok(self.builder.add(Op::MakeArray, nodes, ty))
             }
             _ => Err(Diagnostic::at(
+                Code::RuntimeIndex,
                 span,
                 "an array of arrays, or of unlike elements, cannot be indexed at run time",
             )
@@ -194,6 +201,7 @@ impl Evaluator<'_> {
             (Value::Unset, _) | (_, Value::Unset) => (Value::Unset, Value::Unset),
             (Value::Ref(_), Value::Ref(_)) => {
                 return Err(Diagnostic::at(
+                    Code::MutableReference,
                     span,
                     "a mutable reference to one variable or another, by a runtime condition",
                 )
@@ -204,6 +212,7 @@ impl Evaluator<'_> {
             (Value::Poison, _) | (_, Value::Poison) => return Err(super::Exit::Noted),
             _ => {
                 return Err(Diagnostic::at(
+                    Code::UnlikeValues,
                     span,
                     format!(
                         "{} on one side and {} on the other of a runtime condition",

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::textures::{Gives, Param, TEXTURES, TextureMethod, TextureType};
 use crate::front::tree::Type as SourceType;
 use crate::ir::vector_named as vector_type;
@@ -227,6 +227,7 @@ impl Evaluator<'_> {
         match self.known_int(component) {
             Some(k) if (0..i64::from(texture.components)).contains(&k) => Ok(k as u8),
             _ => Err(Diagnostic::at(
+                Code::RuntimeIndex,
                 span,
                 "the component to gather must be a compile-time constant, and one of the texture's",
             )
@@ -249,6 +250,7 @@ impl Evaluator<'_> {
             _ => "(0, 0, 0) and (1, 1, 1) are opposite corners: `(coord.as_vec3() + 0.5) / size`",
         };
         Err(Diagnostic::at(
+            Code::TextureRead,
             span,
             format!("a place in `{}` is a {}, not {found}", texture.name, wanted.in_rust()),
         )
@@ -291,7 +293,7 @@ impl Evaluator<'_> {
                 ty.in_rust(),
                 self.ty(coord).in_rust()
             );
-            return Err(Diagnostic::at(span, message)
+            return Err(Diagnostic::at(Code::TextureRead, span, message)
                 .label("in this read")
                 .help(format!("convert it with `.as_{}()`", ty.in_rust().to_lowercase()))
                 .into());
@@ -329,20 +331,25 @@ fn no_texels(name: &str, of: &TextureType, args: &[SourceType], span: Span) -> E
             .map(|ty| format!("`{}`", ty.name))
             .collect();
         let (last, first) = others.split_last().expect("some are of integers");
-        return Diagnostic::at(span, format!("a `{}` has no texels of integers", of.name))
-            .label("of this type")
-            .help(format!(
-                "texels of `{}` are f32, Vec2, Vec3 or Vec4; integers are those of {} and {last}",
-                of.name,
-                first.join(", ")
-            ))
-            .into();
+        return Diagnostic::at(
+            Code::ResourceElement,
+            span,
+            format!("a `{}` has no texels of integers", of.name),
+        )
+        .label("of this type")
+        .help(format!(
+            "texels of `{}` are f32, Vec2, Vec3 or Vec4; integers are those of {} and {last}",
+            of.name,
+            first.join(", ")
+        ))
+        .into();
     }
     let help = match of.integers {
         true => "texels are f32, Vec2, Vec3 or Vec4, or their like of i32 or u32: u32, UVec2, IVec4",
         false => "texels are f32, Vec2, Vec3 or Vec4",
     };
     Diagnostic::at(
+        Code::ResourceElement,
         span,
         format!("the texture `{name}` has no texels that a shader can read"),
     )
@@ -354,6 +361,7 @@ fn no_texels(name: &str, of: &TextureType, args: &[SourceType], span: Span) -> E
 fn filtered_integers(texture: &Texture, name: &str, span: Span) -> Exit {
     let ty = texture.texel().in_rust();
     Diagnostic::at(
+        Code::TextureRead,
         span,
         format!(
             "`{name}` weighs texels, and those of `{}` are integers: {ty}",
@@ -367,10 +375,14 @@ fn filtered_integers(texture: &Texture, name: &str, span: Span) -> Exit {
 
 fn wrong_sampler(method: &str, compares: bool, span: Span) -> Exit {
     match compares {
-        true => Diagnostic::at(span, "a `ComparisonSampler` does not filter colours").help("take a `&Sampler`"),
-        false => {
-            Diagnostic::at(span, format!("`{method}` needs a `ComparisonSampler`")).help("take a `&ComparisonSampler`")
-        }
+        true => Diagnostic::at(Code::TextureRead, span, "a `ComparisonSampler` does not filter colours")
+            .help("take a `&Sampler`"),
+        false => Diagnostic::at(
+            Code::TextureRead,
+            span,
+            format!("`{method}` needs a `ComparisonSampler`"),
+        )
+        .help("take a `&ComparisonSampler`"),
     }
     .into()
 }
@@ -386,12 +398,17 @@ fn no_such_method(texture: &Texture, of: &TextureType, name: &str, given: usize,
             arguments(given),
             if given == 1 { "was" } else { "were" }
         );
-        return Diagnostic::at(span, message)
+        return Diagnostic::at(Code::ArgumentCount, span, message)
             .label(format!("`{name}` of a `{}`", of.name))
             .help(format!("write {}", of.shown(method)))
             .into();
     }
-    let error = Diagnostic::at(span, format!("there is no method `{name}` on a `{}`", of.name)).label("not there");
+    let error = Diagnostic::at(
+        Code::UnknownMethod,
+        span,
+        format!("there is no method `{name}` on a `{}`", of.name),
+    )
+    .label("not there");
     let others = TEXTURES.iter().filter(|ty| ty.method_named(name).is_some());
     let others: Vec<String> = others.map(|ty| format!("`{}`", ty.name)).collect();
     let error = match others.is_empty() {

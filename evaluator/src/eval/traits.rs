@@ -3,7 +3,7 @@
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Place, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Generic, Type as SourceType};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::rc::Rc;
@@ -77,6 +77,7 @@ impl<'a> Evaluator<'a> {
             [] => Ok(None),
             [key] => Ok(Some(**key)),
             [first, second, ..] => Err(Diagnostic::at(
+                Code::TraitBound,
                 span,
                 format!("`{first}` or `{second}`: the values do not tell which"),
             )
@@ -201,9 +202,11 @@ impl<'a> Evaluator<'a> {
         let values: Vec<Value> = std::iter::once(value.clone()).chain(args.iter().cloned()).collect();
         match self.taking(&keys, &values, span)? {
             Some(key) => Ok(Some((key, &library.functions[key]))),
-            None => Err(Diagnostic::at(span, format!("no `{name}` takes these values"))
-                .label("called here")
-                .into()),
+            None => Err(
+                Diagnostic::at(Code::TraitBound, span, format!("no `{name}` takes these values"))
+                    .label("called here")
+                    .into(),
+            ),
         }
     }
 

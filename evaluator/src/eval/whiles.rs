@@ -6,7 +6,7 @@ use super::loops::{Body, Granted, Wish};
 use super::partial::Count;
 use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::front::{assigned, breaks, children, guarded};
 use crate::policy::{Asked, Unroll};
@@ -100,12 +100,14 @@ impl Evaluator<'_> {
         self.return_to(before);
         let reason = "its end is a runtime value";
         if asked.by_name && asked.unroll == Unroll::Full {
-            return Err(
-                Diagnostic::at(condition.span, format!("this loop cannot be unrolled: {reason}"))
-                    .label("its trip count is a runtime value")
-                    .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::CannotUnroll,
+                condition.span,
+                format!("this loop cannot be unrolled: {reason}"),
+            )
+            .label("its trip count is a runtime value")
+            .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`")
+            .into());
         }
         self.keep(&until, &Count::Unknown, Unroll::None, span)?;
         self.loops.because(span, reason.to_owned());

@@ -8,7 +8,7 @@ use super::Evaluator;
 use super::buffers::value_named;
 use super::effects::{Effects, atomic_named};
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Type as SourceType};
 use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, Op, Scalar, Shared, Type};
 
@@ -35,6 +35,7 @@ impl Evaluator<'_> {
         let invocation = self.builder.graph().invocation;
         if invocation != Invocation::Pixel {
             return Err(Diagnostic::at(
+                Code::KernelParameter,
                 span,
                 format!("`{name}` is a workgroup, in a kernel of several pixels an invocation"),
             )
@@ -69,7 +70,7 @@ impl Evaluator<'_> {
 
     fn workgroup_size(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<[u32; 2]> {
         let refused = |what: String| -> Exit {
-            Diagnostic::at(span, what)
+            Diagnostic::at(Code::ResourceElement, span, what)
                 .label("of this type")
                 .help(format!(
                     "write `{name}: &Workgroup<16, 16>`: {MOST_THREADS} threads at most"
@@ -102,7 +103,7 @@ impl Evaluator<'_> {
     pub(super) fn shared_parameter(&mut self, name: &str, of: &str, args: &[SourceType], span: Span) -> Eval {
         let atomic = of == "AtomicShared";
         let refused = |what: String| -> Exit {
-            Diagnostic::at(span, what)
+            Diagnostic::at(Code::ResourceElement, span, what)
                 .label("of this type")
                 .help(match atomic {
                     true => "write `&AtomicShared<[u32; 256]>`: u32 or i32",
@@ -134,7 +135,7 @@ impl Evaluator<'_> {
         if bytes(count).saturating_add(others) > MOST_SHARED_BYTES {
             let total = bytes(count).saturating_add(others);
             let what = format!("the workgroup shares {total} bytes, and devices promise {MOST_SHARED_BYTES}");
-            return Err(Diagnostic::at(span, what)
+            return Err(Diagnostic::at(Code::ResourceElement, span, what)
                 .label("with these")
                 .help("share fewer elements, or vectors of fewer components")
                 .into());
@@ -154,13 +155,13 @@ impl Evaluator<'_> {
     /// `group.each(f)`: what every thread does, once all of them have done what comes before.
     pub(super) fn phase(&mut self, function: &Function, args: Vec<Value>, span: Span) -> Eval {
         if self.in_phase {
-            return Err(Diagnostic::at(span, "a phase inside a phase")
+            return Err(Diagnostic::at(Code::WorkgroupPhase, span, "a phase inside a phase")
                 .label("each thread would run all of them")
                 .help("end the `each` around it first")
                 .into());
         }
         if args.get(1).is_some_and(Value::changes_variables) {
-            return Err(Diagnostic::at(span, "a phase that changes variables")
+            return Err(Diagnostic::at(Code::WorkgroupPhase, span, "a phase that changes variables")
                 .label("all threads would change them")
                 .help("give the value from the phase, and take it in a later one by `of(thread)`; what threads tell each other lies in a `&Shared`")
                 .into());
@@ -212,6 +213,7 @@ impl Evaluator<'_> {
         };
         if !matches!(self.builder.graph().invocation, Invocation::Group(_)) {
             return Err(Diagnostic::at(
+                Code::WorkgroupPhase,
                 span,
                 format!("`{}` is shared by the threads of no workgroup", shared.name),
             )
@@ -220,12 +222,14 @@ impl Evaluator<'_> {
             .into());
         }
         if !self.in_phase {
-            return Err(
-                Diagnostic::at(span, format!("`{}` is used outside of the phases", shared.name))
-                    .label("by which thread?")
-                    .help("put it into a `group.each(|thread| ...)`")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                Code::WorkgroupPhase,
+                span,
+                format!("`{}` is used outside of the phases", shared.name),
+            )
+            .label("by which thread?")
+            .help("put it into a `group.each(|thread| ...)`")
+            .into());
         }
         match effect {
             Some(effect) => self.effect_on(Memory::Shared(index), effect, args, span),
@@ -253,6 +257,7 @@ fn no_such_method(shared: &Shared, name: &str, span: Span) -> Exit {
         ),
     };
     Diagnostic::at(
+        Code::UnknownMethod,
         span,
         format!(
             "`{}` is of type `{ty}`, which has no method `{name}` with such arguments",

@@ -2,7 +2,7 @@
 
 use super::cfg::as_written;
 use super::expr::Lower;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::policy::{Branches, Unroll};
 use quote::ToTokens;
 use syn::punctuated::Punctuated;
@@ -147,8 +147,11 @@ impl Lower {
 
     fn bad_attribute(&mut self, span: proc_macro2::Span, message: String, help: &str) {
         let span = self.span(span);
-        self.errors
-            .push(Diagnostic::at(span, message).label("not understood").help(help));
+        self.errors.push(
+            Diagnostic::at(Code::Attribute, span, message)
+                .label("not understood")
+                .help(help),
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 use super::expr::Lower;
 use super::mentioned_in;
 use super::tree::{Block, Const, Expr, ExprKind, Pattern, Statement, Type};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use std::collections::BTreeSet;
 use syn::spanned::Spanned;
 
@@ -94,6 +94,7 @@ impl Lower {
         if self.names().has(&item.ident.to_string()) {
             let name = &item.ident;
             let error = Diagnostic::at(
+                Code::DefinedTwice,
                 self.span(name.span()),
                 format!("`{name}` is a name that stands for something else"),
             )

@@ -3,7 +3,7 @@
 //! `#[cfg(..)]` is evaluated as far as a source text by itself allows. What depends on how a crate is built is refused.
 
 use super::expr::Lower;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::suggest::suggest;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
@@ -122,6 +122,7 @@ impl Lower {
         let span = self.span(span);
         self.errors.push(
             Diagnostic::at(
+                Code::Configuration,
                 span,
                 format!("`cfg({})` depends on how the crate is built", as_written(predicate)),
             )
@@ -169,7 +170,7 @@ impl Lower {
                     };
                     let span = self.span(attr.span());
                     self.errors.push(
-                        Diagnostic::at(span, format!("`{name}` is an attribute of {of}"))
+                        Diagnostic::at(Code::Attribute, span, format!("`{name}` is an attribute of {of}"))
                             .label(format!("not before {of}"))
                             .help(help),
                     );
@@ -179,8 +180,11 @@ impl Lower {
                     let span = self.span(attr.span());
                     let what = format!("there is no attribute `{name}`");
                     let help = suggest(&name, &OWN, "the generator has");
-                    self.errors
-                        .push(Diagnostic::at(span, what).label("not understood").help(help));
+                    self.errors.push(
+                        Diagnostic::at(Code::Attribute, span, what)
+                            .label("not understood")
+                            .help(help),
+                    );
                 }
                 Some(false) => {}
                 Some(true) => match syn::parse2::<syn::Meta>(part.clone()) {

@@ -2,7 +2,7 @@
 //! of functions, generic arguments and words such as `return`; and what it makes of a long chain of operators is deep too.
 //! All of these are counted on the tokens, before anything recursive sees them.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Delimiter, Spacing, Span, TokenStream, TokenTree};
 
 /// Deepest nesting of brackets.
@@ -37,7 +37,9 @@ pub fn check(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
     };
     let refuse = |span: Span, what: String, help: &str| {
         Err(Box::new(
-            Diagnostic::at(super::place(file, span), what).label("here").help(help),
+            Diagnostic::at(Code::TooDeep, super::place(file, span), what)
+                .label("here")
+                .help(help),
         ))
     };
     const SMALLER: &str = "give parts of it a name with `let`, or put them into functions";

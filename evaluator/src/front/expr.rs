@@ -7,7 +7,7 @@ use super::parts::takes_apart;
 use super::place;
 use super::targets::{Kind, Target};
 use super::tree::{Block, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -84,9 +84,13 @@ impl Lower {
     pub fn unsupported(&mut self, span: proc_macro2::Span, what: &str, instead: &str) {
         let span = self.span(span);
         self.errors.push(
-            Diagnostic::at(span, format!("{what} is not part of the kernel language"))
-                .label("not supported")
-                .help(instead),
+            Diagnostic::at(
+                Code::NotInLanguage,
+                span,
+                format!("{what} is not part of the kernel language"),
+            )
+            .label("not supported")
+            .help(instead),
         );
     }
 
@@ -166,7 +170,7 @@ impl Lower {
             let what = format!("expressions are nested more than {DEPTH} deep");
             if self.errors.iter().all(|e| e.message != what) {
                 self.errors.push(
-                    Diagnostic::at(span, what)
+                    Diagnostic::at(Code::TooDeep, span, what)
                         .label("too deep")
                         .help("give parts of it a name with `let`"),
                 );

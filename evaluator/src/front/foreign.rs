@@ -4,7 +4,7 @@ use super::check::Check;
 use super::items::Items;
 use super::textures::TextureType;
 use super::tree::Library;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 
@@ -35,9 +35,13 @@ impl Import {
         if given || known || self.prelude {
             return None;
         }
-        let error = Diagnostic::at(self.span, format!("`{there}` is not among the kernel's files"))
-            .label("imported here")
-            .help("give the file that defines it too, or define it here");
+        let error = Diagnostic::at(
+            Code::MissingFile,
+            self.span,
+            format!("`{there}` is not among the kernel's files"),
+        )
+        .label("imported here")
+        .help("give the file that defines it too, or define it here");
         Some((here, error))
     }
 }

@@ -8,7 +8,7 @@ use super::foreign::{Import, is_prelude_type};
 use super::names::Names;
 use super::reach::Mentions;
 use super::tree::{Enum, Fields, Function, Generic, Library, Param, Struct, Type, Variant};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
 use std::collections::HashMap;
@@ -462,6 +462,7 @@ impl Items {
 
     pub(super) fn duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
         let error = Diagnostic::at(
+            Code::DefinedTwice,
             lower.span(span),
             format!("`{name}` is defined twice among the kernel's files"),
         )

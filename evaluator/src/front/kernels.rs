@@ -2,7 +2,7 @@
 
 use super::foreign::is_resource;
 use super::raw::unraw;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use std::collections::BTreeSet;
 
 /// The kernel of a text where nobody names it: the public function called `wanted` that takes and gives what a kernel does, or else
@@ -54,7 +54,7 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
         "`{path}` has several functions that may be its kernel: {}",
         names.join(", ")
     );
-    let mut error = Diagnostic::at(super::place(0, first.span()), what)
+    let mut error = Diagnostic::at(Code::UnknownKernel, super::place(0, first.span()), what)
         .label("one of them")
         .help(format!("name one of them: `{path}::{}`", name(first)));
     for other in others {
@@ -70,12 +70,12 @@ fn no_kernel(functions: &[&syn::ItemFn], wanted: &str, path: &str) -> Diagnostic
         .iter()
         .find(|f| unraw(&f.sig.ident.to_string()) == wanted && !is_public(f));
     match private {
-        Some(function) => Diagnostic::at(super::place(0, function.sig.ident.span()), what)
+        Some(function) => Diagnostic::at(Code::UnknownKernel, super::place(0, function.sig.ident.span()), what)
             .label("private")
             .help(format!(
                 "write `pub fn {wanted}`, or name the function: `{path}::{wanted}`"
             )),
-        None => Diagnostic::new(what)
+        None => Diagnostic::new(Code::UnknownKernel, what)
             .help("a kernel is a function such as `pub fn NAME(color: &Frame<Vec4>, pixel: IVec2) -> Vec4`"),
     }
 }

@@ -38,7 +38,7 @@ mod traits;
 pub mod tree;
 mod whiles;
 
-use crate::diagnostic::{Diagnostic, Errors, File, Span};
+use crate::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use ::std::borrow::Cow;
 use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
@@ -130,11 +130,15 @@ fn syntax_error(file: u32, text: &str, error: &syn::Error) -> Diagnostic {
         if let Some(odd) = odd::character(file, text, span) {
             return odd;
         }
-        return Diagnostic::at(span, "not valid Rust: a bracket or a quote has no partner")
-            .label("this one, or one before")
-            .help("count the brackets, or let `rustfmt` find the place");
+        return Diagnostic::at(
+            Code::Syntax,
+            span,
+            "not valid Rust: a bracket or a quote has no partner",
+        )
+        .label("this one, or one before")
+        .help("count the brackets, or let `rustfmt` find the place");
     }
-    Diagnostic::at(span, format!("not valid Rust: {said}"))
+    Diagnostic::at(Code::Syntax, span, format!("not valid Rust: {said}"))
         .label("the parser stopped here")
         .help("rustc, which compiles the same file, says more")
 }

@@ -6,7 +6,7 @@ use super::cfg::Carrier;
 use super::expr::Lower;
 use super::inner::imports;
 use super::tree::Type;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use std::collections::HashMap;
@@ -160,9 +160,13 @@ impl Lower {
         let names = self.names();
         let (file, ty) = names.types.get(name)?;
         if self.aliases >= MAX_ALIASES {
-            let error = Diagnostic::at(self.span(ty.span()), format!("the type `{name}` stands for itself"))
-                .label("a cycle of names")
-                .help("write the type itself");
+            let error = Diagnostic::at(
+                Code::EndlessDefinition,
+                self.span(ty.span()),
+                format!("the type `{name}` stands for itself"),
+            )
+            .label("a cycle of names")
+            .help("write the type itself");
             self.errors.push(error);
             return Some(Type::Tuple(Vec::new()));
         }
@@ -247,6 +251,7 @@ fn is_there(file: u32, item: &syn::Item) -> bool {
 fn twice(file: u32, name: &syn::Ident) -> Diagnostic {
     let lower = Lower::new(file, None, Rc::default());
     Diagnostic::at(
+        Code::DefinedTwice,
         lower.span(name.span()),
         format!("`{name}` stands for two things among the kernel's files"),
     )

@@ -1,6 +1,6 @@
 //! Characters that no token of Rust begins with, and that editors do not show.
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 
 /// What is wrong with a text that could not be read up to a place: a character there that Rust does not take, or one that editors hide,
 /// from there on. `None` if the text holds none.
@@ -36,7 +36,7 @@ pub fn character(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
     };
     let span = at_byte(file, text, at, c.len_utf8());
     Some(
-        Diagnostic::at(span, format!("not valid Rust: {what}"))
+        Diagnostic::at(Code::Syntax, span, format!("not valid Rust: {what}"))
             .label("here")
             .help(help),
     )

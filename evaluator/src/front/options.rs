@@ -3,7 +3,7 @@
 use super::check::Check;
 use super::items::{Items, docs};
 use super::tree::{Expr, ExprKind, OptionField, Struct};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use syn::parse::{Parse, ParseStream};
 
 /// What stands in `options!`.
@@ -129,7 +129,7 @@ impl Items {
             Err(error) => {
                 let span = lower.span(error.span());
                 lower.errors.push(
-                    Diagnostic::at(span, format!("not a list of options: {error}"))
+                    Diagnostic::at(Code::OptionsSyntax, span, format!("not a list of options: {error}"))
                         .help("write `pub name: type = default,`, with the range of a number as `pub name: f32 [0.0..=1.0] = 0.5,`"),
                 );
             }

@@ -2,7 +2,7 @@
 
 use super::expr::Lower;
 use super::tree::{Pattern, Type};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use std::collections::HashMap;
 use syn::spanned::Spanned;
 
@@ -114,9 +114,13 @@ impl Lower {
         if let Some(second) = parts.iter().filter(|part| is_rest(part)).nth(1) {
             let span = self.span(second.span());
             self.errors.push(
-                Diagnostic::at(span, "`..` can be used once in a pattern of a tuple or an array")
-                    .label("the second")
-                    .help("write `_` for each part that is not used"),
+                Diagnostic::at(
+                    Code::Pattern,
+                    span,
+                    "`..` can be used once in a pattern of a tuple or an array",
+                )
+                .label("the second")
+                .help("write `_` for each part that is not used"),
             );
         }
     }

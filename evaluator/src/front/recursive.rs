@@ -1,7 +1,7 @@
 //! Types that hold themselves, which have no size.
 
 use super::tree::{Library, Type};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 
 /// An error for each type that holds itself, directly or through others: rustc's E0072.
 pub fn check(library: &Library) -> Vec<Diagnostic> {
@@ -10,9 +10,13 @@ pub fn check(library: &Library) -> Vec<Diagnostic> {
     let found = names.into_iter().filter_map(|name| {
         let at = holds(library, name, name, &mut Vec::new())?;
         Some(
-            Diagnostic::at(at, format!("recursive type `{name}` has infinite size"))
-                .label("it holds itself here")
-                .help("keep the other one's index"),
+            Diagnostic::at(
+                Code::EndlessDefinition,
+                at,
+                format!("recursive type `{name}` has infinite size"),
+            )
+            .label("it holds itself here")
+            .help("keep the other one's index"),
         )
     });
     found.collect()

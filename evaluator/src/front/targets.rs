@@ -3,7 +3,7 @@
 use super::expr::{Lower, label};
 use super::scan::breaks;
 use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use syn::spanned::Spanned;
 
 /// What a `break` may lead out of.
@@ -55,9 +55,13 @@ impl Lower {
         let ends = !valued && breaks(&body, name.as_deref());
         let kind = self.while_(always, body, name, &e.attrs);
         if matches!(kind, ExprKind::For(_)) && !ends {
-            let error = Diagnostic::at(span, "a `loop` that ends with a value takes no `bound`")
-                .label("only a `return` or a `break` with a value ends it")
-                .help("end it by `break`, and give the value behind it");
+            let error = Diagnostic::at(
+                Code::Attribute,
+                span,
+                "a `loop` that ends with a value takes no `bound`",
+            )
+            .label("only a `return` or a `break` with a value ends it")
+            .help("end it by `break`, and give the value behind it");
             self.errors.push(error);
         }
         match valued {
@@ -126,9 +130,13 @@ impl Lower {
         let Some(depth) = found else { return leave };
         if let Kind::Other(word) = self.targets[depth].kind {
             self.errors.push(
-                Diagnostic::at(span, format!("`break` with a value from a `{word}` loop"))
-                    .label("only `loop` and blocks with a label have a value")
-                    .help("assign the value to a variable before, or write `loop`"),
+                Diagnostic::at(
+                    Code::Leaving,
+                    span,
+                    format!("`break` with a value from a `{word}` loop"),
+                )
+                .label("only `loop` and blocks with a label have a value")
+                .help("assign the value to a variable before, or write `loop`"),
             );
             return leave;
         }

@@ -6,7 +6,7 @@ use super::check::Check;
 use super::expr::Lower;
 use super::items::{Items, Owner, qualified};
 use super::tree::{Implemented, Trait, Type};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
 use std::collections::{BTreeSet, HashMap};
@@ -371,6 +371,7 @@ impl Items {
         let lower = self.lower_of(file);
         Some(
             Diagnostic::at(
+                Code::TraitImplementation,
                 lower.span(path.span()),
                 format!("not all items of the trait `{}` are implemented", declared.ident),
             )
@@ -405,6 +406,7 @@ impl Items {
         let others = others.filter(|(name, _)| !known.contains(&name.as_str()));
         let each = others.map(|(name, span)| {
             Diagnostic::at(
+                Code::TraitImplementation,
                 lower.span(span),
                 format!("`{name}` is not a member of the trait `{trait_name}`"),
             )

@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function};
 use crate::ir::Scalar;
 use std::collections::HashMap;
@@ -91,6 +91,7 @@ impl<'l> Checker<'l> {
                 None => {
                     self.errors.push(
                         Diagnostic::at(
+                            Code::TypeNeeded,
                             span,
                             format!("cannot call `{of}::{name}` without the type that it is of"),
                         )
@@ -167,9 +168,13 @@ impl<'l> Checker<'l> {
     fn miscounted(&mut self, name: String, wanted: usize, given: usize, span: Span) {
         let plural = if wanted == 1 { "" } else { "s" };
         self.errors.push(
-            Diagnostic::at(span, format!("`{name}` takes {wanted} argument{plural}, not {given}"))
-                .label("called here")
-                .help("give one number for each component; a longer vector is made with `.extend(...)`"),
+            Diagnostic::at(
+                Code::ArgumentCount,
+                span,
+                format!("`{name}` takes {wanted} argument{plural}, not {given}"),
+            )
+            .label("called here")
+            .help("give one number for each component; a longer vector is made with `.extend(...)`"),
         );
     }
 
@@ -373,7 +378,7 @@ impl<'l> Checker<'l> {
             ]);
             types.sort_unstable();
             self.errors.push(
-                Diagnostic::at(span, format!("cannot find type `{ty}`"))
+                Diagnostic::at(Code::UnknownType, span, format!("cannot find type `{ty}`"))
                     .label("not found in the kernel's files")
                     .help(match types.iter().find(|known| crate::suggest::is_close(ty, known)) {
                         Some(close) => format!("did you mean `{close}`?"),
@@ -414,12 +419,14 @@ impl<'l> Checker<'l> {
         }
         let error = match self.locals.iter().rev().find(|local| local.name == name) {
             Some(local) => Diagnostic::at(
+Code::NotAFunction,
                 span,
                 format!("expected function, found `{}`", self.table.deep(&local.ty)),
             )
             .label("not a function")
             .other(local.span, format!("`{name}` is declared here")),
             None if DERIVATIVES.contains(&name) => Diagnostic::at(
+Code::QuadMessage,
                 span,
                 format!("`{name}` asks the pixels beside this one, and a kernel computes one pixel"),
             )
@@ -434,7 +441,7 @@ impl<'l> Checker<'l> {
                 known.extend(PRELUDE);
                 known.sort_unstable();
                 let close = known.iter().find(|known| crate::suggest::is_close(name, known));
-                Diagnostic::at(span, format!("cannot find function `{name}`"))
+                Diagnostic::at(Code::UnknownFunction, span, format!("cannot find function `{name}`"))
                     .label("not found in the kernel's files")
                     .help(match close {
                         Some(close) => format!("did you mean `{close}`?"),

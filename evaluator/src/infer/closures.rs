@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::UNARY;
 use crate::front::tree::{Closure, Expr};
 use crate::ir::Scalar;
@@ -62,9 +62,13 @@ impl<'l> Checker<'l> {
         }
         let found = self.table.deep(&found);
         self.errors.push(
-            Diagnostic::at(callee.span, format!("expected function, found `{found}`"))
-                .label("not a function")
-                .help("call a function, a closure, or a variable or field that holds one"),
+            Diagnostic::at(
+                Code::NotAFunction,
+                callee.span,
+                format!("expected function, found `{found}`"),
+            )
+            .label("not a function")
+            .help("call a function, a closure, or a variable or field that holds one"),
         );
         self.loose(args);
         Ty::Unknown
@@ -78,8 +82,12 @@ impl<'l> Checker<'l> {
                     let (wanted, given) = (params.len(), args.len());
                     let plural = if wanted == 1 { "" } else { "s" };
                     self.errors.push(
-                        Diagnostic::at(span, format!("{name} takes {wanted} argument{plural}, not {given}"))
-                            .label("called here"),
+                        Diagnostic::at(
+                            Code::ArgumentCount,
+                            span,
+                            format!("{name} takes {wanted} argument{plural}, not {given}"),
+                        )
+                        .label("called here"),
                     );
                 }
                 Some(self.takes(args, &params, *result))

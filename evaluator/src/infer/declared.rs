@@ -2,7 +2,7 @@
 
 use super::types::Ty;
 use super::{Checker, Known, one};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Const, Function, Library, Type};
 use std::collections::{BTreeSet, HashMap};
 
@@ -54,6 +54,7 @@ impl<'l> Checker<'l> {
         if wanted != found {
             self.errors.push(
                 Diagnostic::at(
+                    Code::TraitImplementation,
                     span,
                     format!("`{name}` has {}, but {wanted} in the trait `{of}`", parameters(found)),
                 )
@@ -79,6 +80,7 @@ impl<'l> Checker<'l> {
             };
             self.errors.push(
                 Diagnostic::at(
+                    Code::TraitImplementation,
                     span,
                     format!("`{name}` is not as the trait `{of}` declares it: {what} is `{found}`"),
                 )
@@ -96,6 +98,7 @@ impl<'l> Checker<'l> {
         let name = given.name.rsplit("::").next().unwrap_or_default();
         self.errors.push(
             Diagnostic::at(
+                Code::TraitImplementation,
                 span,
                 format!("`{name}` is not as the trait `{of}` declares it: it is `{found}`"),
             )

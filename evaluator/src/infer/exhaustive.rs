@@ -3,7 +3,7 @@
 use super::Checker;
 use super::operators::literal;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{Arm, Expr, ExprKind, IntType, Pattern};
 
@@ -19,6 +19,7 @@ impl<'l> Checker<'l> {
         if !self.covers(rows, std::slice::from_ref(subject)) {
             self.errors.push(
                 Diagnostic::at(
+                    Code::NonExhaustive,
                     span,
                     "non-exhaustive patterns: some values are taken by no arm of this `match`",
                 )
@@ -32,9 +33,13 @@ impl<'l> Checker<'l> {
     pub fn irrefutable(&mut self, pattern: &'l Pattern, ty: &Ty, span: Span) {
         if !self.covers(vec![vec![Some(pattern)]], std::slice::from_ref(ty)) {
             self.errors.push(
-                Diagnostic::at(span, "refutable pattern: it does not take every value")
-                    .label("some values are left out")
-                    .help("use `if let`, or `let ... else` with what is to happen to the others"),
+                Diagnostic::at(
+                    Code::RefutablePattern,
+                    span,
+                    "refutable pattern: it does not take every value",
+                )
+                .label("some values are left out")
+                .help("use `if let`, or `let ... else` with what is to happen to the others"),
             );
         }
     }

@@ -2,7 +2,7 @@
 
 use super::types::{Kind, Ty};
 use super::{Around, Checker};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::breaks;
 use crate::front::tree::{Block, Expr, ExprKind, ForLoop, Statement, Type};
 use crate::ir::UnaryOp;
@@ -47,8 +47,12 @@ impl<'l> Checker<'l> {
             _ => format!("`{ty}`"),
         };
         let (w, f) = (shown(self, &wanted), shown(self, &found));
-        let mut error =
-            Diagnostic::at(span, format!("mismatched types: expected {w}, found {f}")).label(format!("expected {w}"));
+        let mut error = Diagnostic::at(
+            Code::MismatchedTypes,
+            span,
+            format!("mismatched types: expected {w}, found {f}"),
+        )
+        .label(format!("expected {w}"));
         if let Some(help) = self.conversion(&wanted, &found) {
             error = error.help(help);
         }
@@ -356,8 +360,12 @@ impl<'l> Checker<'l> {
         if !fits {
             let sign = if op == UnaryOp::Neg { "-" } else { "!" };
             self.errors.push(
-                Diagnostic::at(span, format!("cannot apply unary operator `{sign}` to type `{bare}`"))
-                    .label("not for this type"),
+                Diagnostic::at(
+                    Code::OperatorTypes,
+                    span,
+                    format!("cannot apply unary operator `{sign}` to type `{bare}`"),
+                )
+                .label("not for this type"),
             );
             return Ty::Unknown;
         }
@@ -387,7 +395,7 @@ impl<'l> Checker<'l> {
         match self.table.shallow(&found) {
             Ty::Bool if target == Ty::Float => {
                 self.errors.push(
-                    Diagnostic::at(span, "casting `bool` as `f32` is invalid")
+                    Diagnostic::at(Code::Cast, span, "casting `bool` as `f32` is invalid")
                         .label("not a number")
                         .help("cast through an integer: `as u32 as f32`"),
                 );
@@ -405,7 +413,7 @@ impl<'l> Checker<'l> {
                     _ => "convert its parts",
                 };
                 self.errors.push(
-                    Diagnostic::at(span, format!("non-primitive cast: `{found}` as `{target}`"))
+                    Diagnostic::at(Code::Cast, span, format!("non-primitive cast: `{found}` as `{target}`"))
                         .label("not one number")
                         .help(help),
                 );
@@ -433,15 +441,21 @@ impl<'l> Checker<'l> {
         };
         let in_block = target.is_some_and(|around| around.block);
         let error = match label {
-            None if in_block => Diagnostic::at(span, format!("`{word}` without a label in a block with a label"))
-                .label("of the loop, or of the block?")
-                .help("write the label of what it is to leave"),
-            Some(label) if in_block && word == "continue" => {
-                Diagnostic::at(span, format!("`continue` of the block `'{label}`, which is no loop"))
-                    .label("a block has no next iteration")
-                    .help(format!("write `break '{label}`"))
-            }
-            None if self.loops.is_empty() => Diagnostic::at(span, format!("`{word}` outside of a loop"))
+            None if in_block => Diagnostic::at(
+                Code::Leaving,
+                span,
+                format!("`{word}` without a label in a block with a label"),
+            )
+            .label("of the loop, or of the block?")
+            .help("write the label of what it is to leave"),
+            Some(label) if in_block && word == "continue" => Diagnostic::at(
+                Code::Leaving,
+                span,
+                format!("`continue` of the block `'{label}`, which is no loop"),
+            )
+            .label("a block has no next iteration")
+            .help(format!("write `break '{label}`")),
+            None if self.loops.is_empty() => Diagnostic::at(Code::Leaving, span, format!("`{word}` outside of a loop"))
                 .label("no loop is around it")
                 .help("`return` leaves a function"),
             Some(label) if target.is_none() => {
@@ -449,7 +463,7 @@ impl<'l> Checker<'l> {
                 let known: Vec<String> = labels.map(|label| format!("'{label}")).collect();
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
                 let help = crate::suggest::suggest(&format!("'{label}"), &known, "labels around it are");
-                Diagnostic::at(span, format!("cannot find the label `'{label}`"))
+                Diagnostic::at(Code::UnknownLabel, span, format!("cannot find the label `'{label}`"))
                     .label("not found")
                     .help(help)
             }

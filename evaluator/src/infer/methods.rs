@@ -3,7 +3,7 @@
 use super::Checker;
 use super::places::Access;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::methods;
 use crate::front::tree::{Expr, IntType};
 use crate::ir::{Scalar, Type};
@@ -100,6 +100,7 @@ impl<'l> Checker<'l> {
     fn ambiguous(&mut self, name: &str, receiver: &Expr) {
         self.errors.push(
             Diagnostic::at(
+                Code::TypeNeeded,
                 receiver.span,
                 format!("cannot call method `{name}` on an integer of which the type is not known yet"),
             )
@@ -170,9 +171,13 @@ impl<'l> Checker<'l> {
                 ) =>
             {
                 self.errors.push(
-                    Diagnostic::at(span, format!("an array is no iterator: it has no method `{name}`"))
-                        .label("not an iterator")
-                        .help(format!("write `.iter().{name}(...)`")),
+                    Diagnostic::at(
+                        Code::UnknownMethod,
+                        span,
+                        format!("an array is no iterator: it has no method `{name}`"),
+                    )
+                    .label("not an iterator")
+                    .help(format!("write `.iter().{name}(...)`")),
                 );
                 self.unknown_method(args)
             }
@@ -193,8 +198,12 @@ impl<'l> Checker<'l> {
                 "min" | "max" if matches!(self.peeled(item).0, Ty::Float | Ty::Vector(..)) => {
                     let of = self.peeled(item).0;
                     let first = if name == "min" { "INFINITY" } else { "NEG_INFINITY" };
-                    let error = Diagnostic::at(span, format!("the trait bound `{of}: Ord` is not satisfied"))
-                        .label(format!("`Ord` is not implemented for `{of}`"));
+                    let error = Diagnostic::at(
+                        Code::TraitBound,
+                        span,
+                        format!("the trait bound `{of}: Ord` is not satisfied"),
+                    )
+                    .label(format!("`Ord` is not implemented for `{of}`"));
                     self.errors.push(error.help(match of {
                         Ty::Float => format!("fold it: `.fold(f32::{first}, f32::{name})`"),
                         _ => "fold it from the first one on".to_owned(),
@@ -267,7 +276,7 @@ impl<'l> Checker<'l> {
             let plural = if arguments == 1 { "" } else { "s" };
             let message = format!("there is no method `{name}` with {arguments} argument{plural} on {receiver}");
             self.errors.push(
-                Diagnostic::at(span, message)
+                Diagnostic::at(Code::UnknownMethod, span, message)
                     .label("not supported")
                     .help(methods::known_methods(name, ty)),
             );

@@ -21,7 +21,7 @@ mod textures;
 mod traits;
 mod types;
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Const, Expr, Function, Generic, IntType, Library};
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
@@ -69,7 +69,7 @@ pub fn mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagno
             checker.function(function)
         });
     }
-    errors.retain(|error| error.message.starts_with("mismatched types"));
+    errors.retain(|error| error.code() == Some(Code::MismatchedTypes));
     errors.sort_by_key(|error| error.span);
     errors.dedup();
     errors
@@ -253,6 +253,7 @@ impl<'l> Checker<'l> {
     fn bound_twice(&mut self, name: &str, span: Span, list: &str) {
         self.errors.push(
             Diagnostic::at(
+                Code::DefinedTwice,
                 span,
                 format!("identifier `{name}` is bound more than once in this {list}"),
             )
@@ -303,11 +304,15 @@ impl<'l> Checker<'l> {
             if value > largest {
                 let at = minus.get(&span).copied().unwrap_or(span);
                 self.errors.push(
-                    Diagnostic::at(at, format!("literal out of range for `{}`", Ty::Int(kind)))
-                        .label(format!("this is more than {largest}"))
-                        .help(format!(
-                            "write `{value}_u32`, and convert it where another type is needed"
-                        )),
+                    Diagnostic::at(
+                        Code::LiteralRange,
+                        at,
+                        format!("literal out of range for `{}`", Ty::Int(kind)),
+                    )
+                    .label(format!("this is more than {largest}"))
+                    .help(format!(
+                        "write `{value}_u32`, and convert it where another type is needed"
+                    )),
                 );
             }
             known.literals.insert(span, kind);
@@ -315,9 +320,13 @@ impl<'l> Checker<'l> {
         for (sign, ty, _) in std::mem::take(&mut self.negated) {
             if let ty @ Ty::Int(IntType::U32 | IntType::Usize) = self.table.shallow(&ty) {
                 self.errors.push(
-                    Diagnostic::at(sign, format!("cannot apply unary operator `-` to type `{ty}`"))
-                        .label("unsigned")
-                        .help("use `wrapping_neg`, or compute in i32"),
+                    Diagnostic::at(
+                        Code::OperatorTypes,
+                        sign,
+                        format!("cannot apply unary operator `-` to type `{ty}`"),
+                    )
+                    .label("unsigned")
+                    .help("use `wrapping_neg`, or compute in i32"),
                 );
             }
         }
@@ -327,14 +336,14 @@ impl<'l> Checker<'l> {
             {
                 if b == 0 && op != crate::ir::BinaryOp::Sub {
                     self.errors.push(
-                        Diagnostic::at(span, "attempt to divide by zero")
+                        Diagnostic::at(Code::DivisionByZero, span, "attempt to divide by zero")
                             .label("the divisor is always 0")
                             .help("divide only where the divisor is not 0: `if n != 0 { ... }`"),
                     );
                     continue;
                 }
                 self.errors.push(
-                    Diagnostic::at(span, "this arithmetic operation will overflow")
+                    Diagnostic::at(Code::Overflow, span, "this arithmetic operation will overflow")
                         .label(format!("beyond the range of `{}`", Ty::Int(kind)))
                         .help("compute it in another type, or with `wrapping_mul` and its like where it is to wrap"),
                 );
@@ -349,6 +358,7 @@ impl<'l> Checker<'l> {
                 named.push(ty);
                 self.errors.push(
                     Diagnostic::at(
+                        Code::TypeNeeded,
                         span,
                         "nothing says that this number is an `f32`, so that Rust makes it an `f64`",
                     )

@@ -2,7 +2,7 @@
 
 use super::types::{Kind, Ty};
 use super::{Checker, Deferred};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{BinaryOp, Scalar, UnaryOp};
 
@@ -224,7 +224,7 @@ impl<'l> Checker<'l> {
             ),
             false => (format!("cannot apply `{sign}` to {l} and {r}"), "not for these types"),
         };
-        let mut error = Diagnostic::at(expr.span, message).label(label);
+        let mut error = Diagnostic::at(Code::OperatorTypes, expr.span, message).label(label);
         let help = match (&left, &right) {
             _ if op.is_comparison() && left == right && self.is_own(&left) => Some(match self.not_comparable(&left) {
                 Some(name) if matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {

@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::Ty;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, Pattern, Variant};
 use crate::ir::UnaryOp;
@@ -161,6 +161,7 @@ impl<'l> Checker<'l> {
                 let plural = if known.len() == 1 { "" } else { "s" };
                 self.errors.push(match counted && field.parse::<usize>().is_ok() {
                     true => Diagnostic::at(
+                        Code::Pattern,
                         span,
                         format!(
                             "this pattern has more fields than `{name}`, which has {} field{plural}",
@@ -168,7 +169,7 @@ impl<'l> Checker<'l> {
                         ),
                     )
                     .label("too many"),
-                    false => Diagnostic::at(span, format!("`{name}` has no field `{field}`"))
+                    false => Diagnostic::at(Code::UnknownField, span, format!("`{name}` has no field `{field}`"))
                         .label("not there")
                         .help(crate::suggest::suggest(field, &names, "it has")),
                 });
@@ -185,6 +186,7 @@ impl<'l> Checker<'l> {
         let rest = if named { " { .. }" } else { "(..)" };
         self.errors.push(
             Diagnostic::at(
+                Code::VariantForm,
                 span,
                 format!("expected unit variant, found variant `{name}`, which holds values"),
             )
@@ -200,7 +202,7 @@ impl<'l> Checker<'l> {
         let variants = library.enums.get(ty).map_or(&[][..], |e| &e.variants);
         let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
         self.errors.push(
-            Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
+            Diagnostic::at(Code::UnknownVariant, span, format!("`{ty}` has no variant `{variant}`"))
                 .label("not there")
                 .help(crate::suggest::suggest(variant, &names, "it has")),
         );
@@ -213,7 +215,7 @@ impl<'l> Checker<'l> {
             && (from > to || (from == to && !inclusive))
         {
             self.errors.push(
-                Diagnostic::at(high.span, "this range pattern takes no value")
+                Diagnostic::at(Code::Pattern, high.span, "this range pattern takes no value")
                     .label("not above its lower bound")
                     .help("write the smaller bound first"),
             );

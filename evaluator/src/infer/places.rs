@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Type};
 use crate::ir::{BinaryOp, Scalar};
 use std::collections::HashMap;
@@ -45,6 +45,7 @@ impl<'l> Checker<'l> {
                     other => {
                         self.errors.push(
                             Diagnostic::at(
+                                Code::OperatorTypes,
                                 expr.span,
                                 format!("type `{}` cannot be dereferenced", self.table.deep(&other)),
                             )
@@ -113,6 +114,7 @@ impl<'l> Checker<'l> {
             if let Some((field, ..)) = fields.first().filter(|(name, ..)| name.parse::<usize>().is_err()) {
                 self.errors.push(
                     Diagnostic::at(
+                        Code::VariantForm,
                         span,
                         format!("expected value, found struct variant `{}`", path.join("::")),
                     )
@@ -145,7 +147,7 @@ impl<'l> Checker<'l> {
         if let ([name], Ty::Unknown) = (path, &known) {
             let names: Vec<&str> = self.locals.iter().map(|local| local.name.as_str()).collect();
             self.errors.push(
-                Diagnostic::at(span, format!("cannot find `{name}`"))
+                Diagnostic::at(Code::UnknownName, span, format!("cannot find `{name}`"))
                     .label("not found")
                     .help(crate::suggest::suggest(name, &names, "variables here are")),
             );
@@ -180,7 +182,8 @@ impl<'l> Checker<'l> {
                 Some(_) => "a number".to_owned(),
                 None => format!("type `{}`", self.table.deep(base)),
             };
-            let mut error = Diagnostic::at(span, format!("no field `{name}` on {shown}")).label("unknown field");
+            let mut error = Diagnostic::at(Code::UnknownField, span, format!("no field `{name}` on {shown}"))
+                .label("unknown field");
             if !fields.is_empty() {
                 error = error.help(crate::suggest::suggest(name, &fields, "it has"));
             }
@@ -228,9 +231,13 @@ impl<'l> Checker<'l> {
                 _ => format!("`{found}`"),
             };
             self.errors.push(
-                Diagnostic::at(at.span, format!("the type `{base}` cannot be indexed by {found}"))
-                    .label("an index is a `usize`")
-                    .help("convert it with `as usize`"),
+                Diagnostic::at(
+                    Code::IndexType,
+                    at.span,
+                    format!("the type `{base}` cannot be indexed by {found}"),
+                )
+                .label("an index is a `usize`")
+                .help("convert it with `as usize`"),
             );
         }
         element
@@ -258,6 +265,7 @@ impl<'l> Checker<'l> {
                     let shown = self.table.deep(&ty);
                     self.errors.push(
                         Diagnostic::at(
+                            Code::OperatorTypes,
                             expr.span,
                             format!("a binary assignment operation cannot be applied to type `{shown}`"),
                         )
@@ -278,6 +286,7 @@ impl<'l> Checker<'l> {
         let sign = super::operators::symbol(op);
         self.errors.push(
             Diagnostic::at(
+                Code::OperatorTypes,
                 span,
                 format!("binary assignment operation `{sign}=` cannot be applied to type `{shown}`"),
             )
@@ -292,15 +301,20 @@ impl<'l> Checker<'l> {
             Access::Writable => return,
             Access::Immutable(_, _, true) if first => return,
             Access::Immutable(name, declared, _) | Access::Part(name, declared) => Diagnostic::at(
+                Code::Immutable,
                 place.span,
                 format!("cannot change `{name}`, as it is not declared as mutable"),
             )
             .label("changed here")
             .other(declared, "declared here")
             .help(format!("declare it as `mut {name}`")),
-            Access::Shared => Diagnostic::at(place.span, "cannot change what is behind a `&` reference")
-                .label("changed here")
-                .help("take it by `&mut`"),
+            Access::Shared => Diagnostic::at(
+                Code::Immutable,
+                place.span,
+                "cannot change what is behind a `&` reference",
+            )
+            .label("changed here")
+            .help("take it by `&mut`"),
         };
         self.errors.push(error);
     }

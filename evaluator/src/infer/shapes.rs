@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{Expr, Fields, Generic, Type};
 use std::collections::HashMap;
@@ -82,11 +82,19 @@ impl<'l> Checker<'l> {
             let plural = if wanted == 1 { "" } else { "s" };
             let name = path.join("::");
             let error = match wanted {
-                0 => Diagnostic::at(span, format!("expected function, found unit variant `{name}`"))
-                    .label("it holds nothing")
-                    .help(format!("write `{name}`")),
-                _ => Diagnostic::at(span, format!("`{name}` takes {wanted} argument{plural}, not {given}"))
-                    .label("made here"),
+                0 => Diagnostic::at(
+                    Code::VariantForm,
+                    span,
+                    format!("expected function, found unit variant `{name}`"),
+                )
+                .label("it holds nothing")
+                .help(format!("write `{name}`")),
+                _ => Diagnostic::at(
+                    Code::ArgumentCount,
+                    span,
+                    format!("`{name}` takes {wanted} argument{plural}, not {given}"),
+                )
+                .label("made here"),
             };
             self.errors.push(error);
         }
@@ -138,6 +146,7 @@ impl<'l> Checker<'l> {
                 let shown = self.table.deep(&other);
                 self.errors.push(
                     Diagnostic::at(
+                        Code::QuestionMark,
                         span,
                         format!("the `?` operator can only be applied to an `Option` or a `Result`, not to `{shown}`"),
                     )
@@ -156,9 +165,13 @@ impl<'l> Checker<'l> {
         }
         let (result, wanted) = (self.table.deep(result), self.table.deep(&wanted));
         self.errors.push(
-            Diagnostic::at(span, format!("the `?` operator in a function that gives `{result}`"))
-                .label(format!("the function would have to give `{wanted}`"))
-                .help("take the value apart with `let ... else`, or give what is to be there instead with `unwrap_or(..)`"),
+            Diagnostic::at(
+                Code::QuestionMark,
+                span,
+                format!("the `?` operator in a function that gives `{result}`"),
+            )
+            .label(format!("the function would have to give `{wanted}`"))
+            .help("take the value apart with `let ... else`, or give what is to be there instead with `unwrap_or(..)`"),
         );
     }
 }

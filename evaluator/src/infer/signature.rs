@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::textures::TextureType;
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type};
 use std::collections::HashMap;
@@ -143,9 +143,13 @@ impl<'l> Checker<'l> {
             }
         };
         self.errors.push(
-            Diagnostic::at(span, format!("the type `{name}` is not part of the kernel language"))
-                .label("of this type")
-                .help(help),
+            Diagnostic::at(
+                Code::NotInLanguage,
+                span,
+                format!("the type `{name}` is not part of the kernel language"),
+            )
+            .label("of this type")
+            .help(help),
         );
     }
 

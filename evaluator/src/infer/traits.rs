@@ -3,7 +3,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, Function, Generic};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
@@ -104,7 +104,7 @@ impl<'l> Checker<'l> {
         if let ([], Some(first)) = (keys, found.first()) {
             let shown = self.table.deep(&self.peeled(first).0).to_string();
             self.errors.push(
-                Diagnostic::at(span, format!("no `{name}` for `{shown}`"))
+                Diagnostic::at(Code::TraitBound, span, format!("no `{name}` for `{shown}`"))
                     .label(format!("`{shown}` has no such function"))
                     .help(format!("write an `impl` of the trait for `{shown}`")),
             );
@@ -114,9 +114,13 @@ impl<'l> Checker<'l> {
             let shown: Vec<String> = found.iter().map(|ty| format!("`{}`", self.table.deep(ty))).collect();
             let known: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
             self.errors.push(
-                Diagnostic::at(span, format!("no `{name}` takes {}", shown.join(" and ")))
-                    .label("not of these types")
-                    .help(format!("there are {}", known.join(", "))),
+                Diagnostic::at(
+                    Code::TraitBound,
+                    span,
+                    format!("no `{name}` takes {}", shown.join(" and ")),
+                )
+                .label("not of these types")
+                .help(format!("there are {}", known.join(", "))),
             );
             return Ty::Unknown;
         };
@@ -197,15 +201,19 @@ impl<'l> Checker<'l> {
             .next()
             .unwrap_or_default();
         let error = match library.traits.get(of) {
-            None => Diagnostic::at(span, format!("the type `{name}` is not part of the kernel language"))
-                .label("not supported")
-                .help("take a reference to a trait of the kernel's own, or the value itself"),
+            None => Diagnostic::at(
+                Code::NotInLanguage,
+                span,
+                format!("the type `{name}` is not part of the kernel language"),
+            )
+            .label("not supported")
+            .help("take a reference to a trait of the kernel's own, or the value itself"),
             Some(found) => {
                 let takes_self = |f: &Function| f.params.first().is_some_and(|own| own.name == "self");
                 if found.consts.is_empty() && found.functions.values().all(takes_self) {
                     return;
                 }
-                Diagnostic::at(span, format!("the trait `{of}` is not dyn compatible"))
+                Diagnostic::at(Code::DynTrait, span, format!("the trait `{of}` is not dyn compatible"))
                     .label("it has a constant, or a function without `self`")
                     .help(format!(
                         "take `&impl {of}`, or put what has no `self` into a trait of its own"
@@ -227,6 +235,7 @@ impl<'l> Checker<'l> {
         if let Some(of) = unknown {
             self.errors.push(
                 Diagnostic::at(
+                    Code::UnknownType,
                     span,
                     format!("cannot find trait `{of}`, which `{parameter}` has to have"),
                 )
@@ -235,9 +244,13 @@ impl<'l> Checker<'l> {
             );
         } else if traits.iter().all(known) {
             self.errors.push(
-                Diagnostic::at(span, format!("no `{name}` for the type parameter `{parameter}`"))
-                    .label("no trait that it has gives it one")
-                    .help(format!("bound it by a trait that does: `{parameter}: Trait`")),
+                Diagnostic::at(
+                    Code::TraitBound,
+                    span,
+                    format!("no `{name}` for the type parameter `{parameter}`"),
+                )
+                .label("no trait that it has gives it one")
+                .help(format!("bound it by a trait that does: `{parameter}: Trait`")),
             );
         }
     }
@@ -361,9 +374,13 @@ impl<'l> Checker<'l> {
             let Some(of) = self.type_name(&wanted) else {
                 if !matches!(self.table.shallow(&wanted), Ty::Unknown | Ty::Param(_)) {
                     self.errors.push(
-                        Diagnostic::at(span, "type annotations needed: nothing says what this is to give")
-                            .label("of which type?")
-                            .help("state the type of its variable: `let x: Type = ...`"),
+                        Diagnostic::at(
+                            Code::TypeNeeded,
+                            span,
+                            "type annotations needed: nothing says what this is to give",
+                        )
+                        .label("of which type?")
+                        .help("state the type of its variable: `let x: Type = ...`"),
                     );
                 }
                 continue;
@@ -424,11 +441,15 @@ impl<'l> Checker<'l> {
 
     fn unsatisfied(&mut self, ty: &str, of: &str, span: Span) {
         self.errors.push(
-            Diagnostic::at(span, format!("the trait bound `{ty}: {of}` is not satisfied"))
-                .label(format!("`{of}` is not implemented for `{ty}`"))
-                .help(format!(
-                    "write an `impl {of} for {ty}`, or give a value of a type that has it"
-                )),
+            Diagnostic::at(
+                Code::TraitBound,
+                span,
+                format!("the trait bound `{ty}: {of}` is not satisfied"),
+            )
+            .label(format!("`{of}` is not implemented for `{ty}`"))
+            .help(format!(
+                "write an `impl {of} for {ty}`, or give a value of a type that has it"
+            )),
         );
     }
 

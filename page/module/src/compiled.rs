@@ -6,7 +6,8 @@ use crate::state::State;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
-use straightline_codegen::emit::{EmitError, Target};
+use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Settings, Stage};
 
 /// A kernel: one of the catalogue, or the text that the page's visitor has made of it.
@@ -173,7 +174,7 @@ fn shader(compiled: &Compiled, asked: &ShaderAsked) -> Result<Value, Refusal> {
                     }
                     (Ok(_), None) => {}
                     (Err(why), _) => {
-                        refused.insert(target.to_string(), json!(said(&why)));
+                        refused.insert(target.to_string(), json!(in_a_line(&why)));
                     }
                 }
             }
@@ -183,13 +184,9 @@ fn shader(compiled: &Compiled, asked: &ShaderAsked) -> Result<Value, Refusal> {
     Ok(json!({ "stage": asked.stage, "manifest": manifest, "texts": texts, "refused": refused }))
 }
 
-/// An error with its reasons.
-fn said(error: &EmitError) -> String {
-    let mut text = error.to_string();
-    let mut source = std::error::Error::source(error);
-    while let Some(reason) = source {
-        text += &format!(": {reason}");
-        source = reason.source();
-    }
-    text
+/// The first error with its help, in a line.
+fn in_a_line(errors: &Errors) -> String {
+    let help = errors.diagnostics.first().and_then(|first| first.help.as_deref());
+    let help = help.map_or_else(String::new, |help| format!("; {help}"));
+    errors.first_message().to_owned() + &help
 }

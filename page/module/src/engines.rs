@@ -5,7 +5,7 @@ use crate::compiled::Asked;
 use crate::errors::Refusal;
 use crate::state::State;
 use serde_json::{Value, json};
-use straightline_engines::{Engine, Request, names};
+use straightline_engines::{Engine, EngineError, Request, names};
 
 /// The built-in engines.
 pub fn to_json() -> Value {
@@ -23,5 +23,9 @@ pub fn context(state: &mut State, engine: &str, asked: &Asked) -> Result<Value, 
     let options = state.kernel(&asked.kernel)?.options()?;
     let compiled = state.compiled(asked)?;
     let context = engine.context(&Request::new(&compiled, &options));
-    Ok(json!(context.map_err(|why| Refusal::of(&why.to_string()))?))
+    let context = context.map_err(|error| match error {
+        EngineError::Kernel(errors) => Refusal::from(errors),
+        error => Refusal::of(&error.to_string()),
+    })?;
+    Ok(json!(context))
 }

@@ -1,7 +1,7 @@
 //! What is wrong with a kernel, as the page shows it: places are in UTF-16, as a text area counts.
 
 use serde::Serialize;
-use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
+use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
 
 /// Why nothing was made.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -15,6 +15,8 @@ pub struct Refusal {
 /// One error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Error {
+    /// Its code, such as `E0301`.
+    pub code: Option<&'static str>,
     /// What is wrong.
     pub message: String,
     /// A few words at the place.
@@ -50,6 +52,7 @@ impl Refusal {
         Refusal {
             text: format!("error: {message}"),
             errors: vec![Error {
+                code: None,
                 message: message.to_owned(),
                 label: String::new(),
                 place: None,
@@ -64,6 +67,7 @@ impl Refusal {
 impl From<Errors> for Refusal {
     fn from(errors: Errors) -> Refusal {
         let one = |diagnostic: &Diagnostic| Error {
+            code: diagnostic.code().map(Code::number),
             message: diagnostic.message.clone(),
             label: diagnostic.label.clone(),
             place: diagnostic.span.and_then(|span| place(&errors.files, span)),

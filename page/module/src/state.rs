@@ -65,7 +65,7 @@ impl State {
             return Ok(Arc::clone(manifest));
         }
         let emitted = self.compiled(asked)?.emit(&EmitOptions::new().targets([]));
-        let manifest = Arc::new(emitted.map_err(|why| Refusal::of(&why.to_string()))?.manifest);
+        let manifest = Arc::new(emitted?.manifest);
         keep(&mut self.manifests, asked.clone(), Arc::clone(&manifest));
         Ok(manifest)
     }

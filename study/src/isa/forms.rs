@@ -67,7 +67,7 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
         .unbounded_loops(path != SpirvPath::NagaBounded);
     let emitted = compiled.emit(&options.targets([Target::Spirv, Target::Glsl450]));
     let (entry, module) = match (emitted, path, glslang) {
-        (Err(error), ..) => (String::new(), Err(error.to_string())),
+        (Err(errors), ..) => (String::new(), Err(errors.first_message().to_owned())),
         (Ok(emitted), SpirvPath::Glslang, Some(program)) => ("main".to_owned(), by_glslang(program, &emitted)),
         (Ok(mut emitted), ..) => {
             let module = emitted.files.remove(&Target::Spirv).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use crate::loops::{Input, Subject};
 use straightline_codegen::Kernel;
-use straightline_codegen::diagnostic::{Diagnostic, Errors};
+use straightline_codegen::diagnostic::{Code, Diagnostic, Errors};
 
 /// A kernel that compilers are asked about.
 #[derive(Clone, Debug)]
@@ -43,7 +43,12 @@ const AGAIN: [&str; 2] = [
 /// SRAA of which nothing is computed again, so that what is left is the path that nearly every pixel takes, the test at its end
 /// among it. A compiler that is asked about the whole adds the other path, which it cannot know to be rare.
 fn taken() -> Result<Kernel, Errors> {
-    let changed = |what: &str| Errors::of(Diagnostic::new(format!("the source of `sraa` has changed: {what}")));
+    let changed = |what: &str| {
+        Errors::of(Diagnostic::new(
+            Code::Internal,
+            format!("the source of `sraa` has changed: {what}"),
+        ))
+    };
     let entry = straightline_kernels::find("sraa").ok_or_else(|| changed("it is no kernel"))?;
     let found: usize = entry
         .sources

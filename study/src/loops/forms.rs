@@ -5,7 +5,6 @@ use crate::record::FormKind;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
-use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::print;
 use straightline_codegen::{
@@ -65,14 +64,23 @@ impl Forms {
                         Ok(compile(&by_hand.kernel, &settings)?)
                     }
                 },
-                FormKind::Partial2 => subject.kernel.compile(&settings(Unroll::Partial(2))).map_err(reason),
-                FormKind::Partial4 => subject.kernel.compile(&settings(Unroll::Partial(4))).map_err(reason),
+                FormKind::Partial2 => subject
+                    .kernel
+                    .compile(&settings(Unroll::Partial(2)))
+                    .map_err(|errors| errors.first_message().to_owned()),
+                FormKind::Partial4 => subject
+                    .kernel
+                    .compile(&settings(Unroll::Partial(4)))
+                    .map_err(|errors| errors.first_message().to_owned()),
                 FormKind::FullUnshared => {
                     let settings = Settings {
                         share_loads: false,
                         ..settings(Unroll::Full)
                     };
-                    let unshared = subject.kernel.compile(&settings).map_err(reason);
+                    let unshared = subject
+                        .kernel
+                        .compile(&settings)
+                        .map_err(|errors| errors.first_message().to_owned());
                     unshared.and_then(|unshared| match reads(&unshared) == reads(&full) {
                         true => Err("the source asks for each read once, as the full form does".to_owned()),
                         false => Ok(unshared),
@@ -83,21 +91,30 @@ impl Forms {
                         block: [2, 2],
                         ..settings(Unroll::Full)
                     };
-                    subject.kernel.compile(&settings).map_err(reason)
+                    subject
+                        .kernel
+                        .compile(&settings)
+                        .map_err(|errors| errors.first_message().to_owned())
                 }
                 FormKind::FullTile => {
                     let settings = Settings {
                         share: Share::WORKGROUP,
                         ..settings(Unroll::Full)
                     };
-                    subject.kernel.compile(&settings).map_err(reason)
+                    subject
+                        .kernel
+                        .compile(&settings)
+                        .map_err(|errors| errors.first_message().to_owned())
                 }
                 FormKind::FullGather => {
                     let settings = Settings {
                         reads: ReadOrder::Gather,
                         ..settings(Unroll::Full)
                     };
-                    let gathered = subject.kernel.compile(&settings).map_err(reason);
+                    let gathered = subject
+                        .kernel
+                        .compile(&settings)
+                        .map_err(|errors| errors.first_message().to_owned());
                     gathered.and_then(|compiled| match compiled.gathered.is_empty() {
                         true => Err("no four texels of one component are read together".to_owned()),
                         false => Ok(compiled),
@@ -108,7 +125,10 @@ impl Forms {
                         math: Math::Fast,
                         ..settings(Unroll::Full)
                     };
-                    let fast = subject.kernel.compile(&settings).map_err(reason);
+                    let fast = subject
+                        .kernel
+                        .compile(&settings)
+                        .map_err(|errors| errors.first_message().to_owned());
                     fast.and_then(|fast| match print(&fast.graph) == print(&full.graph) {
                         true => Err("fast mathematics has nothing to do in it".to_owned()),
                         false => Ok(fast),
@@ -117,9 +137,9 @@ impl Forms {
                 FormKind::FullHalf if !half => Err("the device has no half precision (SHADER_F16)".to_owned()),
                 FormKind::FullHalf => match full.emit(&emit_options(kind)) {
                     Ok(_) => Ok(full.clone()),
-                    Err(error) => Err(error.to_string()),
+                    Err(errors) => Err(errors.first_message().to_owned()),
                 },
-                FormKind::Floor => full.floor().map_err(reason),
+                FormKind::Floor => full.floor().map_err(|errors| errors.first_message().to_owned()),
             };
             match outcome {
                 Ok(compiled) => made.push((kind, compiled)),
@@ -133,12 +153,6 @@ impl Forms {
 /// Texture and buffer reads of one compute invocation.
 fn reads(compiled: &Compiled) -> u32 {
     compiled.in_blocks().counts.reads.values().sum()
-}
-
-/// What the first error says, in a line.
-fn reason(errors: Errors) -> String {
-    let first = errors.diagnostics.first();
-    first.map_or_else(|| "refused".to_owned(), |error| error.message.clone())
 }
 
 /// Whether wgpu is to leave loops as they are.

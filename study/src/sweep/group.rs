@@ -7,7 +7,6 @@ use crate::record::{Measured, Swept};
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Settings, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
@@ -47,7 +46,12 @@ pub fn measured(
         .collect();
     let compiled: Vec<Result<Compiled, String>> = group
         .iter()
-        .map(|variant| sweep.kernel.compile(&variant.compile_settings()).map_err(reason))
+        .map(|variant| {
+            sweep
+                .kernel
+                .compile(&variant.compile_settings())
+                .map_err(|errors| errors.first_message().to_owned())
+        })
         .collect();
     for (swept, compiled) in swept.iter_mut().zip(&compiled) {
         swept.refused = compiled.as_ref().err().cloned();
@@ -72,7 +76,9 @@ pub fn measured(
             return Ok(None);
         }
         if let Ok(compiled) = compiled {
-            let emitted = compiled.emit(&emit_options(variant)).map_err(|error| error.to_string());
+            let emitted = compiled
+                .emit(&emit_options(variant))
+                .map_err(|errors| errors.first_message().to_owned());
             match emitted.and_then(|emitted| stand.put(at, emitted, variant.loops, false)) {
                 Ok(variant) => ready.push(variant),
                 Err(why) => swept[at].refused = Some(why),
@@ -131,12 +137,6 @@ fn judge(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]
     };
     let full = sweep.kernel.compile(&settings).ok();
     full.or_else(|| compiled[first].as_ref().ok().cloned())
-}
-
-/// What the first error says, in a line.
-fn reason(errors: Errors) -> String {
-    let first = errors.diagnostics.first();
-    first.map_or_else(|| "refused".to_owned(), |error| error.message.clone())
 }
 
 fn emit_options(variant: &Variant) -> EmitOptions {

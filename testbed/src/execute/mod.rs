@@ -142,7 +142,7 @@ pub enum ExecuteError {
     Input(String),
     /// The kernel cannot be emitted.
     #[error(transparent)]
-    Emit(#[from] straightline_codegen::emit::EmitError),
+    Emit(#[from] straightline_codegen::diagnostic::Errors),
     /// The shader cannot be run on these inputs.
     #[error(transparent)]
     Runtime(#[from] straightline_runtime::Error),

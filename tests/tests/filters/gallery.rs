@@ -19,7 +19,8 @@ use common::forms::{first, pixels, save};
 use rayon::prelude::*;
 use shader::{Shader, Within};
 use std::path::{Path, PathBuf};
-use straightline_codegen::emit::{EmitError, Target};
+use straightline_codegen::diagnostic::Code;
+use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_study::baselines;
@@ -489,9 +490,15 @@ fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
     let emit = |target: &Target| {
         let options = EmitOptions::new().stage(stage).form(form).targets([*target]);
         let emitted = match compiled.emit(&options) {
-            Err(EmitError::Missing { .. } | EmitError::NoFrame { .. } | EmitError::GroupStage { .. }) => return 0,
             // What gives nothing and writes is no fragment and no function.
-            Err(EmitError::NoColour { .. } | EmitError::Function { .. }) => return 0,
+            Err(errors)
+                if matches!(
+                    errors.code(),
+                    Some(Code::NotInTarget | Code::FrameSize | Code::StageUnfit | Code::FunctionForm)
+                ) =>
+            {
+                return 0;
+            }
             emitted => emitted.unwrap_or_else(|e| panic!("{name} in {target}: {e}")),
         };
         // A function is no whole text; naga and the compilers read it where it is called, in the tests of bindings.

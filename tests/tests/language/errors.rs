@@ -60,7 +60,7 @@ fn message(path: &Path) -> Result<String, String> {
     match Kernel::from_text(&name, &text, &function).compile(&settings) {
         Err(errors) => Ok(errors.render(false)),
         Ok(compiled) => match compiled.emit(&options) {
-            Err(error) => Ok(compiled.locate(&error).render(false)),
+            Err(errors) => Ok(errors.render(false)),
             Ok(_) => Err("it is a kernel".to_owned()),
         },
     }

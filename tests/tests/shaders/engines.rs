@@ -9,6 +9,7 @@ pub mod readable;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::{Compiled, Kernel, OptionInfo, Settings};
 use straightline_engines::{Engine, EngineError, Request, names};
 
@@ -81,6 +82,14 @@ fn as_kept(path: &Path, found: &str) {
     );
 }
 
+/// Code and message of an error, with what would fit.
+fn refusal(errors: &Errors) -> String {
+    let first = &errors.diagnostics[0];
+    let code = first.code().map_or("", Code::number);
+    let rest = first.notes.iter().chain(&first.help).cloned().collect::<Vec<_>>();
+    format!("[{code}] {}; {}", first.message, rest.join("; "))
+}
+
 /// Each kernel on each engine: the files that are written, or why not and what would fit.
 #[test]
 fn every_kernel_is_emitted_or_refused_by_name() {
@@ -90,7 +99,7 @@ fn every_kernel_is_emitted_or_refused_by_name() {
         for subject in &subjects {
             let outcome = match subject.files(engine) {
                 Ok(files) => files.into_keys().collect::<Vec<_>>().join(", "),
-                Err(error @ (EngineError::Unfit { .. } | EngineError::Emit { .. })) => error.to_string(),
+                Err(EngineError::Kernel(errors)) => refusal(&errors),
                 Err(error) => panic!("{} for {engine}: {error}", subject.name),
             };
             table += &format!("{engine}, {}: {outcome}\n", subject.name);

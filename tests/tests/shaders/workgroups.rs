@@ -3,7 +3,8 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
-use straightline_codegen::emit::{EmitError, Target};
+use straightline_codegen::diagnostic::Code;
+use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
@@ -392,17 +393,18 @@ fn what_has_no_workgroups_is_refused() {
         stage: Stage::Fragment,
         ..EmitOptions::new()
     };
-    assert!(matches!(blur.emit(&fragment), Err(EmitError::GroupStage { .. })));
+    let code = |options: &EmitOptions| blur.emit(options).err().and_then(|errors| errors.code());
+    assert_eq!(code(&fragment), Some(Code::StageUnfit));
     let function = EmitOptions {
         form: Form::Function,
         ..EmitOptions::new()
     };
-    assert!(matches!(blur.emit(&function), Err(EmitError::GroupStage { .. })));
+    assert_eq!(code(&function), Some(Code::StageUnfit));
     let other = EmitOptions {
         workgroup: Some([16, 16]),
         ..EmitOptions::new()
     };
-    assert!(matches!(blur.emit(&other), Err(EmitError::Group { .. })));
+    assert_eq!(code(&other), Some(Code::WorkgroupSize));
     let block = Settings {
         block: [2, 2],
         ..Settings::default()

@@ -5,10 +5,10 @@
 
 use serde_json::{Value, json};
 use std::path::Path;
-use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
+use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
 
-/// The message for the first of `errors`, in one line, at rustc's level `error` or `note`.
-pub fn of(kernel: &str, errors: &Errors, level: &str) -> Value {
+/// The message for the first of `errors`, in one line.
+pub fn of(kernel: &str, errors: &Errors) -> Value {
     let Some(diagnostic) = errors.diagnostics.first() else {
         return Value::Null;
     };
@@ -32,7 +32,7 @@ pub fn of(kernel: &str, errors: &Errors, level: &str) -> Value {
             "doctest": false,
             "test": false,
         },
-        "message": rustc(diagnostic, errors, level),
+        "message": rustc(diagnostic, errors),
     })
 }
 
@@ -41,8 +41,8 @@ pub fn finished(success: bool) -> Value {
     json!({ "reason": "build-finished", "success": success })
 }
 
-/// An error or a note in rustc's words.
-fn rustc(diagnostic: &Diagnostic, errors: &Errors, level: &str) -> Value {
+/// An error or a remark in rustc's words, at its level `error` or `note`.
+fn rustc(diagnostic: &Diagnostic, errors: &Errors) -> Value {
     let primary = diagnostic.span.map(|at| (at, diagnostic.label.as_str(), true));
     let others = diagnostic.others.iter().map(|(at, label)| (*at, label.as_str(), false));
     let places = primary.into_iter().chain(others);
@@ -59,13 +59,17 @@ fn rustc(diagnostic: &Diagnostic, errors: &Errors, level: &str) -> Value {
     json!({
         "$message_type": "diagnostic",
         "message": diagnostic.message,
-        // As clippy names its own: the part before the colons says who speaks.
-        "code": { "code": "straightline::kernel", "explanation": null },
-        "level": level,
+        "code": diagnostic.code().map(code),
+        "level": if diagnostic.code().is_some() { "error" } else { "note" },
         "spans": spans,
         "children": notes.chain(help).collect::<Vec<_>>(),
-        "rendered": errors.render(false).replacen("error", level, 1),
+        "rendered": errors.render(false),
     })
+}
+
+/// The code as clippy names its own: the part before the colons says who speaks, or editors would show rustc's explanation.
+fn code(code: Code) -> Value {
+    json!({ "code": format!("straightline::{code}"), "explanation": code.explanation() })
 }
 
 fn child(level: &str, message: &str) -> Value {

@@ -24,7 +24,7 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
             Err(errors) => {
                 // An editor reads messages alone.
                 if args.message_format == MessageFormat::Json {
-                    outln!("{}", message::of(name, &errors, "error"));
+                    outln!("{}", message::of(name, &errors));
                     outln!("{}", message::finished(false));
                 }
                 return Err(errors.into());
@@ -129,15 +129,13 @@ fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
 fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
     let compiled = kernel.compile(&args.options.settings())?;
     let options = EmitOptions::new().stage(super::natural_stage(&compiled));
-    match compiled.emit(&options) {
-        Ok(_) => Ok(compiled),
-        Err(error) => Err(compiled.locate(&error)),
-    }
+    compiled.emit(&options)?;
+    Ok(compiled)
 }
 
 fn print(format: MessageFormat, kernel: &str, error: &Errors) {
     match format {
-        MessageFormat::Json => outln!("{}", message::of(kernel, error, "error")),
+        MessageFormat::Json => outln!("{}", message::of(kernel, error)),
         MessageFormat::Human => {
             let text = error.render(std::io::stderr().is_terminal());
             output::note(format_args!("{}\n", output::limited(&text)));

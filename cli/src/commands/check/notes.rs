@@ -15,7 +15,7 @@ pub fn of(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
             name => format!("`{name}`"),
         };
         let what = format!("the order of the operations of {subject} matters: drivers are kept from changing it");
-        let diagnostic = Diagnostic::at(line_of(file, index, line)?, what)
+        let diagnostic = Diagnostic::remark(line_of(file, index, line)?, what)
             .note("`as_written` in WGSL and MSL, `precise` in GLSL and HLSL, `NoContraction` in SPIR-V");
         Some(Errors {
             diagnostics: vec![diagnostic],
@@ -51,7 +51,7 @@ pub fn print(format: MessageFormat, kernel: &str, note: &Errors) {
         return;
     };
     match (format, diagnostic.span) {
-        (MessageFormat::Json, _) => outln!("{}", message::of(kernel, note, "note")),
+        (MessageFormat::Json, _) => outln!("{}", message::of(kernel, note)),
         (MessageFormat::Human, Some(at)) => {
             let path = note.files.get(at.file as usize).map_or("", |file| file.path.as_str());
             outln!("{path}:{}: note: {}", at.line, diagnostic.message);

@@ -53,8 +53,7 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     };
     let emitted = outcome.chosen.as_ref().map(|chosen| emit(args, chosen)).transpose()?;
     let place = outcome.chosen.as_ref().and_then(|chosen| chosen.place.as_ref());
-    let place = place.map(|compiled| compiled.emit(&options(args))).transpose();
-    let place = place.map_err(Failure::of)?;
+    let place = place.map(|compiled| compiled.emit(&options(args))).transpose()?;
     // The shader and the record that says why it was chosen are one set.
     let mut set = outcome.record.files(&format!("tune-{stem}")).map_err(Failure::of)?;
     if let Some(emitted) = emitted {
@@ -138,10 +137,7 @@ fn asked_options(args: &TuneArgs) -> Result<OptionValues, Failure> {
 
 fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
     let options = options(args).precision(chosen.precision).accept_loss(true);
-    let mut emitted = chosen
-        .compiled
-        .emit(&options)
-        .map_err(|error| Failure::of_emission(&chosen.compiled, &error))?;
+    let mut emitted = chosen.compiled.emit(&options)?;
     emitted.manifest.tuned = Some(chosen.tuned.clone());
     Ok(emitted)
 }

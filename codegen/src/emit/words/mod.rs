@@ -3,11 +3,12 @@
 mod glsl;
 mod hlsl;
 
-use super::error::EmitError;
 use super::options::EmitOptions;
+use super::refusal::Refusal;
 use super::target::Target;
 use naga::keywords::wgsl;
 use std::collections::BTreeSet;
+use straightline_evaluator::diagnostic::Code;
 
 /// Letters that every compiler takes in a name.
 pub const LONGEST: usize = 255;
@@ -258,7 +259,7 @@ pub fn is_plain(name: &str) -> bool {
 /// # Errors
 ///
 /// All of a million names are taken.
-pub fn free(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<String, EmitError> {
+pub fn free(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<String, Refusal> {
     let base = match is_plain(name) {
         true => name.to_owned(),
         false => identifier(name),
@@ -283,15 +284,16 @@ pub fn free(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<St
 /// # Errors
 ///
 /// All of a million names are taken.
-pub fn numbered(kernel: &str, stem: &str, from: u32, taken: impl Fn(&str) -> bool) -> Result<(String, u32), EmitError> {
+pub fn numbered(kernel: &str, stem: &str, from: u32, taken: impl Fn(&str) -> bool) -> Result<(String, u32), Refusal> {
     let mut numbers = from..from.saturating_add(MOST);
     let found = numbers.find_map(|k| {
         let name = format!("{stem}_{k}");
         (!taken(&name)).then_some((name, k + 1))
     });
-    found.ok_or_else(|| EmitError::Names {
-        kernel: kernel.to_owned(),
-        name: straightline_evaluator::shorten(stem),
+    found.ok_or_else(|| {
+        let stem = straightline_evaluator::shorten(stem);
+        let what = format!("`{kernel}` has a million names like `{stem}`");
+        Refusal::new(Code::Names, what).help("give them other names")
     })
 }
 

@@ -3,7 +3,7 @@
 use super::super::Evaluator;
 use super::super::value::{Eval, Exit, Value};
 use super::{Numeric, OptionInfo, OptionKind, canonical, kebab};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
 use crate::front::unraw;
 use crate::ir::{Scalar, Type};
@@ -92,6 +92,7 @@ impl Evaluator<'_> {
 
     pub(super) fn bad_type(&self, field: &OptionField) -> Exit {
         Diagnostic::at(
+            Code::OptionDeclaration,
             field.span,
             format!(
                 "the option `{}` is neither a number, a boolean, an enum nor an array of numbers",
@@ -120,9 +121,13 @@ impl Evaluator<'_> {
             return Ok((None, None));
         };
         let ExprKind::Range(low, high, true) = &range.kind else {
-            return Err(Diagnostic::at(range.span, "the range of an option includes both ends")
-                .help("write `[0.0..=1.0]`")
-                .into());
+            return Err(Diagnostic::at(
+                Code::OptionDeclaration,
+                range.span,
+                "the range of an option includes both ends",
+            )
+            .help("write `[0.0..=1.0]`")
+            .into());
         };
         let (low, high) = (self.expr(low)?, self.expr(high)?);
         let limits = (self.number(&low), self.number(&high));
@@ -135,7 +140,9 @@ impl Evaluator<'_> {
                 canonical(low),
                 canonical(high)
             );
-            return Err(Diagnostic::at(range.span, text).help(help).into());
+            return Err(Diagnostic::at(Code::OptionDeclaration, range.span, text)
+                .help(help)
+                .into());
         }
         Ok(limits)
     }
@@ -170,7 +177,7 @@ fn in_range(field: &OptionField, defaults: &[f64], of: &Numeric) -> Result<(), E
                 canonical(low),
                 canonical(high)
             );
-            Err(Diagnostic::at(field.default.span, text)
+            Err(Diagnostic::at(Code::OptionDeclaration, field.default.span, text)
                 .label("not in the range")
                 .help("widen the range, or choose a default within it")
                 .into())
@@ -180,6 +187,7 @@ fn in_range(field: &OptionField, defaults: &[f64], of: &Numeric) -> Result<(), E
 
 fn only_numbers(field: &OptionField) -> Exit {
     Diagnostic::at(
+        Code::OptionDeclaration,
         field.default.span,
         format!("the option `{}` cannot be set at run time", field.name),
     )

@@ -6,7 +6,7 @@ mod parse;
 use super::Evaluator;
 use super::enums::Choice;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Errors, File};
+use crate::diagnostic::{Code, Diagnostic, Errors, File};
 use crate::front::tree::{OptionField, Type as SourceType};
 use crate::front::{Library, raw};
 use crate::ir::{Op, Scalar, Type, Uniform};
@@ -120,10 +120,14 @@ fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
 fn twice(fields: &[&OptionField]) -> Vec<Exit> {
     let again = fields.iter().enumerate().filter_map(|(k, field)| {
         let first = fields[..k].iter().find(|other| other.name == field.name)?;
-        let error = Diagnostic::at(field.span, format!("the option `{}` is declared twice", field.name))
-            .label("declared again")
-            .other(first.span, "first declared here")
-            .help("give one of them another name");
+        let error = Diagnostic::at(
+            Code::DefinedTwice,
+            field.span,
+            format!("the option `{}` is declared twice", field.name),
+        )
+        .label("declared again")
+        .other(first.span, "first declared here")
+        .help("give one of them another name");
         Some(error.into())
     });
     again.collect()

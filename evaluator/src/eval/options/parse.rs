@@ -1,7 +1,7 @@
 //! Text of options as values, by their declarations.
 
 use super::{Numeric, OptionInfo, OptionKind, canonical};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Scalar;
 use crate::shorten::shorten;
 use straightline_kernels::{OptionText, OptionValue, OptionValues};
@@ -44,7 +44,7 @@ pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[OptionT
             true => "it has no options".to_owned(),
             false => format!("its options are {}", names.join(", ")),
         };
-        Diagnostic::new(format!("`{kernel}` has no option `{name}`")).help(help)
+        Diagnostic::new(Code::UnknownOption, format!("`{kernel}` has no option `{name}`")).help(help)
     });
     errors.collect()
 }
@@ -57,12 +57,15 @@ pub(super) fn setting(info: &OptionInfo, settings: &[OptionText]) -> Result<Opti
     };
     let mut errors = Vec::new();
     if let Some((_, again)) = set.next() {
-        let error = Diagnostic::new(format!(
-            "the option `{}` is set twice, to `{}` and to `{}`",
-            info.name,
-            shorten(first),
-            shorten(again)
-        ));
+        let error = Diagnostic::new(
+            Code::OptionValue,
+            format!(
+                "the option `{}` is set twice, to `{}` and to `{}`",
+                info.name,
+                shorten(first),
+                shorten(again)
+            ),
+        );
         errors.push(error.help("set it once"));
     }
     match parse(info, first) {
@@ -77,7 +80,7 @@ pub(super) fn setting(info: &OptionInfo, settings: &[OptionText]) -> Result<Opti
 fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Diagnostic> {
     let refuse = |text: &str, allowed: String| {
         let what = format!("`{}` is not a value of the option `{}`", shorten(text), info.name);
-        Diagnostic::new(what).help(allowed)
+        Diagnostic::new(Code::OptionValue, what).help(allowed)
     };
     match &info.kind {
         OptionKind::Flag => match text {

@@ -4,7 +4,7 @@ use super::super::cfg::Carrier;
 use super::super::choice::MatchesSyntax;
 use super::super::expr::{COUNTS_LINKS, DEPTH};
 use super::Check;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::punctuated::Punctuated;
@@ -262,9 +262,13 @@ impl Check {
     fn never_assigned(&mut self, name: &syn::Ident) {
         let span = self.span(name.span());
         self.lower.errors.push(
-            Diagnostic::at(span, format!("`{name}` is declared, and never given a value"))
-                .label("no value")
-                .help(format!("write `let {name} = ...;`, or assign to it before it is used")),
+            Diagnostic::at(
+                Code::Unassigned,
+                span,
+                format!("`{name}` is declared, and never given a value"),
+            )
+            .label("no value")
+            .help(format!("write `let {name} = ...;`, or assign to it before it is used")),
         );
     }
 

@@ -9,7 +9,7 @@ mod parts;
 
 use super::cfg::Carrier;
 use super::expr::Lower;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
@@ -69,9 +69,13 @@ impl Check {
     pub fn twice(&mut self, name: &syn::Ident) {
         let span = self.lower.span(name.span());
         self.lower.errors.push(
-            Diagnostic::at(span, format!("`{name}` is defined twice among the kernel's files"))
-                .label("second definition")
-                .help("modules and functions are not told apart: give it another name"),
+            Diagnostic::at(
+                Code::DefinedTwice,
+                span,
+                format!("`{name}` is defined twice among the kernel's files"),
+            )
+            .label("second definition")
+            .help("modules and functions are not told apart: give it another name"),
         );
     }
 

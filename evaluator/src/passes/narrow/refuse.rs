@@ -1,7 +1,7 @@
 //! Operations on a `usize` that a shader cannot compute, and what to write instead.
 
 use super::Facts;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, Graph, NodeId, Op, Type};
 use crate::passes::ranges;
 use std::collections::{BTreeSet, HashSet};
@@ -86,10 +86,14 @@ fn error(graph: &Graph, id: NodeId, span: Span) -> Diagnostic {
         _ => "this `usize`",
     };
     let (label, help) = cause(graph, id);
-    Diagnostic::at(span, format!("{what} may differ from the native one"))
-        .label(label)
-        .note("natively a `usize` has 64 bits, and in a shader 32")
-        .help(help)
+    Diagnostic::at(
+        Code::NarrowUsize,
+        span,
+        format!("{what} may differ from the native one"),
+    )
+    .label(label)
+    .note("natively a `usize` has 64 bits, and in a shader 32")
+    .help(help)
 }
 
 /// Why, by what the operands come from.

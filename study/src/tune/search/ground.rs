@@ -296,7 +296,7 @@ pub(super) fn no_blocks(kernel: &Kernel, space: &Space) -> Option<String> {
 /// What the kernel says against options.
 fn refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
     let errors = kernel.compile(settings).err()?;
-    errors.diagnostics.into_iter().next().map(|first| first.message)
+    Some(errors.first_message().to_owned())
 }
 
 /// The geometry samples of a capture.

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Mutex;
 use std::time::Instant;
-use straightline_codegen::emit::{EmitError, Emitted, Target};
+use straightline_codegen::diagnostic::{Code, Errors};
+use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Stage};
 use straightline_tests::compilers;
 use straightline_tests::random::forms::FORMS;
@@ -138,7 +139,7 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
 }
 
 /// A kernel in every language that it can be written in. All of a stage are written at once where they can be.
-fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, EmitError)) -> Vec<(Target, Rc<Emitted>)> {
+fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(Target, Rc<Emitted>)> {
     let (fragment, compute): (Vec<Target>, Vec<Target>) = Target::ALL
         .into_iter()
         .partition(|target| matches!(target, Target::Glsl330 | Target::Essl300));
@@ -163,14 +164,10 @@ fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, EmitError)) -> Vec
 }
 
 /// Whether a kernel is nothing that a language or a stage has, whatever is in it.
-fn has_no_such_text(error: &EmitError) -> bool {
+fn has_no_such_text(error: &Errors) -> bool {
     matches!(
-        error,
-        EmitError::Missing { .. }
-            | EmitError::NoFrame { .. }
-            | EmitError::NoColour { .. }
-            | EmitError::GroupStage { .. }
-            | EmitError::Image { .. }
+        error.code(),
+        Some(Code::NotInTarget | Code::FrameSize | Code::StageUnfit)
     )
 }
 

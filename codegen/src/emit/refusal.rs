@@ -1,0 +1,110 @@
+//! Why a kernel cannot be emitted: an error before it has a place.
+
+use crate::compiled::Compiled;
+use std::sync::Arc;
+use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors};
+
+/// An error of emission, made where the kernel's source is out of sight. [`Compiled::locate`] gives it a place.
+#[derive(Debug)]
+pub struct Refusal(Box<Parts>);
+
+#[derive(Debug)]
+struct Parts {
+    diagnostic: Diagnostic,
+    /// Name of the input that the error is about.
+    input: Option<String>,
+}
+
+impl Refusal {
+    /// An error about the kernel.
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Refusal(Box::new(Parts {
+            diagnostic: Diagnostic::new(code, message),
+            input: None,
+        }))
+    }
+
+    /// An emitted text that a validator refuses: a mistake of the emitter's.
+    pub fn invalid(kernel: &str, target: &str, message: &str) -> Self {
+        Refusal::new(
+            Code::InvalidText,
+            format!("the {target} text of `{kernel}` is not valid"),
+        )
+        .note(message)
+        .help("this is a mistake in Straightline, not in the kernel: please report it with the kernel's source")
+    }
+
+    /// An entry point or function that cannot have its name, and why.
+    pub fn entry_name(kernel: &str, name: &str, why: &str) -> Self {
+        Refusal::new(
+            Code::EntryName,
+            format!("the entry point of `{kernel}` cannot be called `{name}`, which {why}"),
+        )
+        .help("give it another name")
+    }
+
+    /// A binding number, register or group that the shader cannot have.
+    pub fn binding(kernel: &str, what: &str, help: impl Into<String>) -> Self {
+        Refusal::new(Code::Binding, format!("`{kernel}` cannot be bound so: {what}")).help(help)
+    }
+
+    /// A kernel that cannot be a function, and why.
+    pub fn function(kernel: &str, why: &str, help: impl Into<String>) -> Self {
+        Refusal::new(Code::FunctionForm, format!("`{kernel}` cannot be a function: {why}")).help(help)
+    }
+
+    /// Names the input that the error is about.
+    pub fn about(mut self, input: &str) -> Self {
+        self.0.input = Some(input.to_owned());
+        self
+    }
+
+    /// Adds the help.
+    pub fn help(self, help: impl Into<String>) -> Self {
+        self.changed(|diagnostic| diagnostic.help(help))
+    }
+
+    /// Adds a reason.
+    pub fn note(self, note: impl Into<String>) -> Self {
+        self.changed(|diagnostic| diagnostic.note(note))
+    }
+
+    fn changed(self, change: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
+        let Parts { diagnostic, input } = *self.0;
+        let diagnostic = change(diagnostic);
+        Refusal(Box::new(Parts { diagnostic, input }))
+    }
+
+    /// The error at its place.
+    pub fn located(self, compiled: &Compiled) -> Errors {
+        compiled.locate(self.0.diagnostic, self.0.input.as_deref())
+    }
+}
+
+impl Compiled {
+    /// An error about the compiled kernel at the place of `input`, or else of the kernel's name.
+    ///
+    /// `input` is a parameter's name, or that of a part of a structure or array, such as `light_color`. A kernel that comes
+    /// from no text has no places.
+    pub fn locate(&self, mut error: Diagnostic, input: Option<&str>) -> Errors {
+        let named = input.and_then(|input| {
+            // Parts of structures and arrays are called by both names.
+            let is_part = |name: &str| {
+                input
+                    .strip_prefix(name)
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+            };
+            let inputs = self.places.inputs.iter().filter(|(name, _)| is_part(name));
+            inputs.max_by_key(|(name, _)| name.len()).map(|(_, span)| *span)
+        });
+        let label = if named.is_some() { "this input" } else { "this kernel" };
+        if let Some(span) = named.or(self.places.kernel) {
+            error.span = Some(span);
+            error.label = label.to_owned();
+        }
+        Errors {
+            diagnostics: vec![error],
+            files: Arc::clone(&self.places.files),
+        }
+    }
+}
