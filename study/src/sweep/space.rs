@@ -270,6 +270,21 @@ mod tests {
     }
 
     #[test]
+    fn a_value_has_one_name() {
+        let kernel = Kernel::builtin("sraa").expect("it is built in");
+        let option = |name: &str, values: &[&str]| (name.to_owned(), values.iter().map(|v| (*v).to_owned()).collect());
+        let space = Space {
+            options: vec![option("tau", &["500.0", "1e2", "-1"]), option("nothing", &["1.0"])],
+            ..Space::default()
+        };
+        let spelled = space.spelled_by(&kernel).options;
+        assert_eq!(
+            spelled,
+            [option("tau", &["500", "100", "-1"]), option("nothing", &["1.0"])]
+        );
+    }
+
+    #[test]
     fn every_combination_is_a_variant_once() {
         let space = Space {
             options: vec![("radius".to_owned(), values("1..=3").unwrap())],

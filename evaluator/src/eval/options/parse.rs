@@ -71,16 +71,16 @@ pub(super) fn setting(info: &OptionInfo, settings: &[OptionText]) -> Result<Opti
     match parse(info, first) {
         Ok(value) if errors.is_empty() => return Ok(value),
         Ok(_) => {}
-        Err(error) => errors.push(error),
+        Err(error) => errors.push(*error),
     }
     Err(errors)
 }
 
 /// The value that `text` stands for.
-fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Diagnostic> {
+fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> {
     let refuse = |text: &str, allowed: String| {
         let what = format!("`{}` is not a value of the option `{}`", shorten(text), info.name);
-        Diagnostic::new(Code::OptionValue, what).help(allowed)
+        Box::new(Diagnostic::new(Code::OptionValue, what).help(allowed))
     };
     match &info.kind {
         OptionKind::Flag => match text {

@@ -81,6 +81,12 @@ fn what_is_missing_or_fixed_is_not_searched_and_that_is_said() {
     assert_eq!(space.values(Term::Falloff).len(), 1);
     assert!(space.options(space.general()).contains(&owned(&[("tau", "300")])[0]));
     assert_eq!(space.values(Term::Difference).len(), 2);
+    // Spelled otherwise it is the same.
+    let spelled = Offer {
+        fixed: owned(&[("falloff", "tent"), ("tau", "3e2"), ("depth-scale", "2.0")]),
+        ..offer()
+    };
+    assert_eq!(Space::new(&spelled).unwrap(), space);
 
     let no_such = Offer {
         fixed: owned(&[("metric", "planes-normals")]),
