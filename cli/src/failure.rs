@@ -4,7 +4,7 @@ use crate::output;
 use std::fmt::Display;
 use std::io::IsTerminal;
 use std::process::ExitCode;
-use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::diagnostic::{Code, Errors};
 
 /// Why a command ended without doing what it was asked.
 #[derive(Debug)]
@@ -35,8 +35,12 @@ impl Failure {
                 ExitCode::from(1)
             }
             Failure::Kernel(errors) => {
-                // An unknown kernel, option or value is in no file: a mistake of the command line's.
-                let usage = errors.diagnostics.iter().all(|d| d.span.is_none());
+                // An unknown kernel, option or value is in no file: a mistake of the command line's. Built-in kernels have no
+                // places in emission, whose codes begin with E07.
+                let usage = errors
+                    .diagnostics
+                    .iter()
+                    .all(|d| d.span.is_none() && d.code() < Some(Code::VisibleLoss));
                 output::note(format_args!(
                     "{}",
                     output::limited(&errors.render(std::io::stderr().is_terminal()))

@@ -213,7 +213,7 @@ fn workgroups_share_texels_where_they_are_asked_to() {
             out,
         ],
         1,
-        &["share texels by workgroup", "emit it for compute"],
+        &["shares texels by workgroup", "emit it for compute"],
     );
 }
 

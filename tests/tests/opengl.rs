@@ -106,12 +106,13 @@ fn quads_are_refused_by_name() {
         let options = EmitOptions::new().stage(Stage::Fragment).targets([target]);
         let error = compiled.emit(&options).expect_err("there are no quad operations");
         assert_eq!(
-            error.to_string(),
+            error.first_message(),
             format!(
-                "`quad_convolution` cannot be written in {target}: it swaps values by quad operations, which {target} does not \
-                 have; use glsl450, wgsl, spirv, hlsl or msl"
+                "`quad_convolution` cannot be written in {target}: it swaps values by quad operations, which {target} does not have"
             )
         );
+        let help = error.diagnostics[0].help.as_deref();
+        assert_eq!(help, Some("use glsl450, wgsl, spirv, hlsl or msl"));
     }
 }
 

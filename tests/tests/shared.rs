@@ -5,6 +5,7 @@
 mod common;
 
 use common::{bench, same_bits, same_texels};
+use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Origin, Precision, Settings, Share, Stage, Unroll};
 use straightline_kernels::filters::FILTERS;
@@ -475,8 +476,15 @@ fn what_cannot_share_is_refused() {
         assert!(error.contains("help"), "{error}");
     }
     let compiled = filter("median", &[]).compile(Share::WORKGROUP, Unroll::Full);
-    let error = |options: EmitOptions| compiled.emit(&options).expect_err("it is refused").to_string();
-    let staged = "the pixels of `median` share texels by workgroup, and fragments and functions are in none: emit it for compute, or leave `share` out";
+    let error = |options: EmitOptions| {
+        let errors = compiled.emit(&options).expect_err("it is refused");
+        let help = errors.diagnostics[0].help.clone().expect("help");
+        (errors.code(), help)
+    };
+    let staged = (
+        Some(Code::StageUnfit),
+        "emit it for compute, or leave `share` out".to_owned(),
+    );
     assert_eq!(error(EmitOptions::new().stage(Stage::Fragment)), staged);
     assert_eq!(error(EmitOptions::new().form(Form::Function)), staged);
     let other = EmitOptions {
@@ -485,7 +493,9 @@ fn what_cannot_share_is_refused() {
     };
     assert_eq!(
         error(other),
-        "the pixels of `median` share texels by workgroups of 16x16, and 8x8 are asked for: say `workgroup(8x8)` where sharing is asked for, or leave \
-         `workgroup` out"
+        (
+            Some(Code::WorkgroupSize),
+            "say `workgroup(8x8)` where sharing is asked for, or leave `workgroup` out".to_owned()
+        )
     );
 }

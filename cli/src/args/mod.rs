@@ -63,7 +63,7 @@ pub enum Command {
     Emit(EmitArgs),
     /// Print the errors of kernels, for people or for editors, and write nothing
     Check(CheckArgs),
-    /// Count what a kernel does for each pixel, without running it; or print what the code of an error means (`explain E0301`)
+    /// Count what a kernel does for each pixel, or say what the code of an error means
     Explain(ExplainArgs),
     /// Run a kernel on pictures
     Run(RunArgs),

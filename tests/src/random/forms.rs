@@ -1,6 +1,7 @@
 //! The forms that every kernel is compiled to.
 
 use std::fmt;
+use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::{Branches, ReadOrder, Settings, Unroll};
 
 /// What may become of loops and branches; the first is what kernels are made for, and what it takes all must take.
@@ -44,7 +45,10 @@ pub fn same(a: [f64; 4], b: [f64; 4]) -> bool {
         .all(|(x, y)| x.to_bits() == y.to_bits() || (x.is_nan() && y.is_nan()))
 }
 
-/// Whether an error is the generator's own: a broken rule, or a panic.
-pub fn is_internal(message: &str) -> bool {
-    message.starts_with("the stage `")
+/// Whether one of the errors is the generator's own: a broken rule, or a panic.
+pub fn is_internal(errors: &Errors) -> bool {
+    errors
+        .diagnostics
+        .iter()
+        .any(|error| error.code() == Some(Code::Internal))
 }

@@ -23,10 +23,8 @@ pub fn survives(text: &str, function: &str) -> Result<bool, String> {
     });
     match receive.recv_timeout(PATIENCE) {
         Ok(Ok(Ok(()))) => Ok(true),
-        Ok(Ok(Err(errors))) => match errors.diagnostics.iter().find(|d| is_internal(&d.message)) {
-            Some(internal) => Err(internal.message.clone()),
-            None => Ok(false),
-        },
+        Ok(Ok(Err(errors))) if is_internal(&errors) => Err(errors.to_string()),
+        Ok(Ok(Err(_))) => Ok(false),
         Ok(Err(_)) => Err("it panicked".to_owned()),
         Err(_) => Err(format!("it takes longer than {PATIENCE:?}")),
     }

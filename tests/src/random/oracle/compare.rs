@@ -6,6 +6,7 @@ use crate::random::forms::{FORMS, Form, is_internal, same};
 use std::collections::BTreeMap;
 use std::fmt;
 use straightline_codegen::Kernel;
+use straightline_codegen::diagnostic::Errors;
 
 /// How a kernel is not what rustc makes of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,8 +127,8 @@ impl Tally {
 /// Why a form gives nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRun {
-    /// The generator refuses the kernel, by its first error.
-    Refused(String),
+    /// The generator refuses the kernel.
+    Refused(Errors),
     /// The interpreter cannot run it.
     Failed(String),
 }
@@ -143,9 +144,7 @@ pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Given, No
 
 /// As [`interpret`], with the work of compiling the kernel.
 fn worked(kernel: &Kernel, form: Form, world: &World) -> Result<(Given, u64), NotRun> {
-    let compiled = kernel
-        .compile(&form.settings())
-        .map_err(|errors| NotRun::Refused(errors.diagnostics[0].message.clone()))?;
+    let compiled = kernel.compile(&form.settings()).map_err(NotRun::Refused)?;
     let given = computed::<f32>(&compiled, world).map_err(NotRun::Failed)?;
     Ok((given, compiled.work))
 }
@@ -175,8 +174,11 @@ pub fn compare(text: &Text, world: &World, native: &Given, tally: &mut Tally) ->
                 tally.works.add(text.source.len(), work, text.seed, form);
                 found
             }
-            Err(NotRun::Refused(why)) if is_internal(&why) => return Err(Difference::Internal(*form, why)),
-            Err(NotRun::Refused(why)) => {
+            Err(NotRun::Refused(errors)) => {
+                let why = errors.first_message().to_owned();
+                if is_internal(&errors) {
+                    return Err(Difference::Internal(*form, why));
+                }
                 if is_of_size(&why) {
                     tally.works.add(text.source.len(), REFUSED, text.seed, form);
                 }
