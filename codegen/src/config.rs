@@ -52,6 +52,8 @@ pub struct Config {
 #[derive(Clone, Debug)]
 pub struct KernelConfig {
     source: Source,
+    /// Of a file, the function that is the kernel.
+    function: Option<String>,
     name: Option<String>,
     settings: Settings,
     emit: EmitOptions,
@@ -62,7 +64,7 @@ pub struct KernelConfig {
 #[derive(Clone, Debug)]
 enum Source {
     Builtin(String),
-    File(PathBuf, Option<String>),
+    File(PathBuf),
 }
 
 /// A shader that is ready to be written.
@@ -87,6 +89,7 @@ impl KernelConfig {
     fn new(source: Source) -> Self {
         KernelConfig {
             source,
+            function: None,
             name: None,
             settings: Settings::default(),
             emit: EmitOptions::new(),
@@ -263,9 +266,7 @@ impl KernelConfig {
     /// Of a file, the function that is the kernel; by default the public one with the file's name, or else the only public one that takes
     /// and gives what a kernel does.
     pub fn function(mut self, function: &str) -> Self {
-        if let Source::File(_, chosen) = &mut self.source {
-            *chosen = Some(function.to_owned());
-        }
+        self.function = Some(function.to_owned());
         self
     }
 
@@ -277,8 +278,9 @@ impl KernelConfig {
 
     fn build(&self) -> Result<Built, Error> {
         let kernel = match &self.source {
+            Source::Builtin(name) if self.function.is_some() => return Err(Error::of(Problem::Function(name.clone()))),
             Source::Builtin(name) => Kernel::builtin(name),
-            Source::File(path, function) => Kernel::from_file(path, function.as_deref()),
+            Source::File(path) => Kernel::from_file(path, self.function.as_deref()),
         };
         let kernel = self.sources.iter().fold(kernel, |kernel, path| kernel?.with_file(path));
         let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
@@ -326,7 +328,7 @@ impl Config {
 
     /// A kernel of one's own with options.
     pub fn file_with(mut self, path: impl AsRef<Path>, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
-        let source = Source::File(path.as_ref().to_owned(), None);
+        let source = Source::File(path.as_ref().to_owned());
         self.kernels.push(options(KernelConfig::new(source)));
         self
     }
@@ -337,15 +339,11 @@ impl Config {
         self
     }
 
-    /// Emits and writes everything, or nothing; tells cargo to come back when a kernel's file changes, and only then.
-    ///
-    /// # Errors
-    ///
-    /// Every error of every kernel at once; two shaders of one name; a folder that cannot be written.
-    pub fn compile(&self) -> Result<(), Error> {
+    /// Tells cargo which files the shaders are made of.
+    fn print_dependencies(&self) {
         for kernel in &self.kernels {
             let own = match &kernel.source {
-                Source::File(path, _) => Some(path),
+                Source::File(path) => Some(path),
                 Source::Builtin(_) => None,
             };
             for path in own.into_iter().chain(&kernel.sources) {
@@ -354,6 +352,19 @@ impl Config {
         }
         // Without a line of its own cargo would come back for every change in the package.
         println!("cargo::rerun-if-changed=build.rs");
+    }
+
+    /// Emits and writes everything, or nothing; in a build script tells cargo to come back when a
+    /// kernel's file changes, and only then.
+    ///
+    /// # Errors
+    ///
+    /// Every error of every kernel at once; two shaders of one name; a folder that cannot be written.
+    pub fn compile(&self) -> Result<(), Error> {
+        // Cargo sets it for build scripts, and reads what they print.
+        if std::env::var_os("OUT_DIR").is_some() {
+            self.print_dependencies();
+        }
         let folder = match &self.out_dir {
             Some(folder) if folder.as_os_str().is_empty() => return Err(Error::of(Problem::EmptyFolder)),
             Some(folder) => folder.clone(),
@@ -399,6 +410,8 @@ enum Problem {
     Kernel(Errors),
     #[error(transparent)]
     Write(WriteError),
+    #[error("`{0}` is built in and has one function: leave `.function(...)` out")]
+    Function(String),
     #[error("`{0}` cannot name a module: give the shader another name with `.name(\"...\")`")]
     Name(String),
     #[error("two shaders are called `{0}`: give one of them another name with `.name(\"...\")`")]

@@ -206,12 +206,8 @@ impl Kernel {
     }
 
     /// The same kernel with a further file that it calls functions of.
-    pub fn with_file(mut self, path: &Path) -> Result<Kernel, Errors> {
-        let text = read(path)?;
-        let path = path.display().to_string();
-        Arc::make_mut(&mut self.files).push(File { path, text });
-        self.library = OnceLock::new();
-        Ok(self)
+    pub fn with_file(self, path: &Path) -> Result<Kernel, Errors> {
+        Ok(self.with_text(&path.display().to_string(), &read(path)?))
     }
 
     /// The same kernel with the text of a further file that it calls functions of. `path` is only shown.
@@ -221,6 +217,7 @@ impl Kernel {
             text: text.to_owned(),
         });
         self.library = OnceLock::new();
+        self.described = OnceLock::new();
         self
     }
 

@@ -213,6 +213,13 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
         return Err(Refusal::new(Code::WorkgroupSize, what)
             .help("each side is at least 1, and both together at most 1024 invocations"));
     }
+    if options.workgroup.is_some() && (options.stage == Stage::Fragment || options.is_function()) {
+        let what = format!(
+            "`{}` is to be a fragment shader or a function, which have no workgroup",
+            compiled.kernel
+        );
+        return Err(Refusal::new(Code::StageUnfit, what).help("leave `workgroup` out, or emit it for compute"));
+    }
     if options.precision == Precision::F16
         && !options.accept_loss
         && let HalfPrecision::Lost(reason) = compiled.half_precision()

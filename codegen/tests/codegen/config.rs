@@ -33,6 +33,22 @@ fn factors_and_folders_that_say_nothing_are_refused() {
     assert!(!out.exists());
 }
 
+#[test]
+fn settings_that_would_be_ignored_are_refused() {
+    let refused = |options: fn(KernelConfig) -> KernelConfig| {
+        said(&Config::new().kernel("stalker", options).out_dir(folder("ignored")))
+    };
+    let error = refused(|k| k.function("edges"));
+    assert!(error.contains("`stalker` is built in"), "{error}");
+    for options in [
+        (|k| k.workgroup(8, 8).stage(Stage::Fragment)) as fn(KernelConfig) -> KernelConfig,
+        |k| k.workgroup(8, 8).form(Form::Function),
+    ] {
+        let error = refused(options);
+        assert!(error.contains("have no workgroup") && error.contains("E0703"), "{error}");
+    }
+}
+
 /// The manifest, the shader and the Rust of one built-in kernel.
 fn written(kernel: &str, options: impl FnOnce(KernelConfig) -> KernelConfig) -> (Manifest, String, String) {
     let folder = folder(kernel);
