@@ -45,7 +45,10 @@ fn settings_that_would_be_ignored_are_refused() {
         |k| k.workgroup(8, 8).form(Form::Function),
     ] {
         let error = refused(options);
-        assert!(error.contains("have no workgroup") && error.contains("E0703"), "{error}");
+        assert!(
+            error.contains("have no workgroup") && error.contains("E0703"),
+            "{error}"
+        );
     }
 }
 

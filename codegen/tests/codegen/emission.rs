@@ -1,7 +1,6 @@
 //! What is emitted, read by several compilers, and what it says.
 
-#[path = "../../../tests/src/compilers.rs"]
-mod compilers;
+use crate::compilers;
 
 use compilers::{FUNCTION, LABEL, instructions, read};
 use straightline_codegen::diagnostic::Code;

@@ -2,6 +2,8 @@
 
 mod bindings;
 mod codes;
+#[path = "../../../tests/src/compilers.rs"]
+mod compilers;
 mod config;
 mod emission;
 mod floor;

@@ -1,7 +1,6 @@
 //! Groups, numbers, registers, names, forms and origins that users give: where they stand in every language, and what is refused.
 
-#[path = "../../../tests/src/compilers.rs"]
-mod compilers;
+use crate::compilers;
 
 use compilers::read;
 use straightline_codegen::diagnostic::Code;
