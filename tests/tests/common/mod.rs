@@ -12,6 +12,13 @@ use straightline_testbed::execute;
 #[allow(unused_imports)] // each test uses a part
 pub use straightline_tests::sraa::Random;
 
+/// wgpu without OpenGL: an instance with it opens EGL's one display, and closes it for the whole process when it goes.
+pub fn instance() -> wgpu::Instance {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::PRIMARY;
+    wgpu::Instance::new(descriptor)
+}
+
 /// A device of any adapter.
 pub fn bench() -> execute::Bench {
     let (device, queue) = device();
@@ -20,7 +27,7 @@ pub fn bench() -> execute::Bench {
 
 /// A device of any adapter, with what kernels can use of it.
 pub fn device() -> (wgpu::Device, wgpu::Queue) {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let instance = instance();
     let adapter =
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|e| {
             panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")

@@ -164,7 +164,7 @@ fn random_kernels_find_the_same_bits() {
 
 /// A device that filters no 32-bit floats: nothing here asks for it.
 fn plain_bench() -> Bench {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let instance = common::instance();
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
     let adapter = adapter.unwrap_or_else(|e| panic!("this test needs a GPU adapter: {e}"));
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))

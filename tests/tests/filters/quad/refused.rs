@@ -196,7 +196,7 @@ fn passes_refuse_what_they_cannot_draw() {
         &error,
         &["`coord` is interpolated", "draw your triangles with it by `Draw`"],
     );
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let instance = crate::common::instance();
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
     let adapter = adapter.expect("an adapter, as `bench` found one");
     let plain = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));

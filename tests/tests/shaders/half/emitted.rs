@@ -151,7 +151,7 @@ fn manifests_of_before_are_read() {
 
 #[test]
 fn a_device_without_half_precision_is_refused() {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let instance = crate::common::instance();
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
     let adapter = adapter.expect("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers");
     let plain = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
