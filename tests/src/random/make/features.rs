@@ -42,7 +42,7 @@ pub enum Feature {
     Coarse,
     /// Ranges that end at the largest numbers.
     Edges,
-    /// Floats at which functions change their ways: infinities and halves, and of what is `Coarse` all others.
+    /// Floats at which functions change their ways: halves, and of what is `Coarse` all others.
     Extremes,
     /// `Option`, enums that hold values, blocks with labels and loops that give values.
     Choices,
