@@ -8,7 +8,7 @@ impl Builder<'_> {
         self.exact = exact;
     }
 
-    /// Whether operations on floats are made exact.
+    /// True while operations on floats are made exact.
     pub fn is_exact(&self) -> bool {
         self.exact
     }

@@ -309,7 +309,7 @@ pub struct Builder<'r> {
     known: FxHashMap<u64, NodeId>,
     rules: &'r dyn Rules,
     open: Vec<RegionId>,
-    /// Whether operations on floats are made [`Op::Exact`].
+    /// True while operations on floats are made [`Op::Exact`].
     pub(super) exact: bool,
 }
 

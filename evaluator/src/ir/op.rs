@@ -382,7 +382,7 @@ impl Op {
         )
     }
 
-    /// Whether it rounds floats, so that a compiler that merges it with others may change a bit.
+    /// Tells if it rounds floats, so that a compiler that merges it with others may change a bit.
     pub fn rounds(&self) -> bool {
         use BinaryOp::{Add, Atan2, Div, Mul, Pow, Rem, Sub};
         match self {

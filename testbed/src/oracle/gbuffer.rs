@@ -55,7 +55,7 @@ pub struct Reading {
     pub stored: f64,
     /// Whether depth is not a number.
     pub is_nan: bool,
-    /// Whether depth is a number so far below 0 that it is taken for the sky.
+    /// True if depth is a number so far below 0 that it is taken for the sky.
     pub is_below: bool,
     /// The texel of the normal.
     pub texel: [f64; 4],

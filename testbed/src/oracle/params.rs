@@ -317,7 +317,7 @@ pub struct SraaParams {
     pub turn: Turn,
     /// Whether normals of [`Normals::Unorm`] are made as long as 1.
     pub renormalise: bool,
-    /// Whether a depth or a normal that is not a number may go unnoticed, so that the other of the two decides, and a depth
+    /// True if a depth or a normal that is not a number may go unnoticed, so that the other of the two decides, and a depth
     /// below -1e30 may stay what it is, which is else taken for the sky.
     pub escapes: bool,
     /// How sharply a weight falls as surfaces differ; 0 or more.

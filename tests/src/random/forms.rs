@@ -45,7 +45,7 @@ pub fn same(a: [f64; 4], b: [f64; 4]) -> bool {
         .all(|(x, y)| x.to_bits() == y.to_bits() || (x.is_nan() && y.is_nan()))
 }
 
-/// Whether one of the errors is the generator's own: a broken rule, or a panic.
+/// Tells if one of the errors is the generator's own: a broken rule, or a panic.
 pub fn is_internal(errors: &Errors) -> bool {
     errors
         .diagnostics

@@ -3,7 +3,7 @@
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{NodeId, Op};
 
-/// What is known of exact operations, by node.
+/// Facts about exact operations, by node.
 pub struct Exactness {
     parts: Vec<bool>,
     goes_on: Vec<bool>,
@@ -39,12 +39,12 @@ impl Exactness {
         Exactness { parts, goes_on }
     }
 
-    /// Whether an operation is written in the statement of its mark.
+    /// Tells if an operation is written in the statement of its mark.
     pub fn is_part(&self, id: NodeId) -> bool {
         self.parts[id.0 as usize]
     }
 
-    /// Whether arithmetic goes on from a value.
+    /// Tells if arithmetic goes on from a value.
     pub fn goes_on(&self, id: NodeId) -> bool {
         self.goes_on[id.0 as usize]
     }

@@ -58,7 +58,7 @@ pub fn columns_of_number(ty: Ty, bits: u32) -> usize {
     }
 }
 
-/// What stands before the type of a variable in GLSL and HLSL if what it is given is rounded as it is written.
+/// Qualifier of a variable in GLSL and HLSL whose value is rounded as it is written.
 pub const PRECISE: &str = "precise ";
 
 /// A shading language.

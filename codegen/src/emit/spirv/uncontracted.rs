@@ -106,7 +106,7 @@ fn head(length: u32, opcode: u32) -> u32 {
     length << 16 | opcode
 }
 
-/// Whether an instruction stands before the types of a module, where decorations do.
+/// Tells if an instruction stands before the types of a module, where decorations do.
 fn is_before_types(opcode: u32) -> bool {
     use code::*;
     matches!(

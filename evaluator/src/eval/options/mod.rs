@@ -22,13 +22,13 @@ pub(super) use parse::unknown;
 pub struct OptionInfo {
     /// Name on the command line: the field's, with `-` for `_`.
     pub name: String,
-    /// What it decides.
+    /// Documentation of the field.
     pub docs: String,
-    /// What it can be.
+    /// Kind of its values.
     pub kind: OptionKind,
     /// Default; of a number that is set at run time, the one it has until then.
     pub default: OptionValue,
-    /// Whether it is `uniform` unless a setting says otherwise: a number that is set at run time, with this default.
+    /// True if it is `uniform` unless a setting says otherwise: a number that is set at run time, with this default.
     pub uniform: bool,
 }
 
@@ -42,7 +42,7 @@ impl OptionInfo {
     }
 }
 
-/// What an option can be.
+/// Kind of an option's values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OptionKind {
     /// One of some values, each with its meaning.
@@ -51,9 +51,9 @@ pub enum OptionKind {
     Number(Numeric),
     /// As many numbers, separated by commas.
     List {
-        /// How many; any number of them if there is none.
+        /// Length; any if there is none.
         len: Option<usize>,
-        /// What each of them can be.
+        /// Range of each.
         of: Numeric,
     },
     /// `true` or `false`.

@@ -25,7 +25,7 @@ const LARGE: f64 = 1024.0;
 /// Sides of a sum: two, or the components of a dot product.
 const SIDES: usize = 4;
 
-/// What is found in a graph.
+/// Result of the search in a graph.
 #[derive(Default)]
 pub struct Found {
     /// Operations through which terms pass that cancel.
@@ -104,7 +104,7 @@ pub fn cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mu
     }
 }
 
-/// What became of a search.
+/// Outcome of a search.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Nothing,
@@ -114,7 +114,7 @@ enum Outcome {
     ByLane,
 }
 
-/// Whether two sides may have a term in common.
+/// Tells if two sides may have a term in common.
 fn meet(dependence: &Dependence, sides: &[Vec<Part>]) -> bool {
     let reach = |side: &Vec<Part>| {
         let all = side.iter().filter_map(|part| part.term.place);
@@ -143,14 +143,14 @@ struct Search<'g> {
     left: u32,
     found: &'g mut Found,
     outcome: Outcome,
-    /// Whether nothing is left of the sum without rounding.
+    /// True if nothing is left of the sum without rounding.
     is_error: bool,
 }
 
-/// How a term is made of another: which, how often, and by what.
+/// Step from a term to one that it is made of: the term, its count, and the operation.
 type Edge = (usize, f64, By);
 
-/// What reaches a term: how often, by side; whether a rounding or, by side, a sum lies between.
+/// Ways that reach a term: their number, by side; and if a rounding or, by side, a sum lies between.
 #[derive(Clone, Copy, Default)]
 struct Share {
     times: [f64; SIDES],
@@ -193,7 +193,7 @@ struct Cone {
     index: FxHashMap<Term, usize>,
     /// By term, those that it is made of.
     edges: Vec<Vec<Edge>>,
-    /// Whether there are more.
+    /// True if there are more.
     is_cut: bool,
 }
 
@@ -236,7 +236,7 @@ impl Cone {
 }
 
 impl Search<'_> {
-    /// Whether the shorter side has a term that the other one may have. What was made after the other side is no term of it, unless
+    /// Tells if the shorter side has a term that the other one may have. What was made after the other side is no term of it, unless
     /// a loop carries it there: most terms of a long sum are, and are not looked at again.
     fn may_share(&self) -> bool {
         let [left, right] = &self.sides[..] else { return true };
@@ -414,14 +414,14 @@ impl Search<'_> {
             .is_some_and(|place| self.graph.constant(place.node).is_some())
     }
 
-    /// Whether a term is a product that may be contracted with the sum that it goes into.
+    /// Tells if a term is a product that may be contracted with the sum that it goes into.
     fn contracts(&self, term: &Term) -> bool {
         let is_product = |place: Place| matches!(self.graph.node(place.node).op, Op::Binary(BinaryOp::Mul) | Op::Dot);
         term.factors.is_empty() && term.place.is_some_and(is_product)
     }
 }
 
-/// Whether a result hangs on the order in which a term cancels: one side is the term itself, or it is a large constant.
+/// Tells if a result hangs on the order in which a term cancels: one side is the term itself, or it is a large constant.
 fn matters(term: &Term, share: &Share) -> bool {
     let is_itself = share.sides().any(|side| !share.summed[side]);
     match (term.place, &term.factors[..]) {

@@ -86,7 +86,7 @@ pub struct Part {
     pub by: By,
 }
 
-/// What an operation does with the parts of its value.
+/// Effect of an operation on the parts of its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// Rounds nothing.
@@ -106,7 +106,7 @@ pub enum Choice {
     Left(RegionId),
 }
 
-/// What a term is made of.
+/// Terms that a term is made of.
 pub enum Made {
     /// Nothing else is known of it.
     Leaf,
@@ -193,7 +193,7 @@ impl Dependence {
         self.reach[id.0 as usize] = reach;
     }
 
-    /// Whether values may come from a later place, by way of a loop.
+    /// True if values may come from a later place, by way of a loop.
     pub fn has_loops(&self) -> bool {
         self.has_loops
     }
@@ -203,7 +203,7 @@ impl Dependence {
         self.reach[id.0 as usize]
     }
 
-    /// Whether a value may differ from iteration to iteration of a loop.
+    /// Tells if a value may differ from iteration to iteration of a loop.
     fn varies(&self, id: NodeId, region: RegionId) -> bool {
         let mut at = self.innermost[id.0 as usize];
         while at != Graph::BODY {
@@ -254,7 +254,7 @@ impl Dependence {
         Term::of(self.place(node, lane, (Graph::BODY, 0)))
     }
 
-    /// What a term is made of.
+    /// Terms that a term is made of.
     pub fn made(&self, graph: &Graph, term: &Term) -> Made {
         let Some(place) = term.place else { return Made::Leaf };
         let node = graph.node(place.node);
@@ -428,7 +428,7 @@ impl Dependence {
     }
 }
 
-/// What is known of a component without running anything.
+/// Facts about a component that are known without running anything.
 enum Known {
     Number(f64),
     /// Components differ.
@@ -436,7 +436,7 @@ enum Known {
     Nothing,
 }
 
-/// What multiplying by a number does: by a power of two it rounds nothing.
+/// Effect of multiplying by a number: by a power of two it rounds nothing.
 fn scaling(x: f64) -> By {
     match x != 0.0 && x.to_bits() << 12 == 0 {
         true => By::Itself,
