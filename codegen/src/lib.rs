@@ -5,7 +5,7 @@
 //! ```
 //! use straightline_codegen::{Kernel, Settings};
 //!
-//! let settings = Settings { options: vec![("pattern".into(), "ordered4".into())], ..Settings::default() };
+//! let settings = Settings::new().set("pattern", "ordered4");
 //! let sraa = Kernel::builtin("sraa")?.compile(&settings)?;
 //! assert_eq!(sraa.counts.basic_blocks, 1);
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
@@ -17,14 +17,16 @@ pub mod default_set;
 pub mod emit;
 pub mod files;
 mod pipeline;
+pub mod spec;
 
 pub use compiled::Compiled;
 pub use config::{Config, compile};
-pub use emit::EmitOptions;
-pub use pipeline::{Kernel, Observer, Settings};
+pub use pipeline::{Kernel, Observer};
+pub use spec::{EmitOptions, KernelConfig, Overrides, Settings, ShaderSpec};
 pub use straightline_evaluator::eval::{LoopReport, Numeric, OptionInfo, OptionKind};
 pub use straightline_evaluator::limits::Limits;
 pub use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 pub use straightline_evaluator::{diagnostic, interp, ir, passes, policy, shorten};
+pub use straightline_kernels as kernels;
 pub use straightline_kernels::{OptionText, OptionValue, OptionValues};
 pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

@@ -1,8 +1,9 @@
 //! The stages from text to graph, in order.
 
 use crate::compiled::{Compiled, Places};
-use crate::emit;
+use crate::emit::{self, Emitted};
 use crate::files;
+use crate::spec::{Settings, ShaderSpec};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
@@ -10,9 +11,9 @@ use straightline_evaluator::eval::{self, OptionInfo};
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::ir::{Graph, Invocation, verify};
-use straightline_evaluator::limits::{self, Limits, Meter};
+use straightline_evaluator::limits::{self, Meter};
 use straightline_evaluator::passes;
-use straightline_evaluator::policy::{Branches, LoopPolicy, Math, Policy, ReadOrder, Share, Transport, Unroll};
+use straightline_evaluator::policy::{Math, ReadOrder, Share, Transport};
 use straightline_kernels::{OptionText, OptionValues};
 
 /// Longest file of a kernel that is read, in bytes.
@@ -30,70 +31,30 @@ pub struct Kernel {
     described: OnceLock<Arc<[OptionInfo]>>,
 }
 
-/// How a kernel is to be evaluated.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Settings {
-    /// Option and value, in any spelling that its declaration takes; an option that is not named stays at its default, and one
-    /// named twice is refused.
-    pub options: Vec<OptionText>,
-    /// What becomes of loops.
-    pub unroll: Unroll,
-    /// What becomes of single loops, by `function.counter` or `counter`; before all else that is said of them.
-    pub loops: Vec<LoopPolicy>,
-    /// What becomes of branches on runtime values.
-    pub branches: Branches,
-    /// How blocks read: in which order, or four texels at once.
-    pub reads: ReadOrder,
-    /// Statements that the kernel may have.
-    pub budget: u32,
-    /// How lanes of quads swap values; `None` leaves it to the stage: subgroup operations in fragment shaders,
-    /// blocks in compute.
-    pub transport: Option<Transport>,
-    /// Pixels that one invocation computes, across and down; of a kernel of quads, whole quads.
-    pub block: [u32; 2],
-    /// Whether each distinct read happens once, wherever the source asks for it. Without, it happens as often as the source
-    /// asks: for studies of what sharing is worth. The result is the same, bit for bit.
-    pub share_loads: bool,
-    /// What pixels share of the texels that they read. The result is the same, bit for bit.
-    pub share: Share,
-    /// Which algebra may be done with floats: none by drivers either, what changes no bit, or what may change roundings too.
-    pub math: Math,
-    /// What compiling and emitting the kernel may take.
-    pub limits: Limits,
-}
-
-impl Settings {
-    /// Statements that a kernel may have unless more are allowed.
-    pub const BUDGET: u32 = 20_000;
-
-    fn policy(&self) -> Policy {
-        Policy {
-            unroll: self.unroll,
-            loops: self.loops.clone(),
-            branches: self.branches,
-            reads: self.reads,
-            share: self.share,
-            math: self.math,
+impl ShaderSpec {
+    /// Compiles a kernel.
+    ///
+    /// # Errors
+    ///
+    /// As [`Kernel::compile`].
+    pub fn compile(&self, kernel: &Kernel) -> Result<Compiled, Errors> {
+        let mut settings = self.settings.clone();
+        // A workgroup that shares texels is the one that is dispatched.
+        if let Some(size) = self.emit.workgroup {
+            settings.share = settings.share.of_size(size);
         }
+        kernel.compile(&settings)
     }
-}
 
-impl Default for Settings {
-    fn default() -> Self {
-        Settings {
-            options: Vec::new(),
-            unroll: Unroll::default(),
-            loops: Vec::new(),
-            branches: Branches::default(),
-            reads: ReadOrder::default(),
-            budget: Settings::BUDGET,
-            transport: None,
-            block: [1, 1],
-            share_loads: true,
-            share: Share::default(),
-            math: Math::default(),
-            limits: Limits::default(),
-        }
+    /// Compiles a kernel and writes its shader.
+    ///
+    /// # Errors
+    ///
+    /// As [`Kernel::compile`] and [`Compiled::emit`].
+    pub fn emit(&self, kernel: &Kernel) -> Result<(Compiled, Emitted), Errors> {
+        let compiled = self.compile(kernel)?;
+        let emitted = compiled.emit(&self.emit)?;
+        Ok((compiled, emitted))
     }
 }
 
@@ -336,7 +297,7 @@ impl Kernel {
     }
 
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
-        let meter = Meter::open(settings.limits);
+        let meter = Meter::open(settings.limits());
         let library = self.library()?;
         let policy = settings.policy();
         policy.check().map_err(|what| {
@@ -370,7 +331,7 @@ impl Kernel {
         };
         let graph = stage("eval", evaluated.graph)?;
         let mut graph = stage("clean", passes::clean(&graph))?;
-        if settings.share_loads {
+        if !settings.repeat_loads {
             graph = stage("share-loads", passes::share_loads(&graph))?;
             // Sharing makes new common terms, and those leave others unused.
             graph = stage("clean", passes::clean(&graph))?;
@@ -509,7 +470,7 @@ impl Kernel {
             sharing,
             gathered,
             quad,
-            limits: settings.limits,
+            limits: settings.limits(),
             work: meter.work(),
             time: meter.time(),
             places: Arc::new(Places {

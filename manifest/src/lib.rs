@@ -14,6 +14,8 @@ mod value;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
+use std::str::FromStr;
 
 pub use binding::{
     Access, Binding, BindingKind, BufferType, Dimension, Extent, LanguageBinding, LanguageKind, Part, REGION,
@@ -131,6 +133,24 @@ impl Stage {
         match self {
             Stage::Compute => "compute",
             Stage::Fragment => "fragment",
+        }
+    }
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Stage {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "compute" => Ok(Stage::Compute),
+            "fragment" => Ok(Stage::Fragment),
+            _ => Err(format!("unknown stage `{text}`: compute or fragment")),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Arguments of `study sweep` and of what reads its records.
 
-use super::{StageArg, pair, size};
+use super::{pair, size};
 use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;
-use straightline_codegen::{Unroll, shorten};
+use straightline_codegen::{Stage, Unroll, shorten};
 use straightline_study::record::Shard;
 use straightline_study::sweep::{Loops, values};
 
@@ -31,11 +31,11 @@ pub struct SweepArgs {
         help_heading = "What is varied",
         long,
         value_name = "STAGES",
-        value_enum,
+        value_parser = |s: &str| s.parse::<Stage>(),
         value_delimiter = ',',
         default_value = "compute"
     )]
-    pub stage: Vec<StageArg>,
+    pub stage: Vec<Stage>,
     /// Invocations of a compute workgroup, across and down
     #[arg(help_heading = "What is varied", long, value_name = "SIZES", value_delimiter = ',', default_value = "256x1", value_parser = size)]
     pub workgroup: Vec<UVec2>,

@@ -19,23 +19,22 @@ mod lower;
 mod manifest;
 mod missing;
 mod names;
-mod options;
 mod origin;
 mod outputs;
 mod places;
 mod print;
 mod prose;
 mod refusal;
-mod register;
 mod resources;
 mod spelled;
 mod spirv;
-mod target;
 mod text;
 mod tidy;
 mod translate;
 mod variables;
 mod words;
+
+pub use crate::spec::{EmitOptions, Register, Target, Texels};
 
 use crate::compiled::Compiled;
 use refusal::Refusal;
@@ -51,10 +50,7 @@ use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
-pub use options::{EmitOptions, Reads};
 pub use prose::comment;
-pub use register::Register;
-pub use target::Target;
 pub use words::is_among;
 
 /// One shader in the languages asked for.
@@ -354,10 +350,7 @@ impl Shader<'_, '_> {
         if !self.resources.options.is_function() && !marks {
             return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
         }
-        let whole = EmitOptions {
-            form: Form::Entry,
-            ..self.resources.options.clone()
-        };
+        let whole = self.resources.options.clone().form(Form::Entry);
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
         let (tree, _) = tree(self.compiled, &whole);

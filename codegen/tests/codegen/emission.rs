@@ -4,16 +4,12 @@ use crate::compilers;
 
 use compilers::{FUNCTION, LABEL, instructions, read};
 use straightline_codegen::diagnostic::Code;
-use straightline_codegen::emit::{Emitted, Reads, Target};
+use straightline_codegen::emit::{Emitted, Target, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_manifest::LanguageKind;
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
-    Settings {
-        unroll,
-        branches,
-        ..Settings::default()
-    }
+    Settings::new().unroll(unroll).branches(branches)
 }
 
 fn compile(text: &str, unroll: Unroll, branches: Branches) -> Compiled {
@@ -335,14 +331,9 @@ fn unrolled_kernels_are_one_basic_block() {
         ("tabula_rasa", &[]),
     ];
     for (name, options) in cases {
-        let settings = Settings {
-            options: options
-                .iter()
-                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-                .collect(),
-            transport: (name.starts_with("quad") || name.starts_with("pc")).then_some(Transport::Subgroup),
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
+            .transport((name.starts_with("quad") || name.starts_with("pc")).then_some(Transport::Subgroup));
         let kernel = Kernel::builtin(name).unwrap_or_else(|e| panic!("{e}"));
         one_block(&format!("{name} {options:?}"), &kernel, &settings);
     }
@@ -571,7 +562,7 @@ fn hosts_read_their_textures() {
     let compiled = compile(source, Unroll::Full, Branches::Select);
     let mut options = EmitOptions::new()
         .form(Form::Function)
-        .reads(Reads::Functions)
+        .texels(Texels::Functions)
         .targets([Target::Glsl330, Target::Hlsl, Target::Wgsl]);
     let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
     let wgsl = text(&emitted, Target::Wgsl);

@@ -9,6 +9,7 @@ mod emission;
 mod floor;
 mod front;
 mod imports;
+mod knobs;
 mod option_values;
 mod places;
 mod syn_variants;

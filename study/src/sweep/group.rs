@@ -130,11 +130,9 @@ fn unmeasured(settings: BTreeMap<String, String>, rival: Option<String>) -> Swep
 /// The kernel by which all of a group are judged: without loops where that is allowed.
 fn judge(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]) -> Option<Compiled> {
     let first = compiled.iter().position(Result::is_ok)?;
-    let settings = Settings {
-        options: group[first].options.clone(),
-        unroll: Unroll::Full,
-        ..Settings::default()
-    };
+    let settings = Settings::new()
+        .set_all(group[first].options.clone())
+        .unroll(Unroll::Full);
     let full = sweep.kernel.compile(&settings).ok();
     full.or_else(|| compiled[first].as_ref().ok().cloned())
 }

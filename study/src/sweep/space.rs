@@ -170,12 +170,10 @@ impl Variant {
 
     /// How the generator is asked for it.
     pub fn compile_settings(&self) -> Settings {
-        Settings {
-            options: self.options.clone(),
-            unroll: self.unroll,
-            block: self.block,
-            ..Settings::default()
-        }
+        Settings::new()
+            .set_all(self.options.clone())
+            .unroll(self.unroll)
+            .block(self.block[0], self.block[1])
     }
 }
 

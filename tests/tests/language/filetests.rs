@@ -197,10 +197,7 @@ fn printed_graphs_read_back() {
     assert!(kernels.len() > 10);
     for kernel in kernels {
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let mut observe = |stage: &str, graph: &straightline_codegen::ir::Graph| {
                 let text = print(graph);
                 let again = parse(&text).unwrap_or_else(|e| panic!("{} after {stage}: {e}", kernel.name()));

@@ -5,7 +5,7 @@ use glam::{Vec4, uvec2};
 use std::fmt::Write;
 use std::time::Duration;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Limits, Settings, Unroll};
+use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::execute::{Inputs, interpret};
 
@@ -103,10 +103,7 @@ fn long_chains_are_read() {
     for (name, body, expected) in chains {
         let body = format!("let (y, w, b) = (c.y, c.w, n == 3);\n{body}");
         for branches in [Branches::Select, Branches::Keep] {
-            let settings = Settings {
-                branches,
-                ..Settings::default()
-            };
+            let settings = Settings::new().branches(branches);
             let compiled = compile(&kernel("", &body), &settings).unwrap_or_else(|e| panic!("{name}: {e}"));
             assert_eq!(texel(&compiled), expected, "{name}");
             compiled
@@ -192,10 +189,7 @@ fn attempts_do_not_multiply() {
     let long = "let mut s = c.x;
     let mut i = 0;
     while i < 1_000_000 { s = s * 0.5 + 1.0; i += 1; }";
-    let settings = Settings {
-        unroll: Unroll::None,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(Unroll::None);
     let compiled = compile(&kernel("", long), &settings).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(compiled.counts.loops, 1);
     assert_eq!(texel(&compiled), 2.0);
@@ -206,24 +200,14 @@ fn time_and_memory_have_limits() {
     let loops = "let mut s = c.x;
     for a in 0..30 { for b in 0..30 { s = s * 1.5 + (a * b) as f32; } }";
     let text = kernel("", loops);
-    let of = |limits| Settings {
-        limits,
-        ..Settings::default()
-    };
-    let late = of(Limits {
-        time: Duration::from_nanos(1),
-        ..Limits::default()
-    });
+    let late = Settings::new().time_limit(Duration::from_nanos(1));
     let refused = compile(&text, &late).expect_err("no time").to_string();
     assert!(refused.contains("takes more than 0.000000001 s"), "{refused}");
     assert!(
         refused.contains("`k.b`") && refused.contains("--time-limit"),
         "{refused}"
     );
-    let small = of(Limits {
-        memory: 100_000,
-        ..Limits::default()
-    });
+    let small = Settings::new().memory_limit(100_000);
     let refused = compile(&text, &small).expect_err("no memory").to_string();
     assert!(refused.contains("takes more than 0 MB"), "{refused}");
     assert!(
@@ -244,13 +228,7 @@ fn time_and_memory_have_limits() {
 /// Copies of arrays that are held at the same time count; copies that are gone do not.
 #[test]
 fn memory_is_what_is_held() {
-    let settings = Settings {
-        limits: Limits {
-            memory: 40_000_000,
-            ..Limits::default()
-        },
-        ..Settings::default()
-    };
+    let settings = Settings::new().memory_limit(40_000_000);
     let gone = "let mut s = c.x;
     for k in 0..60 { let mut a = [c.x; 20000]; let b = a; a[k] = b[0] * 2.0; s += a[k]; }";
     compile(&kernel("", gone), &settings).unwrap_or_else(|e| panic!("{e}"));

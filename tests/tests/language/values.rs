@@ -335,10 +335,7 @@ pub fn k(one: f32, pixel: IVec2) -> Vec4 {
     vec4(one.atan2(one), one.powf(one), one.ln() + fract(one) + one.tanh() + one.atan(), one % 3.0 + one.powf(3.0))
 }";
     let compiled = |math| {
-        let settings = straightline_codegen::Settings {
-            math,
-            ..Default::default()
-        };
+        let settings = straightline_codegen::Settings::new().math(math);
         let compiled = Kernel::from_text("fast.rs", source, "k").compile(&settings);
         let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
         let emitted = compiled.emit(&EmitOptions::new().targets([Target::Wgsl]));

@@ -121,7 +121,7 @@ fn space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
         options: args.set.clone(),
         unroll: args.unroll.clone(),
         loops: args.loops.clone(),
-        stages: args.stage.iter().map(|stage| (*stage).into()).collect(),
+        stages: args.stage.clone(),
         workgroups: args.workgroup.iter().map(|size| size.to_array()).collect(),
         blocks: args.block.iter().map(|size| size.to_array()).collect(),
     };

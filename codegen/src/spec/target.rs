@@ -82,7 +82,7 @@ impl Target {
     }
 
     /// The `#version` of a GLSL.
-    pub(super) fn version(self) -> &'static str {
+    pub(crate) fn version(self) -> &'static str {
         match self {
             Target::Glsl430 => "430",
             Target::Glsl330 => "330",
