@@ -55,6 +55,7 @@ pub use words::is_among;
 
 /// One shader in the languages asked for.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Emitted {
     /// What a host must know; the file names in it are set by [`Emitted::named`].
     pub manifest: Manifest,

@@ -6,6 +6,7 @@ use straightline_manifest::{Form, Stage};
 
 /// A language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Target {
     /// WebGPU's own.
     Wgsl,

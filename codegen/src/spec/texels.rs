@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 /// How a function ([`Form::Function`](straightline_manifest::Form)) reads the texels of its inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Texels {
     /// Of textures and samplers, which are its parameters.
     #[default]

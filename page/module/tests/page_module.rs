@@ -1,6 +1,9 @@
 //! Every kernel of the page, through the messages that the page sends.
 
 use serde_json::{Value, json};
+use straightline_codegen::emit::Target;
+use straightline_codegen::spec::KNOBS;
+use straightline_codegen::{Kernel, Overrides, ShaderSpec};
 use straightline_page_module::{Message, answer, entries};
 
 /// What the module answers.
@@ -275,5 +278,48 @@ fn a_kernel_is_had_as_the_folder_of_an_engine() {
     ] {
         let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");
         assert!(made.json["refused"]["text"].is_string(), "{}", made.json);
+    }
+}
+
+/// A message has every setting of a shader that a `build.rs` has, and makes the same text of it.
+#[test]
+fn messages_have_every_knob() {
+    let text = std::fs::read_to_string("../../kernels/filters/gaussian.rs").expect("a kernel");
+    let kernel = Kernel::from_text("kernels/filters/gaussian.rs", &text, "gaussian");
+    for knob in KNOBS {
+        let spec = knob.example(ShaderSpec::new().targets([Target::Wgsl]));
+        let request = json!({
+            "do": "compile", "shader": spec, "shaders": [Overrides::of_changed(&spec)],
+            "kernel": { "id": "kernels/gaussian", "function": "gaussian",
+                "files": [{ "path": "kernels/filters/gaussian.rs", "text": text }] },
+        });
+        let mut browser = spec.clone();
+        browser.emit.enable_subgroups = true;
+        match (ask(request, &[]), browser.compile(&kernel)) {
+            (Ok(answer), Ok(compiled)) => {
+                let shader = &answer.json["shaders"][0];
+                for target in browser.emit.targets.clone() {
+                    let alone = browser.emit.clone().targets([target]);
+                    let (text, refused) = (
+                        &shader["texts"][target.to_string()],
+                        &shader["refused"][target.to_string()],
+                    );
+                    match compiled.emit(&alone) {
+                        Ok(emitted) => assert_eq!(
+                            text.as_str().map(str::as_bytes),
+                            Some(&*emitted.files[&target]),
+                            "{}",
+                            knob.name
+                        ),
+                        Err(_) => assert!(refused.is_string(), "{}: {refused}", knob.name),
+                    }
+                }
+            }
+            (Err(refused), Err(errors)) => {
+                let text = refused["text"].as_str().expect("a text");
+                assert!(text.contains(errors.first_message()), "{}: {text}", knob.name);
+            }
+            (asked, compiled) => panic!("{}: {:?}, {:?}", knob.name, asked.err(), compiled.err()),
+        }
     }
 }
