@@ -194,6 +194,34 @@ fn comparisons_beside_one_another_are_told_apart() {
 }
 
 /// A straight-line kernel has no branch, however its conditions are joined.
+/// Without comments the same text is left, but for the first two lines.
+#[test]
+fn comments_are_stripped() {
+    let settings = Settings::new().unroll(Unroll::None);
+    let compiled = Kernel::builtin("sraa")
+        .and_then(|kernel| kernel.compile(&settings))
+        .expect("a kernel");
+    let written = EmitOptions::new().targets([Target::Wgsl, Target::Glsl450, Target::Hlsl]);
+    let whole = compiled.emit(&written).expect("a shader");
+    let stripped = compiled.emit(&written.strip_comments(true)).expect("a shader");
+    for (target, text) in &stripped.files {
+        let lines =
+            |bytes: &[u8]| -> Vec<String> { String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect() };
+        let (text, whole) = (lines(text), lines(&whole.files[target]));
+        let is_comment = |line: &&String| line.trim_start().starts_with("//");
+        assert_eq!(text.iter().filter(is_comment).count(), 2, "{target}: {text:#?}");
+        let code = |lines: &[String]| {
+            lines
+                .iter()
+                .filter(|line| !is_comment(line))
+                .cloned()
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(code(&text), code(&whole), "{target}");
+    }
+    assert_eq!(stripped.manifest.counts, whole.manifest.counts);
+}
+
 #[test]
 fn conditions_make_no_branches() {
     let kernel = "pub fn k(color: &Frame<Vec4>, a: f32, b: f32, pixel: IVec2) -> Vec4 {
