@@ -17,7 +17,7 @@
 use crate::compiled::Compiled;
 use crate::emit;
 use crate::files::{self, WriteError};
-use crate::pipeline::Kernel;
+use crate::kernel::Kernel;
 use crate::spec::{KernelConfig, Source};
 use std::collections::BTreeMap;
 use std::fmt;

@@ -3,7 +3,7 @@
 
 use crate::compiled::Compiled;
 use crate::emit::{EmitOptions, Target};
-use crate::pipeline::Kernel;
+use crate::kernel::Kernel;
 use crate::spec::Settings;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::{Code, Errors};

@@ -16,12 +16,14 @@ pub mod config;
 pub mod default_set;
 pub mod emit;
 pub mod files;
+mod kernel;
 mod pipeline;
 pub mod spec;
 
 pub use compiled::Compiled;
 pub use config::{Config, compile};
-pub use pipeline::{Kernel, Observer};
+pub use kernel::Kernel;
+pub use pipeline::Observer;
 pub use spec::{EmitOptions, KernelConfig, Overrides, Settings, ShaderSpec};
 pub use straightline_evaluator::eval::{LoopReport, Numeric, OptionInfo, OptionKind};
 pub use straightline_evaluator::limits::Limits;
