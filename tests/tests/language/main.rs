@@ -7,7 +7,6 @@ mod departures;
 mod errors;
 mod every_option;
 mod exactness;
-mod filetests;
 mod kept;
 mod language;
 mod limits;
