@@ -1,7 +1,7 @@
 //! Filters of quads: as rustc compiles them, in every form by the interpreter, and on a GPU by every transport, against
 //! what they are to give by definition (`src/quads/`).
 //!
-//! `cargo test -p straightline-tests --test quad -- --nocapture` prints the largest error of each.
+//! `cargo test --workspace --test filters quad:: -- --nocapture` prints the largest error of each.
 
 // Kernels and oracles are written with counters.
 #![allow(clippy::needless_range_loop)]

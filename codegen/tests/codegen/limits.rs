@@ -1,13 +1,11 @@
 //! Limits of the generator: chains of operators are read up to what the language page says, kernels that cost too much are refused
 //! with the place of the work, and time and memory have limits of their own. Work is counted, never timed.
 
-use glam::{Vec4, uvec2};
 use std::fmt::Write;
 use std::time::Duration;
 use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::interp::{Bindings, Image, Interpreter};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
-use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Inputs, interpret};
 
 fn compile(text: &str, settings: &Settings) -> Result<Compiled, Errors> {
     Kernel::from_text("k.rs", text, "k").compile(settings)
@@ -22,13 +20,10 @@ fn kernel(items: &str, body: &str) -> String {
 }
 
 fn texel(compiled: &Compiled) -> f32 {
-    let mut inputs = Inputs::new(uvec2(1, 1));
-    let frame = Frame::new(uvec2(1, 1), vec![Vec4::new(0.5, 0.25, 2.0, 1.0)]);
-    inputs.images = vec![("color".to_owned(), vec![frame])];
-    inputs.uniforms = vec![("n".to_owned(), vec![3.0])];
-    interpret::<f32>(compiled, &inputs, false)
-        .unwrap_or_else(|e| panic!("{e}"))
-        .texels[0][0]
+    let image = Image::new([1, 1], vec![vec![[0.5, 0.25, 2.0, 1.0]]]).expect("one texel");
+    let bindings = Bindings::new().texture("color", &image).uniform("n", &[3.0]);
+    let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, [1, 1], &bindings).expect("all is bound");
+    interpreter.pixel(0, 0, &mut interpreter.scratch())[0]
 }
 
 /// Chains as long as the language page allows, with their values.
@@ -250,21 +245,4 @@ fn arrays_beyond_an_instruction_are_refused() {
         .expect_err("too large")
         .to_string();
     assert!(refused.contains("65536 elements"), "{refused}");
-}
-
-#[test]
-fn a_loop_without_end_ends_in_the_interpreter() {
-    let body = "let mut s = c.x;
-    loop { s = s * 0.5; if s > 100.0 { break; } }";
-    let compiled = compile(&kernel("", body), &Settings::default()).unwrap_or_else(|e| panic!("{e}"));
-    let mut inputs = Inputs::new(uvec2(1, 1));
-    inputs.images = vec![("color".to_owned(), vec![Frame::new(uvec2(1, 1), vec![Vec4::ONE])])];
-    inputs.uniforms = vec![("n".to_owned(), vec![3.0])];
-    let refused = interpret::<f32>(&compiled, &inputs, false)
-        .expect_err("endless")
-        .to_string();
-    assert!(
-        refused.contains("does not end at the pixel (0, 0)") && refused.contains("`k.while`"),
-        "{refused}"
-    );
 }
