@@ -1,4 +1,4 @@
-//! The generator as a build script uses it: configuration, messages, limits, emission, bindings, rules of graphs and of imports.
+//! The generator as a build script uses it: configuration, messages, limits, emission, bindings, rules of imports.
 
 mod bindings;
 #[path = "../../../evaluator/tests/evaluator/cases.rs"]
