@@ -276,6 +276,19 @@ impl Expr {
         self.args.iter().for_each(|arg| arg.visit(see));
         see(self);
     }
+
+    /// Number of operators and calls in it.
+    pub fn operations(&self) -> usize {
+        let mut count = 0;
+        self.visit(&mut |expr| {
+            let free = matches!(
+                expr.op,
+                Op::Var(_) | Op::Swizzle(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_))
+            );
+            count += usize::from(!free);
+        });
+        count
+    }
 }
 
 /// A statement, and where its value comes from.

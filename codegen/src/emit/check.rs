@@ -17,7 +17,7 @@ pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]
     }
     let mut text = text.replace("#extension GL_KHR_shader_subgroup_quad : require\n", "");
     for (k, (name, shape)) in compared.iter().enumerate() {
-        let sampler = super::resources::SAMPLER;
+        let sampler = super::own_words::SAMPLER;
         // A text of so many letters does not have as many names.
         let mut names = (0..=text.len()).map(|n| format!("{name}_texels{n}"));
         let shown = names.find(|shown| !text.contains(shown)).unwrap_or_default();

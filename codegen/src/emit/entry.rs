@@ -1,7 +1,7 @@
 //! What the entry point is called.
 
+use super::own_words::is_own;
 use super::refusal::Refusal;
-use super::spelled::is_own;
 use super::words::{LONGEST, Words, identifier, is_among};
 use crate::spec::EmitOptions;
 use crate::spec::Target;

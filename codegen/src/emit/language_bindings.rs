@@ -1,9 +1,11 @@
 //! What each language binds, by its own numbers, registers and names; of functions, what they take.
 
 use super::Target;
+use super::derived::Derived;
+use super::own_words::{SAMPLER, UNIFORMS};
 use super::print::LOOSE_REGION;
 use super::refusal::Refusal;
-use super::resources::{Resources, SAMPLER, UNIFORMS};
+use super::resources::Resources;
 use straightline_manifest::{LanguageBinding, LanguageKind as Kind, REGION, Stage};
 
 impl Resources {
@@ -143,9 +145,9 @@ impl Resources {
     fn parameters(&self, original: &Resources, target: Target, list: &mut List) {
         if self.options.calls_host() {
             for function in &self.host {
-                let of = function.texture(original);
-                let bound = list.add(Kind::Function, function.name(self), Some(of));
-                bound.texture = Some(function.texture(self).to_owned());
+                let of = &original.texture(function.texture).name;
+                let bound = list.add(Kind::Function, self.derived(Derived::Host(*function)), Some(of));
+                bound.texture = Some(self.texture(function.texture).name.clone());
                 bound.what = Some(function.gives().to_owned());
             }
         } else if Target::OPENGL.contains(&target) {

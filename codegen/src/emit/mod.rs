@@ -8,10 +8,11 @@ mod ast;
 mod bindings;
 mod check;
 mod comments;
+mod derived;
 mod entry;
 mod function;
 mod half;
-mod host;
+mod host_reads;
 mod language_bindings;
 mod layout;
 mod legalise;
@@ -21,6 +22,7 @@ mod missing;
 mod names;
 mod origin;
 mod outputs;
+mod own_words;
 mod places;
 mod print;
 mod prose;
@@ -243,7 +245,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
     let resources = resources::Resources::of(compiled, &options)?;
     if options.is_function() {
         function::check(compiled, &resources)?;
-        host::check(compiled, &resources)?;
+        host_reads::check(compiled, &resources)?;
     }
     let (tree, statements) = tree(compiled, &resources);
     within_limits(
@@ -371,7 +373,7 @@ impl Shader<'_, '_> {
                 Precision::F32 => wgsl.clone(),
                 Precision::F16 => format!("enable f16;\n{wgsl}"),
             };
-            let read = enabled + &host::stubs(&self.wgsl.resources);
+            let read = enabled + &host_reads::stubs(&self.wgsl.resources);
             translate::Module::parse_wgsl(&self.compiled.kernel, &read)?;
         }
         Ok(match options.enable_subgroups && self.resources.subgroups {

@@ -1,9 +1,9 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
 use super::ast::{Expr, Module, Stmt, StmtKind, VarId, Variable};
+use super::own_words::is_own;
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::spelled::is_own;
 use super::words::{Reserved, Words, free, identifier, numbered};
 use crate::spec::Target;
 use std::collections::{BTreeSet, HashMap, HashSet};

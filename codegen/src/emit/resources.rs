@@ -1,12 +1,12 @@
 //! What a shader binds: only what it reads.
 
 use super::EmitOptions;
-use super::host::{self, HostFunction};
+use super::derived::{self, Combined, Derived, HostFunction};
 use super::layout::{layout, value_type};
 use super::outputs::BoundOutput;
+use super::own_words::{OF_OUTPUT, OUTPUT, OUTPUTS, SAMPLER, UNIFORMS};
 use super::places::{Named, Places};
 use super::refusal::Refusal;
-use super::spelled::Derived;
 use super::words::free;
 use crate::compiled::Compiled;
 use crate::spec::Target;
@@ -18,17 +18,6 @@ use straightline_evaluator::ir::{
 };
 use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{REGION, Stage, UniformField};
-
-/// Name of the uniform buffer.
-pub const UNIFORMS: &str = "parameters";
-/// Name of the sampler that GLSL needs to name a texture; no filtering is ever asked of it.
-pub const SAMPLER: &str = "unfiltered";
-/// Name of what is written by a kernel that gives one value.
-pub const OUTPUT: &str = straightline_evaluator::ir::Target::ALONE;
-/// Mark before the name of an output that has the name of an input, where one list has both: `output.depth`.
-pub const OF_OUTPUT: &str = "output.";
-/// Name of the structure of several outputs.
-pub const OUTPUTS: &str = "Outputs";
 
 /// A texture that is read.
 #[derive(Clone, Debug)]
@@ -43,15 +32,6 @@ pub struct BoundTexture {
     pub filtered: bool,
     /// Whether a sampler compares it.
     pub compared: bool,
-}
-
-/// A texture and the sampler that it is read by, which are one in OpenGL; no sampler for texels and sizes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Combined {
-    /// The texture's index in the graph.
-    pub texture: u32,
-    /// The sampler's index in the graph.
-    pub sampler: Option<u32>,
 }
 
 /// Host-facing names of what no kernel names: the usual ones, unless the kernel has a use for them.
@@ -324,7 +304,7 @@ impl Resources {
             .map(|t| t.index)
             .find(|t| graph.textures[*t as usize].framed);
         let host = match options.calls_host() {
-            true => host::functions(&ops, framed.filter(|_| needs_frame)),
+            true => derived::functions(&ops, framed.filter(|_| needs_frame)),
             false => Vec::new(),
         };
         let resources = Resources {

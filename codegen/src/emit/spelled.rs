@@ -3,72 +3,26 @@
 //! Hosts know everything by the kernel's names. A name that a text cannot have is spelled otherwise there, and
 //! [`language_bindings`](super::language_bindings) says how.
 
-use super::host::HostFunction;
+use super::derived::Derived;
+use super::own_words::{OF_GROUPS, OF_REGIONS, OUTPUT, OWN, UNIFORMS, VARIABLE};
 use super::print::LOOSE_REGION;
 use super::refusal::Refusal;
-use super::resources::{Combined, OUTPUT, OUTPUTS, Resources, SAMPLER, UNIFORMS};
+use super::resources::Resources;
 use super::words::{Reserved, free, is_plain};
 use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::ir::{Element, Structure};
-use straightline_manifest::REGION;
-
-/// Names that the text around a kernel's body has uses for.
-const OWN: [&str; 11] = [
-    UNIFORMS,
-    SAMPLER,
-    REGION,
-    "Parameters",
-    "Region",
-    OUTPUTS,
-    "main",
-    "frame",
-    "pixel",
-    "id",
-    "position",
-];
-
-/// Names that it has uses for where the shader filters a rectangle, or writes another row than that of its pixel.
-const OF_REGIONS: [&str; 2] = ["within", "place"];
-
-/// Names that it has uses for where invocations are those of a workgroup.
-const OF_GROUPS: [&str; 3] = ["local_id", "group_id", "local_index"];
-
-/// The variable that holds several outputs in HLSL.
-pub const VARIABLE: &str = "outputs";
-
-/// Whether the text around a kernel has a use for a name.
-pub fn is_own(name: &str) -> bool {
-    name == OUTPUT || OWN.contains(&name) || OF_REGIONS.contains(&name) || OF_GROUPS.contains(&name)
-}
-
-/// A name that a text needs beside the kernel's. Numbers are indices in the graph.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Derived {
-    /// HLSL's function that asks for a texture's size.
-    Size(u32),
-    /// HLSL's function that asks for the number of a texture's levels.
-    Levels(u32),
-    /// HLSL's function that asks for the number of a texture's layers.
-    Layers(u32),
-    /// HLSL's function that asks for a buffer's length.
-    Length(u32),
-    /// HLSL's function that asks for the output's size.
-    OutputSize,
-    /// GLSL's block of a buffer.
-    Block(u32),
-    /// OpenGL's texture with one of several samplers.
-    Combined(Combined),
-    /// A function of the host's.
-    Host(HostFunction),
-}
 
 impl Resources {
     /// The names that are made of others, each with what it would be.
     fn derived_names(&self, target: Target) -> Vec<(Derived, String)> {
         let mut all = Vec::new();
         let calls_host = self.options.calls_host();
-        all.extend(self.host.iter().map(|f| (Derived::Host(*f), f.default_name(self))));
+        all.extend(
+            self.host
+                .iter()
+                .map(|f| (Derived::Host(*f), f.default_name(&self.texture(f.texture).name))),
+        );
         if target == Target::Hlsl && !calls_host {
             for bound in &self.read {
                 let (index, name) = (bound.index, &self.texture(bound.index).name);

@@ -1,33 +1,43 @@
-//! Rules of source files, in this crate and in the evaluator: no module is part of a circle of imports, and passes name their file tests.
+//! Rules of source files, in this crate and in the evaluator: which files import each other, and that passes name their file tests.
 
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// A crate's modules that each of them names as `crate::module`, tests left out.
-fn imports(of: &str) -> BTreeMap<String, BTreeSet<String>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(of).join("src");
+/// Files by their modules, as `emit::print::glsl`; a folder's `mod.rs` and the crate's `lib.rs` by the folder.
+type Modules = BTreeMap<Vec<String>, PathBuf>;
+
+/// Modules whose files define types that hold each other.
+const TYPES_OF_EACH_OTHER: [&[&str]; 1] = [&["eval::departures", "eval::enums", "eval::scope", "eval::value"]];
+
+/// Files of the evaluator whose functions call each other: expressions hold statements, loops hold loops.
+const MUTUALLY_RECURSIVE: [&[&str]; 4] = [
+    &["eval::loops", "eval::partial", "eval::sequence"],
+    &[
+        "front::cfg",
+        "front::choice",
+        "front::expr",
+        "front::names",
+        "front::parts",
+        "front::targets",
+    ],
+    &["front::foreign", "front::items"],
+    &["interp::cube", "interp::sampling"],
+];
+
+fn modules(root: &Path) -> Modules {
     let mut files = Vec::new();
-    collect(&root, &mut files);
-    let module = |path: &Path| {
-        let first = path.strip_prefix(&root).expect("inside").components().next();
-        let name = first.expect("a file").as_os_str().to_string_lossy().into_owned();
-        name.trim_end_matches(".rs").to_owned()
-    };
-    let modules: BTreeSet<String> = files.iter().map(|path| module(path)).collect();
-    let mut imports: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for path in &files {
-        let (text, own) = (std::fs::read_to_string(path).expect("a text"), module(path));
-        let text = text.split("#[cfg(test)]").next().unwrap_or_default();
-        for after in text.split("crate::").skip(1) {
-            // One, or several in braces, each of which may have more in its own.
-            let end = if after.starts_with('{') { ';' } else { ':' };
-            let names = after.split(end).next().unwrap_or_default();
-            let names = names.split(|c: char| !c.is_alphanumeric() && c != '_');
-            let known = names.filter(|name| modules.contains(*name) && *name != own);
-            imports.entry(own.clone()).or_default().extend(known.map(str::to_owned));
+    collect(root, &mut files);
+    let named = files.into_iter().map(|path| {
+        let inside = path.strip_prefix(root).expect("inside").with_extension("");
+        let mut names: Vec<String> = inside.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+        if ["lib", "mod"].contains(&names.last().map_or("", String::as_str)) {
+            names.pop();
         }
-    }
-    imports
+        (names, path)
+    });
+    named.collect()
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
@@ -41,25 +51,127 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// Takes away what imports nothing that is left, which is in no circle, until nothing more goes.
-fn circles(mut left: BTreeMap<String, BTreeSet<String>>) -> BTreeMap<String, BTreeSet<String>> {
-    loop {
-        let there: BTreeSet<String> = left.keys().cloned().collect();
-        let before = left.len();
-        left.retain(|_, of| of.iter().any(|name| there.contains(name)));
-        if left.len() == before {
-            return left;
+/// Paths in a text that begin with `crate`, `self` or `super`; of a group in braces each.
+fn paths(tokens: TokenStream, before: &[String], found: &mut Vec<Vec<String>>) {
+    let mut path: Vec<String> = before.to_vec();
+    let mut colons = if before.is_empty() { 0 } else { 2 };
+    let mut end = |path: &mut Vec<String>| {
+        if path.len() > 1 {
+            found.push(std::mem::take(path));
+        }
+        path.clear();
+    };
+    let mut groups = Vec::new();
+    for token in tokens {
+        match token {
+            TokenTree::Ident(word) => {
+                let (word, rooted) = (word.to_string(), !path.is_empty());
+                if !(rooted && colons == 2) {
+                    end(&mut path);
+                    // Of a group each name goes on from what stands before the braces.
+                    path.extend_from_slice(before);
+                }
+                if !path.is_empty() || ["crate", "self", "super"].contains(&word.as_str()) {
+                    path.push(word);
+                }
+                colons = 0;
+            }
+            TokenTree::Punct(punct) if punct.as_char() == ':' => colons += 1,
+            TokenTree::Group(group) => {
+                let inner = if colons == 2 {
+                    std::mem::take(&mut path)
+                } else {
+                    Vec::new()
+                };
+                end(&mut path);
+                groups.push((group.stream(), inner));
+                colons = 0;
+            }
+            _ => {
+                end(&mut path);
+                colons = 0;
+            }
         }
     }
+    end(&mut path);
+    groups
+        .into_iter()
+        .for_each(|(tokens, inner)| paths(tokens, &inner, found));
+}
+
+/// The modules that each module names, tests left out.
+fn imports(modules: &Modules) -> BTreeMap<&[String], BTreeSet<&[String]>> {
+    let resolved = |own: &[String], path: &[String]| {
+        let supers = path.iter().take_while(|word| *word == "super").count();
+        let mut whole = match path[0].as_str() {
+            "crate" => path[1..].to_vec(),
+            "self" => [own, &path[1..]].concat(),
+            _ => [&own[..own.len().saturating_sub(supers)], &path[supers..]].concat(),
+        };
+        while !whole.is_empty() && !modules.contains_key(&whole) {
+            whole.pop();
+        }
+        modules.get_key_value(&whole).map(|(name, _)| name.as_slice())
+    };
+    let of = |(own, path): (&Vec<String>, &PathBuf)| {
+        let text = std::fs::read_to_string(path).expect("a text");
+        let file = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let items = file.items.iter().map(ToTokens::to_token_stream);
+        let items = items.filter(|item| !item.to_string().contains("# [cfg (test)]"));
+        let mut found = Vec::new();
+        items.for_each(|item| paths(item, &[], &mut found));
+        found
+            .iter()
+            .filter_map(|path| resolved(own, path))
+            .filter(|of| !of.is_empty() && *of != own.as_slice())
+            .collect()
+    };
+    modules
+        .iter()
+        .map(|(own, path)| (own.as_slice(), of((own, path))))
+        .collect()
+}
+
+/// Modules that one imports, and those that they import, and so on.
+fn reach<'m>(imports: &BTreeMap<&'m [String], BTreeSet<&'m [String]>>, from: &'m [String]) -> BTreeSet<&'m [String]> {
+    let (mut reached, mut pending) = (BTreeSet::new(), vec![from]);
+    while let Some(one) = pending.pop() {
+        pending.extend(imports[one].iter().filter(|of| reached.insert(**of)));
+    }
+    reached
+}
+
+/// Groups of modules that import each other, by their names.
+fn circles(imports: &BTreeMap<&[String], BTreeSet<&[String]>>) -> BTreeSet<Vec<String>> {
+    let reached: BTreeMap<&[String], _> = imports.keys().map(|one| (*one, reach(imports, one))).collect();
+    let together = imports.keys().map(|one| {
+        let group = reached[one].iter().filter(|other| reached[**other].contains(one));
+        group.map(|names| names.join("::")).collect::<Vec<_>>()
+    });
+    together.filter(|group| !group.is_empty()).collect()
 }
 
 #[test]
 fn imports_go_one_way() {
-    for (of, module, its) in [("evaluator", "eval", "front"), ("codegen", "pipeline", "emit")] {
-        let imports = imports(of);
-        assert!(imports[module].contains(its), "{imports:?}");
-        let left = circles(imports);
-        assert!(left.is_empty(), "these import each other, or what does: {left:?}");
+    for (of, module, its, known) in [
+        (
+            "evaluator",
+            "eval",
+            "front",
+            [&TYPES_OF_EACH_OTHER[..], &MUTUALLY_RECURSIVE].concat(),
+        ),
+        ("codegen", "pipeline", "emit", Vec::new()),
+    ] {
+        let modules = modules(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(of).join("src"));
+        let imports = imports(&modules);
+        let [from, to] = [module, its].map(|name| [name.to_owned()]);
+        let reaches = |name: &[String]| imports[name].iter().any(|of| of.starts_with(&to));
+        assert!(reaches(&from), "{imports:?}");
+        let known: BTreeSet<Vec<String>> = known
+            .iter()
+            .map(|of| of.iter().map(|&name| name.to_owned()).collect())
+            .collect();
+        assert_eq!(circles(&imports), known, "files of {of} that import each other");
     }
 }
 

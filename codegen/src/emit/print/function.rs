@@ -4,7 +4,7 @@
 use super::glsl::{self, Glsl};
 use super::hlsl::{self, Hlsl, buffer_declared, sampler_declared, texture_declared};
 use super::wgsl::{self, Wgsl};
-use crate::emit::resources::SAMPLER;
+use crate::emit::own_words::SAMPLER;
 
 impl Wgsl<'_> {
     /// The head of a function that takes all that it reads.

@@ -7,9 +7,10 @@ use super::wgsl::four;
 use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Ty};
-use crate::emit::host;
-use crate::emit::resources::{Resources, SAMPLER, UNIFORMS};
-use crate::emit::spelled::Derived;
+use crate::emit::derived::Derived;
+use crate::emit::host_reads;
+use crate::emit::own_words::{SAMPLER, UNIFORMS};
+use crate::emit::resources::Resources;
 use straightline_evaluator::ir::{
     self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
 };
@@ -238,7 +239,7 @@ impl Language for Glsl<'_> {
     }
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
-        if let Some(call) = host::call(self.resources, op, args) {
+        if let Some(call) = host_reads::call(self.resources, op, args) {
             return call;
         }
         let zero = Text::name("0");

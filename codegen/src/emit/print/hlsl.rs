@@ -5,9 +5,10 @@ mod declarations;
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
-use crate::emit::host;
-use crate::emit::resources::{Resources, UNIFORMS};
-use crate::emit::spelled::{Derived, VARIABLE};
+use crate::emit::derived::Derived;
+use crate::emit::host_reads;
+use crate::emit::own_words::{UNIFORMS, VARIABLE};
+use crate::emit::resources::Resources;
 use declarations::{fields, structures};
 use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
@@ -207,7 +208,7 @@ impl Language for Hlsl<'_> {
     }
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
-        if let Some(call) = host::call(self.resources, op, args) {
+        if let Some(call) = host_reads::call(self.resources, op, args) {
             return call;
         }
         let r = self.resources;

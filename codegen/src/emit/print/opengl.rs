@@ -2,7 +2,7 @@
 
 use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, sampler_of};
 use crate::emit::Target;
-use crate::emit::resources::Combined;
+use crate::emit::derived::Combined;
 
 impl Glsl<'_> {
     /// Types that have no precision of their own in OpenGL ES.

@@ -1,7 +1,7 @@
 //! What Vulkan's GLSL declares: separate textures and samplers in descriptor sets.
 
 use super::glsl::{Glsl, declared, sampler_type, texture_type};
-use crate::emit::resources::{SAMPLER, UNIFORMS};
+use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use straightline_manifest::REGION;
 
 impl Glsl<'_> {

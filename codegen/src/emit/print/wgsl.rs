@@ -3,9 +3,10 @@
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Effect, Ty};
-use crate::emit::host;
+use crate::emit::host_reads;
 use crate::emit::outputs::{BoundOutput, one};
-use crate::emit::resources::{Resources, UNIFORMS};
+use crate::emit::own_words::UNIFORMS;
+use crate::emit::resources::Resources;
 use std::fmt::Write;
 use straightline_evaluator::ir::{
     self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type,
@@ -64,7 +65,7 @@ impl Language for Wgsl<'_> {
     }
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
-        if let Some(call) = host::call(self.resources, op, args) {
+        if let Some(call) = host_reads::call(self.resources, op, args) {
             return call;
         }
         match op {

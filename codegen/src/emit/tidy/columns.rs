@@ -1,6 +1,5 @@
 //! About how wide a statement is in print. Printers break what turns out too wide.
 
-use super::inline::operations;
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::legalise::AS_WRITTEN;
 use crate::emit::print::{columns_of_number, wgsl_type};
@@ -27,7 +26,7 @@ impl Columns<'_> {
         };
         (
             around + stmt.own().map(|expr| self.of(expr)).sum::<usize>(),
-            stmt.own().map(operations).sum(),
+            stmt.own().map(Expr::operations).sum(),
         )
     }
 

@@ -63,7 +63,7 @@ impl Inliner<'_> {
                 let candidate = Candidate {
                     at,
                     columns: self.columns.of(value),
-                    operations: operations(value),
+                    operations: value.operations(),
                 };
                 defined.insert(*var, candidate);
             }
@@ -161,21 +161,6 @@ fn read<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, reads: &mut FxHa
             }
         });
     }
-}
-
-/// Operators and calls.
-pub fn operations(expr: &Expr) -> usize {
-    let mut count = 0;
-    expr.visit(&mut |expr| {
-        let free = matches!(
-            expr.op,
-            Op::Var(_)
-                | Op::Ir(straightline_evaluator::ir::Op::Const(_) | straightline_evaluator::ir::Op::Uniform(_))
-                | Op::Swizzle(_)
-        );
-        count += usize::from(!free);
-    });
-    count
 }
 
 /// Whether an expression reads what a workgroup shares.

@@ -1,0 +1,113 @@
+//! Names that a text needs beside the kernel's.
+
+use straightline_evaluator::ir::Op;
+
+/// A texture and the sampler that it is read by, which are one in OpenGL; no sampler for texels and sizes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Combined {
+    /// The texture's index in the graph.
+    pub texture: u32,
+    /// The sampler's index in the graph.
+    pub sampler: Option<u32>,
+}
+
+/// A name that a text needs beside the kernel's. Numbers are indices in the graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Derived {
+    /// HLSL's function that asks for a texture's size.
+    Size(u32),
+    /// HLSL's function that asks for the number of a texture's levels.
+    Levels(u32),
+    /// HLSL's function that asks for the number of a texture's layers.
+    Layers(u32),
+    /// HLSL's function that asks for a buffer's length.
+    Length(u32),
+    /// HLSL's function that asks for the output's size.
+    OutputSize,
+    /// GLSL's block of a buffer.
+    Block(u32),
+    /// OpenGL's texture with one of several samplers.
+    Combined(Combined),
+    /// A function of the host's.
+    Host(HostFunction),
+}
+
+/// What a host's function does with a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum What {
+    Load,
+    Sample,
+    Size,
+}
+
+impl What {
+    /// What the function is called, before the texture's name.
+    fn prefix(self) -> &'static str {
+        match self {
+            What::Load => "load_",
+            What::Sample => "sample_",
+            What::Size => "size_of_",
+        }
+    }
+
+    /// What the function gives, for a manifest.
+    fn gives(self) -> &'static str {
+        match self {
+            What::Load => "the texel at a pixel (two integers)",
+            What::Sample => "the colour, filtered, at a place (two floats, 0 to 1), at the finest level",
+            What::Size => "width and height in pixels (two integers)",
+        }
+    }
+}
+
+/// A function of the host's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct HostFunction {
+    /// Index of the texture in the graph.
+    pub texture: u32,
+    what: What,
+}
+
+impl HostFunction {
+    /// The name that it has unless something else does.
+    pub fn default_name(self, texture: &str) -> String {
+        format!("{}{texture}", self.what.prefix())
+    }
+
+    /// Its parameters and its result in WGSL.
+    pub fn signature(self) -> (&'static str, &'static str) {
+        match self.what {
+            What::Load => ("pixel: vec2i", "vec4f"),
+            What::Sample => ("place: vec2f", "vec4f"),
+            What::Size => ("", "vec2i"),
+        }
+    }
+
+    /// What it gives, in words.
+    pub fn gives(self) -> &'static str {
+        self.what.gives()
+    }
+
+    /// The function that stands for a read, if there can be one.
+    pub fn of_read(op: &Op) -> Option<HostFunction> {
+        let (texture, what) = match op {
+            Op::Load { texture, .. } => (*texture, What::Load),
+            Op::Sample { texture, .. } => (*texture, What::Sample),
+            Op::TextureSize(texture) => (*texture, What::Size),
+            _ => return None,
+        };
+        Some(HostFunction { texture, what })
+    }
+}
+
+/// All functions of the host's that a kernel calls, in one order.
+pub fn functions(ops: &[&Op], sized: Option<u32>) -> Vec<HostFunction> {
+    let mut all: Vec<HostFunction> = ops.iter().filter_map(|op| HostFunction::of_read(op)).collect();
+    all.extend(sized.map(|texture| HostFunction {
+        texture,
+        what: What::Size,
+    }));
+    all.sort();
+    all.dedup();
+    all
+}
