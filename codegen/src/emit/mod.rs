@@ -28,8 +28,10 @@ mod print;
 mod prose;
 mod refusal;
 mod resources;
+mod shader;
 mod spelled;
 mod spirv;
+mod statements;
 mod text;
 mod tidy;
 mod translate;
@@ -40,19 +42,21 @@ pub use crate::spec::{EmitOptions, Register, Target, Texels};
 
 use crate::compiled::Compiled;
 use refusal::Refusal;
+use shader::{Shader, Wgsl, kernel, tree};
+use statements::count;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use straightline_evaluator::diagnostic::{Code, Errors};
 use straightline_evaluator::eval::LoopReport;
-use straightline_evaluator::ir::{Graph, Invocation, Op};
+use straightline_evaluator::ir::Invocation;
 use straightline_evaluator::limits::{self, Meter};
-use straightline_evaluator::passes::Schedule;
 use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
-use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
+use straightline_manifest::{Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
 pub use prose::comment;
+pub use statements::{statements_at_least, statements_at_most};
 pub use words::is_among;
 
 /// One shader in the languages asked for.
@@ -79,38 +83,6 @@ impl Emitted {
         files
     }
 }
-
-fn count(kernel: &ast::Module<'_>) -> u32 {
-    // Results are no statements: how they are written is the entry point's affair.
-    let results = kernel
-        .body
-        .iter()
-        .filter(|stmt| matches!(stmt.kind, ast::StmtKind::Output(_)));
-    ast::count(&kernel.body) - results.count() as u32
-}
-
-/// A number that a kernel's statements do not fall short of: quick to tell.
-pub fn statements_at_least(graph: &Graph, schedule: &Schedule) -> u32 {
-    let live = graph.ids().filter(|id| schedule.has(*id));
-    let costs = live.filter(|id| {
-        !matches!(
-            graph.node(*id).op,
-            Op::Const(_) | Op::Extract(_) | Op::Splat | Op::Param(..)
-        )
-    });
-    costs.count() as u32 / OPERATIONS
-}
-
-/// A number that a kernel's statements do not exceed: quicker to tell yet.
-pub fn statements_at_most(graph: &Graph) -> u32 {
-    (graph.nodes.len() as u32).saturating_mul(STATEMENTS)
-}
-
-/// Nodes of the graph that a line of text may stand for.
-const OPERATIONS: u32 = 32;
-
-/// Statements that a node may become: a parameter of a loop is declared, set before it, in it, and read behind it.
-const STATEMENTS: u32 = 4;
 
 /// The kernel as invocations of the stage compute it.
 fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Refusal> {
@@ -141,30 +113,6 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Ref
         ),
         _ => Ok(Cow::Borrowed(compiled)),
     }
-}
-
-/// The tree of a kernel's statements, with its outputs at the end.
-fn kernel(compiled: &Compiled, precision: Precision) -> ast::Module<'_> {
-    let half = precision == Precision::F16;
-    let mut module = lower::lower(compiled, half);
-    if half {
-        legalise::half(&mut module);
-    }
-    tidy::tidy(&mut module, &compiled.graph, compiled.policy.reads);
-    module
-}
-
-/// The tree of a shader, with comments, before a language's own rules, and how many statements the kernel has.
-fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> (ast::Module<'g>, u32) {
-    let mut module = kernel(compiled, resources.options.precision);
-    let statements = match resources.options.precision {
-        Precision::F32 => count(&module),
-        Precision::F16 => compiled.statements(),
-    };
-    let body = std::mem::take(&mut module.body);
-    module.body = comments::comment_groups(body, &compiled.graph);
-    lower::entry(&mut module, resources);
-    (module, statements)
 }
 
 impl Compiled {
@@ -311,120 +259,4 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
         files.insert(*target, bytes);
     }
     Ok(Emitted { manifest, files })
-}
-
-/// A shader before it is written.
-struct Shader<'s, 'g> {
-    compiled: &'s Compiled,
-    resources: &'s resources::Resources,
-    tree: &'s ast::Module<'g>,
-    wgsl: Wgsl,
-}
-
-/// The WGSL of a shader without its header.
-struct Wgsl {
-    /// What it binds, as it is spelled there.
-    resources: resources::Resources,
-    text: print::Printed,
-}
-
-impl Wgsl {
-    fn new(tree: &ast::Module<'_>, resources: &resources::Resources, marks: bool) -> Result<Wgsl, Refusal> {
-        let resources = resources.spelled(Target::Wgsl)?;
-        let mut tree = tree.clone();
-        legalise::wgsl(&mut tree, marks);
-        finish(&mut tree, &resources, Target::Wgsl)?;
-        let text = print::Printed::new(&print::Wgsl { resources: &resources }, &tree);
-        Ok(Wgsl { resources, text })
-    }
-
-    /// The whole text.
-    fn under(&self, header: &[String]) -> String {
-        let resources = &self.resources;
-        self.text.under(&print::Wgsl { resources }, header)
-    }
-}
-
-impl Shader<'_, '_> {
-    /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else. With `marks`
-    /// every exact value is marked ([`legalise::wgsl`]).
-    fn validated(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
-        let kernel = &self.compiled.kernel;
-        if !self.resources.options.is_function() && !marks {
-            return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
-        }
-        let whole = self.resources.options.clone().form(Form::Entry);
-        let whole = resources::Resources::of(self.compiled, &whole)?;
-        // Entry points give whole texels, and functions what the kernel gives.
-        let (tree, _) = tree(self.compiled, &whole);
-        let wgsl = Wgsl::new(&tree, &whole, marks)?.under(&print::header(self.compiled, counts, &whole));
-        translate::Module::parse_wgsl(kernel, &wgsl)
-    }
-
-    fn own_wgsl(&self, counts: &Counts) -> String {
-        self.wgsl.under(&print::header(self.compiled, counts, self.resources))
-    }
-
-    fn wgsl(&self, counts: &Counts) -> Result<String, Refusal> {
-        let options = &self.resources.options;
-        let wgsl = self.own_wgsl(counts);
-        if options.is_function() {
-            let enabled = match options.precision {
-                Precision::F32 => wgsl.clone(),
-                Precision::F16 => format!("enable f16;\n{wgsl}"),
-            };
-            let read = enabled + &host_reads::stubs(&self.wgsl.resources);
-            translate::Module::parse_wgsl(&self.compiled.kernel, &read)?;
-        }
-        Ok(match options.enable_subgroups && self.resources.subgroups {
-            true => format!("enable subgroups;\n{}{wgsl}", gap(options.precision)),
-            false => wgsl,
-        })
-    }
-
-    fn glsl(&self, target: Target, counts: &Counts) -> Result<String, Refusal> {
-        let resources = &self.resources.spelled(target)?;
-        let mut tree = self.tree.clone();
-        // Hosts compile functions with what stands around them, in a version of theirs.
-        let precise = matches!(target, Target::Glsl450 | Target::Glsl430) && !resources.options.is_function();
-        legalise::glsl(&mut tree, resources, target == Target::Glsl450, precise);
-        finish(&mut tree, resources, target)?;
-        let header = print::header(self.compiled, counts, self.resources);
-        let glsl = print::module(&print::Glsl::new(resources, target), &tree, &header);
-        // naga reads no other GLSL, no text without `main`, and no atomic operations.
-        if target == Target::Glsl450 && !resources.options.is_function() && !self.compiled.graph.has_effects() {
-            let compared = resources.compared();
-            check::check_glsl(&self.compiled.kernel, resources.options.stage, &glsl, &compared)?;
-        }
-        Ok(glsl)
-    }
-
-    fn hlsl(&self, counts: &Counts) -> Result<String, Refusal> {
-        let mut tree = self.tree.clone();
-        legalise::hlsl(&mut tree, self.resources);
-        let resources = self.resources.spelled(Target::Hlsl)?;
-        finish(&mut tree, &resources, Target::Hlsl)?;
-        let header = print::header(self.compiled, counts, self.resources);
-        Ok(print::module(&print::Hlsl::new(&resources, &tree), &tree, &header))
-    }
-}
-
-/// Names the variables of a tree, and strips its comments where that is asked for: the last step before printing.
-fn finish(tree: &mut ast::Module<'_>, resources: &resources::Resources, target: Target) -> Result<(), Refusal> {
-    if resources.options.strip_comments {
-        comments::strip(&mut tree.body);
-        for function in &mut tree.functions {
-            function.comment.clear();
-            comments::strip(&mut function.body);
-        }
-    }
-    names::assign(tree, resources, target)
-}
-
-/// What stands between a directive and a text that begins with another, or with its header.
-fn gap(precision: Precision) -> &'static str {
-    match precision {
-        Precision::F32 => "\n",
-        Precision::F16 => "",
-    }
 }
