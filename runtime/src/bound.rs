@@ -125,7 +125,7 @@ impl Bound {
     }
 
     fn record(&self, encoder: &mut CommandEncoder, span: Option<&Span<'_>>) {
-        let label = Some(self.plan.kernel.as_str());
+        let label = Some(self.plan.kernel.as_ref());
         match &self.work {
             Work::Compute { pipeline, workgroups } => {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -59,18 +59,20 @@ mod error;
 mod guard;
 mod inputs;
 mod layout;
-mod loops;
 mod module;
 mod options;
 mod pass;
 mod pipeline;
-mod plan;
+#[doc(hidden)]
+pub mod plan;
 mod quads;
-mod reflect;
 mod region;
 mod resource;
+mod shader;
 mod targets;
 mod timer;
+#[cfg(feature = "manifest")]
+mod travelling;
 mod uniforms;
 
 pub use bound::Bound;
@@ -81,6 +83,7 @@ pub use pass::Pass;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};
+pub use shader::Shader;
 pub use straightline_manifest as manifest;
 pub use targets::Targets;
 pub use timer::{Span, Timer};

@@ -1,5 +1,6 @@
 //! What a caller gives for an input.
 
+use crate::plan::InputKind;
 use std::fmt;
 use wgpu::{Buffer, Sampler, TextureView};
 
@@ -71,6 +72,15 @@ pub enum ResourceKind {
 }
 
 impl ResourceKind {
+    /// The kind that an input must be.
+    pub(crate) fn of_input(input: InputKind) -> Self {
+        match input {
+            InputKind::Texture(_) => ResourceKind::Texture,
+            InputKind::Sampler(_) => ResourceKind::Sampler,
+            InputKind::Buffer(_) => ResourceKind::Buffer,
+        }
+    }
+
     /// The wgpu type of such a resource.
     pub(crate) fn type_name(self) -> &'static str {
         match self {

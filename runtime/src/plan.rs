@@ -1,0 +1,9 @@
+//! What constants of a shader are made of, for generated code: see [`Shader`](crate::Shader).
+
+pub use crate::shader::{Loops, LoopsEnd};
+pub use std::borrow::Cow::Borrowed;
+pub use straightline_manifest::plan::{
+    BufferPlan, FieldPlan, InputKind, InputPlan, OutputPlan, PartPlan, Plan, StagePlan, TexturePlan, UniformPlan,
+    VaryingPlan,
+};
+pub use straightline_manifest::{Dimension, Extent, Format, SampleType, SamplerType, Scalar, ValueType};
