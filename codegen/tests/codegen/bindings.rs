@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use straightline_codegen::emit::{self, Module};
+use straightline_codegen::emit::{self, Module, Target};
 use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
 
-/// As much of the runtime as bindings name.
+/// As much of the runtime as bindings name, beside what their constants are made of, which is the runtime's own.
 const RUNTIME: &str = r#"
+pub use shader::Shader;
 pub mod wgpu {
     pub struct Device; pub struct Queue; pub struct CommandEncoder; pub struct RenderPass<'a>(pub &'a ());
     #[derive(Debug)] pub struct TextureView; #[derive(Debug)] pub struct Sampler; #[derive(Debug)] pub struct Buffer;
@@ -31,9 +32,10 @@ pub struct Resource<'a>(pub &'a ());
 impl<'a> From<&'a wgpu::Buffer> for Resource<'a> { fn from(_: &'a wgpu::Buffer) -> Self { Resource(&()) } }
 impl<'a> From<&'a wgpu::Sampler> for Resource<'a> { fn from(_: &'a wgpu::Sampler) -> Self { Resource(&()) } }
 impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
+#[derive(Default)] pub struct PassOptions;
 #[derive(Debug)] pub struct Pass;
 impl Pass {
-    pub fn from_json(_: &wgpu::Device, _: &str, _: &str) -> Result<Pass, Error> { Ok(Pass) }
+    pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &PassOptions) -> Result<Pass, Error> { Ok(Pass) }
     pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
 }
 #[derive(Default)] pub struct BindOptions<'a> { pub uniforms: &'a [u8] }
@@ -51,7 +53,7 @@ impl Bound {
 pub struct DrawOptions<'a>(pub &'a ());
 #[derive(Debug)] pub struct Draw;
 impl Draw {
-    pub fn from_json(_: &wgpu::Device, _: &str, _: &str, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }
+    pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }
     pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &BindOptions<'_>) -> Result<BoundDraw, Error> { Ok(BoundDraw) }
 }
 #[derive(Debug)] pub struct BoundDraw;
@@ -97,11 +99,30 @@ fn folder(name: &str) -> PathBuf {
 
 /// The runtime that bindings are compiled against, in a folder.
 fn runtime(folder: &Path) {
-    std::fs::write(folder.join("straightline_runtime.rs"), RUNTIME).expect("written");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let module = |name: &str| {
+        let path = root.join("runtime/src").join(format!("{name}.rs"));
+        format!("#[path = {path:?}] pub mod {name};\n")
+    };
+    let text = format!("{}{}{RUNTIME}", module("plan"), module("shader"));
+    std::fs::write(folder.join("straightline_runtime.rs"), text).expect("written");
+    let manifest = root.join("manifest/src/lib.rs");
+    rustc(
+        folder,
+        &manifest.to_string_lossy(),
+        &["--crate-name", "straightline_manifest"],
+    );
     rustc(
         folder,
         "straightline_runtime.rs",
-        &["--crate-name", "straightline_runtime"],
+        &[
+            "--crate-name",
+            "straightline_runtime",
+            "--extern",
+            "straightline_manifest=libstraightline_manifest.rmeta",
+            "-A",
+            "dead_code",
+        ],
     );
 }
 
@@ -117,19 +138,29 @@ fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
     let emitted = compiled
         .emit(&EmitOptions::new().stage(stage))
         .map_err(|e| e.to_string())?;
+    let wgsl = String::from_utf8(emitted.files[&Target::Wgsl].clone()).map_err(|e| e.to_string())?;
     let module = Module {
         name: "shader",
         compiled: &compiled,
         manifest: &emitted.manifest,
+        wgsl: &wgsl,
     };
     for (file, contents) in emitted.named("shader") {
         std::fs::write(folder.join(file), contents).expect("written");
     }
-    std::fs::write(folder.join(file), emit::bindings(&[module])).expect("written");
+    std::fs::write(folder.join(file), emit::bindings(&[module]).map_err(|e| e.to_string())?).expect("written");
     rustc(
         folder,
         file,
-        &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
+        &[
+            "--extern",
+            "straightline_runtime=libstraightline_runtime.rmeta",
+            "-L",
+            ".",
+            // As a crate may.
+            "-F",
+            "unsafe_code",
+        ],
     );
     Ok(())
 }

@@ -92,7 +92,16 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
             ///
             /// If the device cannot run it or is lost.
             pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
-                straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
+                Self::with_options(device, &straightline_runtime::PassOptions::default())
+            }
+
+            /// Compiles the shader with options: for a target of another format, say.
+            ///
+            /// # Errors
+            ///
+            /// Those of `new`, and if the shader does not have the options.
+            pub fn with_options(device: &wgpu::Device, options: &straightline_runtime::PassOptions) -> Result<Self, Error> {
+                straightline_runtime::Pass::from_shader(device, &SHADER, options).map(Self)
             }
 
             /// Binds the shader: from `inputs` to the target.
@@ -168,7 +177,7 @@ pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
             ///
             /// If they do not fit together, the device cannot run them or is lost.
             pub fn new(device: &wgpu::Device, options: &straightline_runtime::DrawOptions<'_>) -> Result<Self, Error> {
-                straightline_runtime::Draw::from_json(device, MANIFEST, WGSL, options).map(Self)
+                straightline_runtime::Draw::from_shader(device, &SHADER, options).map(Self)
             }
 
             /// Binds the shader to what it reads.
