@@ -72,7 +72,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
                 &self,
                 #used,
                 #parameters
-                #target_ty,
+                #target_ty
                 region: straightline_runtime::Region,
             ) -> Result<Bound, Error> {
                 #pairs
@@ -113,7 +113,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
                 &self,
                 #used,
                 #parameters
-                #target_ty,
+                #target_ty
             ) -> Result<Bound, Error> {
                 #pairs
                 self.0.bind_with(&inputs, #target, &#options).map(Bound)
@@ -220,7 +220,7 @@ pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
 
 /// How a pass is given what it writes.
 pub struct Targets {
-    /// The parameter.
+    /// The parameter, with the comma behind it; nothing for a kernel that writes to buffers alone.
     ty: TokenStream,
     /// What is passed on.
     given: TokenStream,
@@ -232,7 +232,7 @@ impl Targets {
     pub fn of(manifest: &Manifest) -> Targets {
         if manifest.outputs.len() == 1 {
             return Targets {
-                ty: quote! { target: &wgpu::TextureView },
+                ty: quote! { target: &wgpu::TextureView, },
                 given: quote! { target },
                 structure: TokenStream::new(),
             };
@@ -254,7 +254,7 @@ impl Targets {
             ))
         });
         Targets {
-            ty: quote! { targets: &Targets<'_> },
+            ty: quote! { targets: &Targets<'_>, },
             given: quote! { &[#((#names, targets.#fields)),*] },
             structure: quote! {
                 /// What the shader writes: textures of one size.
