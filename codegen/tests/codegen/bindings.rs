@@ -1,9 +1,10 @@
 //! The Rust that binds a shader compiles, whatever its uniforms are called.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use straightline_codegen::emit::{self, Module, Target};
-use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
+use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 
 /// As much of the runtime as bindings name, beside what their constants are made of, which is the runtime's own.
 const RUNTIME: &str = r#"
@@ -36,7 +37,7 @@ impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::Tex
 #[derive(Debug)] pub struct Pass;
 impl Pass {
     pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &PassOptions) -> Result<Pass, Error> { Ok(Pass) }
-    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
+    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: impl Into<Targets>, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
 }
 #[derive(Default)] pub struct BindOptions<'a> { pub uniforms: &'a [u8] }
 impl<'a> BindOptions<'a> {
@@ -44,11 +45,14 @@ impl<'a> BindOptions<'a> {
     pub fn region(self, _: Region) -> Self { self }
 }
 pub struct Region;
+pub struct Targets;
+impl From<&wgpu::TextureView> for Targets { fn from(_: &wgpu::TextureView) -> Self { Targets } }
+impl<const N: usize> From<&[(&str, &wgpu::TextureView); N]> for Targets { fn from(_: &[(&str, &wgpu::TextureView); N]) -> Self { Targets } }
+impl From<&[(&str, &wgpu::TextureView)]> for Targets { fn from(_: &[(&str, &wgpu::TextureView)]) -> Self { Targets } }
 #[derive(Debug)] pub struct Bound;
 impl Bound {
     pub fn encode(&self, _: &mut wgpu::CommandEncoder) {}
-    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
-    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+    pub fn write_at(&self, _: &wgpu::Queue, _: u32, _: &[u8]) {}
 }
 pub struct DrawOptions<'a>(pub &'a ());
 #[derive(Debug)] pub struct Draw;
@@ -59,13 +63,7 @@ impl Draw {
 #[derive(Debug)] pub struct BoundDraw;
 impl BoundDraw {
     pub fn set(&self, _: &mut wgpu::RenderPass<'_>) {}
-    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
-    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
-}
-pub struct UniformValue;
-impl UniformValue {
-    pub fn array(_: &[f32]) -> Option<Self> { None }
-    pub fn vectors<const N: usize>(_: &[[f32; N]]) -> Option<Self> { None }
+    pub fn write_at(&self, _: &wgpu::Queue, _: u32, _: &[u8]) {}
 }
 "#;
 
@@ -188,6 +186,10 @@ fn bindings_compile_whatever_is_read() {
             let turned = turns[1] * palette[step].xy() * weights[2];
             (grade * palette[2]).extend(turned.x + turned.y)
         }",
+        // Without a target.
+        "pub fn k(color: &Frame<Vec4>, brightest: &StorageBuffer<f32>, gain: f32, pixel: IVec2) {
+            brightest.store((pixel.x & 7) as usize, color.load(pixel).x * gain);
+        }",
         // Drawn behind a vertex shader: with all, and with nothing to read but what is interpolated.
         "pub fn k(shadow: &DepthTexture, compare: &ComparisonSampler, bias: f32, coord: Quad<Vec3>, shade: Quad<f32>) -> Quad<Vec4> {
             let lit = shadow.compare(compare, coord.truncate(), coord.z() - bias);
@@ -266,4 +268,54 @@ fn bindings_compile_whatever_uniforms_are_called() {
         let _ = compiles(&folder, &format!("bindings_{k}.rs"), &text);
     }
     std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// Writes the bindings of the kernels beside them, and of a built-in one, as a build script does.
+fn write(out: &Path) {
+    let kernel = |name: &str| format!("tests/bindings/kernels/{name}.rs");
+    let written = Config::new()
+        .file_with(kernel("all"), |k| k.format(Format::Rgba32Float))
+        .file_with(kernel("all"), |k| k.name("tile").region().group(1).binding("color", 7))
+        .file_with(kernel("graded"), |k| k.format(Format::Rgba32Float))
+        .file_with(kernel("drawn"), |k| k.stage(Stage::Fragment))
+        .file_with(kernel("several"), |k| k.stage(Stage::Fragment))
+        .file(kernel("waiting"))
+        .kernel("sraa", |k| {
+            let k = k.set("pattern", "latin4").set("metric", "depth").set("tau", "uniform");
+            k.unroll(Unroll::None).format(Format::Rgba32Float)
+        })
+        .out_dir(out)
+        .compile();
+    written.unwrap_or_else(|e| panic!("{e}"));
+}
+
+fn files(folder: &Path) -> BTreeMap<String, String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let named = paths.filter(|path| path.is_file()).map(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        (name, std::fs::read_to_string(&path).expect("a text"))
+    });
+    named.collect()
+}
+
+#[test]
+fn captured_bindings_are_up_to_date() {
+    let captured = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bindings");
+    let out = std::env::temp_dir().join(format!("straightline-captured-{}", std::process::id()));
+    std::fs::create_dir_all(&out).expect("a folder");
+    write(&out);
+    if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
+        write(&captured);
+    }
+    let (written, present) = (files(&out), files(&captured));
+    std::fs::remove_dir_all(&out).expect("removed");
+    for (name, text) in &written {
+        assert!(
+            present.get(name) == Some(text),
+            "codegen/tests/bindings/{name} is not what is generated: STRAIGHTLINE_BLESS=1 cargo test --workspace --test codegen \
+             bindings::"
+        );
+    }
+    assert_eq!(written.len(), present.len(), "a file is generated no more: delete it");
 }

@@ -249,4 +249,10 @@ impl BoundDraw {
     pub fn write_uniforms(&self, queue: &Queue, bytes: &[u8]) -> Result<(), Error> {
         self.uniforms.write_all(&self.plan, queue, bytes)
     }
+
+    /// Writes `bytes` at `offset` of the uniform struct, for generated code, which knows both.
+    #[doc(hidden)]
+    pub fn write_at(&self, queue: &Queue, offset: u32, bytes: &[u8]) {
+        self.uniforms.write_at(queue, offset, bytes);
+    }
 }

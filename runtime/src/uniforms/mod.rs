@@ -49,6 +49,13 @@ impl Uniforms {
         })
     }
 
+    /// Puts `bytes` at `offset` of the first struct, ahead of the queue's next submission.
+    pub(crate) fn write_at(&self, queue: &wgpu::Queue, offset: u32, bytes: &[u8]) {
+        if let Some(buffer) = self.buffers.first() {
+            queue.write_buffer(buffer, u64::from(offset), bytes);
+        }
+    }
+
     /// Puts `bytes` into all structs, one after the other, ahead of the queue's next submission.
     pub(crate) fn write_all(&self, plan: &Plan, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
         for (buffer, bytes) in self.buffers.iter().zip(divided(plan, bytes)?) {

@@ -71,7 +71,7 @@ fn module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     // Without inputs there is no reference to have a lifetime.
     let (life, inputs_docs) = match inputs.is_empty() {
         true => (quote! {}, " What the shader reads: nothing."),
-        false => (quote! { <'a> }, "What the shader reads."),
+        false => (quote! { <'a> }, " What the shader reads."),
     };
     let (structure, setters) = parameters::parameters(manifest);
     let elements = parameters::elements(manifest);
