@@ -13,6 +13,7 @@ use wgpu::{Buffer, Sampler, TextureView};
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum Resource<'a> {
     /// A view of a texture.
     Texture(&'a TextureView),
@@ -62,6 +63,7 @@ impl<'a> From<&'a Buffer> for Resource<'a> {
 
 /// The kind of a [`Resource`], for messages: `a texture`, `a sampler` or `a storage buffer`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum ResourceKind {
     /// A view of a texture.
     Texture,

@@ -8,7 +8,7 @@ use straightline_manifest::text_hash;
 ///
 /// In a crate with a build script it is the constant `SHADER` of the shader's module, and nothing is parsed when the program
 /// starts: the generator has compared the text with what stands beside it. A shader that travels is read by
-/// [`from_manifest`](Self::from_manifest) (the feature `manifest`). Both are the same afterwards.
+/// `Shader::from_manifest` (the feature `manifest`). Both are the same afterwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shader<'a> {
     pub(crate) plan: Plan,
