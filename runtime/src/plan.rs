@@ -1,4 +1,4 @@
-//! What constants of a shader are made of, for generated code: see [`Shader`](crate::Shader).
+//! Types of a shader's constants, for generated code: see [`Shader`](crate::Shader).
 
 pub use crate::shader::{Loops, LoopsEnd};
 pub use std::borrow::Cow::Borrowed;

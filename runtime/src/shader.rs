@@ -4,7 +4,7 @@ use crate::plan::Plan;
 use std::borrow::Cow;
 use straightline_manifest::text_hash;
 
-/// An emitted shader, its text with what it binds: what a [`Pass`](crate::Pass) or a [`Draw`](crate::Draw) is made of.
+/// An emitted shader: its text, with its plan. A [`Pass`](crate::Pass) or a [`Draw`](crate::Draw) is made of one.
 ///
 /// In a crate with a build script it is the constant `SHADER` of the shader's module, and nothing is parsed when the program
 /// starts: the generator has compared the text with what stands beside it. A shader that travels is read by

@@ -1,4 +1,4 @@
-//! What a pass binds: the plan of one shader.
+//! The plan of one shader: everything that a pass binds, and where.
 //!
 //! A plan is made of constants, which the generator writes into the Rust of a `build.rs`, or of a manifest that was read
 //! (the feature `json`). Both are the same type, and the same plan for the same shader.
@@ -20,7 +20,7 @@ pub type Text = Cow<'static, str>;
 /// Items of a plan: a constant, or owned by one that was read.
 pub type List<T> = Cow<'static, [T]>;
 
-/// What to bind where. The generator and [`Plan::from_manifest`] have checked every number in it, except against a device.
+/// Everything that a pass binds, and where. The generator, or `Plan::from_manifest`, has checked every number in it, except against a device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The kernel's name.
@@ -31,15 +31,15 @@ pub struct Plan {
     pub stage: StagePlan,
     /// Pixels that one invocation computes, across and down.
     pub block: [u32; 2],
-    /// What the device must be able to do besides: `subgroup`, `shader-f16`.
+    /// Features of the device, by name: `subgroup`, `shader-f16`.
     pub features: List<Text>,
     /// Resources that the caller gives, in binding order.
     pub inputs: List<InputPlan>,
     /// Values that are set at run time, in binding order.
     pub uniforms: List<UniformPlan>,
-    /// Of a shader that filters a rectangle.
+    /// The rectangle, of a shader that filters one.
     pub region: Option<UniformPlan>,
-    /// What is interpolated; of a fragment shader only.
+    /// Interpolated values; of a fragment shader only.
     pub varyings: List<VaryingPlan>,
     /// In the order of their locations.
     pub outputs: List<OutputPlan>,
@@ -54,11 +54,11 @@ pub struct InputPlan {
     pub group: u32,
     /// Binding number in the group.
     pub binding: u32,
-    /// What it must be.
+    /// Kind of resource, with all that it must have.
     pub kind: InputKind,
 }
 
-/// What an input must be.
+/// Kind of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InputKind {
     /// A texture view.
@@ -74,7 +74,7 @@ pub enum InputKind {
 pub struct TexturePlan {
     /// Shape of the view.
     pub dimension: Dimension,
-    /// How texels are read.
+    /// Kind of read, which decides the formats that fit.
     pub sample_type: SampleType,
     /// Components that the kernel uses, 1 to 4.
     pub components: u8,
@@ -82,18 +82,18 @@ pub struct TexturePlan {
     pub layers: u32,
     /// Samples of a texel that the shader can address.
     pub samples: u32,
-    /// Which size it must have.
+    /// Size that it must have.
     pub extent: Extent,
 }
 
 /// A storage buffer that the shader reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BufferPlan {
-    /// Of structures none: they are known by their size.
+    /// Type of an element; none of structures, which are known by their size.
     pub element: Option<ValueType>,
     /// Bytes from one element to the next.
     pub stride: u32,
-    /// Whether the shader writes to it.
+    /// The shader writes to it.
     pub written: bool,
 }
 
@@ -168,7 +168,7 @@ pub struct VaryingPlan {
     pub location: u32,
 }
 
-/// Where a result goes.
+/// Target of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputPlan {
     /// Name of the target.

@@ -1,4 +1,4 @@
-//! The constant that a pass is made of: the plan of a shader, checked against its text.
+//! The constant `SHADER`: a text with its plan, each checked against the other.
 
 use super::Module;
 use crate::emit::refusal::Refusal;
@@ -10,7 +10,7 @@ use straightline_manifest::plan::{
 };
 use straightline_manifest::{Scalar, ValueType, text_hash};
 
-/// Texts that rustc's lint of long evaluations may take for loops that do not end.
+/// Bytes of a text from which rustc's lint of long evaluations may fire at its hash.
 const LONG: usize = 100_000;
 
 /// The constant `SHADER` of a module.
@@ -282,7 +282,7 @@ fn value_type(ty: ValueType) -> TokenStream {
     }
 }
 
-/// The name of a variant without fields, which is how it prints itself.
+/// The name of a variant without fields, as it prints itself.
 fn variant(value: &impl std::fmt::Debug) -> proc_macro2::Ident {
     format_ident!("{value:?}")
 }
