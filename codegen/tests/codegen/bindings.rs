@@ -67,7 +67,25 @@ impl BoundDraw {
 }
 "#;
 
+/// Arguments of rustc for a file of bindings.
+const BINDINGS: [&str; 6] = [
+    "--extern",
+    "straightline_runtime=libstraightline_runtime.rmeta",
+    "-L",
+    ".",
+    // As a crate may.
+    "-F",
+    "unsafe_code",
+];
+
 fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
+    let said = try_rustc(folder, file, arguments);
+    let text = std::fs::read_to_string(folder.join(file)).unwrap_or_default();
+    said.unwrap_or_else(|said| panic!("{said}\n{text}"));
+}
+
+/// The messages of rustc, if it refuses a file.
+fn try_rustc(folder: &Path, file: &str, arguments: &[&str]) -> Result<(), String> {
     let run = Command::new("rustc")
         .current_dir(folder)
         .args([
@@ -84,9 +102,10 @@ fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
         .arg(file)
         .output()
         .expect("rustc is on the path");
-    let said = String::from_utf8_lossy(&run.stderr);
-    let text = std::fs::read_to_string(folder.join(file)).unwrap_or_default();
-    assert!(run.status.success(), "{said}\n{text}");
+    match run.status.success() {
+        true => Ok(()),
+        false => Err(String::from_utf8_lossy(&run.stderr).into_owned()),
+    }
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -147,19 +166,7 @@ fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
         std::fs::write(folder.join(file), contents).expect("written");
     }
     std::fs::write(folder.join(file), emit::bindings(&[module]).map_err(|e| e.to_string())?).expect("written");
-    rustc(
-        folder,
-        file,
-        &[
-            "--extern",
-            "straightline_runtime=libstraightline_runtime.rmeta",
-            "-L",
-            ".",
-            // As a crate may.
-            "-F",
-            "unsafe_code",
-        ],
-    );
+    rustc(folder, file, &BINDINGS);
     Ok(())
 }
 
@@ -202,6 +209,24 @@ fn bindings_compile_whatever_is_read() {
     for (k, text) in reads.into_iter().enumerate() {
         compiles(&folder, &format!("bindings_{k}.rs"), text).unwrap_or_else(|e| panic!("{e}"));
     }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// Constants are of the text that they were generated with.
+#[test]
+fn bindings_of_another_text_do_not_compile() {
+    let folder = folder("changed");
+    runtime(&folder);
+    let text = "pub fn k(color: &Frame<Vec4>, gain: f32, pixel: IVec2) -> Vec4 { color.load(pixel) * gain }";
+    compiles(&folder, "bindings.rs", text).unwrap_or_else(|e| panic!("{e}"));
+    let wgsl = std::fs::read_to_string(folder.join("shader.wgsl")).expect("written");
+    let write = |text: String| std::fs::write(folder.join("shader.wgsl"), text).expect("written");
+    write(wgsl.replace("@workgroup_size(256", "@workgroup_size(128"));
+    let said = try_rustc(&folder, "bindings.rs", &BINDINGS).expect_err("another text");
+    assert!(said.contains("was changed since its bindings were generated"), "{said}");
+    // As a checkout on Windows has it.
+    write(wgsl.replace('\n', "\r\n"));
+    rustc(&folder, "bindings.rs", &BINDINGS);
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
