@@ -38,7 +38,7 @@ impl Shader {
         plan::check(plan, &Spelling::of_wgsl(manifest), &self.0)
     }
 
-    /// Checks that each of its loops ends: see [`loops::check`].
+    /// Checks that each of its loops ends: that it counts up by one, in `i32`, to a limit that does not change in it.
     ///
     /// # Errors
     ///
