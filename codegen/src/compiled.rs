@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Duration;
-use straightline_evaluator::diagnostic::{File, Span};
+use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use straightline_evaluator::eval::LoopReport;
-use straightline_evaluator::ir::Graph;
+use straightline_evaluator::ir::{Graph, verify};
 use straightline_evaluator::limits::Limits;
 use straightline_evaluator::passes::{self, Gathered, Schedule, Sharing};
 use straightline_evaluator::policy::{Math, Policy, Transport};
@@ -66,6 +66,38 @@ pub struct Places {
 }
 
 impl Compiled {
+    /// The kernel's reads and stores with next to no arithmetic between: a lower bound of every form
+    /// ([`passes::floor`]). It computes nothing of use, and is there to be timed.
+    ///
+    /// # Errors
+    ///
+    /// If a loop or branch is left.
+    pub fn floor(&self) -> Result<Compiled, Errors> {
+        let made = |graph: &Graph| -> Result<Graph, Errors> {
+            let floor = passes::floor(graph).map_err(|why| {
+                let what = format!("`{}` has no floor: {why}", self.kernel);
+                Errors::of(
+                    Diagnostic::new(Code::UnfitSetting, what)
+                        .help("unroll it fully, and let its branches be selections"),
+                )
+            })?;
+            let floor = passes::clean(&floor);
+            verify::verify(&floor).map_err(|why| internal("floor", &why))?;
+            Ok(floor)
+        };
+        let graph = made(&self.graph)?;
+        let quad = self.quad.as_deref().map(made).transpose()?;
+        let schedule = passes::schedule(&graph, self.policy.reads);
+        let floor = Compiled {
+            counts: passes::count(&graph, &schedule),
+            graph,
+            schedule,
+            quad: quad.map(Arc::new),
+            ..self.clone()
+        };
+        Ok(floor)
+    }
+
     /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
@@ -109,4 +141,15 @@ impl Compiled {
         };
         Cow::Owned(whole)
     }
+}
+
+/// An error that says that a graph breaks a rule: a mistake of the generator.
+pub fn internal(stage: &str, why: &str) -> Errors {
+    Errors::of(
+        Diagnostic::new(
+            Code::Internal,
+            format!("the stage `{stage}` made a graph that breaks a rule: {why}"),
+        )
+        .help("this is a mistake in Straightline, not in the kernel: please report it with the kernel's source"),
+    )
 }

@@ -15,17 +15,16 @@
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
 use crate::compiled::Compiled;
-use crate::emit::{self, EmitOptions, Register, Target};
+use crate::emit;
 use crate::files::{self, WriteError};
-use crate::pipeline::{Kernel, Settings};
+use crate::kernel::Kernel;
+use crate::spec::{KernelConfig, Source};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::front::raw;
-use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
-use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
+use straightline_manifest::Manifest;
 
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
@@ -46,25 +45,6 @@ pub fn compile<P: AsRef<Path>>(files: impl IntoIterator<Item = P>) -> Result<(),
 pub struct Config {
     kernels: Vec<KernelConfig>,
     out_dir: Option<PathBuf>,
-}
-
-/// One shader: a kernel and how it is to be emitted.
-#[derive(Clone, Debug)]
-pub struct KernelConfig {
-    source: Source,
-    /// Of a file, the function that is the kernel.
-    function: Option<String>,
-    name: Option<String>,
-    settings: Settings,
-    emit: EmitOptions,
-    /// Further files that the kernel calls functions of.
-    sources: Vec<PathBuf>,
-}
-
-#[derive(Clone, Debug)]
-enum Source {
-    Builtin(String),
-    File(PathBuf),
 }
 
 /// A shader that is ready to be written.
@@ -94,225 +74,30 @@ impl Built {
     }
 }
 
-impl KernelConfig {
-    fn new(source: Source) -> Self {
-        KernelConfig {
-            source,
-            function: None,
-            name: None,
-            settings: Settings::default(),
-            emit: EmitOptions::new(),
-            sources: Vec::new(),
-        }
+/// The shader that a configuration describes.
+fn build(config: &KernelConfig) -> Result<Built, Error> {
+    let kernel = match &config.source {
+        Source::Builtin(name) if config.function.is_some() => return Err(Error::of(Problem::Function(name.clone()))),
+        Source::Builtin(name) => Kernel::builtin(name),
+        Source::File(path) => Kernel::from_file(path, config.function.as_deref()),
+    };
+    let kernel = config
+        .sources
+        .iter()
+        .fold(kernel, |kernel, path| kernel?.with_file(path));
+    let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
+    let name = config.name.clone().unwrap_or_else(|| kernel.name().to_owned());
+    if syn::parse_str::<syn::Ident>(&raw(&name)).is_err() {
+        return Err(Error::of(Problem::Name(name)));
     }
-
-    /// Sets an option of the kernel; `uniform` makes a number one that is set at run time.
-    pub fn set(mut self, option: &str, value: impl fmt::Display) -> Self {
-        self.settings.options.push((option.to_owned(), value.to_string()));
-        self
-    }
-
-    /// What becomes of loops; by default all are unrolled.
-    pub fn unroll(mut self, unroll: Unroll) -> Self {
-        self.settings.unroll = unroll;
-        self
-    }
-
-    /// What becomes of one loop, by `function.counter` or by its counter alone, whatever is said of others.
-    pub fn unroll_loop(mut self, path: &str, unroll: Unroll) -> Self {
-        self.settings.loops.push((path.to_owned(), unroll));
-        self
-    }
-
-    /// What becomes of an `if` on runtime values; by default both sides are computed.
-    pub fn branches(mut self, branches: Branches) -> Self {
-        self.settings.branches = branches;
-        self
-    }
-
-    /// In which order the kernel reads texels, or whether four at once; by default as its source does. The picture is the same, bit
-    /// for bit.
-    pub fn reads(mut self, reads: ReadOrder) -> Self {
-        self.settings.reads = reads;
-        self
-    }
-
-    /// What pixels share of the texels that they read: with [`Share::WORKGROUP`] a workgroup reads each once, into its memory. By
-    /// default nothing. The picture is the same, bit for bit. The size of the workgroup is that of [`KernelConfig::workgroup`]
-    /// if that is given.
-    pub fn share(mut self, share: Share) -> Self {
-        self.settings.share = share;
-        self
-    }
-
-    /// Which algebra may be done with floats: with [`Math::Fast`] what may change roundings too, with [`Math::Strict`] none, by
-    /// drivers either. By default what changes no bit, while drivers may change roundings on which nothing hangs.
-    pub fn math(mut self, math: Math) -> Self {
-        self.settings.math = math;
-        self
-    }
-
-    /// Statements that the kernel may have; by default [`Settings::BUDGET`].
-    pub fn budget(mut self, statements: u32) -> Self {
-        self.settings.budget = statements;
-        self
-    }
-
-    /// Longest time that compiling and emitting the kernel may take; by default 60 s. What takes longer is an error that names the
-    /// loops with the most work.
-    pub fn time_limit(mut self, time: Duration) -> Self {
-        self.settings.limits.time = time;
-        self
-    }
-
-    /// Most bytes that values and operations may hold while the kernel is compiled; by default 2 000 000 000.
-    pub fn memory_limit(mut self, bytes: u64) -> Self {
-        self.settings.limits.memory = bytes;
-        self
-    }
-
-    /// How the lanes of a kernel of pixel quads send each other messages; by default by subgroup operations in fragment shaders,
-    /// and in compute one invocation has all four. A kernel of single pixels is refused with any.
-    pub fn transport(mut self, transport: Transport) -> Self {
-        self.settings.transport = Some(transport);
-        self
-    }
-
-    /// Pixels that one compute invocation has, across and down, 1 to 64 together; by default one. Neighbours share reads.
-    pub fn block(mut self, width: u32, height: u32) -> Self {
-        self.settings.block = [width, height];
-        self
-    }
-
-    /// A further file that the kernel calls functions of.
-    pub fn source(mut self, path: impl AsRef<Path>) -> Self {
-        self.sources.push(path.as_ref().to_owned());
-        self
-    }
-
-    /// The pipeline stage; by default compute.
-    pub fn stage(mut self, stage: Stage) -> Self {
-        self.emit.stage = stage;
-        self
-    }
-
-    /// Filters a rectangle that the host states, not all of the image: see [`EmitOptions::region`].
-    pub fn region(mut self) -> Self {
-        self.emit.region = true;
-        self
-    }
-
-    /// Invocations of a compute workgroup, across and down; by default [`EmitOptions::WORKGROUP`], and where they share texels
-    /// 16 by 16.
-    pub fn workgroup(mut self, x: u32, y: u32) -> Self {
-        self.emit.workgroup = Some([x, y]);
-        self
-    }
-
-    /// Format of the output; by default `rgba16float`.
-    pub fn format(mut self, format: Format) -> Self {
-        self.emit.format = format;
-        self
-    }
-
-    /// What the shader computes in; by default full precision. For half precision the device needs the feature
-    /// `SHADER_F16`: see [`EmitOptions::precision`].
-    pub fn precision(mut self, precision: Precision) -> Self {
-        self.emit.precision = precision;
-        self
-    }
-
-    /// Whether a built-in kernel is written in half precision although hard cases show the loss: see [`EmitOptions::accept_loss`].
-    pub fn accept_loss(mut self, accept: bool) -> Self {
-        self.emit.accept_loss = accept;
-        self
-    }
-
-    /// Bind group of everything, 0 to 31; by default 0. Devices promise four groups.
-    pub fn group(mut self, group: u32) -> Self {
-        self.emit.group = group;
-        self
-    }
-
-    /// Binding number, 0 to 999, of what is called `name`: a texture, sampler or buffer, `parameters` (the uniform buffer) or
-    /// `destination` (the output): see [`EmitOptions::bindings`]. All else takes the lowest numbers that are free.
-    pub fn binding(mut self, name: &str, number: u32) -> Self {
-        self.emit = self.emit.binding(name, number);
-        self
-    }
-
-    /// Register of what is called `name` in HLSL; by default that of its binding number, in the space of its group.
-    pub fn register(mut self, name: &str, register: Register) -> Self {
-        self.emit = self.emit.register(name, register);
-        self
-    }
-
-    /// Name of the entry point, or of the function; by default the kernel's.
-    pub fn entry(mut self, name: &str) -> Self {
-        self.emit.entry = Some(name.to_owned());
-        self
-    }
-
-    /// A whole shader, or a function to be put into a fragment shader of one's own, whose module has its text and manifest and
-    /// no `Pass`; by default a whole shader.
-    pub fn form(mut self, form: Form) -> Self {
-        self.emit.form = form;
-        self
-    }
-
-    /// Where row 0 of textures, target and positions is; by default the upper left: see [`EmitOptions::origin`].
-    pub fn origin(mut self, origin: Origin) -> Self {
-        self.emit.origin = origin;
-        self
-    }
-
-    /// Name of the module and of the files; by default the kernel's. Variants of one kernel need names.
-    pub fn name(mut self, name: &str) -> Self {
-        self.name = Some(name.to_owned());
-        self
-    }
-
-    /// Of a file, the function that is the kernel; by default the public one with the file's name, or else the only public one that takes
-    /// and gives what a kernel does.
-    pub fn function(mut self, function: &str) -> Self {
-        self.function = Some(function.to_owned());
-        self
-    }
-
-    /// Also writes the shader in another language.
-    pub fn target(mut self, target: Target) -> Self {
-        self.emit.targets.insert(target);
-        self
-    }
-
-    fn build(&self) -> Result<Built, Error> {
-        let kernel = match &self.source {
-            Source::Builtin(name) if self.function.is_some() => return Err(Error::of(Problem::Function(name.clone()))),
-            Source::Builtin(name) => Kernel::builtin(name),
-            Source::File(path) => Kernel::from_file(path, self.function.as_deref()),
-        };
-        let kernel = self.sources.iter().fold(kernel, |kernel, path| kernel?.with_file(path));
-        let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
-        let name = self.name.clone().unwrap_or_else(|| kernel.name().to_owned());
-        if syn::parse_str::<syn::Ident>(&raw(&name)).is_err() {
-            return Err(Error::of(Problem::Name(name)));
-        }
-        let mut settings = self.settings.clone();
-        if let Some(size) = self.emit.workgroup {
-            settings.share = settings.share.of_size(size);
-        }
-        let compiled = kernel.compile(&settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
-        let emitted = compiled
-            .emit(&self.emit)
-            .map_err(|errors| Error::of(Problem::Kernel(errors)))?;
-        let files = emitted.named(&name);
-        Ok(Built {
-            name,
-            compiled,
-            manifest: emitted.manifest,
-            files,
-        })
-    }
+    let (compiled, emitted) = config.spec.emit(&kernel).map_err(|e| Error::of(Problem::Kernel(e)))?;
+    let files = emitted.named(&name);
+    Ok(Built {
+        name,
+        compiled,
+        manifest: emitted.manifest,
+        files,
+    })
 }
 
 impl Config {
@@ -384,7 +169,7 @@ impl Config {
         let mut problems = Vec::new();
         let mut built = Vec::new();
         for kernel in &self.kernels {
-            match kernel.build() {
+            match build(kernel) {
                 Ok(shader) => built.push(shader),
                 Err(error) => problems.extend(error.problems),
             }

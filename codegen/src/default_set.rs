@@ -3,7 +3,8 @@
 
 use crate::compiled::Compiled;
 use crate::emit::{EmitOptions, Target};
-use crate::pipeline::{Kernel, Settings};
+use crate::kernel::Kernel;
+use crate::spec::Settings;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::{Code, Errors};
 use straightline_evaluator::policy::{Transport, Unroll};
@@ -93,14 +94,11 @@ pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Errors> {
         let options = entry
             .options
             .iter()
-            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
-            .collect();
-        let settings = Settings {
-            options,
-            unroll: entry.unroll,
-            transport: entry.transport,
-            ..Settings::default()
-        };
+            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        let settings = Settings::new()
+            .set_all(options)
+            .unroll(entry.unroll)
+            .transport(entry.transport);
         let compiled = Kernel::builtin(entry.kernel)?.compile(&settings)?;
         let options = EmitOptions::new().stage(entry.stage);
         let languages = languages(&compiled, &options)?;

@@ -3,10 +3,10 @@
 //! Path, text and options in; text out. No GPU, no file is touched outside [`config`] and [`files`].
 //!
 //! ```
-//! use straightline_codegen::{Kernel, Settings};
+//! use straightline_codegen::{Kernel, ShaderSpec};
 //!
-//! let settings = Settings { options: vec![("pattern".into(), "ordered4".into())], ..Settings::default() };
-//! let sraa = Kernel::builtin("sraa")?.compile(&settings)?;
+//! let spec = ShaderSpec::new().set("pattern", "ordered4");
+//! let (sraa, _shader) = spec.emit(&Kernel::builtin("sraa")?)?;
 //! assert_eq!(sraa.counts.basic_blocks, 1);
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
@@ -16,15 +16,22 @@ pub mod config;
 pub mod default_set;
 pub mod emit;
 pub mod files;
+mod kernel;
 mod pipeline;
+pub mod spec;
 
 pub use compiled::Compiled;
 pub use config::{Config, compile};
-pub use emit::EmitOptions;
-pub use pipeline::{Kernel, Observer, Settings};
+pub use kernel::Kernel;
+pub use pipeline::Observer;
+pub use spec::{EmitOptions, KernelConfig, Overrides, Settings, ShaderSpec};
 pub use straightline_evaluator::eval::{LoopReport, Numeric, OptionInfo, OptionKind};
 pub use straightline_evaluator::limits::Limits;
 pub use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
-pub use straightline_evaluator::{diagnostic, interp, ir, passes, policy, shorten};
+pub use straightline_evaluator::{diagnostic, shorten};
+// Internals of the evaluator, for this workspace's studies and tests. They change with any version.
+#[doc(hidden)]
+pub use straightline_evaluator::{interp, ir, passes, policy};
+pub use straightline_kernels as kernels;
 pub use straightline_kernels::{OptionText, OptionValue, OptionValues};
 pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

@@ -2,9 +2,10 @@
 
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
-use straightline_codegen::EmitOptions;
-use straightline_codegen::emit::{Reads, Target};
-use straightline_manifest::{BindingKind, Form, Manifest, Origin, Stage};
+use straightline_codegen::emit::Target;
+use straightline_codegen::spec::Part;
+use straightline_codegen::{EmitOptions, Overrides, ShaderSpec, Stage};
+use straightline_manifest::{BindingKind, Manifest};
 
 /// An engine: `engine.toml`.
 #[derive(Clone, Debug, Deserialize)]
@@ -46,34 +47,16 @@ pub enum Tried {
 
 /// A shader that an engine wants.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct ShaderDescription {
     /// `wgsl`, `glsl450`, `glsl430`, `glsl330`, `essl310`, `essl300` or `hlsl`.
     pub language: String,
-    /// `entry` for a whole shader, `function` for one that a template calls.
-    #[serde(default)]
-    pub form: Form,
-    /// `fragment` or `compute`.
-    #[serde(default = "fragment")]
-    pub stage: Stage,
-    /// `upper-left`, or `lower-left` where rows count from below.
-    #[serde(default)]
-    pub origin: Origin,
-    /// `textures`, or `functions` where a template defines `load_NAME`, `sample_NAME` and `size_of_NAME`.
-    #[serde(default)]
-    pub reads: HowReads,
-    /// Whether a function reads uniforms by their names, which a template declares, and takes none.
-    #[serde(default)]
-    pub global_uniforms: bool,
-    /// Whether WGSL with quad operations begins with `enable subgroups;`, as browsers want it.
-    #[serde(default)]
-    pub enable_subgroups: bool,
     /// Binding numbers that the engine gives.
     #[serde(default)]
     pub numbers: Option<Numbers>,
-    /// Name of the entry point or function; the kernel's by default.
-    #[serde(default)]
-    pub entry: Option<String>,
+    /// How the shader is written, by the names of the command line: `stage` (a fragment shader by default), `form`, `origin`,
+    /// `texels` where a template defines functions that read them, `global-uniforms`, ...
+    #[serde(flatten)]
+    pub knobs: Overrides,
 }
 
 /// Binding numbers that an engine gives: of the first of each, and one more for each that follows.
@@ -105,20 +88,24 @@ impl Numbers {
     }
 }
 
-fn fragment() -> Stage {
-    Stage::Fragment
-}
-
-/// How a function comes by its texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum HowReads {
-    /// Textures are parameters.
-    #[default]
-    Textures,
-    /// A template defines functions that read them.
-    Functions,
-}
+/// Knobs that an engine decides, by their names: what a user says of them would be lost.
+pub const FIXED: [&str; 15] = [
+    "stage",
+    "target",
+    "region",
+    "workgroup",
+    "form",
+    "origin",
+    "entry",
+    "group",
+    "binding",
+    "register",
+    "enable-subgroups",
+    "texels",
+    "global-uniforms",
+    "reserve",
+    "clear-of",
+];
 
 impl Description {
     /// Reads an `engine.toml`.
@@ -129,7 +116,12 @@ impl Description {
     pub(crate) fn from_toml(text: &str) -> Result<Description, String> {
         let description: Description = toml::from_str(text).map_err(|error| error.to_string())?;
         for (name, shader) in &description.shaders {
-            shader.target().map_err(|why| format!("shader `{name}`: {why}"))?;
+            let refused = |why| format!("shader `{name}`: {why}");
+            shader.target().map_err(refused)?;
+            let decided = |(knob, _): &(&str, Part)| FIXED.contains(knob) && *knob != "target";
+            if let Some((other, _)) = shader.knobs.names().find(|knob| !decided(knob)) {
+                return Err(refused(format!("`{other}` is for a user to say, not for an engine")));
+            }
         }
         if description.shaders.is_empty() || description.files.is_empty() {
             return Err("it names no shader, or no file".to_owned());
@@ -154,25 +146,24 @@ impl ShaderDescription {
         }
     }
 
-    /// What the generator is asked for.
+    /// The stage.
+    pub fn stage(&self) -> Stage {
+        self.written(&EmitOptions::new()).stage
+    }
+
+    /// How the shader is written for a user who wants `emit`: the engine's choices go before that.
     ///
     /// # Errors
     ///
     /// As [`ShaderDescription::target`].
-    pub fn options(&self) -> Result<EmitOptions, String> {
-        let mut options = EmitOptions::new()
-            .stage(self.stage)
-            .form(self.form)
-            .origin(self.origin)
-            .reads(match self.reads {
-                HowReads::Textures => Reads::Textures,
-                HowReads::Functions => Reads::Functions,
-            })
-            .targets([self.target()?]);
-        options.global_uniforms = self.global_uniforms;
-        options.enable_subgroups = self.enable_subgroups;
-        options.entry.clone_from(&self.entry);
-        Ok(options)
+    pub fn options(&self, emit: &EmitOptions) -> Result<EmitOptions, String> {
+        Ok(self.written(emit).targets([self.target()?]))
+    }
+
+    fn written(&self, emit: &EmitOptions) -> EmitOptions {
+        let mut spec = ShaderSpec::new();
+        spec.emit = emit.clone().stage(Stage::Fragment);
+        self.knobs.apply(spec).emit
     }
 }
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors};
 use straightline_codegen::emit::{Emitted, Target, comment};
-use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage};
+use straightline_codegen::{Compiled, EmitOptions, OptionInfo, Stage};
 use straightline_manifest::Manifest;
 
 /// What is written for an engine.
@@ -21,12 +21,8 @@ pub struct Request<'a> {
     pub options: &'a [OptionInfo],
     /// Name of the files, without extension.
     pub name: String,
-    /// What the shader computes in.
-    pub precision: Precision,
-    /// Whether half precision is taken whatever it loses: see [`EmitOptions::accept_loss`].
-    pub accept_loss: bool,
-    /// Texel format of the output, where the language names it.
-    pub format: Format,
+    /// How shaders are written; the engine's own choices ([`FIXED`](crate::FIXED)) go before it.
+    pub emit: EmitOptions,
 }
 
 impl<'a> Request<'a> {
@@ -36,9 +32,7 @@ impl<'a> Request<'a> {
             compiled,
             options,
             name: compiled.kernel.clone(),
-            precision: Precision::default(),
-            accept_loss: false,
-            format: Format::default(),
+            emit: EmitOptions::new(),
         }
     }
 }
@@ -120,13 +114,13 @@ impl Engine {
     /// The shaders of a kernel, by the names of `engine.toml`.
     fn shaders(&self, request: &Request<'_>) -> Result<BTreeMap<String, Shader>, Unfit> {
         // What it binds is told before what a language lacks: it is what a user can understand.
-        let stage = self.description.shaders.values().next().map(|shader| shader.stage);
-        let probe = EmitOptions::new().stage(stage.unwrap_or(Stage::Fragment));
+        let stage = self.description.shaders.values().next().map(ShaderDescription::stage);
+        let probe = EmitOptions::new()
+            .stage(stage.unwrap_or(Stage::Fragment))
+            .precision(request.emit.precision)
+            .accept_loss(request.emit.accept_loss);
         let limits = &self.description.limits;
-        let manifest = match request
-            .compiled
-            .emit(&probe.precision(request.precision).accept_loss(request.accept_loss))
-        {
+        let manifest = match request.compiled.emit(&probe) {
             Ok(emitted) => emitted.manifest,
             Err(error) => return Err(error.into()),
         };
@@ -216,11 +210,7 @@ impl Shader {
         bound: &Manifest,
     ) -> Result<Shader, Unfit> {
         let unknown = |why: String| Unfit::Engine(Misfit::new(why));
-        let options = description.options().map_err(unknown)?;
-        let mut options = options
-            .precision(request.precision)
-            .accept_loss(request.accept_loss)
-            .format(request.format);
+        let mut options = description.options(&request.emit).map_err(unknown)?;
         options.reserved.clone_from(&engine.words);
         // A host has one name for a thing, whichever of its shaders runs.
         let languages = engine.shaders.values().map(|shader| shader.target().map_err(unknown));
@@ -230,7 +220,7 @@ impl Shader {
         let target = description.target().map_err(unknown)?;
         Ok(Shader {
             text: text(&emitted, target),
-            takes_uniforms: !description.global_uniforms,
+            takes_uniforms: !options.global_uniforms,
             manifest: emitted.manifest,
         })
     }

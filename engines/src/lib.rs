@@ -33,6 +33,7 @@ mod render;
 mod spelling;
 mod words;
 
+pub use description::FIXED;
 pub use engine::{Engine, Request};
 pub use error::EngineError;
 

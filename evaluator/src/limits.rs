@@ -20,12 +20,17 @@ pub struct Limits {
     pub memory: u64,
 }
 
+impl Limits {
+    /// Limits where none are set.
+    pub const DEFAULT: Limits = Limits {
+        time: Duration::from_secs(60),
+        memory: 2_000_000_000,
+    };
+}
+
 impl Default for Limits {
     fn default() -> Self {
-        Limits {
-            time: Duration::from_secs(60),
-            memory: 2_000_000_000,
-        }
+        Limits::DEFAULT
     }
 }
 

@@ -26,4 +26,5 @@ mod values;
 
 pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};
 pub use half::HalfPrecision;
-pub use values::{OptionText, OptionValue, OptionValues};
+pub use options::{KernelOptions, option_name, option_text};
+pub use values::{OptionText, OptionValue, OptionValues, kebab};

@@ -1,5 +1,30 @@
 //! `options!`: the choices of a kernel, declared once for rustc and for the generator.
 
+use crate::{OptionText, kebab};
+use std::fmt::Debug;
+
+/// A kernel's structure of options, declared by [`options!`](crate::options): what a `build.rs` may set options by.
+pub trait KernelOptions: Default {
+    /// Names and values of the options that differ from their defaults, in the spelling of the generator.
+    fn changed(&self) -> Vec<OptionText>;
+}
+
+/// Name of a field as an option is called: `search_threshold` as `search-threshold`.
+#[doc(hidden)]
+pub fn option_name(field: &str) -> String {
+    field.trim_start_matches("r#").replace('_', "-")
+}
+
+/// Value of a field as the generator reads it: of enums the variant in kebab case, of arrays numbers with commas between.
+#[doc(hidden)]
+pub fn option_text(value: &impl Debug) -> String {
+    let text = format!("{value:?}");
+    match text.strip_prefix('[').and_then(|text| text.strip_suffix(']')) {
+        Some(numbers) => numbers.replace(' ', ""),
+        None => kebab(&text),
+    }
+}
+
 /// Declares a kernel's options: a struct whose fields each have a default, and numbers a range.
 ///
 /// Natively this is the struct and its `Default`. The generator reads the same text to learn each option's
@@ -21,6 +46,11 @@
 ///     }
 /// }
 /// assert_eq!(Glow::default().radius, 4.0);
+///
+/// use straightline_kernels::KernelOptions;
+/// let wide = Glow { shape: Shape::Square, radius: 8.0, ..Glow::default() };
+/// let set = wide.changed().into_iter().map(|(name, value)| format!("{name}={value}"));
+/// assert_eq!(set.collect::<Vec<_>>(), ["shape=square", "radius=8.0"]);
 /// ```
 #[macro_export]
 macro_rules! options {
@@ -39,6 +69,20 @@ macro_rules! options {
         impl Default for $name {
             fn default() -> Self {
                 $name { $( $field: $default, )* }
+            }
+        }
+
+        impl $crate::KernelOptions for $name {
+            fn changed(&self) -> Vec<$crate::OptionText> {
+                let unset = Self::default();
+                let mut changed = Vec::new();
+                $(
+                    if self.$field != unset.$field {
+                        let value = $crate::option_text(&self.$field);
+                        changed.push(($crate::option_name(stringify!($field)), value));
+                    }
+                )*
+                changed
             }
         }
     };

@@ -73,6 +73,18 @@ impl fmt::Display for OptionValue {
     }
 }
 
+/// Name of a variant as an option's value: `DepthNormals` as `depth-normals`.
+pub fn kebab(name: &str) -> String {
+    let mut text = String::new();
+    for (k, c) in name.chars().enumerate() {
+        if c.is_uppercase() && k > 0 {
+            text.push('-');
+        }
+        text.extend(c.to_lowercase());
+    }
+    text
+}
+
 /// Name and value of an option as a user typed them or a file holds them. An edge: the generator parses the value by the option's
 /// declaration, and only [`OptionValue`]s are compared.
 pub type OptionText = (String, String);

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
 
 /// A pipeline stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -19,6 +21,24 @@ impl Stage {
         match self {
             Stage::Compute => "compute",
             Stage::Fragment => "fragment",
+        }
+    }
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Stage {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "compute" => Ok(Stage::Compute),
+            "fragment" => Ok(Stage::Fragment),
+            _ => Err(format!("unknown stage `{text}`: compute or fragment")),
         }
     }
 }

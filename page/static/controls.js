@@ -159,3 +159,16 @@ export function showForm(place, form, quad, set) {
       : row("block", null, select(BLOCKS, form.block, chosen("block"))),
   );
 }
+
+/** Fills `place` with a control for each declared knob; `set` is called with null where one is left at its default. */
+export function showKnobs(place, declared, values, set) {
+  const rows = declared.map(({ name, value, initial, help }) => {
+    const changed = (text) => set(name, text === initial ? null : text);
+    const now = values[name] ?? initial;
+    if (initial === "false") return row(name, help, select([{ value: "false", label: "no" }, { value: "true", label: "yes" }], now, changed));
+    const box = element("input", { type: "text", value: now, placeholder: value, autocomplete: "off", spellcheck: false });
+    box.addEventListener("change", () => changed(box.value.trim()));
+    return row(name, help, box);
+  });
+  place.replaceChildren(...rows);
+}

@@ -113,9 +113,9 @@ export class Drawing {
     const executor = this.executor;
     const first = executor.stages.includes(stage) ? stage : executor.stages[0];
     const target = executor.name === "WebGL2" ? "essl300" : "wgsl";
-    const shaders = [{ stage: first, format: FORMAT, targets: [target] }];
+    const shaders = [{ stage: first, format: FORMAT, target: [target] }];
     // Where the stage cannot be had, counts and manifest are still those of compute.
-    if (first === "fragment") shaders.push({ stage: "compute", format: FORMAT, targets: [] });
+    if (first === "fragment") shaders.push({ stage: "compute", format: FORMAT, target: [] });
     return this.#once(this.#compiled, JSON.stringify([asked, stage, executor.name]), async () => {
       const { json, milliseconds } = await this.#generator.ask({ do: "compile", ...asked, shaders });
       const [shader, other] = json.shaders;
@@ -126,7 +126,7 @@ export class Drawing {
 
   /** One language's text of a form, or why there is none. */
   async text({ asked, stage }, target) {
-    const shaders = [{ stage, format: FORMAT, targets: [target] }];
+    const shaders = [{ stage, format: FORMAT, target: [target] }];
     const { json } = await this.#generator.ask({ do: "compile", ...asked, shaders });
     const { texts, refused, manifest } = json.shaders[0];
     return { text: texts[target], refused: refused[target], manifest, stage };

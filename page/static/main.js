@@ -1,7 +1,7 @@
 // The page: what is chosen, and everything that follows from it.
 
 import { Code, stageOf } from "./code.js";
-import { element, showForm, showOptions, showUniforms, visible } from "./controls.js";
+import { element, showForm, showKnobs, showOptions, showUniforms, visible } from "./controls.js";
 import { showCounts, showLoops } from "./counts.js";
 import { Drawing, executors } from "./drawing.js";
 import { Generator, Refused, refusal } from "./generator.js";
@@ -25,7 +25,7 @@ const kernels = catalogue.kernels;
 
 /** What is chosen. */
 const state = {
-  ...link.read(location.hash, kernels),
+  ...link.read(location.hash, kernels, catalogue.knobs),
   uniforms: {},
   /** The kernel's files, and as they were. */
   files: [],
@@ -41,24 +41,25 @@ const shown = { left: null, right: null, manifest: null, by: null };
 
 /** The form on the right, as the generator takes it. */
 function form(change = {}) {
-  const { entry, options, form } = state;
+  const { entry, options, form, knobs } = state;
   const kernel = { id: entry.id };
   if (state.edited) Object.assign(kernel, { function: entry.name, files: state.files });
-  const asked = {
-    kernel,
-    options,
-    unroll: form.unroll,
-    branches: form.branches,
-    block: form.block.split("x").map(Number),
-    ...(form.transport && { transport: form.transport }),
-    ...change,
-  };
-  return { asked, stage: form.stage, entry };
+  const { unroll, branches, block, transport } = form;
+  const shader = { set: options, unroll, branches, block, ...(transport && { transport }), ...texts(knobs), ...change };
+  return { asked: { kernel, shader }, stage: form.stage, entry };
+}
+
+/** Further knobs as the generator takes them: of one that takes several values a list. */
+function texts(knobs) {
+  const many = ({ name }) => catalogue.knobs.find((knob) => knob.name === name).many;
+  return Object.fromEntries(
+    Object.entries(knobs).map(([name, text]) => [name, many({ name }) ? text.split(/\s+/).filter(Boolean) : text]),
+  );
 }
 
 /** The form of another kernel, as it comes. */
 function plainForm(entry) {
-  return { asked: { kernel: { id: entry.id }, options: {}, unroll: entry.unroll }, stage: state.form.stage, entry };
+  return { asked: { kernel: { id: entry.id }, shader: { unroll: entry.unroll } }, stage: state.form.stage, entry };
 }
 
 /** Size of a form's result: of the visitor's picture, or of the scene. */
@@ -88,7 +89,7 @@ async function leftSide(right) {
       right.inputs.picture ? { pixels: await drawing.reference(1, right.inputs.geometry), name: "not filtered" } : null,
     supersampled: async () => ({ pixels: await drawing.reference(64, true), name: "64 samples a pixel" }),
     looped: () => formed(form({ unroll: "none" }), "looped", state.uniforms),
-    defaults: () => formed(form({ options: {} }), "default options", {}),
+    defaults: () => formed(form({ set: {} }), "default options", {}),
     pinned: () => state.pinned,
   };
   const other = kernels.find((entry) => `kernel:${entry.id}` === state.left);
@@ -201,7 +202,7 @@ let controlled = "";
 function showAbout(compiled, right) {
   const live = compiled.manifest.bindings.filter((b) => b.type === "uniform").flatMap((b) => b.fields.map((f) => f.name));
   const names = visible(compiled.options, state.options).map(({ name }) => [name, state.options[name] === "uniform"]);
-  const key = JSON.stringify([state.entry.id, compiled.options, names, live, state.form, compiled.quad, !right]);
+  const key = JSON.stringify([state.entry.id, compiled.options, names, live, state.form, state.knobs, compiled.quad, !right]);
   if (key === controlled) return;
   controlled = key;
   const focused = document.activeElement?.dataset?.name;
@@ -215,6 +216,11 @@ function showAbout(compiled, right) {
   });
   showForm(find("form-controls"), state.form, compiled.quad, (name, value) => {
     state.form[name] = value;
+    update();
+  });
+  showKnobs(find("knobs"), catalogue.knobs, state.knobs, (name, value) => {
+    if (value === null) delete state.knobs[name];
+    else state.knobs[name] = value;
     update();
   });
   const uniforms = drawing.uniforms(compiled.manifest, right?.inputs, state.entry.uniforms, state.uniforms);
@@ -292,19 +298,22 @@ const code = new Code({
   },
   name: () => state.entry.name,
   command(target) {
-    const { entry, options, form } = state;
+    const { entry, options, form, knobs } = state;
     const stage = stageOf(target, form.stage);
     const set = Object.entries(options).map(([name, value]) => ` --set ${name}=${value}`);
     const unroll = form.unroll === "full" ? "" : ` --unroll ${form.unroll}`;
     const branches = form.branches === "as-loops" ? "" : ` --branches ${form.branches}`;
     const block = form.block === "1x1" ? "" : ` --block ${form.block}`;
     const transport = form.transport ? ` --transport ${form.transport}` : "";
+    const more = Object.entries(texts(knobs)).flatMap(([name, text]) =>
+      [text].flat().map((value) => (value === "true" ? ` --${name}` : ` --${name} ${value}`)),
+    );
     // An edited text is to be saved where it came from.
     const [first, ...others] = state.files.map(({ path }) => path);
     const sources = state.edited ? others.map((path) => ` --source ${path}`).join("") : "";
     const file = state.edited ? `${first}::${entry.name}${sources}` : (entry.example ?? entry.id);
     const staged = stage === "compute" ? "" : ` --stage ${stage}`;
-    return `straightline emit ${file}${set.join("")}${unroll}${branches}${block}${transport}${staged} --target ${target} --out shaders/`;
+    return `straightline emit ${file}${set.join("")}${unroll}${branches}${block}${transport}${more.join("")}${staged} --target ${target} --out shaders/`;
   },
 });
 
@@ -340,7 +349,7 @@ find("kernel").replaceChildren(
 find("kernel").value = state.entry.id;
 find("kernel").addEventListener("change", async ({ target }) => {
   const entry = kernels.find(({ id }) => id === target.value);
-  Object.assign(state, { options: {}, uniforms: {}, form: link.plainForm(entry) });
+  Object.assign(state, { options: {}, uniforms: {}, knobs: {}, form: link.plainForm(entry) });
   await choose(entry);
   update();
 });

@@ -45,6 +45,7 @@ pub fn read(emitted: &Emitted) -> Result<(), String> {
             Target::Hlsl => hlsl(&path, manifest.stage, &manifest.entry_point)?,
             Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => opengl(&path)?,
             Target::Msl => {}
+            other => return Err(format!("no compiler reads {other}: name one here")),
         }
     }
     Ok(())

@@ -1,10 +1,10 @@
 //! Arguments of `capture`, `resolve` and `compare`, and what is rendered by any command that has a choice.
 
-use super::{AdapterArgs, Executor, OptionArgs, StageArg, size};
+use super::{AdapterArgs, Executor, SettingsArgs, size};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use std::path::PathBuf;
-use straightline_codegen::shorten;
+use straightline_codegen::{Stage, shorten};
 
 /// What is rendered, and from where.
 #[derive(Debug, Args)]
@@ -89,13 +89,13 @@ pub struct ResolveArgs {
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
     #[command(flatten)]
-    pub options: OptionArgs,
+    pub options: SettingsArgs,
     /// What computes the pixels
     #[arg(long, value_enum, default_value = "gpu")]
     pub executor: Executor,
     /// Pipeline stage, on the GPU
-    #[arg(long, value_enum, default_value = "compute")]
-    pub stage: StageArg,
+    #[arg(long, value_name = "STAGE", default_value = "compute", value_parser = |s: &str| s.parse::<Stage>())]
+    pub stage: Stage,
     /// Print the error against the capture's reference
     #[arg(long)]
     pub reference: bool,

@@ -1,8 +1,9 @@
 //! The arguments of `check`.
 
-use super::{KernelArgs, OptionArgs};
+use super::{KernelArgs, SettingsArgs, WritingArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
+use straightline_codegen::ShaderSpec;
 
 /// The form of the errors that `check` prints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -25,13 +26,20 @@ pub struct CheckArgs {
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "human")]
     pub message_format: MessageFormat,
     #[command(flatten)]
-    pub options: OptionArgs,
+    pub options: SettingsArgs,
+    #[command(flatten)]
+    pub writing: WritingArgs,
     /// A command to run first, whose messages are passed on, such as `cargo check --message-format=json`
     #[arg(last = true, value_name = "COMMAND")]
     pub command: Vec<String>,
 }
 
 impl CheckArgs {
+    /// The description of the shader that is checked.
+    pub fn spec(&self) -> ShaderSpec {
+        self.writing.0.apply(self.options.0.apply(ShaderSpec::new()))
+    }
+
     /// The arguments for one of the kernels.
     pub fn of(&self, kernel: &str) -> KernelArgs {
         KernelArgs {

@@ -5,6 +5,7 @@ mod absent;
 mod capture;
 mod check;
 mod kernel;
+mod knobs;
 mod run;
 #[cfg(feature = "study")]
 mod study;
@@ -13,13 +14,11 @@ mod sweep;
 #[cfg(feature = "study")]
 mod tune;
 
-use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use glam::UVec2;
 use std::path::PathBuf;
-use straightline_codegen::emit::{Register, Target};
-use straightline_codegen::shorten;
-use straightline_manifest::{Form, Format, Origin, Precision, Stage};
+use straightline_codegen::{Precision, ShaderSpec, shorten};
 
 #[cfg(not(feature = "study"))]
 pub use absent::Family;
@@ -30,7 +29,8 @@ use absent::{
 };
 pub use capture::{CaptureArgs, CompareArgs, PlacedByArg, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
-pub use kernel::{KernelArgs, OptionArgs};
+pub use kernel::KernelArgs;
+pub use knobs::{SettingsArgs, WritingArgs};
 pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 #[cfg(feature = "study")]
 pub use straightline_isa::Family;
@@ -101,21 +101,6 @@ pub enum Command {
     ServeIsa,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum StageArg {
-    Compute,
-    Fragment,
-}
-
-impl From<StageArg> for Stage {
-    fn from(stage: StageArg) -> Stage {
-        match stage {
-            StageArg::Compute => Stage::Compute,
-            StageArg::Fragment => Stage::Fragment,
-        }
-    }
-}
-
 #[derive(Debug, Args)]
 pub struct ListArgs {
     /// A kernel whose options are listed: built in, FILE.rs or FILE.rs::FUNCTION; or an engine
@@ -130,52 +115,11 @@ pub struct ListArgs {
 pub struct EmitArgs {
     #[command(flatten)]
     pub kernel: KernelArgs,
-    /// Pipeline stage
-    #[arg(long, value_enum, default_value = "compute")]
-    pub stage: StageArg,
-    /// Languages to write, separated by commas: wgsl, glsl450, glsl430, glsl330, essl310, essl300, spirv, hlsl, msl
-    #[arg(long, value_name = "LANGUAGES", value_delimiter = ',', default_value = "wgsl", value_parser = |s: &str| s.parse::<Target>())]
-    pub target: Vec<Target>,
-    /// Texel format of the output: rgba8unorm, rgba16float or rgba32float
-    #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
-    pub format: Format,
-    /// What the shader computes in: f32, or f16 where the device has half precision
-    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
-    pub precision: Precision,
-    /// Write a shader in f16 even where hard cases show errors that can be seen
-    #[arg(long)]
-    pub accept_loss: bool,
-    /// Filter only a rectangle that the host gives: for tiles
-    #[arg(long)]
-    pub region: bool,
-    /// Invocations of a compute workgroup, across and down; with `--share workgroup` those that share
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub workgroup: Option<UVec2>,
-    /// Write a whole shader (entry), or a function to call from a fragment shader of yours (function)
-    #[arg(long, value_name = "FORM", default_value = "entry", value_parser = |s: &str| s.parse::<Form>())]
-    pub form: Form,
-    /// Where row 0 of textures, target and positions is: upper-left, or lower-left as in engines on OpenGL
-    #[arg(long, value_name = "ORIGIN", default_value = "upper-left", value_parser = |s: &str| s.parse::<Origin>())]
-    pub origin: Origin,
-    /// Name of the entry point or function; by default the kernel's
-    #[arg(long, value_name = "NAME")]
-    pub entry: Option<String>,
-    /// Bind group, descriptor set or register space of everything
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub group: u32,
-    /// Binding number of a texture, sampler or buffer, of `parameters` (the uniforms) or `destination` (the output); all else
-    /// takes the lowest free numbers. May be given several times
-    #[arg(long, value_name = "NAME=N", value_parser = binding)]
-    pub binding: Vec<(String, u32)>,
-    /// Register in HLSL: NAME=t3, or NAME=t3,space1; by default that of the binding number. May be given several times
-    #[arg(long, value_name = "NAME=REGISTER", value_parser = register)]
-    pub register: Vec<(String, Register)>,
-    /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not
-    #[arg(long)]
-    pub enable_subgroups: bool,
+    #[command(flatten)]
+    pub writing: WritingArgs,
     /// Write what a user of an engine drops in: NAME (see `list`), or a folder with an `engine.toml`, which says the language,
     /// the form and the origin
-    #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = ["stage", "target", "region", "workgroup", "form", "origin", "entry", "group", "binding", "register", "enable_subgroups"])]
+    #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = straightline_engines::FIXED)]
     pub engine: Option<String>,
     /// Folder to write to; made if it is not there
     #[arg(long, value_name = "DIR")]
@@ -183,6 +127,13 @@ pub struct EmitArgs {
     /// Name of the files, without extension; by default the kernel's
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
+}
+
+impl EmitArgs {
+    /// The description of the shader.
+    pub fn spec(&self) -> ShaderSpec {
+        self.writing.0.apply(self.kernel.options.0.apply(ShaderSpec::new()))
+    }
 }
 
 #[derive(Debug, Args)]
@@ -353,22 +304,6 @@ impl Default for DemoArgs {
             json: false,
             adapter: AdapterArgs::default(),
         }
-    }
-}
-
-fn binding(text: &str) -> Result<(String, u32), String> {
-    let parsed = text.split_once('=').filter(|(name, _)| !name.is_empty());
-    let parsed = parsed.and_then(|(name, number)| Some((name.to_owned(), number.parse().ok()?)));
-    parsed.ok_or_else(|| format!("`{}` is not of the form NAME=NUMBER, such as depth=3", shorten(text)))
-}
-
-fn register(text: &str) -> Result<(String, Register), String> {
-    match text.split_once('=') {
-        Some((name, register)) if !name.is_empty() => Ok((name.to_owned(), register.parse()?)),
-        _ => Err(format!(
-            "`{}` is not of the form NAME=REGISTER, such as depth=t3 or depth=t3,space1",
-            shorten(text)
-        )),
     }
 }
 

@@ -1,8 +1,9 @@
 //! The arguments of `run` and `watch`.
 
-use super::{AdapterArgs, EmitArgs, KernelArgs, StageArg, pair, size};
+use super::{AdapterArgs, EmitArgs, KernelArgs, pair, size};
 use clap::{Args, ValueEnum};
 use glam::UVec2;
+use straightline_codegen::Stage;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Executor {
@@ -60,8 +61,8 @@ pub struct RunArgs {
     #[arg(long)]
     pub check_finite: bool,
     /// Pipeline stage, on the GPU
-    #[arg(long, value_enum, default_value = "compute")]
-    pub stage: StageArg,
+    #[arg(long, value_name = "STAGE", default_value = "compute", value_parser = |s: &str| s.parse::<Stage>())]
+    pub stage: Stage,
 }
 
 #[derive(Debug, Args)]
@@ -79,13 +80,14 @@ impl WatchArgs {
     /// The arguments of `run` that make the picture, if there is to be one.
     pub fn run(&self) -> Option<RunArgs> {
         let picture = self.picture.clone()?;
+        let spec = self.emit.spec();
         Some(RunArgs {
             kernel: self.emit.kernel.clone(),
             given: self.given.clone(),
             out: vec![picture],
-            precision: self.emit.precision.to_string(),
+            precision: spec.emit.precision.to_string(),
             check_finite: false,
-            stage: self.emit.stage,
+            stage: spec.emit.stage,
         })
     }
 }

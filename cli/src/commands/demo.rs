@@ -127,11 +127,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
 fn method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) -> Result<Method, Failure> {
     let compile = |unroll| {
         let options = vec![("pattern".to_owned(), pattern.to_owned())];
-        let settings = Settings {
-            options,
-            unroll,
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(options).unroll(unroll);
         Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings))
     };
     let samples = scene::pattern(pattern)?;

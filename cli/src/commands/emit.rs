@@ -26,17 +26,14 @@ pub struct Ready {
 /// Reads and compiles the kernel.
 pub fn compile(args: &EmitArgs) -> Result<Ready, Failure> {
     let kernel = args.kernel.locate()?;
-    let mut settings = args.kernel.options.settings();
-    if let Some(size) = args.workgroup {
-        settings.share = settings.share.of_size(size.to_array());
-    }
-    let compiled = kernel.compile(&settings)?;
+    let compiled = args.spec().compile(&kernel)?;
     Ok(Ready { kernel, compiled })
 }
 
 /// Writes all files or none; gives their paths.
 pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<PathBuf>, Failure> {
-    if args.accept_loss && args.precision != Precision::F16 {
+    let options = args.spec().emit;
+    if options.accept_loss && options.precision != Precision::F16 {
         return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned()));
     }
     let name = args.name.as_deref().unwrap_or(&compiled.kernel);
@@ -47,31 +44,16 @@ pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<
         )));
     }
     if let Some(engine) = &args.engine {
-        let files = for_engine(args, kernel, compiled, engine, name)?;
+        let files = for_engine(options, kernel, compiled, engine, name)?;
         return write_all(args, compiled, &files);
     }
-    let mut options = EmitOptions::new()
-        .stage(args.stage.into())
-        .format(args.format)
-        .precision(args.precision)
-        .accept_loss(args.accept_loss)
-        .targets(args.target.iter().copied());
-    options.form = args.form;
-    options.origin = args.origin;
-    options.entry.clone_from(&args.entry);
-    options.group = args.group;
-    options.bindings.clone_from(&args.binding);
-    options.registers.clone_from(&args.register);
-    options.region = args.region;
-    options.enable_subgroups = args.enable_subgroups;
-    options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options)?;
     write_all(args, compiled, &emitted.named(name))
 }
 
 /// The files for an engine.
 fn for_engine(
-    args: &EmitArgs,
+    emit: EmitOptions,
     kernel: &Kernel,
     compiled: &Compiled,
     engine: &str,
@@ -86,16 +68,14 @@ fn for_engine(
     let options = kernel.options()?;
     let request = Request {
         name: name.to_owned(),
-        precision: args.precision,
-        accept_loss: args.accept_loss,
-        format: args.format,
+        emit,
         ..Request::new(compiled, &options)
     };
     engine.files(&request).map_err(failure)
 }
 
 fn write_all(args: &EmitArgs, compiled: &Compiled, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {
-    if args.precision == Precision::F16 && compiled.half_precision() == HalfPrecision::Unstudied {
+    if args.spec().emit.precision == Precision::F16 && compiled.half_precision() == HalfPrecision::Unstudied {
         let kernel = &args.kernel.kernel;
         errln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
     }

@@ -1,11 +1,11 @@
 //! `resolve`: antialiases a captured frame.
 
-use crate::args::{Executor, OptionArgs, ResolveArgs};
+use crate::args::{Executor, ResolveArgs, SettingsArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
-use straightline_codegen::{Compiled, Kernel, OptionValue, OptionValues, files};
+use straightline_codegen::{Compiled, Kernel, OptionValue, OptionValues, Settings, files};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::interpret;
@@ -22,7 +22,7 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     let capture = Capture::read(&args.capture).map_err(Failure::of)?;
     let kernel = Kernel::builtin("sraa")?;
     let settings = with_capture(&kernel, &args.options, &capture)?;
-    let compiled = kernel.compile(&settings.settings())?;
+    let compiled = kernel.compile(&settings)?;
     let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
     let warnings = warnings(&capture, &compiled.options);
     for warning in &warnings {
@@ -31,7 +31,7 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     let (resolved, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
-            let resolved = gpu.bench().run(&compiled, args.stage.into(), &inputs);
+            let resolved = gpu.bench().run(&compiled, args.stage, &inputs);
             (resolved.map_err(Failure::of)?, gpu.describe())
         }
         Executor::Cpu => {
@@ -120,12 +120,13 @@ fn errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failu
 }
 
 /// The options asked for, with those that the capture decides: where it was sampled.
-fn with_capture(kernel: &Kernel, options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, Failure> {
-    let mut options = options.clone();
+fn with_capture(kernel: &Kernel, options: &SettingsArgs, capture: &Capture) -> Result<Settings, Failure> {
+    let mut settings = options.settings();
     let sampled = gbuffer::sampled_at(capture);
-    let (asked, decided) = (kernel.option_values(&options.set)?, kernel.option_values(&sampled)?);
+    let asked = kernel.option_values(&settings.options)?;
+    let decided = kernel.option_values(&sampled)?;
     for (name, text) in sampled {
-        let is_set = options.set.iter().any(|(known, _)| *known == name);
+        let is_set = settings.options.iter().any(|(known, _)| *known == name);
         if let (Some(asked), Some(decided)) = (asked.get(&name), decided.get(&name))
             && is_set
             && asked != decided
@@ -135,7 +136,7 @@ fn with_capture(kernel: &Kernel, options: &OptionArgs, capture: &Capture) -> Res
             )));
         }
         if !is_set {
-            options.set.push((name, text));
+            settings.options.push((name, text));
         }
     }
     if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {
@@ -143,7 +144,7 @@ fn with_capture(kernel: &Kernel, options: &OptionArgs, capture: &Capture) -> Res
             "`{name}=uniform` leaves the value to a host; here give a number"
         )));
     }
-    Ok(options)
+    Ok(settings)
 }
 
 /// Refuses a picture that could not be written before any work is done.

@@ -10,6 +10,7 @@ mod compare;
 mod emit;
 mod features;
 mod figures;
+mod knobs;
 mod output;
 mod page;
 mod precision;

@@ -68,6 +68,43 @@ fn every_combination_is_measured_beside_its_baseline() {
     assert!(lines.iter().all(|line| line.split(',').count() == columns));
 }
 
+/// Further settings of a shader are axes as options are.
+#[test]
+fn further_settings_are_varied() {
+    let out = scratch("sweep-vary").join("out");
+    let kernel = here("examples/sweep/convolution.rs");
+    let more = [
+        "--vary",
+        "math=exact,fast",
+        "--vary",
+        "repeat-loads=false,true",
+        "--unroll",
+        "full",
+    ];
+    sweep(
+        &kernel,
+        &out,
+        &[&more[..], &["--set", "radius=3", "--baseline", "repeat-loads=true"]].concat(),
+    );
+    let record = record(&out);
+    assert_eq!(variants(&record).len(), 4);
+    for variant in variants(&record) {
+        let (settings, measured) = (&variant["settings"], &variant["measured"]);
+        let fast = settings["math"] == "fast";
+        assert_eq!(variant["refused"], Value::Null, "{variant}");
+        assert_eq!(measured["speedup"].is_null(), measured.is_null(), "{variant}");
+        let difference = measured["difference"].as_f64().expect("a number");
+        assert!(difference < if fast { 1e-4 } else { 1e-6 }, "{variant}");
+    }
+    let reads = |repeated: &str| {
+        let of = variants(&record)
+            .iter()
+            .find(|variant| variant["settings"]["repeat-loads"] == repeated);
+        of.map(|variant| variant["measured"]["reads"].as_u64().expect("a number"))
+    };
+    assert!(reads("true") >= reads("false"), "{record}");
+}
+
 #[test]
 fn what_is_refused_stays_in_the_record_with_the_reason() {
     let folder = scratch("sweep-refused");
@@ -174,6 +211,37 @@ fn shards_are_joined_and_runs_compared() {
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stdout).contains("differs"));
     assert!(String::from_utf8_lossy(&output.stderr).contains("3 of 3 variants differ"));
+}
+
+#[test]
+fn settings_that_are_no_axes_are_refused() {
+    let kernel = here("examples/sweep/convolution.rs");
+    for (vary, says) in [
+        ("mat=exact,fast", "did you mean `math`?"),
+        ("math=exact,quick", "unknown mathematics `quick`"),
+        ("unroll=full", "`unroll` is an axis of every sweep: --unroll"),
+        ("group=0,1", "`group` is no axis"),
+        ("budget=10,20", "`budget` is no axis"),
+        ("math", "is not of the form"),
+    ] {
+        fails(
+            &["study", "sweep", &kernel, "--out", "nowhere", "--vary", vary],
+            2,
+            &[says],
+        );
+    }
+    let twice = [
+        "study",
+        "sweep",
+        &kernel,
+        "--out",
+        "nowhere",
+        "--vary",
+        "math=exact",
+        "--vary",
+        "math=fast",
+    ];
+    fails(&twice, 2, &["--vary math is given twice"]);
 }
 
 #[test]

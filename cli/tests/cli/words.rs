@@ -1,6 +1,6 @@
 //! What users read: help, `list` and `explain`, as captured in `captures/`; completions; manual pages.
 //!
-//! After a rewording: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test words`.
+//! After a rewording: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test cli words::`.
 
 use crate::common;
 
@@ -36,7 +36,7 @@ fn words_are_as_captured() {
             let captured = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
             assert_eq!(
                 said, captured,
-                "{name}: if it is meant, run STRAIGHTLINE_BLESS=1 cargo test --workspace --test words"
+                "{name}: if it is meant, run STRAIGHTLINE_BLESS=1 cargo test --workspace --test cli words::"
             );
         }
     }

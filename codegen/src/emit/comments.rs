@@ -24,6 +24,12 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
     groups.block(block)
 }
 
+/// Takes the comments away, those of blocks in the block too.
+pub fn strip(block: &mut Block<'_>) {
+    block.retain(|stmt| !matches!(stmt.kind, StmtKind::Comment(_)));
+    block.iter_mut().flat_map(Stmt::blocks_mut).for_each(strip);
+}
+
 /// Counters that a comment of nothing else has.
 const OUTERMOST: usize = 2;
 

@@ -1,10 +1,10 @@
 //! What the entry point is called.
 
-use super::options::EmitOptions;
 use super::refusal::Refusal;
 use super::spelled::is_own;
-use super::target::Target;
 use super::words::{LONGEST, Words, identifier, is_among};
+use crate::spec::EmitOptions;
+use crate::spec::Target;
 use straightline_evaluator::shorten;
 
 /// The name of a kernel's entry point or function: the one that is asked for, or else the kernel's, changed where shading

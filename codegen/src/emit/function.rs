@@ -1,10 +1,10 @@
 //! What cannot be a function of a shader of the host's.
 
-use super::options::EmitOptions;
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::target::Target;
 use crate::compiled::Compiled;
+use crate::spec::EmitOptions;
+use crate::spec::Target;
 
 /// Whether a kernel can be a function in every language that is written.
 ///

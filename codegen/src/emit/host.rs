@@ -1,13 +1,13 @@
-//! Functions of the host's, by which a function reads textures that it is not given ([`Reads::Functions`]).
+//! Functions of the host's, by which a function reads textures that it is not given ([`Texels::Functions`]).
 //!
-//! [`Reads::Functions`]: super::Reads::Functions
+//! [`Texels::Functions`]: crate::spec::Texels::Functions
 
 use super::refusal::Refusal;
 use super::resources::Resources;
 use super::spelled::Derived;
-use super::target::Target;
 use super::text::Text;
 use crate::compiled::Compiled;
+use crate::spec::Target;
 use straightline_evaluator::ir::{Op, Scalar, TextureKind};
 
 /// What a host's function does with a texture.

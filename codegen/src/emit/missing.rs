@@ -2,8 +2,8 @@
 
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::target::Target;
 use crate::compiled::Compiled;
+use crate::spec::Target;
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{Op, TextureKind, UnaryOp};
 use straightline_manifest::{Precision, Stage};

@@ -19,23 +19,22 @@ mod lower;
 mod manifest;
 mod missing;
 mod names;
-mod options;
 mod origin;
 mod outputs;
 mod places;
 mod print;
 mod prose;
 mod refusal;
-mod register;
 mod resources;
 mod spelled;
 mod spirv;
-mod target;
 mod text;
 mod tidy;
 mod translate;
 mod variables;
 mod words;
+
+pub use crate::spec::{EmitOptions, Register, Target, Texels};
 
 use crate::compiled::Compiled;
 use refusal::Refusal;
@@ -51,14 +50,12 @@ use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
-pub use options::{EmitOptions, Reads};
 pub use prose::comment;
-pub use register::Register;
-pub use target::Target;
 pub use words::is_among;
 
 /// One shader in the languages asked for.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Emitted {
     /// What a host must know; the file names in it are set by [`Emitted::named`].
     pub manifest: Manifest,
@@ -334,7 +331,7 @@ impl Wgsl {
         let resources = resources.spelled(Target::Wgsl)?;
         let mut tree = tree.clone();
         legalise::wgsl(&mut tree, marks);
-        names::assign(&mut tree, &resources, Target::Wgsl)?;
+        finish(&mut tree, &resources, Target::Wgsl)?;
         let text = print::Printed::new(&print::Wgsl { resources: &resources }, &tree);
         Ok(Wgsl { resources, text })
     }
@@ -354,10 +351,7 @@ impl Shader<'_, '_> {
         if !self.resources.options.is_function() && !marks {
             return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
         }
-        let whole = EmitOptions {
-            form: Form::Entry,
-            ..self.resources.options.clone()
-        };
+        let whole = self.resources.options.clone().form(Form::Entry);
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
         let (tree, _) = tree(self.compiled, &whole);
@@ -392,7 +386,7 @@ impl Shader<'_, '_> {
         // Hosts compile functions with what stands around them, in a version of theirs.
         let precise = matches!(target, Target::Glsl450 | Target::Glsl430) && !resources.options.is_function();
         legalise::glsl(&mut tree, resources, target == Target::Glsl450, precise);
-        names::assign(&mut tree, resources, target)?;
+        finish(&mut tree, resources, target)?;
         let header = print::header(self.compiled, counts, self.resources);
         let glsl = print::module(&print::Glsl::new(resources, target), &tree, &header);
         // naga reads no other GLSL, no text without `main`, and no atomic operations.
@@ -407,10 +401,22 @@ impl Shader<'_, '_> {
         let mut tree = self.tree.clone();
         legalise::hlsl(&mut tree, self.resources);
         let resources = self.resources.spelled(Target::Hlsl)?;
-        names::assign(&mut tree, &resources, Target::Hlsl)?;
+        finish(&mut tree, &resources, Target::Hlsl)?;
         let header = print::header(self.compiled, counts, self.resources);
         Ok(print::module(&print::Hlsl::new(&resources, &tree), &tree, &header))
     }
+}
+
+/// Names the variables of a tree, and strips its comments where that is asked for: the last step before printing.
+fn finish(tree: &mut ast::Module<'_>, resources: &resources::Resources, target: Target) -> Result<(), Refusal> {
+    if resources.options.strip_comments {
+        comments::strip(&mut tree.body);
+        for function in &mut tree.functions {
+            function.comment.clear();
+            comments::strip(&mut function.body);
+        }
+    }
+    names::assign(tree, resources, target)
 }
 
 /// What stands between a directive and a text that begins with another, or with its header.

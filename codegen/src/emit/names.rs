@@ -4,8 +4,8 @@ use super::ast::{Expr, Module, Stmt, StmtKind, VarId, Variable};
 use super::refusal::Refusal;
 use super::resources::Resources;
 use super::spelled::is_own;
-use super::target::Target;
 use super::words::{Reserved, Words, free, identifier, numbered};
+use crate::spec::Target;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 

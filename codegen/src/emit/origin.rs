@@ -1,8 +1,8 @@
 //! Kernels on pictures whose rows count from below.
 
-use super::options::EmitOptions;
 use super::refusal::Refusal;
 use crate::compiled::Compiled;
+use crate::spec::EmitOptions;
 use std::borrow::Cow;
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{Invocation, Op, verify};

@@ -1,9 +1,9 @@
 //! Which numbers and registers everything bound has: those that the user gives, and the lowest free ones.
 
-use super::options::EmitOptions;
 use super::refusal::Refusal;
-use super::register::{LAST_BINDING, LAST_GROUP, Register};
-use super::target::Target;
+use crate::spec::EmitOptions;
+use crate::spec::Target;
+use crate::spec::{LAST_BINDING, LAST_GROUP, Register};
 use std::collections::BTreeMap;
 use straightline_evaluator::shorten;
 use straightline_evaluator::suggest;

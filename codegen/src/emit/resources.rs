@@ -7,9 +7,9 @@ use super::outputs::BoundOutput;
 use super::places::{Named, Places};
 use super::refusal::Refusal;
 use super::spelled::Derived;
-use super::target::Target;
 use super::words::free;
 use crate::compiled::Compiled;
+use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
@@ -434,7 +434,7 @@ impl Resources {
     pub fn workgroup(&self) -> [u32; 3] {
         match self.group {
             Some([x, y]) => [x, y, 1],
-            None => self.options.workgroup(),
+            None => self.options.workgroup_size(),
         }
     }
 

@@ -300,7 +300,9 @@ fn write(out: &Path) {
     let kernel = |name: &str| format!("tests/bindings/kernels/{name}.rs");
     let written = Config::new()
         .file_with(kernel("all"), |k| k.format(Format::Rgba32Float))
-        .file_with(kernel("all"), |k| k.name("tile").region().group(1).binding("color", 7))
+        .file_with(kernel("all"), |k| {
+            k.name("tile").region(true).group(1).binding("color", 7)
+        })
         .file_with(kernel("graded"), |k| k.format(Format::Rgba32Float))
         .file_with(kernel("drawn"), |k| k.stage(Stage::Fragment))
         .file_with(kernel("several"), |k| k.stage(Stage::Fragment))

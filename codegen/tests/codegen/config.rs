@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::io;
 use std::path::PathBuf;
-use straightline_codegen::config::KernelConfig;
+use straightline_codegen::KernelConfig;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Config, Form, Manifest, Origin, Stage, Transport, Unroll};
 

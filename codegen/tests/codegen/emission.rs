@@ -4,16 +4,12 @@ use crate::compilers;
 
 use compilers::{FUNCTION, LABEL, instructions, read};
 use straightline_codegen::diagnostic::Code;
-use straightline_codegen::emit::{Emitted, Reads, Target};
+use straightline_codegen::emit::{Emitted, Target, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_manifest::LanguageKind;
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
-    Settings {
-        unroll,
-        branches,
-        ..Settings::default()
-    }
+    Settings::new().unroll(unroll).branches(branches)
 }
 
 fn compile(text: &str, unroll: Unroll, branches: Branches) -> Compiled {
@@ -198,6 +194,34 @@ fn comparisons_beside_one_another_are_told_apart() {
 }
 
 /// A straight-line kernel has no branch, however its conditions are joined.
+/// Without comments the same text is left, but for the first two lines.
+#[test]
+fn comments_are_stripped() {
+    let settings = Settings::new().unroll(Unroll::None);
+    let compiled = Kernel::builtin("sraa")
+        .and_then(|kernel| kernel.compile(&settings))
+        .expect("a kernel");
+    let written = EmitOptions::new().targets([Target::Wgsl, Target::Glsl450, Target::Hlsl]);
+    let whole = compiled.emit(&written).expect("a shader");
+    let stripped = compiled.emit(&written.strip_comments(true)).expect("a shader");
+    for (target, text) in &stripped.files {
+        let lines =
+            |bytes: &[u8]| -> Vec<String> { String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect() };
+        let (text, whole) = (lines(text), lines(&whole.files[target]));
+        let is_comment = |line: &&String| line.trim_start().starts_with("//");
+        assert_eq!(text.iter().filter(is_comment).count(), 2, "{target}: {text:#?}");
+        let code = |lines: &[String]| {
+            lines
+                .iter()
+                .filter(|line| !is_comment(line))
+                .cloned()
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(code(&text), code(&whole), "{target}");
+    }
+    assert_eq!(stripped.manifest.counts, whole.manifest.counts);
+}
+
 #[test]
 fn conditions_make_no_branches() {
     let kernel = "pub fn k(color: &Frame<Vec4>, a: f32, b: f32, pixel: IVec2) -> Vec4 {
@@ -335,14 +359,9 @@ fn unrolled_kernels_are_one_basic_block() {
         ("tabula_rasa", &[]),
     ];
     for (name, options) in cases {
-        let settings = Settings {
-            options: options
-                .iter()
-                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-                .collect(),
-            transport: (name.starts_with("quad") || name.starts_with("pc")).then_some(Transport::Subgroup),
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
+            .transport((name.starts_with("quad") || name.starts_with("pc")).then_some(Transport::Subgroup));
         let kernel = Kernel::builtin(name).unwrap_or_else(|e| panic!("{e}"));
         one_block(&format!("{name} {options:?}"), &kernel, &settings);
     }
@@ -571,7 +590,7 @@ fn hosts_read_their_textures() {
     let compiled = compile(source, Unroll::Full, Branches::Select);
     let mut options = EmitOptions::new()
         .form(Form::Function)
-        .reads(Reads::Functions)
+        .texels(Texels::Functions)
         .targets([Target::Glsl330, Target::Hlsl, Target::Wgsl]);
     let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
     let wgsl = text(&emitted, Target::Wgsl);

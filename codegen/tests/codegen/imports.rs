@@ -1,4 +1,4 @@
-//! No module of the generator is part of a circle of imports, in this crate or in the evaluator.
+//! Rules of source files, in this crate and in the evaluator: no module is part of a circle of imports, and passes name their file tests.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -60,5 +60,29 @@ fn imports_go_one_way() {
         assert!(imports[module].contains(its), "{imports:?}");
         let left = circles(imports);
         assert!(left.is_empty(), "these import each other, or what does: {left:?}");
+    }
+}
+
+/// Modules name the folders of their file tests, and every folder of passes has a module that names it.
+#[test]
+fn modules_name_their_file_tests() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    for folder in ["evaluator/src", "codegen/src"] {
+        collect(&root.join(folder), &mut files);
+    }
+    let mut named = BTreeSet::new();
+    for path in &files {
+        let text = std::fs::read_to_string(path).expect("a text");
+        let line = text.lines().find_map(|line| line.strip_prefix("//! File tests: `"));
+        if let Some(folder) = line.and_then(|line| line.strip_suffix("`.")) {
+            let cases = std::fs::read_dir(root.join(folder)).map_or(0, Iterator::count);
+            assert!(cases > 0, "{}: no file tests in {folder}", path.display());
+            named.insert(root.join(folder));
+        }
+    }
+    let passes = std::fs::read_dir(root.join("evaluator/tests/filetests/passes")).expect("a folder a pass");
+    for folder in passes.map(|entry| entry.expect("an entry").path()) {
+        assert!(named.contains(&folder), "no pass names {}", folder.display());
     }
 }

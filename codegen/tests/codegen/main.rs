@@ -1,15 +1,21 @@
-//! The generator as a build script uses it: configuration, emission, bindings, rules of graphs and of imports.
+//! The generator as a build script uses it: configuration, messages, limits, emission, bindings, rules of imports.
 
 mod bindings;
+#[path = "../../../evaluator/tests/evaluator/cases.rs"]
+mod cases;
 mod codes;
 #[path = "../../../tests/src/compilers.rs"]
 mod compilers;
 mod config;
 mod emission;
+mod errors;
+mod filetests;
 mod floor;
 mod front;
+mod guards;
 mod imports;
+mod knobs;
+mod limits;
 mod option_values;
 mod places;
 mod syn_variants;
-mod verify;

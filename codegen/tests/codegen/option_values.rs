@@ -7,14 +7,11 @@ use straightline_codegen::{
 use straightline_kernels::{CATALOGUE, HalfPrecision};
 
 fn compile(kernel: &Kernel, options: &[(&str, &str)]) -> Result<Compiled, Errors> {
-    let settings = |transport| Settings {
-        options: options
-            .iter()
-            .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-            .collect(),
-        unroll: Unroll::None,
-        transport,
-        ..Settings::default()
+    let settings = |transport| {
+        Settings::new()
+            .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
+            .unroll(Unroll::None)
+            .transport(transport)
     };
     let compiled = kernel.compile(&settings(None))?;
     match compiled.quad {

@@ -454,15 +454,9 @@ fn what_cannot_be_a_function_is_refused() {
     refused(&takes, &function().group(1), &["binds nothing", "group 1"]);
     refused(&kernel(ALL, "all"), &function(), &["buffer `weights`", "wgsl", "hlsl"]);
     refused(&takes, &function().entry("main"), &["`main`", "has a use for"]);
-    let workgroup = EmitOptions {
-        workgroup: Some([8, 8]),
-        ..function()
-    };
+    let workgroup = function().workgroup(8, 8);
     refused(&takes, &workgroup, &["no workgroup"]);
-    let subgroups = EmitOptions {
-        enable_subgroups: true,
-        ..function()
-    };
+    let subgroups = function().enable_subgroups(true);
     refused(&takes, &subgroups, &["`enable subgroups;`"]);
     let sized = kernel(
         "pub fn sized(resolution: UVec2, pixel: IVec2) -> Vec4 {\n    Vec4::splat(resolution.x as f32)\n}\n",

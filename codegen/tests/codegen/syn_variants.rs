@@ -248,7 +248,7 @@ fn every_variant_is_handled_or_refused() {
     let mut table = String::from(
         "# What becomes of each kind of Rust syntax\n\n\
          Kernels are read by syn. These are the variants of its tree, each with an example: what the generator handles, and what it\n\
-         refuses where a kernel reaches it. Made by `cargo test -p straightline-codegen --test syn_variants`.\n",
+         refuses where a kernel reaches it. Made by `cargo test -p straightline-codegen --test codegen syn_variants::`.\n",
     );
     let mut seen = BTreeSet::new();
     let mut wrong = Vec::new();

@@ -36,16 +36,13 @@ impl Evaluator<'_> {
         let mut args = Vec::new();
         for Param { name, ty, span, .. } in &function.params {
             if ty.is_mutable_reference() {
-                return Err(Diagnostic::at(
-                    Code::KernelParameter,
-                    *span,
-                    format!("a kernel cannot take `{name}` by `&mut`"),
-                )
-                .label("not supported")
-                .help("a kernel reads its parameters, and gives one colour")
-                .into());
+                self.note(by_reference(name, *span));
+                continue;
             }
-            args.push(self.parameter(name, ty.bare(), *span, settings, &mut options)?);
+            match self.parameter(name, ty.bare(), *span, settings, &mut options) {
+                Ok(value) => args.push(value),
+                Err(exit) => drop(self.note(exit)),
+            }
         }
         let of_group = matches!(self.builder.graph().invocation, Invocation::Group(_));
         let is_pixel = |param: &&Param| {
@@ -73,6 +70,26 @@ impl Evaluator<'_> {
         let value = self.loaded(value, function.span)?;
         let outputs = self.results(&value, function)?;
         Ok((outputs, options, function.docs.clone()))
+    }
+
+    /// Parameters that no kernel can take, whatever their types are called: for kernels in which other errors were found.
+    pub fn parameter_errors(mut self, entry: &str) -> Vec<Diagnostic> {
+        let Some(function) = self.library.functions.get(entry) else {
+            return Vec::new();
+        };
+        self.parameters = self.names_of_parameters(&function.params);
+        for Param { name, ty, span, .. } in &function.params {
+            let is_options = matches!(ty.bare(), SourceType::Name(of, _) if self.library.options.contains_key(of));
+            if ty.is_mutable_reference() {
+                self.note(by_reference(name, *span));
+            } else if !is_options
+                && let Err(exit) = self.parameter(name, ty.bare(), *span, &[], &mut OptionValues::default())
+            {
+                self.note(exit);
+            }
+        }
+        self.errors.retain(|error| error.code() == Some(Code::KernelParameter));
+        self.errors
     }
 
     /// Names of parameters, and of the fields of those that are structures, with how often each is one.
@@ -248,6 +265,17 @@ impl Evaluator<'_> {
         let name = &*self.input_name(name);
         Ok(Some(self.uniform(name, ty, None)))
     }
+}
+
+fn by_reference(name: &str, span: Span) -> Exit {
+    Diagnostic::at(
+        Code::KernelParameter,
+        span,
+        format!("a kernel cannot take `{name}` by `&mut`"),
+    )
+    .label("not supported")
+    .help("a kernel reads its parameters, and gives one colour")
+    .into()
 }
 
 fn bad_parameter(name: &str, span: Span) -> Exit {

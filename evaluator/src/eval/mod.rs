@@ -83,6 +83,11 @@ pub struct Evaluated {
     pub inputs: Vec<(String, Span)>,
 }
 
+/// Errors in the parameters of the function `entry` that do not depend on its body: for kernels in which other errors were found.
+pub fn parameter_errors(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Vec<Diagnostic> {
+    Evaluator::new(library, files, &Policy::default()).parameter_errors(&crate::front::raw(entry))
+}
+
 /// Evaluates the function `entry` with some options set, the others at their defaults.
 ///
 /// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.

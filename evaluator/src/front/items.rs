@@ -471,7 +471,11 @@ impl Items {
         self.blame(name, vec![error]);
     }
 
-    /// What `entry` needs, or the errors in it.
+    /// What `entry` needs, with the errors in it.
+    ///
+    /// # Errors
+    ///
+    /// Items that are defined twice, and types that hold themselves, with all other errors.
     pub fn lower(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
         self.implement_all();
         // A method of a type itself goes before one of a trait.
@@ -486,14 +490,24 @@ impl Items {
             }
         }
         let reached = self.mentions.reach(self.errors.keys(), entry);
-        let mut errors = self.duplicates;
+        let mut errors = Vec::new();
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
-        errors.extend(super::recursive::check(&self.library));
-        if !errors.is_empty() {
-            return Err(errors);
+        let mut contradictions = self.duplicates;
+        contradictions.extend(super::recursive::check(&self.library));
+        if !contradictions.is_empty() {
+            contradictions.extend(errors);
+            return Err(contradictions);
         }
+        let is_broken = |name: &String| self.errors.get(name).is_some_and(|errors| !errors.is_empty());
+        let (broken, types): (Vec<&String>, Vec<&String>) = reached
+            .iter()
+            .filter(|name| is_broken(name))
+            .partition(|name| self.library.functions.contains_key(*name) || self.library.consts.contains_key(*name));
+        self.library.broken = broken.into_iter().cloned().collect();
+        let doubtful = |name: &String| is_broken(name) || self.mentions.mentions_any(name, &types);
+        let sound = reached.iter().filter(|name| !doubtful(name)).cloned().collect();
         self.library
             .functions
             .retain(|name, function| function.span.file != super::std::FILE || reached.contains(name));
@@ -505,8 +519,9 @@ impl Items {
         let others = own.filter(written).cloned().collect();
         Ok(Parsed {
             library: self.library,
-            reached,
+            reached: sound,
             others,
+            errors,
         })
     }
 }

@@ -64,9 +64,16 @@ pub struct Parsed {
     pub reached: BTreeSet<String>,
     /// Functions of the files that it does not reach and that are of the kernel language.
     pub others: BTreeSet<String>,
+    /// Errors in what the kernel reaches. Items that have one, or mention a type that has one, are not among `reached`.
+    pub errors: Vec<Diagnostic>,
 }
 
 /// Reads all files and lowers what `entry` reaches.
+///
+/// # Errors
+///
+/// A file is not Rust, or its items contradict each other. Errors within items are [`Parsed::errors`], so that inference can
+/// find more in the others.
 pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     let mut errors = Vec::new();
     let mut syntax = Vec::new();

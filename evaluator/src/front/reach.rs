@@ -36,17 +36,7 @@ impl Mentions {
 
     /// Names of the items that `entry` reaches by any mention. Coarse, never too small.
     pub fn reach<'n>(&self, names: impl Iterator<Item = &'n String>, entry: &str) -> BTreeSet<String> {
-        let mut plain: HashMap<&str, Vec<&String>> = HashMap::new();
-        let mut members: HashMap<&str, Vec<&String>> = HashMap::new();
-        for name in names {
-            match name.rsplit_once("::") {
-                Some((_, last)) => members.entry(last).or_default().push(name),
-                None => plain.entry(name).or_default().push(name),
-            }
-        }
-        let of = |map: &HashMap<&str, Vec<&String>>, word: &str| -> Vec<String> {
-            map.get(word).into_iter().flatten().map(|n| (*n).clone()).collect()
-        };
+        let items = ByWord::new(names);
         let mut reached = BTreeSet::new();
         let mut pending = vec![entry.to_owned()];
         while let Some(name) = pending.pop() {
@@ -54,18 +44,63 @@ impl Mentions {
                 continue;
             }
             for mention in self.words.get(&name).into_iter().flatten() {
-                match mention {
-                    Mention::Plain(word) => pending.extend(of(&plain, word)),
-                    Mention::Whole(name) => pending.push(name.clone()),
-                    Mention::Method(word) => pending.extend(of(&members, word)),
-                    Mention::Qualified(word) => {
-                        pending.extend(of(&plain, word));
-                        pending.extend(of(&members, word));
-                    }
-                }
+                pending.extend(items.mentioned(mention));
             }
         }
         reached
+    }
+
+    /// Whether the text of `item` mentions one of `others`. Coarse, never missing one.
+    pub fn mentions_any(&self, item: &str, others: &[&String]) -> bool {
+        let others = ByWord::new(others.iter().copied());
+        let mut mentions = self.words.get(item).into_iter().flatten();
+        mentions.any(|mention| match mention {
+            Mention::Whole(name) => others.has(name),
+            other => others.mentioned(other).next().is_some(),
+        })
+    }
+}
+
+/// Items by the last word of their names.
+struct ByWord<'n> {
+    plain: HashMap<&'n str, Vec<&'n String>>,
+    members: HashMap<&'n str, Vec<&'n String>>,
+}
+
+impl<'n> ByWord<'n> {
+    fn new(names: impl Iterator<Item = &'n String>) -> Self {
+        let (mut plain, mut members) = (HashMap::<_, Vec<_>>::new(), HashMap::<_, Vec<_>>::new());
+        for name in names {
+            match name.rsplit_once("::") {
+                Some((_, last)) => members.entry(last).or_default().push(name),
+                None => plain.entry(name.as_str()).or_default().push(name),
+            }
+        }
+        ByWord { plain, members }
+    }
+
+    fn has(&self, name: &str) -> bool {
+        let all = self.plain.values().chain(self.members.values()).flatten();
+        all.into_iter().any(|known| *known == name)
+    }
+
+    /// Names of the items that a mention may stand for.
+    fn mentioned(&self, mention: &Mention) -> impl Iterator<Item = String> {
+        let (plain, member, whole) = match mention {
+            Mention::Plain(word) => (Some(word), None, None),
+            Mention::Whole(name) => (None, None, Some(name.clone())),
+            Mention::Method(word) => (None, Some(word), None),
+            Mention::Qualified(word) => (Some(word), Some(word), None),
+        };
+        let plain = plain
+            .and_then(|word| self.plain.get(word.as_str()))
+            .into_iter()
+            .flatten();
+        let member = member
+            .and_then(|word| self.members.get(word.as_str()))
+            .into_iter()
+            .flatten();
+        plain.chain(member).map(|name| (*name).clone()).chain(whole)
     }
 }
 

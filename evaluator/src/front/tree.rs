@@ -432,6 +432,8 @@ pub struct Library {
     pub implements: FxHashSet<(String, String)>,
     /// What functions of the kernel's files are for, in order of their places.
     pub purposes: Arc<[Purpose]>,
+    /// Functions and constants in which an error was found: inference says nothing of their uses.
+    pub broken: FxHashSet<String>,
 }
 
 impl Library {

@@ -37,6 +37,10 @@ impl<'l> Checker<'l> {
             return found;
         }
         let library = self.library;
+        if library.broken.contains(&path.join("::")) || library.broken.contains(last) {
+            self.loose(args);
+            return Ty::Unknown;
+        }
         if let [of, name] = path {
             if let Some(found) = self.of_type(of, name, args, span) {
                 return found;
@@ -120,6 +124,10 @@ impl<'l> Checker<'l> {
         args: &'l [Expr],
         span: Span,
     ) -> Ty {
+        if self.library.broken.contains(key) {
+            self.loose(args);
+            return Ty::Unknown;
+        }
         let given = self.instantiate(function, constants);
         self.instance(key, function, &given, span);
         self.with_given(function, given, receiver, args, span)

@@ -134,6 +134,9 @@ impl<'l> Checker<'l> {
         {
             return (ty, Access::Writable);
         }
+        if library.broken.contains(&joined) || library.broken.contains(last) {
+            return (Ty::Unknown, Access::Writable);
+        }
         if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
             return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
         }

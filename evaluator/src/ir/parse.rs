@@ -1,4 +1,6 @@
 //! The graph from its text.
+//!
+//! File tests: `evaluator/tests/filetests/parse`.
 
 use super::{
     Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Memory, Node,

@@ -1,4 +1,6 @@
 //! Building a graph again, without what is not used: the frame of every pass.
+//!
+//! File tests: `evaluator/tests/filetests/passes/rebuild`.
 
 use super::{Builder, Event, Graph, NodeId, Op, Region, RegionId, Rules, Type};
 use std::sync::Arc;

@@ -15,6 +15,8 @@
 //! 8. Every effect that something depends on is one of one region, on whose evaluation it happens, and each loop or branch with effects is one of the region
 //!    that it was written in; a region has them in the order in which they were made. Only there their values are used. What is
 //!    written is no buffer that is read. A kernel whose invocations are blocks or lanes has none.
+//!
+//! File tests: `evaluator/tests/filetests/verify`.
 
 mod resources;
 

@@ -1,4 +1,6 @@
 //! Coordinates of texels, component by component.
+//!
+//! File tests: `evaluator/tests/filetests/passes/coordinates`.
 
 use super::fold::Exact;
 use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild};

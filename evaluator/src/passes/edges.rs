@@ -3,6 +3,8 @@
 //!
 //! Drivers fold such a division before they run it: to 0, or to a value that is not written at all. Each rule returns the same
 //! bits by an operation that they leave alone; a NaN may have other bits.
+//!
+//! File tests: `evaluator/tests/filetests/passes/edges`.
 
 use crate::ir::{BinaryOp, Builder, NodeId, Op, Scalar, Type};
 

@@ -2,6 +2,8 @@
 //!
 //! Each rewrite is tagged with what it may change. None of them makes something finite infinite within the bounds that
 //! [`is_held`] sets to constants, none drops a test that the kernel makes, and none takes for granted that there is no NaN.
+//!
+//! File tests: `evaluator/tests/filetests/passes/fast`.
 
 use super::fold::Exact;
 use crate::ir::{

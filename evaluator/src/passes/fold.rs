@@ -2,6 +2,8 @@
 //!
 //! Each rule rewrites towards fewer or simpler nodes and says why it is exact where that is not plain. What may
 //! change a rounding, a NaN or the sign of a zero has no place here.
+//!
+//! File tests: `evaluator/tests/filetests/passes/fold`.
 
 use super::{edges, ranges};
 use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith, usize_value};

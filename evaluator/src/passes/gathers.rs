@@ -4,6 +4,8 @@
 //! then brought into the frame, if every pixel does it, and if one component of its texel is used. Where several such texels lie in a
 //! square of two by two, a gather reads all four. Its place is the corner that the four share, which is as far from where a sampler would
 //! take other texels as can be: half a texel. A sampler that clamps takes what lies outside of the frame to its border, as reads do.
+//!
+//! File tests: `evaluator/tests/filetests/passes/gathers`.
 
 use super::fold::Exact;
 use super::offsets::offsets;

@@ -1,4 +1,6 @@
 //! What is known of a value without knowing it.
+//!
+//! File tests: `evaluator/tests/filetests/passes/ranges`.
 
 use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp, usize_value};
 

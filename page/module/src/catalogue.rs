@@ -2,7 +2,8 @@
 
 use crate::errors::Refusal;
 use serde_json::{Value, json};
-use straightline_codegen::Kernel;
+use straightline_codegen::spec::{Arity, KNOBS, Part};
+use straightline_codegen::{Kernel, ShaderSpec};
 
 /// A kernel of the page.
 #[derive(Clone, Copy, Debug)]
@@ -264,7 +265,20 @@ pub fn to_json() -> Value {
             "uniforms": uniforms.collect::<Vec<_>>(),
         })
     });
+    // The form's own controls set the others.
+    let own = ["set", "unroll", "branches", "transport", "block"];
+    let computing = KNOBS
+        .iter()
+        .filter(|knob| knob.part == Part::Settings && !own.contains(&knob.name));
+    let knobs = computing.map(|knob| {
+        let initial = knob.texts(&ShaderSpec::new()).join(" ");
+        json!({
+            "name": knob.name, "value": knob.value, "help": knob.help(), "initial": initial,
+            "many": knob.arity == Arity::Many,
+        })
+    });
     json!({
+        "knobs": knobs.collect::<Vec<_>>(),
         "kernels": kernels.collect::<Vec<_>>(), "size": crate::scene::SIZE, "version": env!("CARGO_PKG_VERSION"),
         "engines": crate::engines::to_json(),
     })

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Compiled, EmitOptions, Settings, Stage};
+use straightline_codegen::{Compiled, Overrides, ShaderSpec};
 
 /// A kernel: one of the catalogue, or the text that the page's visitor has made of it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -32,29 +32,14 @@ pub struct SourceText {
     pub text: String,
 }
 
-/// A kernel in one form, in the words of the command line.
+/// A kernel in one form.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Asked {
     /// Which kernel.
     pub kernel: KernelText,
-    /// Options that are not at their defaults.
+    /// What its shaders compute, by the names of the command line: `{ "set": { "pattern": "latin16" }, "unroll": "none" }`.
     #[serde(default)]
-    pub options: BTreeMap<String, String>,
-    /// `full`, `none` or a factor; without one, `full`.
-    #[serde(default)]
-    pub unroll: Option<String>,
-    /// `as-loops`, `keep` or `select`.
-    #[serde(default)]
-    pub branches: Option<String>,
-    /// `strict`, `exact` or `fast`.
-    #[serde(default)]
-    pub math: Option<String>,
-    /// `subgroup`, `derivatives` or `block`.
-    #[serde(default)]
-    pub transport: Option<String>,
-    /// Pixels of an invocation.
-    #[serde(default)]
-    pub block: Option<[u32; 2]>,
+    pub shader: ShaderSpec,
 }
 
 /// A kernel in one form, and the shaders that are wanted of it.
@@ -62,17 +47,9 @@ pub struct Asked {
 pub struct CompileRequest {
     #[serde(flatten)]
     asked: Asked,
-    /// A shader for each.
+    /// How each shader is written: `{ "stage": "fragment", "target": ["wgsl"] }`.
     #[serde(default)]
-    shaders: Vec<ShaderAsked>,
-}
-
-/// A shader in some languages.
-#[derive(Deserialize)]
-struct ShaderAsked {
-    stage: Stage,
-    format: String,
-    targets: Vec<String>,
+    shaders: Vec<Overrides>,
 }
 
 impl KernelText {
@@ -85,33 +62,15 @@ impl KernelText {
     }
 }
 
-impl Asked {
-    /// As the generator takes them.
-    pub fn settings(&self) -> Result<Settings, Refusal> {
-        fn parsed<T: std::str::FromStr<Err = String>>(text: &Option<String>) -> Result<Option<T>, Refusal> {
-            text.as_ref()
-                .map(|text| text.parse().map_err(|why: String| Refusal::of(&why)))
-                .transpose()
-        }
-        let options = self.options.iter();
-        Ok(Settings {
-            options: options.map(|(name, value)| (name.clone(), value.clone())).collect(),
-            unroll: parsed(&self.unroll)?.unwrap_or_default(),
-            branches: parsed(&self.branches)?.unwrap_or_default(),
-            math: parsed(&self.math)?.unwrap_or_default(),
-            transport: parsed(&self.transport)?,
-            block: self.block.unwrap_or([1, 1]),
-            ..Settings::default()
-        })
-    }
-}
-
 /// Compiles a kernel and emits it.
 pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Refusal> {
     let kernel = state.kernel(&request.asked.kernel)?;
     let infos: Vec<Value> = kernel.options()?.iter().map(options::to_json).collect();
     let compiled = state.compiled(&request.asked)?;
-    let shaders = request.shaders.iter().map(|asked| shader(&compiled, asked));
+    let shaders = request
+        .shaders
+        .iter()
+        .map(|written| shader(&compiled, &request.asked.shader, written));
     let shaders = shaders.collect::<Result<Vec<Value>, Refusal>>()?;
     let loops = compiled.loops.iter().map(|report| {
         json!({
@@ -140,17 +99,10 @@ fn paper(compiled: &Compiled) -> Value {
 }
 
 /// One shader: its manifest and texts, and the languages that cannot have it with the reason.
-fn shader(compiled: &Compiled, asked: &ShaderAsked) -> Result<Value, Refusal> {
-    let options = EmitOptions {
-        enable_subgroups: true,
-        ..EmitOptions::new()
-            .stage(asked.stage)
-            .format(asked.format.parse().map_err(|why: String| Refusal::of(&why))?)
-    };
+fn shader(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> Result<Value, Refusal> {
+    let options = written.apply(spec.clone()).emit.enable_subgroups(true);
     let emitted = |targets: &[Target]| compiled.emit(&options.clone().targets(targets.iter().copied()));
-    let parsed = asked.targets.iter().map(|name| name.parse());
-    let targets = parsed.collect::<Result<Vec<Target>, String>>();
-    let targets = targets.map_err(|why| Refusal::of(&why))?;
+    let targets: Vec<Target> = options.targets.iter().copied().collect();
     let (mut texts, mut refused) = (Map::new(), Map::new());
     let mut take = |files: BTreeMap<Target, Vec<u8>>| {
         for (target, text) in files {
@@ -181,7 +133,7 @@ fn shader(compiled: &Compiled, asked: &ShaderAsked) -> Result<Value, Refusal> {
             json!(common)
         }
     };
-    Ok(json!({ "stage": asked.stage, "manifest": manifest, "texts": texts, "refused": refused }))
+    Ok(json!({ "stage": options.stage, "manifest": manifest, "texts": texts, "refused": refused }))
 }
 
 /// The first error with its help, in a line.

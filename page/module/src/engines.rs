@@ -22,7 +22,10 @@ pub fn context(state: &mut State, engine: &str, asked: &Asked) -> Result<Value, 
     let engine = Engine::builtin(engine).ok_or_else(|| Refusal::of(&format!("there is no engine `{engine}`")))?;
     let options = state.kernel(&asked.kernel)?.options()?;
     let compiled = state.compiled(asked)?;
-    let context = engine.context(&Request::new(&compiled, &options));
+    let context = engine.context(&Request {
+        emit: asked.shader.emit.clone(),
+        ..Request::new(&compiled, &options)
+    });
     let context = context.map_err(|error| match error {
         EngineError::Kernel(errors) => Refusal::from(errors),
         error => Refusal::of(&error.to_string()),

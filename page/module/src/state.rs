@@ -6,7 +6,7 @@ use crate::errors::Refusal;
 use crate::scene::Scene;
 use crate::texels::Picture;
 use std::sync::Arc;
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Manifest};
+use straightline_codegen::{Compiled, Kernel, Manifest};
 
 /// Kernels and compiled forms that are kept: as many as a page shows, and one more that is being edited.
 const KEPT: usize = 6;
@@ -54,7 +54,7 @@ impl State {
             return Ok(Arc::clone(compiled));
         }
         let kernel = self.kernel(&asked.kernel)?;
-        let compiled = Arc::new(kernel.compile(&asked.settings()?)?);
+        let compiled = Arc::new(asked.shader.compile(&kernel)?);
         keep(&mut self.compiled, asked.clone(), Arc::clone(&compiled));
         Ok(compiled)
     }
@@ -64,7 +64,7 @@ impl State {
         if let Some((_, manifest)) = self.manifests.iter().find(|(known, _)| known == asked) {
             return Ok(Arc::clone(manifest));
         }
-        let emitted = self.compiled(asked)?.emit(&EmitOptions::new().targets([]));
+        let emitted = self.compiled(asked)?.emit(&asked.shader.emit.clone().targets([]));
         let manifest = Arc::new(emitted?.manifest);
         keep(&mut self.manifests, asked.clone(), Arc::clone(&manifest));
         Ok(manifest)

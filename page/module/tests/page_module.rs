@@ -1,6 +1,9 @@
 //! Every kernel of the page, through the messages that the page sends.
 
 use serde_json::{Value, json};
+use straightline_codegen::emit::Target;
+use straightline_codegen::spec::KNOBS;
+use straightline_codegen::{Kernel, Overrides, ShaderSpec};
 use straightline_page_module::{Message, answer, entries};
 
 /// What the module answers.
@@ -38,10 +41,11 @@ fn unroll(id: &str) -> &'static str {
 
 fn compile(id: &str) -> Value {
     let shaders = json!([
-        { "stage": "compute", "format": "rgba16float", "targets": ["wgsl", "glsl450", "hlsl", "msl"] },
-        { "stage": "fragment", "format": "rgba16float", "targets": ["essl300"] },
+        { "stage": "compute", "format": "rgba16float", "target": ["wgsl", "glsl450", "hlsl", "msl"] },
+        { "stage": "fragment", "format": "rgba16float", "target": ["essl300"] },
     ]);
-    let asked = json!({ "do": "compile", "kernel": { "id": id }, "unroll": unroll(id), "shaders": shaders });
+    let asked =
+        json!({ "do": "compile", "kernel": { "id": id }, "shader": { "unroll": unroll(id) }, "shaders": shaders });
     ask(asked, &[])
         .unwrap_or_else(|refused| panic!("{id}: {}", refused["text"]))
         .json
@@ -97,7 +101,7 @@ fn every_kernel_draws_or_says_why_not() {
             .iter()
             .map(|u| (u.name.to_owned(), json!(u.value)))
             .collect();
-        let about = json!({ "kernel": { "id": entry.id }, "size": SIZE, "unroll": entry.unroll });
+        let about = json!({ "kernel": { "id": entry.id }, "size": SIZE, "shader": { "unroll": entry.unroll } });
         let ask_for = |what: &str, uniforms: Value| {
             let mut request = about.clone();
             request["do"] = json!(what);
@@ -148,7 +152,7 @@ fn every_kernel_draws_or_says_why_not() {
 #[test]
 fn sraa_reads_the_scene_in_every_encoding() {
     let picture = |options: Value| {
-        let request = json!({ "kernel": { "id": "sraa" }, "size": [48, 30], "options": options });
+        let request = json!({ "kernel": { "id": "sraa" }, "size": [48, 30], "shader": { "set": options } });
         let mut asked = request.clone();
         asked["do"] = json!("inputs");
         let uniforms = ask(asked, &[]).unwrap_or_else(|r| panic!("{}", r["text"])).json["uniforms"].clone();
@@ -180,8 +184,7 @@ fn sraa_reads_the_scene_in_every_encoding() {
         let off = same.iter().zip(&other).filter(|(a, b)| (*a - *b).abs() > 0.02).count();
         assert!(off * 20 < same.len(), "{depth}: {off} of {}", same.len());
     }
-    let request =
-        json!({ "do": "inputs", "kernel": { "id": "sraa" }, "size": SIZE, "options": { "layout": "multisampled" } });
+    let request = json!({ "do": "inputs", "kernel": { "id": "sraa" }, "size": SIZE, "shader": { "set": { "layout": "multisampled" } } });
     assert!(reason(&ask(request, &[]).expect_err("no such texture")).contains("multisampled"));
 }
 
@@ -194,7 +197,7 @@ fn an_edited_text_is_compiled_and_its_errors_have_places() {
     let edited = |text: &str| {
         json!({ "do": "compile", "kernel": { "id": "kernels/kuwahara", "function": "kuwahara",
             "files": [{ "path": "kuwahara.rs", "text": text }] },
-            "shaders": [{ "stage": "compute", "format": "rgba16float", "targets": ["wgsl"] }] })
+            "shaders": [{ "stage": "compute", "format": "rgba16float", "target": ["wgsl"] }] })
     };
     let shader = |given: &Value| given["shaders"][0]["texts"]["wgsl"].as_str().expect("WGSL").to_owned();
     let body = |text: String| text[text.find("@compute").expect("an entry point")..].to_owned();
@@ -232,7 +235,7 @@ fn nonsense_is_refused() {
     }
     let refused = ask(json!({ "do": "compile", "kernel": { "id": "nothing" } }), &[]).expect_err("no such kernel");
     assert!(reason(&refused).contains("nothing"));
-    let request = json!({ "do": "compile", "kernel": { "id": "sraa" }, "options": { "pattern": "round" } });
+    let request = json!({ "do": "compile", "kernel": { "id": "sraa" }, "shader": { "set": { "pattern": "round" } } });
     assert!(
         ask(request, &[]).expect_err("no such value")["text"]
             .as_str()
@@ -247,7 +250,8 @@ fn a_kernel_is_had_as_the_folder_of_an_engine() {
     let engines = catalogue["engines"].as_array().expect("a list");
     assert!(engines.len() >= 16 && engines.iter().any(|e| e["title"] == "three.js"));
     let folder = |engine: &str, id: &str| {
-        let asked = json!({ "do": "engine", "engine": engine, "kernel": { "id": id }, "unroll": unroll(id) });
+        let asked =
+            json!({ "do": "engine", "engine": engine, "kernel": { "id": id }, "shader": { "unroll": unroll(id) } });
         let context = ask(asked, &[])?.json;
         let request = Message::of(json!({ "engine": engine, "context": context })).encode();
         let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");
@@ -274,5 +278,48 @@ fn a_kernel_is_had_as_the_folder_of_an_engine() {
     ] {
         let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");
         assert!(made.json["refused"]["text"].is_string(), "{}", made.json);
+    }
+}
+
+/// A message has every setting of a shader that a `build.rs` has, and makes the same text of it.
+#[test]
+fn messages_have_every_knob() {
+    let text = std::fs::read_to_string("../../kernels/filters/gaussian.rs").expect("a kernel");
+    let kernel = Kernel::from_text("kernels/filters/gaussian.rs", &text, "gaussian");
+    for knob in KNOBS {
+        let spec = knob.example(ShaderSpec::new().targets([Target::Wgsl]));
+        let request = json!({
+            "do": "compile", "shader": spec, "shaders": [Overrides::of_changed(&spec)],
+            "kernel": { "id": "kernels/gaussian", "function": "gaussian",
+                "files": [{ "path": "kernels/filters/gaussian.rs", "text": text }] },
+        });
+        let mut browser = spec.clone();
+        browser.emit.enable_subgroups = true;
+        match (ask(request, &[]), browser.compile(&kernel)) {
+            (Ok(answer), Ok(compiled)) => {
+                let shader = &answer.json["shaders"][0];
+                for target in browser.emit.targets.clone() {
+                    let alone = browser.emit.clone().targets([target]);
+                    let (text, refused) = (
+                        &shader["texts"][target.to_string()],
+                        &shader["refused"][target.to_string()],
+                    );
+                    match compiled.emit(&alone) {
+                        Ok(emitted) => assert_eq!(
+                            text.as_str().map(str::as_bytes),
+                            Some(&*emitted.files[&target]),
+                            "{}",
+                            knob.name
+                        ),
+                        Err(_) => assert!(refused.is_string(), "{}: {refused}", knob.name),
+                    }
+                }
+            }
+            (Err(refused), Err(errors)) => {
+                let text = refused["text"].as_str().expect("a text");
+                assert!(text.contains(errors.first_message()), "{}: {text}", knob.name);
+            }
+            (asked, compiled) => panic!("{}: {:?}, {:?}", knob.name, asked.err(), compiled.err()),
+        }
     }
 }

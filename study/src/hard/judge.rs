@@ -205,16 +205,15 @@ fn place(x: f64, precision: Precision) -> f64 {
 
 /// A form compiled with the options that it has in a case.
 pub fn compile(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
-    let settings = straightline_codegen::Settings {
-        options: options.to_vec(),
+    let settings = straightline_codegen::Settings::new()
+        .set_all(options.to_vec())
         // One invocation computes a quad: the stage is a compute shader.
-        transport: form
-            .family
-            .is_of_quads()
-            .then_some(straightline_codegen::Transport::Block),
-        math: form.math,
-        ..Default::default()
-    };
+        .transport(
+            form.family
+                .is_of_quads()
+                .then_some(straightline_codegen::Transport::Block),
+        )
+        .math(form.math);
     let compiled = builtin(&form.kernel).and_then(|kernel| kernel.compile(&settings));
     compiled.map_err(|errors| HardError::Kernel {
         form: form.name.clone(),

@@ -83,11 +83,7 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
 }
 
 fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStudyError> {
-    let settings = |unroll, options: &[OptionText]| Settings {
-        unroll,
-        options: options.to_vec(),
-        ..Settings::default()
-    };
+    let settings = |unroll, options: &[OptionText]| Settings::new().unroll(unroll).set_all(options.to_vec());
     let compile = |kernel: &Kernel, settings: &Settings| {
         kernel.compile(settings).map_err(|errors| IsaStudyError::Kernel {
             name: subject.name.clone(),
@@ -104,36 +100,24 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
         (IsaForm::ByHand, Ok(hand)) => compile(&hand.kernel, &settings(Unroll::None, &hand.options)).map(Some),
         (IsaForm::ByHand, Err(_)) | (IsaForm::Slang, _) => Ok(None),
         (IsaForm::Block, _) => {
-            let block = Settings {
-                block: [2, 2],
-                ..settings(Unroll::Full, &subject.options)
-            };
+            let block = settings(Unroll::Full, &subject.options).block(2, 2);
             // Some kernels have no such form, and say so where it is asked for.
             Ok(subject.kernel.compile(&block).ok())
         }
         (IsaForm::Fast, _) => {
             let full = settings(Unroll::Full, &subject.options);
             let exact = compile(&subject.kernel, &full)?;
-            let fast = Settings {
-                math: Math::Fast,
-                ..full
-            };
+            let fast = full.math(Math::Fast);
             let fast = compile(&subject.kernel, &fast)?;
             Ok((print(&fast.graph) != print(&exact.graph)).then_some(fast))
         }
         (IsaForm::Gather, _) => {
-            let gather = Settings {
-                reads: ReadOrder::Gather,
-                ..settings(Unroll::Full, &subject.options)
-            };
+            let gather = settings(Unroll::Full, &subject.options).reads(ReadOrder::Gather);
             let gather = subject.kernel.compile(&gather).ok();
             Ok(gather.filter(|compiled| !compiled.gathered.is_empty()))
         }
         (IsaForm::Tile, _) => {
-            let tile = Settings {
-                share: Share::WORKGROUP,
-                ..settings(Unroll::Full, &subject.options)
-            };
+            let tile = settings(Unroll::Full, &subject.options).share(Share::WORKGROUP);
             Ok(subject.kernel.compile(&tile).ok())
         }
     }

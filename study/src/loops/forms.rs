@@ -30,11 +30,7 @@ impl Forms {
     ///
     /// If the kernel is not one, looped or unrolled, or what was written by hand is none.
     pub fn of(subject: &Subject, half: bool) -> Result<Forms, LoopsError> {
-        let settings = |unroll| Settings {
-            unroll,
-            options: subject.options.clone(),
-            ..Settings::default()
-        };
+        let settings = |unroll| Settings::new().unroll(unroll).set_all(subject.options.clone());
         let compile = |kernel: &Kernel, settings: &Settings| {
             kernel.compile(settings).map_err(|errors| LoopsError::Kernel {
                 name: subject.name.clone(),
@@ -56,11 +52,7 @@ impl Forms {
                 FormKind::LoopedByHand | FormKind::LoopedByHandUnchecked => match &subject.by_hand {
                     Err(why) => Err(why.clone()),
                     Ok(by_hand) => {
-                        let settings = Settings {
-                            unroll: Unroll::None,
-                            options: by_hand.options.clone(),
-                            ..Settings::default()
-                        };
+                        let settings = Settings::new().unroll(Unroll::None).set_all(by_hand.options.clone());
                         Ok(compile(&by_hand.kernel, &settings)?)
                     }
                 },
@@ -73,10 +65,7 @@ impl Forms {
                     .compile(&settings(Unroll::Partial(4)))
                     .map_err(|errors| errors.first_message().to_owned()),
                 FormKind::FullUnshared => {
-                    let settings = Settings {
-                        share_loads: false,
-                        ..settings(Unroll::Full)
-                    };
+                    let settings = settings(Unroll::Full).repeat_loads(true);
                     let unshared = subject
                         .kernel
                         .compile(&settings)
@@ -87,30 +76,21 @@ impl Forms {
                     })
                 }
                 FormKind::FullBlock => {
-                    let settings = Settings {
-                        block: [2, 2],
-                        ..settings(Unroll::Full)
-                    };
+                    let settings = settings(Unroll::Full).block(2, 2);
                     subject
                         .kernel
                         .compile(&settings)
                         .map_err(|errors| errors.first_message().to_owned())
                 }
                 FormKind::FullTile => {
-                    let settings = Settings {
-                        share: Share::WORKGROUP,
-                        ..settings(Unroll::Full)
-                    };
+                    let settings = settings(Unroll::Full).share(Share::WORKGROUP);
                     subject
                         .kernel
                         .compile(&settings)
                         .map_err(|errors| errors.first_message().to_owned())
                 }
                 FormKind::FullGather => {
-                    let settings = Settings {
-                        reads: ReadOrder::Gather,
-                        ..settings(Unroll::Full)
-                    };
+                    let settings = settings(Unroll::Full).reads(ReadOrder::Gather);
                     let gathered = subject
                         .kernel
                         .compile(&settings)
@@ -121,10 +101,7 @@ impl Forms {
                     })
                 }
                 FormKind::FullFast => {
-                    let settings = Settings {
-                        math: Math::Fast,
-                        ..settings(Unroll::Full)
-                    };
+                    let settings = settings(Unroll::Full).math(Math::Fast);
                     let fast = subject
                         .kernel
                         .compile(&settings)
@@ -314,11 +291,7 @@ mod tests {
             ([2, 2], Share::Invocation),
             ([1, 1], Share::WORKGROUP),
         ] {
-            let settings = Settings {
-                block,
-                share,
-                ..Settings::default()
-            };
+            let settings = Settings::new().block(block[0], block[1]).share(share);
             let compiled = Kernel::from_text("k.rs", text, "k")
                 .compile(&settings)
                 .expect("a kernel");

@@ -101,12 +101,13 @@ pub fn compile(
     block: [u32; 2],
 ) -> Result<Compiled, Errors> {
     let options = options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
-    let settings = Settings {
-        options: options.collect(),
-        transport,
+    let settings = Settings::new()
+        .set_all(options)
+        .transport(transport)
         // The quad itself is what the transport `block` computes, or a kernel of pixels one of.
-        block: if block == QUAD { [1, 1] } else { block },
-        ..Settings::default()
-    };
+        .block(
+            if block == QUAD { [1, 1] } else { block }[0],
+            if block == QUAD { [1, 1] } else { block }[1],
+        );
     Kernel::builtin(kernel)?.compile(&settings)
 }

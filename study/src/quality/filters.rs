@@ -276,10 +276,7 @@ fn merged(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
 
 impl Shader {
     fn new(bench: &Bench, kernel: &Kernel, options: &[OptionText]) -> Result<Shader, QualityError> {
-        let settings = Settings {
-            options: options.to_vec(),
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(options.to_vec());
         let compiled = kernel.compile(&settings)?;
         let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
         Ok(Shader {

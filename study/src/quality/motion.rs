@@ -156,10 +156,7 @@ impl Sequence {
     }
 
     fn filtered(&mut self, bench: &Bench, method: &Method, samples: &[Vec2]) -> Result<Vec<Frame<Vec4>>, QualityError> {
-        let settings = Settings {
-            options: method.options().to_vec(),
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(method.options().to_vec());
         let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
         // The frame alone has all but what history reads.
         let mut alone = compiled.options.clone();

@@ -188,14 +188,9 @@ mod tests {
     use straightline_codegen::{Kernel, Settings};
 
     fn counted(options: &[(&str, &str)], block: [u32; 2]) -> Static {
-        let settings = Settings {
-            options: options
-                .iter()
-                .map(|(n, v)| ((*n).to_owned(), (*v).to_owned()))
-                .collect(),
-            block,
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(options.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())))
+            .block(block[0], block[1]);
         let compiled = Kernel::builtin("sraa").unwrap().compile(&settings).unwrap();
         Static::of(&compiled)
     }

@@ -129,10 +129,7 @@ fn several_shading_samples_are_captured_and_filtered() {
     assert_eq!(Capture::read(&scratch.join("frame")).expect("read"), two);
 
     let filtered = |capture: &Capture| {
-        let settings = Settings {
-            options: gbuffer::sampled_at(capture),
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(gbuffer::sampled_at(capture));
         let compiled = Kernel::builtin("sraa")
             .and_then(|kernel| kernel.compile(&settings))
             .expect("it compiles");

@@ -52,11 +52,7 @@ fn variants() -> Result<(), String> {
             rest /= values.len();
         }
         let unroll = if rest == 0 { Unroll::Full } else { Unroll::None };
-        let settings = Settings {
-            options,
-            unroll,
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(options).unroll(unroll);
         let compiled = kernel.compile(&settings).map_err(|e| e.to_string())?;
         let emitted = compiled.emit(&EmitOptions::new()).map_err(|e| e.to_string())?;
         statements += emitted.manifest.counts.statements;

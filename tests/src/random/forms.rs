@@ -20,15 +20,10 @@ pub struct Form(pub Unroll, pub Branches);
 impl Form {
     /// The settings that compile a kernel to this form.
     pub fn settings(self) -> Settings {
-        Settings {
-            unroll: self.0,
-            branches: self.1,
-            reads: match self.1 {
-                Branches::AsLoops => ReadOrder::Source,
-                Branches::Keep | Branches::Select => ReadOrder::Rows,
-            },
-            ..Settings::default()
-        }
+        Settings::new().unroll(self.0).branches(self.1).reads(match self.1 {
+            Branches::AsLoops => ReadOrder::Source,
+            Branches::Keep | Branches::Select => ReadOrder::Rows,
+        })
     }
 }
 

@@ -52,11 +52,7 @@ pub fn compiled(options: &Options, unroll: Unroll) -> Result<Compiled, Errors> {
 ///
 /// What the kernel refuses, and why.
 pub fn kernel(name: &str, options: &Options, unroll: Unroll) -> Result<Compiled, Errors> {
-    let settings = Settings {
-        options: options.clone(),
-        unroll,
-        ..Settings::default()
-    };
+    let settings = Settings::new().set_all(options.clone()).unroll(unroll);
     Kernel::builtin(name)?.compile(&settings)
 }
 

@@ -40,11 +40,7 @@ impl Example {
         let gpu = bench();
         let mut last = None;
         for (unroll, branches) in forms {
-            let settings = Settings {
-                unroll,
-                branches,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll).branches(branches);
             let compiled = self.compile(&settings);
             let found = interpret::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
             same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name} {unroll}, branches {branches}: {e}"));

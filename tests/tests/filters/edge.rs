@@ -279,11 +279,7 @@ fn outlines_in_every_form() {
         let native: Vec<_> = native.collect();
         assert_eq!(ink == 1.0, native.iter().any(|texel| texel[..3] == [0.0; 3]));
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                options: vec![("ink".to_owned(), ink.to_string())],
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().set("ink", ink).unroll(unroll);
             let compiled = Kernel::from_file(&kernel, None).and_then(|k| k.compile(&settings));
             let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
             let found = interpret::<f32>(&compiled, &inputs, false).expect("all is bound");

@@ -481,10 +481,7 @@ fn every_language_and_form() {
 /// How many texts of a shader its languages' compilers have read.
 fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
     let name = path.display();
-    let settings = Settings {
-        unroll,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(unroll);
     let kernel = Kernel::from_file(path, None).unwrap_or_else(|e| panic!("{e}"));
     let compiled = kernel.compile(&settings).unwrap_or_else(|e| panic!("{e}"));
     let emit = |target: &Target| {

@@ -225,10 +225,7 @@ fn the_catalogue_says_of_half_precision_what_the_cases_show() {
         }
         settings.push(Vec::new());
         for set in settings {
-            let chosen = Settings {
-                options: set.clone(),
-                ..Settings::default()
-            };
+            let chosen = Settings::new().set_all(set.clone());
             let Ok(compiled) = kernel.compile(&chosen) else {
                 continue;
             };

@@ -331,7 +331,7 @@ fn railings_come_close_to_supersampling() {
 }
 
 #[test]
-#[ignore = "takes as long as all others together; `cargo test --workspace --test history -- --include-ignored`"]
+#[ignore = "takes as long as all others together; `cargo test --workspace --test filters history:: -- --include-ignored`"]
 fn a_roof_comes_close_to_supersampling() {
     close_to_supersampling("roof");
 }

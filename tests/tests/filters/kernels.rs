@@ -162,10 +162,7 @@ fn convolution() {
 fn zero_weights_cost_nothing() {
     let example = Example::new("kernels/filters", "convolution");
     let reads = |weights: &str| {
-        let settings = Settings {
-            options: vec![("weights".to_owned(), weights.to_owned())],
-            ..Settings::default()
-        };
+        let settings = Settings::new().set("weights", weights);
         example.compile(&settings).counts.colour_reads
     };
     let cross = "0,0,0,0,0, 0,0,1,0,0, 0,1,-4,1,0, 0,0,1,0,0, 0,0,0,0,0";

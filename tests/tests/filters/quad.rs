@@ -1,7 +1,7 @@
 //! Filters of quads: as rustc compiles them, in every form by the interpreter, and on a GPU by every transport, against
 //! what they are to give by definition (`src/quads/`).
 //!
-//! `cargo test -p straightline-tests --test quad -- --nocapture` prints the largest error of each.
+//! `cargo test --workspace --test filters quad:: -- --nocapture` prints the largest error of each.
 
 // Kernels and oracles are written with counters.
 #![allow(clippy::needless_range_loop)]
@@ -34,15 +34,10 @@ type Options<'a> = &'a [(&'a str, &'a str)];
 const FORMS: [Unroll; 4] = [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(3)];
 
 fn compile(name: &str, options: Options<'_>, unroll: Unroll, transport: Option<Transport>) -> Compiled {
-    let settings = Settings {
-        options: options
-            .iter()
-            .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-            .collect(),
-        unroll,
-        transport,
-        ..Settings::default()
-    };
+    let settings = Settings::new()
+        .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
+        .unroll(unroll)
+        .transport(transport);
     Kernel::locate(name)
         .and_then(|k| k.compile(&settings))
         .unwrap_or_else(|e| panic!("{e}"))
@@ -163,14 +158,9 @@ fn check(
         shown += &format!(" | {off:.1e}");
     }
     for block in [[4, 2], [8, 2], [2, 4]] {
-        let settings = Settings {
-            options: options
-                .iter()
-                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-                .collect(),
-            block,
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
+            .block(block[0], block[1]);
         let rows = Kernel::locate(name)
             .and_then(|k| k.compile(&settings))
             .unwrap_or_else(|e| panic!("{e}"));

@@ -52,10 +52,7 @@ fn arrays_of_kept_loops_hold_what_the_graph_says() {
             }}"
         );
         let kernel = straightline_codegen::Kernel::from_text("test.rs", &text, name);
-        let settings = |unroll| straightline_codegen::Settings {
-            unroll,
-            ..Default::default()
-        };
+        let settings = |unroll| straightline_codegen::Settings::new().unroll(unroll);
         let compiled = [Unroll::Full, Unroll::None]
             .map(|unroll| kernel.compile(&settings(unroll)).unwrap_or_else(|e| panic!("{e}")));
         let [unrolled, looped] = [0, 1].map(|k| {

@@ -48,11 +48,7 @@ fn forms() -> impl Iterator<Item = (Unroll, Branches)> {
 }
 
 fn compiled(name: &str, (unroll, branches): (Unroll, Branches)) -> Compiled {
-    let settings = Settings {
-        unroll,
-        branches,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(unroll).branches(branches);
     let compiled = Kernel::from_text("departures.rs", TEXT, name).compile(&settings);
     compiled.unwrap_or_else(|e| panic!("{name}, loops {unroll}, branches {branches}:\n{e}"))
 }
@@ -131,10 +127,7 @@ fn reports_leave_abandoned_attempts_out() {
         (guessed, Unroll::Full),
         (guessed, Unroll::None),
     ] {
-        let settings = Settings {
-            unroll,
-            ..Settings::default()
-        };
+        let settings = Settings::new().unroll(unroll);
         let compiled = Kernel::from_text("k.rs", text, "k")
             .compile(&settings)
             .unwrap_or_else(|e| panic!("{e}"));

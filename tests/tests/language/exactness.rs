@@ -32,11 +32,7 @@ fn source(kernel: &str) -> String {
 }
 
 fn compiled(kernel: &str, unroll: Unroll, math: Math) -> Compiled {
-    let settings = Settings {
-        unroll,
-        math,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(unroll).math(math);
     let compiled = Kernel::from_text("sum.rs", &source(kernel), "k").compile(&settings);
     compiled.unwrap_or_else(|errors| panic!("{kernel}\n{errors}"))
 }

@@ -58,11 +58,7 @@ const FORMS: [(Unroll, Branches); 6] = [
 ];
 
 fn settings((unroll, branches): (Unroll, Branches)) -> Settings {
-    Settings {
-        unroll,
-        branches,
-        ..Settings::default()
-    }
+    Settings::new().unroll(unroll).branches(branches)
 }
 
 fn compile(text: &str, name: &str, settings: &Settings) -> Result<Compiled, Errors> {
@@ -194,10 +190,7 @@ fn a_loop_asked_for_by_name_is_left_in_the_shader_or_refused() {
         &Settings::default(),
     );
     assert!(stepped.contains(left), "{stepped}");
-    let named = Settings {
-        loops: vec![("k.i".to_owned(), Unroll::None)],
-        ..Settings::default()
-    };
+    let named = Settings::new().unroll_loop("k.i", Unroll::None);
     let path = refused("    for i in 1..4 { s += 0.5_f32.powi(i); }", &named);
     assert!(path.contains(left), "{path}");
     let followed = refused(

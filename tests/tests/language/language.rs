@@ -223,11 +223,7 @@ fn every_example_means_the_same_in_every_form() {
         let native: Vec<Vec<[f64; 4]>> = pixels.map(|at| (example.native)(&world, at)).collect();
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(3)] {
             for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
-                let settings = Settings {
-                    unroll,
-                    branches,
-                    ..Settings::default()
-                };
+                let settings = Settings::new().unroll(unroll).branches(branches);
                 let compiled = compile(example, &settings);
                 let result =
                     interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", example.name));
@@ -252,10 +248,7 @@ fn every_example_is_emitted_in_every_language() {
     let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
     for example in EXAMPLES {
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compile(example, &settings);
             for stage in [Stage::Compute, Stage::Fragment] {
                 if stage == Stage::Fragment
@@ -291,10 +284,7 @@ fn every_example_is_the_same_picture_on_a_gpu() {
     let inputs = world.inputs();
     for example in EXAMPLES {
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compile(example, &settings);
             let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
             let found = bench
@@ -328,10 +318,7 @@ fn every_example_works_in_half_precision() {
     let mut spirv = Vec::new();
     for example in EXAMPLES {
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compile(example, &settings);
             let targets = Target::MODERN.into_iter().filter(|t| *t != Target::Glsl450);
             let emitted = compiled.emit(&EmitOptions::new().precision(Precision::F16).targets(targets));
@@ -385,10 +372,7 @@ fn the_page_says_which_constructs_are_taken() {
         let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
         let native: Vec<[f64; 4]> = pixels.map(|at| (example.native)(&world, at)[0]).collect();
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compile(example, &settings);
             let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{title}: {e}"));
             same_texels(&native, &found.targets[0].texels).unwrap_or_else(|e| panic!("{title} with {unroll}: {e}"));

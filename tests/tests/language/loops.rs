@@ -154,15 +154,7 @@ fn no_read_of_the_floor_can_be_dropped() {
 fn reads_that_are_not_shared_change_no_bit() {
     let mut more = 0;
     for kernel in kernels() {
-        let forms = [true, false].map(|share_loads| {
-            compile(
-                &kernel,
-                &Settings {
-                    share_loads,
-                    ..Settings::default()
-                },
-            )
-        });
+        let forms = [true, false].map(|share_loads| compile(&kernel, &Settings::new().repeat_loads(!share_loads)));
         let inputs = test_inputs(&forms[0].in_blocks().graph, uvec2(32, 18));
         let found = forms
             .each_ref()
@@ -181,11 +173,7 @@ fn kernels_by_hand_agree() {
     let mut checked = 0;
     for subject in subjects(false).unwrap_or_else(|e| panic!("{e}")) {
         let Ok(by_hand) = &subject.by_hand else { continue };
-        let settings = |unroll, options: &[(String, String)]| Settings {
-            unroll,
-            options: options.to_vec(),
-            ..Settings::default()
-        };
+        let settings = |unroll, options: &[(String, String)]| Settings::new().unroll(unroll).set_all(options.to_vec());
         let full = compile(&subject.kernel, &settings(Unroll::Full, &subject.options));
         let hand = compile(&by_hand.kernel, &settings(Unroll::None, &by_hand.options));
         assert!(hand.counts.loops > 0, "{}: no loop is left", subject.name);
@@ -234,11 +222,7 @@ fn every_kept_loop_is_shown_to_end() {
     let mut with_loops = 0;
     for kernel in kernels() {
         for unroll in [Unroll::None, Unroll::Partial(3)] {
-            let settings = Settings {
-                unroll,
-                branches: Branches::AsLoops,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll).branches(Branches::AsLoops);
             let compiled = compile(&kernel, &settings);
             let compiled = compiled.in_blocks();
             if compiled.counts.loops == 0 {

@@ -137,10 +137,7 @@ fn kernel(params: &str, lets: &str, range: &str) -> String {
 }
 
 fn compile(text: &str, unroll: Unroll) -> Compiled {
-    let settings = Settings {
-        unroll,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(unroll);
     Kernel::from_text("range.rs", text, "k")
         .compile(&settings)
         .unwrap_or_else(|errors| panic!("{unroll}:\n{text}\n{errors}"))
@@ -306,10 +303,7 @@ fn known_ranges_at_the_ends_of_a_type_run_on_a_gpu() {
 fn a_range_of_all_values_is_refused() {
     for unroll in FORMS {
         for range in ["0u32..=u32::MAX", "i32::MIN..=i32::MAX"] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let refused = Kernel::from_text("range.rs", &kernel("", "", range), "k").compile(&settings);
             let error = refused.expect_err("too many iterations").to_string();
             assert!(error.contains("a loop of 4294967296 iterations"), "{error}");

@@ -53,10 +53,7 @@ fn kernels_with_textures_samplers_and_uniforms() {
         ("stalker", Unroll::None),
         ("downsampling", Unroll::Full),
     ] {
-        let settings = Settings {
-            unroll,
-            ..Settings::default()
-        };
+        let settings = Settings::new().unroll(unroll);
         let compiled = Kernel::builtin(name).and_then(|kernel| kernel.compile(&settings));
         let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
         check(&compiled, &test_inputs(&compiled.graph, uvec2(45, 31)));

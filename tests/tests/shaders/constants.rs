@@ -207,7 +207,7 @@ fn every_plan_is_written_as_it_is_read() {
             let Ok(emitted) = compiled.emit(&EmitOptions::new().stage(stage)) else {
                 continue;
             };
-            let Emitted { manifest, files } = &emitted;
+            let Emitted { manifest, files, .. } = &emitted;
             compare(&compiled, manifest, &String::from_utf8_lossy(&files[&Target::Wgsl]));
             compared += 1;
         }

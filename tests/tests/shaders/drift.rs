@@ -1,6 +1,6 @@
 //! `shaders-out/` holds what the generator emits today, and every file of it is valid to a second compiler.
 //!
-//! After a change of the generator: `STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test drift`, and read the
+//! After a change of the generator: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test shaders drift::`, and read the
 //! difference.
 
 use std::collections::BTreeSet;
@@ -19,7 +19,7 @@ fn shaders_out_is_up_to_date() {
     if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
         files::write_all(&folder(), &expected).expect("shaders-out is written");
     }
-    let bless = "run STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test drift";
+    let bless = "run STRAIGHTLINE_BLESS=1 cargo test --workspace --test shaders drift::";
     for (name, contents) in &expected {
         let present = std::fs::read(folder().join(name)).unwrap_or_default();
         assert!(

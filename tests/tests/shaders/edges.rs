@@ -89,11 +89,7 @@ fn check(name: &str, native: fn(&Frame<Vec4>, IVec2) -> Vec4) {
     let (_, layers) = &inputs.images[0];
     let pixels = (0..8).flat_map(|y| (0..16).map(move |x| ivec2(x, y)));
     let expected: Vec<[f32; 4]> = pixels.map(|at| native(&layers[0], at).to_array()).collect();
-    let settings = Settings {
-        unroll: Unroll::Full,
-        branches: Branches::Select,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(Unroll::Full).branches(Branches::Select);
     let compiled = Kernel::from_text("edges.rs", &TEXT[begin..end], name).compile(&settings);
     let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
     let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -29,10 +29,7 @@ impl Subject {
                 .map(|text| Kernel::from_text(path, &text, name))
                 .map_or_else(|e| panic!("{path}: {e}"), Ok),
         };
-        let settings = Settings {
-            options: set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect(),
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())));
         let made = kernel.and_then(|kernel| Ok((kernel.compile(&settings)?, kernel.options()?)));
         let (compiled, options) = made.unwrap_or_else(|errors| panic!("{name}:\n{errors}"));
         Subject {

@@ -174,11 +174,7 @@ fn fast_mathematics_changes_roundings_and_no_more() {
         ("sobel", filter("sobel"), Options::new()),
     ] {
         let with = |math| {
-            let settings = Settings {
-                options: set.clone(),
-                math,
-                ..Settings::default()
-            };
+            let settings = Settings::new().set_all(set.clone()).math(math);
             kernel
                 .compile(&settings)
                 .unwrap_or_else(|errors| panic!("{name}: {errors}"))

@@ -89,12 +89,10 @@ fn cases() -> Vec<Case> {
 
 impl Case {
     fn compile(&self, reads: ReadOrder, block: [u32; 2]) -> Compiled {
-        let settings = Settings {
-            options: self.options.clone(),
-            reads,
-            block,
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(self.options.clone())
+            .reads(reads)
+            .block(block[0], block[1]);
         let compiled = self.kernel.compile(&settings);
         compiled.unwrap_or_else(|e| panic!("{}, {reads}:\n{e}", self.name))
     }
@@ -137,10 +135,7 @@ fn random_kernels_find_the_same_bits() {
         let text = make(seed, Features::all());
         let kernel = Kernel::from_text("random.rs", &text.file(), "k");
         let compile = |reads: ReadOrder| {
-            let settings = Settings {
-                reads,
-                ..Settings::default()
-            };
+            let settings = Settings::new().reads(reads);
             kernel.compile(&settings)
         };
         let (Ok(alone), Ok(together)) = (compile(ReadOrder::Source), compile(ReadOrder::Gather)) else {
@@ -309,10 +304,7 @@ fn regions_find_the_same_bits() {
 #[test]
 fn what_cannot_be_gathered_is_refused() {
     let refused = |name: &str, settings: Settings| {
-        let settings = Settings {
-            reads: ReadOrder::Gather,
-            ..settings
-        };
+        let settings = settings.reads(ReadOrder::Gather);
         let kernel = Kernel::builtin(name).unwrap_or_else(|e| panic!("{e}"));
         kernel.compile(&settings).expect_err("it is refused").to_string()
     };
@@ -321,10 +313,7 @@ fn what_cannot_be_gathered_is_refused() {
         error.contains("the lanes of a quad read for each other already"),
         "{error}"
     );
-    let shared = Settings {
-        share: straightline_codegen::Share::WORKGROUP,
-        ..Settings::default()
-    };
+    let shared = Settings::new().share(straightline_codegen::Share::WORKGROUP);
     let error = refused("sraa", shared);
     assert!(
         error.contains("its threads share what they read by their workgroup"),

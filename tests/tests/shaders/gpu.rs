@@ -93,12 +93,10 @@ fn the_order_of_reads_changes_no_bit() {
         ("quad_convolution", &[("radius", "2")], Unroll::Full),
     ] {
         let compiled = |reads| {
-            let settings = Settings {
-                options: straightline_tests::sraa::options::options(options),
-                unroll,
-                reads,
-                ..Settings::default()
-            };
+            let settings = Settings::new()
+                .set_all(straightline_tests::sraa::options::options(options))
+                .unroll(unroll)
+                .reads(reads);
             let kernel = Kernel::builtin(name).and_then(|kernel| kernel.compile(&settings));
             kernel.unwrap_or_else(|errors| panic!("{name} {options:?}:\n{errors}"))
         };

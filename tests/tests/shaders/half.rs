@@ -1,7 +1,7 @@
 //! Kernels in half precision: what the emitted shader computes against the interpreter, what it costs against `f64`, and what
 //! is emitted, stated and refused.
 //!
-//! `cargo test -p straightline-tests --test half -- --nocapture` prints how far off each kernel is.
+//! `cargo test --workspace --test shaders half:: -- --nocapture` prints how far off each kernel is.
 //!
 //! What agreement there is: on numbers that half precision holds, + - * / and the square root are rounded to nearest by every
 //! driver that does not contract, and llvmpipe then agrees with the interpreter bit for bit. Numbers that it does not hold are

@@ -51,10 +51,7 @@ pub fn loops(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
 ";
 
 fn emitted(unroll: Unroll, stage: Stage) -> String {
-    let settings = Settings {
-        unroll,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(unroll);
     let compiled = Kernel::from_text("loops.rs", LOOPS, "loops").compile(&settings);
     let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
     let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([Target::Hlsl]));

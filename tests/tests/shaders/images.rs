@@ -78,11 +78,7 @@ fn inputs() -> Inputs {
 }
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
-    Settings {
-        unroll,
-        branches,
-        ..Settings::default()
-    }
+    Settings::new().unroll(unroll).branches(branches)
 }
 
 /// A texture of one component has 0 and 1 in what it lacks; of what nobody stored in it, a shader's is 0.

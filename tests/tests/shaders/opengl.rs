@@ -15,12 +15,7 @@ type Options<'a> = &'a [(&'a str, &'a str)];
 
 fn compiled(name: &str, options: Options<'_>, unroll: Unroll, transport: Option<Transport>) -> Compiled {
     let options = options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
-    let settings = Settings {
-        options: options.collect(),
-        unroll,
-        transport,
-        ..Settings::default()
-    };
+    let settings = Settings::new().set_all(options).unroll(unroll).transport(transport);
     let kernel = Kernel::builtin(name).and_then(|kernel| kernel.compile(&settings));
     kernel.unwrap_or_else(|errors| panic!("{name}:\n{errors}"))
 }

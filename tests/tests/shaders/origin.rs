@@ -154,10 +154,7 @@ fn blocks_and_whole_quads_are_turned() {
     let bench = bench();
     let (name, text, _) = KERNELS[0];
     for block in [[2, 2], [1, 4], [3, 1]] {
-        let settings = Settings {
-            block,
-            ..Settings::default()
-        };
+        let settings = Settings::new().block(block[0], block[1]);
         let compiled = compiled(name, text, &settings);
         for region in [false, true] {
             let inputs = test_inputs(&compiled.graph, uvec2(45, 31));
@@ -185,10 +182,7 @@ fn regions_are_stated_from_below() {
     let (name, text, _) = KERNELS[0];
     let size = uvec2(45, 31);
     for block in [[1, 1], [2, 2]] {
-        let settings = Settings {
-            block,
-            ..Settings::default()
-        };
+        let settings = Settings::new().block(block[0], block[1]);
         let compiled = compiled(name, text, &settings);
         let inputs = test_inputs(&compiled.graph, size);
         for stage in [Stage::Compute, Stage::Fragment] {

@@ -172,11 +172,7 @@ fn every_form_gives_what_rustc_gives() {
         let expected = native(kernel, targets.len());
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(3)] {
             for branches in [Branches::Keep, Branches::Select] {
-                let settings = Settings {
-                    unroll,
-                    branches,
-                    ..Settings::default()
-                };
+                let settings = Settings::new().unroll(unroll).branches(branches);
                 let found = interpret::<f32>(&compiled(name, text, &settings), &inputs(), false);
                 let found = found.unwrap_or_else(|e| panic!("{name}: {e}"));
                 let names: Vec<&str> = found.targets.iter().map(|target| target.name.as_str()).collect();
@@ -199,10 +195,7 @@ fn every_stage_gives_the_same_on_a_gpu() {
     for (name, text, kernel, targets) in KERNELS {
         let expected = native(kernel, targets.len());
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compiled(name, text, &settings);
             for stage in [Stage::Compute, Stage::Fragment] {
                 let what = format!("{name} {unroll} {stage:?}");
@@ -231,10 +224,7 @@ fn blocks_of_pixels_store_all_of_them() {
     let bench = bench();
     for (name, text, kernel, targets) in KERNELS {
         let expected = native(kernel, targets.len());
-        let settings = Settings {
-            block: [2, 2],
-            ..Settings::default()
-        };
+        let settings = Settings::new().block(2, 2);
         let compiled = compiled(name, text, &settings);
         let found = interpret::<f32>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{name}: {e}"));
         same(name, &expected, &found.targets);

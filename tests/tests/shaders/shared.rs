@@ -79,10 +79,7 @@ fn filter(name: &str, options: &[(&str, &str)]) -> Case {
 }
 
 fn of_card(name: String, kernel: Kernel, options: Vec<(String, String)>) -> Case {
-    let settings = Settings {
-        options: options.clone(),
-        ..Settings::default()
-    };
+    let settings = Settings::new().set_all(options.clone());
     let compiled = kernel.compile(&settings).unwrap_or_else(|e| panic!("{name}:\n{e}"));
     let inputs = test_inputs(&compiled.graph, SIZE).uniform("rounds", &[3.0]);
     Case {
@@ -133,12 +130,10 @@ fn looped() -> Vec<Case> {
 
 impl Case {
     fn compile(&self, share: Share, unroll: Unroll) -> Compiled {
-        let settings = Settings {
-            options: self.options.clone(),
-            share,
-            unroll,
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(self.options.clone())
+            .share(share)
+            .unroll(unroll);
         let compiled = self.kernel.compile(&settings);
         compiled.unwrap_or_else(|e| panic!("{}, {share}:\n{e}", self.name))
     }
@@ -167,11 +162,9 @@ fn the_interpreter_finds_the_same_bits() {
         let expected = case.interpreted(&case.compile(Share::Invocation, Unroll::Full));
         let mut shared = 0;
         for size in SIZES {
-            let settings = Settings {
-                options: case.options.clone(),
-                share: Share::Workgroup(size),
-                ..Settings::default()
-            };
+            let settings = Settings::new()
+                .set_all(case.options.clone())
+                .share(Share::Workgroup(size));
             // Small workgroups have too many texels around them.
             let Ok(compiled) = case.kernel.compile(&settings) else {
                 continue;
@@ -194,11 +187,9 @@ fn loops_and_branches_stay_what_they_are() {
         same(&case.name, &expected, &case.interpreted(&compiled));
     }
     // With their loops left they have nothing at a constant offset.
-    let error = looped()[0].kernel.compile(&Settings {
-        share: Share::WORKGROUP,
-        unroll: Unroll::None,
-        ..Settings::default()
-    });
+    let error = looped()[0]
+        .kernel
+        .compile(&Settings::new().share(Share::WORKGROUP).unroll(Unroll::None));
     let error = error.expect_err("nothing is shared").to_string();
     assert!(error.contains("of `color` the offset is no constant"), "{error}");
 }
@@ -211,10 +202,7 @@ fn random_kernels_find_the_same_bits() {
         let text = make(seed, Features::all());
         let kernel = Kernel::from_text("random.rs", &text.file(), "k");
         let compile = |share: Share| {
-            let settings = Settings {
-                share,
-                ..Settings::default()
-            };
+            let settings = Settings::new().share(share);
             kernel.compile(&settings)
         };
         let (Ok(alone), Ok(together)) = (compile(Share::Invocation), compile(Share::Workgroup([4, 3]))) else {
@@ -418,10 +406,7 @@ fn what_cannot_share_is_refused() {
         let error = Kernel::from_text("k.rs", text, "k").compile(&settings);
         error.expect_err("it is refused").to_string()
     };
-    let by = |share: Share| Settings {
-        share,
-        ..Settings::default()
-    };
+    let by = |share: Share| Settings::new().share(share);
     let point = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) }";
     let cases = [
         (
@@ -433,10 +418,7 @@ fn what_cannot_share_is_refused() {
         (point, by(Share::Workgroup([64, 64])), "a workgroup of 64x64 threads"),
         (
             point,
-            Settings {
-                block: [2, 2],
-                ..by(Share::WORKGROUP)
-            },
+            by(Share::WORKGROUP).block(2, 2),
             "an invocation computes 2x2 of them",
         ),
         (
@@ -485,10 +467,7 @@ fn what_cannot_share_is_refused() {
     );
     assert_eq!(error(EmitOptions::new().stage(Stage::Fragment)), staged);
     assert_eq!(error(EmitOptions::new().form(Form::Function)), staged);
-    let other = EmitOptions {
-        workgroup: Some([8, 8]),
-        ..EmitOptions::new()
-    };
+    let other = EmitOptions::new().workgroup(8, 8);
     assert_eq!(
         error(other),
         (

@@ -247,11 +247,7 @@ fn forms() -> Vec<Settings> {
     let mut forms = Vec::new();
     for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
         for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
-            forms.push(Settings {
-                unroll,
-                branches,
-                ..Settings::default()
-            });
+            forms.push(Settings::new().unroll(unroll).branches(branches));
         }
     }
     forms
@@ -389,26 +385,14 @@ fn races_are_found_where_they_happen() {
 fn what_has_no_workgroups_is_refused() {
     let (name, text, _) = KERNELS[1];
     let blur = compiled(name, text, &Settings::default());
-    let fragment = EmitOptions {
-        stage: Stage::Fragment,
-        ..EmitOptions::new()
-    };
+    let fragment = EmitOptions::new().stage(Stage::Fragment);
     let code = |options: &EmitOptions| blur.emit(options).err().and_then(|errors| errors.code());
     assert_eq!(code(&fragment), Some(Code::StageUnfit));
-    let function = EmitOptions {
-        form: Form::Function,
-        ..EmitOptions::new()
-    };
+    let function = EmitOptions::new().form(Form::Function);
     assert_eq!(code(&function), Some(Code::StageUnfit));
-    let other = EmitOptions {
-        workgroup: Some([16, 16]),
-        ..EmitOptions::new()
-    };
+    let other = EmitOptions::new().workgroup(16, 16);
     assert_eq!(code(&other), Some(Code::WorkgroupSize));
-    let block = Settings {
-        block: [2, 2],
-        ..Settings::default()
-    };
+    let block = Settings::new().block(2, 2);
     let error = Kernel::from_text("kernel.rs", text, name)
         .compile(&block)
         .expect_err("a block");

@@ -275,11 +275,7 @@ fn every_form_writes_what_rustc_writes() {
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(3)] {
             for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
                 let what = format!("{name} {unroll} {branches}");
-                let settings = Settings {
-                    unroll,
-                    branches,
-                    ..Settings::default()
-                };
+                let settings = Settings::new().unroll(unroll).branches(branches);
                 let found = interpret::<f32>(&compiled(name, text, &settings), &inputs(), false);
                 let found = found.unwrap_or_else(|e| panic!("{what}: {e}"));
                 for (k, target) in found.targets.iter().enumerate() {
@@ -297,10 +293,7 @@ fn graphs_with_effects_are_read_as_they_are_printed() {
     use straightline_codegen::ir::{parse, print, verify};
     for (name, text, ..) in KERNELS {
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let graph = compiled(name, text, &settings).graph;
             let printed = print(&graph);
             let read = parse(&printed).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
@@ -318,10 +311,7 @@ fn gpus_write_the_same() {
         let (world, given) = native(kernel);
         for unroll in [Unroll::Full, Unroll::None] {
             for stage in [Stage::Compute, Stage::Fragment] {
-                let settings = Settings {
-                    unroll,
-                    ..Settings::default()
-                };
+                let settings = Settings::new().unroll(unroll);
                 let compiled = compiled(name, text, &settings);
                 if is_ordered || (stage == Stage::Fragment && compiled.graph.targets.is_empty()) {
                     continue;
@@ -352,10 +342,7 @@ fn glsl_hlsl_and_spirv_write_the_same_through_vulkan() {
     for (name, text, kernel, buffers, is_ordered) in KERNELS {
         let (world, _) = native(kernel);
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compiled(name, text, &settings);
             for language in [Target::Glsl450, Target::Hlsl, Target::Spirv] {
                 let what = format!("{name} {unroll} {language}");
@@ -375,10 +362,7 @@ fn glsl_hlsl_and_spirv_write_the_same_through_vulkan() {
 fn compilers_read_every_language() {
     for (name, text, ..) in KERNELS {
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compiled(name, text, &settings);
             let targets = Target::MODERN.into_iter().chain([Target::Glsl430, Target::Essl310]);
             let emitted = compiled.emit(&EmitOptions::new().targets(targets));
@@ -418,10 +402,7 @@ fn regions_count_their_own_pixels() {
 #[test]
 fn blocks_of_pixels_write_nothing() {
     let (name, text, ..) = KERNELS[0];
-    let settings = Settings {
-        block: [2, 2],
-        ..Settings::default()
-    };
+    let settings = Settings::new().block(2, 2);
     let refused = Kernel::from_text("kernel.rs", text, name)
         .compile(&settings)
         .expect_err("a block");

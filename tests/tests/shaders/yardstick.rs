@@ -1,7 +1,7 @@
 //! Handwritten shaders beside the emitted ones: they are valid, make the same picture, and are as long as
 //! `docs/emitted-code.md` says.
 //!
-//! After a change of either: `STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test yardstick`.
+//! After a change of either: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test shaders yardstick::`.
 
 use crate::common;
 
@@ -111,7 +111,7 @@ fn the_document_says_how_long_each_is() {
     } else {
         assert_eq!(
             found, table,
-            "docs/emitted-code.md says otherwise: run STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test yardstick"
+            "docs/emitted-code.md says otherwise: run STRAIGHTLINE_BLESS=1 cargo test --workspace --test shaders yardstick::"
         );
     }
 }

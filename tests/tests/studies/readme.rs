@@ -1,6 +1,6 @@
 //! The figures of the documents are those of the records that they cite.
 //!
-//! After new measurements: `STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test readme`.
+//! After new measurements: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test studies readme::`.
 
 use std::path::Path;
 use straightline_study::record::{QualityRecord, Record, read_file};
@@ -23,7 +23,7 @@ fn tables_are_what_their_records_say() {
         } else {
             assert!(
                 document == expected,
-                "{name} and study/records/ disagree: measure again, or run STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test readme"
+                "{name} and study/records/ disagree: measure again, or run STRAIGHTLINE_BLESS=1 cargo test --workspace --test studies readme::"
             );
         }
     }

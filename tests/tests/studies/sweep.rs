@@ -8,7 +8,7 @@ fn here(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
-/// After a change of the record: `STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test sweep`.
+/// After a change of the record: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test studies sweep::`.
 #[test]
 fn the_published_schema_is_that_of_the_record() {
     let path = here("docs/sweep.schema.json");

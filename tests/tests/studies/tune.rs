@@ -72,15 +72,13 @@ fn judged(scene: &str, manifest: &Manifest) -> f64 {
     let renderer = renderer(scene);
     let samples = gbuffer::samples(&manifest.options["pattern"]).expect("a pattern");
     let capture = capture(&renderer, &samples, ShadingSample::Centre).expect("captured");
-    let settings = Settings {
-        options: manifest
+    let settings = Settings::new().set_all(
+        manifest
             .options
             .clone()
             .into_iter()
-            .filter(|(_, value)| !value.is_empty())
-            .collect(),
-        ..Settings::default()
-    };
+            .filter(|(_, value)| !value.is_empty()),
+    );
     let compiled = Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings));
     let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
     let inputs = gbuffer::inputs(&capture, &compiled.options).expect("all is captured");

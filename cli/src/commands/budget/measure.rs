@@ -278,11 +278,10 @@ fn subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Resul
             if samples == Samples::Three && metric != DEFAULT_METRIC {
                 continue;
             }
-            let options = [("pattern", pattern), ("metric", metric), ("shading", shading)];
-            let settings = Settings {
-                options: options.map(|(k, v)| (k.to_owned(), v.to_owned())).into(),
-                ..Settings::default()
-            };
+            let settings = Settings::new()
+                .set("pattern", pattern)
+                .set("metric", metric)
+                .set("shading", shading);
             let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
             let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
             let (pass, manifest) = bench.pass(&compiled, Stage::Compute).map_err(Failure::of)?;

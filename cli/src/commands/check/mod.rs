@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Compiled, EmitOptions, Kernel};
+use straightline_codegen::{Compiled, Kernel};
 
 /// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
@@ -127,9 +127,12 @@ fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
 }
 
 fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
-    let compiled = kernel.compile(&args.options.settings())?;
-    let options = EmitOptions::new().stage(super::natural_stage(&compiled));
-    compiled.emit(&options)?;
+    let mut spec = args.spec();
+    let compiled = spec.compile(kernel)?;
+    if !args.writing.0.has("stage") {
+        spec.emit.stage = super::natural_stage(&compiled);
+    }
+    compiled.emit(&spec.emit)?;
     Ok(compiled)
 }
 

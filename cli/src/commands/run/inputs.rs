@@ -2,21 +2,21 @@
 
 use super::transfer::{self, Transfer};
 use super::values;
-use crate::args::{Executor, GivenArgs, StageArg};
+use crate::args::{Executor, GivenArgs};
 use crate::failure::Failure;
 use glam::{UVec2, Vec4};
 use std::path::Path;
 use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
-use straightline_codegen::{Compiled, shorten};
+use straightline_codegen::{Compiled, Stage, shorten};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::execute::{self, Inputs};
 use straightline_testbed::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
-pub fn inputs(given: &GivenArgs, stage: StageArg, compiled: &Compiled) -> Result<Inputs, Failure> {
+pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {
     // One compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
     let compiled = match (given.executor, stage) {
-        (Executor::Gpu, StageArg::Fragment) => {
+        (Executor::Gpu, Stage::Fragment) => {
             refuse_varyings(compiled)?;
             std::borrow::Cow::Borrowed(compiled)
         }

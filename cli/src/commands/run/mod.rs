@@ -53,7 +53,7 @@ pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Resul
                 )));
             }
             let bench = gpu.bench().precision(precision);
-            let targets = bench.all_written(compiled, args.stage.into(), &inputs);
+            let targets = bench.all_written(compiled, args.stage, &inputs);
             let by = match precision {
                 Precision::F32 => gpu.describe(),
                 Precision::F16 => format!("{}, f16", gpu.describe()),

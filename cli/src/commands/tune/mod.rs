@@ -121,10 +121,7 @@ fn subject(
 /// Values of the options that are set. Refuses those that the kernel does not have before anything is drawn, and those left to a
 /// host.
 fn asked_options(args: &TuneArgs) -> Result<OptionValues, Failure> {
-    let settings = Settings {
-        options: args.set.clone(),
-        ..Settings::default()
-    };
+    let settings = Settings::new().set_all(args.set.clone());
     let mut asked = Kernel::builtin("sraa")?.compile(&settings)?.options;
     asked.retain(|name, _| args.set.iter().any(|(set, _)| set == name));
     if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {

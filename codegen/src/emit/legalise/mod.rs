@@ -1,6 +1,8 @@
 //! Rewriting what a language says in another way, or leaves open where Rust does not.
 //!
 //! Each language has its rule, which sees every expression after its arguments and gives what stands for it.
+//!
+//! File tests: `codegen/tests/filetests/legalise`.
 
 mod exact;
 mod glsl;

@@ -459,7 +459,7 @@ impl Language for Glsl<'_> {
             out += extension;
         }
         out += &commented(header);
-        if !r.read.is_empty() && self.vulkan() {
+        if !r.read.is_empty() && self.vulkan() && !r.options.strip_comments {
             out +=
                 "// GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.\n";
         }

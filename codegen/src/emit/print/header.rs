@@ -90,7 +90,12 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         });
         lines.push(format!("Four texels at once: {}.", each.collect::<Vec<_>>().join(", ")));
     }
-    lines.iter().map(|line| comment(line)).collect()
+    let kept = if resources.options.strip_comments {
+        2
+    } else {
+        lines.len()
+    };
+    lines.iter().take(kept).map(|line| comment(line)).collect()
 }
 
 /// What is written, in which formats.

@@ -235,7 +235,11 @@ impl Printer<'_> {
             .map(|var| (self.name(*var), self.module.ty(*var)))
             .collect();
         let head = self.language.function_head(&function.name, &params, function.result);
-        format!("// {}\n{head}\n{}}}", function.comment, self.block(&function.body, 1))
+        let comment = match function.comment.as_str() {
+            "" => String::new(),
+            text => format!("// {text}\n"),
+        };
+        format!("{comment}{head}\n{}}}", self.block(&function.body, 1))
     }
 
     fn block(&self, block: &[Stmt<'_>], depth: usize) -> String {

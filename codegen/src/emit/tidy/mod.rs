@@ -1,4 +1,6 @@
 //! Rules that make a tree read as a colleague would have written it. None changes what is computed, by a single bit.
+//!
+//! File tests: `codegen/tests/filetests/tidy`.
 
 mod breaks;
 mod coalesce;

@@ -3,9 +3,9 @@
 mod glsl;
 mod hlsl;
 
-use super::options::EmitOptions;
 use super::refusal::Refusal;
-use super::target::Target;
+use crate::spec::EmitOptions;
+use crate::spec::Target;
 use naga::keywords::wgsl;
 use std::collections::BTreeSet;
 use straightline_evaluator::diagnostic::Code;

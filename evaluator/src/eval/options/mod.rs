@@ -12,7 +12,7 @@ use crate::front::{Library, raw};
 use crate::ir::{Op, Scalar, Type, Uniform};
 use crate::policy::Policy;
 use std::sync::Arc;
-use straightline_kernels::{OptionText, OptionValue, OptionValues};
+use straightline_kernels::{OptionText, OptionValue, OptionValues, kebab};
 
 pub use parse::parse_settings;
 pub(super) use parse::unknown;
@@ -220,18 +220,6 @@ impl Evaluator<'_> {
         let index = uniforms.len() as u32 - 1;
         Value::Node(self.builder.add(Op::Uniform(index), Vec::new(), ty))
     }
-}
-
-/// `DepthNormals` as `depth-normals`.
-fn kebab(name: &str) -> String {
-    let mut text = String::new();
-    for (k, c) in name.chars().enumerate() {
-        if c.is_uppercase() && k > 0 {
-            text.push('-');
-        }
-        text.extend(c.to_lowercase());
-    }
-    text
 }
 
 /// The one form of a number among the spellings of the same `f32` or integer: the shortest decimal, a whole number in all of its

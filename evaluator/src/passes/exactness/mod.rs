@@ -4,6 +4,8 @@
 //! Such a sum is one whose exact value cancels a term: of `(a + b) - a` the term `a`. A compiler that reassociates floats makes
 //! `b` of it, where IEEE 754 gives `b` as far as `a + b` holds it. The operations through which the term passes are made
 //! [`Op::Exact`], which forbids that; of other operations drivers may change a rounding, and nothing hangs on it.
+//!
+//! File tests: `evaluator/tests/filetests/passes/exactness`.
 
 mod cone;
 mod terms;

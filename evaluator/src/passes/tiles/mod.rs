@@ -4,6 +4,8 @@
 //! the frame, and if every pixel does it: not in a loop or branch that is left in the shader. For each texture, and each of its layers, the
 //! offsets make a rectangle; that around all pixels of the workgroup is the tile. It is filled by the same reads, brought into
 //! the frame alike, so that what a pixel finds there is what it would have read, bit for bit.
+//!
+//! File tests: `evaluator/tests/filetests/passes/tiles`.
 
 mod fill;
 

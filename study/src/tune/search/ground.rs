@@ -80,10 +80,7 @@ impl Ground {
                 space,
                 space.value(space.general().with(Term::Samples, samples), Term::Samples),
             );
-            let settings = Settings {
-                options,
-                ..Settings::default()
-            };
+            let settings = Settings::new().set_all(options);
             manifest_of(bench, &Kernel::builtin("sraa_place")?, &settings)
         });
         let place = place.transpose()?;
@@ -196,10 +193,7 @@ fn shaded(space: &Space, variant: Variant, place: &str) -> Settings {
             *value = OptionValue::Choice(place.to_owned());
         }
     }
-    Settings {
-        options: spell_settings(&options),
-        ..space.settings(variant)
-    }
+    space.settings(variant).set_all(spell_settings(&options))
 }
 
 /// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
@@ -259,10 +253,7 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
         let mut sampled = spell_settings(sampled);
         sampled.retain(|(name, _)| !offer.fixes(name));
         options.extend(sampled);
-        let settings = Settings {
-            options,
-            ..Settings::default()
-        };
+        let settings = Settings::new().set_all(options);
         refusal(kernel, &settings)
     };
     let no_search = blind.clone().or_else(|| refused(&[("search", "five")]));

@@ -206,12 +206,13 @@ impl Space {
 
     /// How the kernel is generated for a variant.
     pub fn settings(&self, variant: Variant) -> Settings {
-        Settings {
-            options: spell_settings(&self.options(variant)),
-            block: self.value(variant, Term::Block).block,
-            math: self.value(variant, Term::Math).math,
-            ..Settings::default()
-        }
+        Settings::new()
+            .set_all(spell_settings(&self.options(variant)))
+            .block(
+                self.value(variant, Term::Block).block[0],
+                self.value(variant, Term::Block).block[1],
+            )
+            .math(self.value(variant, Term::Math).math)
     }
 
     /// Options that a variant sets.

@@ -232,11 +232,7 @@ impl Filter {
 }
 
 pub fn compile(kernel: &str, options: Vec<(String, String)>, unroll: Unroll) -> Compiled {
-    let settings = Settings {
-        options,
-        unroll,
-        ..Settings::default()
-    };
+    let settings = Settings::new().set_all(options).unroll(unroll);
     Kernel::builtin(kernel)
         .and_then(|k| k.compile(&settings))
         .unwrap_or_else(|e| panic!("{e}"))

@@ -45,10 +45,7 @@ fn counted(color: &Frame<Vec4>) -> Vec<i64> {
 
 fn compiled(name: &str, unroll: Unroll) -> Compiled {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/gallery/{name}.rs"));
-    let settings = Settings {
-        unroll,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(unroll);
     let kernel = Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}"));
     kernel.compile(&settings).unwrap_or_else(|e| panic!("{e}"))
 }

@@ -105,11 +105,7 @@ impl<'a> Chain<'a> {
         unroll: Unroll,
         branches: Branches,
     ) -> wgpu::Texture {
-        let settings = Settings {
-            unroll,
-            branches,
-            ..Settings::default()
-        };
+        let settings = Settings::new().unroll(unroll).branches(branches);
         let compiled = Example::new("examples/gallery", name).compile(&settings);
         let emitted = compiled
             .emit(&self.bench.options(Stage::Fragment))

@@ -59,10 +59,7 @@ fn reads_are_the_chapters() {
         assert_eq!(compiled.counts.texture_reads, expected);
     }
     // Rows of quads share across quads too (§2.8): 10×4 texels for 16 pixels.
-    let settings = Settings {
-        block: [8, 2],
-        ..Settings::default()
-    };
+    let settings = Settings::new().block(8, 2);
     let row = Kernel::builtin("quad_convolution").and_then(|kernel| kernel.compile(&settings));
     assert_eq!(row.expect("whole quads").counts.texture_reads, 40);
     // What the chapter names and does not count.

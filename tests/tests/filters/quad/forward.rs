@@ -80,10 +80,7 @@ fn helper_lanes_answer_at_the_edges_of_triangles() {
     for size in [uvec2(32, 24), uvec2(33, 23)] {
         for transport in [Transport::Subgroup, Transport::Derivatives] {
             for discard in [None, Some("(pixel.x + 2 * pixel.y) % 3 == 0")] {
-                let settings = Settings {
-                    transport: Some(transport),
-                    ..Settings::default()
-                };
+                let settings = Settings::new().transport(transport);
                 let compiled = compile_text(PLACES, "places", &settings);
                 let inputs = Inputs::new(size);
                 let forward = match discard {

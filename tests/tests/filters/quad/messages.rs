@@ -12,10 +12,7 @@ pub fn heard(value: &Frame<f32>, pixel: Quad<IVec2>) -> Quad<Vec4> {
 ";
 
 fn heard(transport: Option<Transport>) -> Compiled {
-    let settings = Settings {
-        transport,
-        ..Settings::default()
-    };
+    let settings = Settings::new().transport(transport);
     compile_text(HEARD, "heard", &settings)
 }
 
@@ -217,10 +214,7 @@ fn every_method_means_the_same_natively_and_in_a_shader() {
         let inputs = Inputs::new(size).image("value", image.clone());
         let expected = native(size, |pixel| methods(&image, pixel));
         for unroll in FORMS {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = compile_text(METHODS, "methods", &settings);
             let found = interpret::<f32>(&compiled, &inputs, false).expect("it runs");
             same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{unroll}: {e}"));
@@ -229,11 +223,7 @@ fn every_method_means_the_same_natively_and_in_a_shader() {
                 (Transport::Derivatives, Stage::Fragment),
                 (Transport::Block, Stage::Compute),
             ] {
-                let settings = Settings {
-                    unroll,
-                    transport: Some(transport),
-                    ..Settings::default()
-                };
+                let settings = Settings::new().unroll(unroll).transport(transport);
                 let compiled = compile_text(METHODS, "methods", &settings);
                 let shown = gpu.run(&compiled, stage, &inputs).expect("it runs");
                 let expected: Vec<[f64; 4]> = expected.iter().map(|t| t.map(f64::from)).collect();
@@ -264,10 +254,7 @@ pub fn box3(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
         let plain = compile_text(text, "box3", &Settings::default());
         let expected = interpret::<f32>(&plain, &inputs, false).expect("it runs").texels;
         for (block, reads) in [([2, 1], 12), ([1, 2], 12), ([2, 2], 16), ([4, 2], 24)] {
-            let settings = Settings {
-                block,
-                ..Settings::default()
-            };
+            let settings = Settings::new().block(block[0], block[1]);
             let compiled = compile_text(text, "box3", &settings);
             assert_eq!(compiled.counts.texture_reads, reads, "{block:?}");
             let found = interpret::<f32>(&compiled, &inputs, false).expect("it runs").texels;

@@ -42,10 +42,7 @@ pub fn parts(image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     sum
 }
 ";
-    let keep = Settings {
-        branches: straightline_codegen::Branches::Keep,
-        ..Settings::default()
-    };
+    let keep = Settings::new().branches(straightline_codegen::Branches::Keep);
     says(
         &error(text, "parts", &keep),
         &[
@@ -81,12 +78,10 @@ pub fn searches(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     sum
 }
 ";
-    let looped = Settings {
-        unroll: straightline_codegen::Unroll::None,
-        branches: straightline_codegen::Branches::Select,
-        block: [2, 1],
-        ..Settings::default()
-    };
+    let looped = Settings::new()
+        .unroll(straightline_codegen::Unroll::None)
+        .branches(straightline_codegen::Branches::Select)
+        .block(2, 1);
     says(
         &error(text, "searches", &looped),
         &["a loop that each pixel may leave in another round"],
@@ -113,10 +108,7 @@ pub fn whole(image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     image.load(pixel.swap_horizontal())
 }
 ";
-    let settings = Settings {
-        transport: Some(Transport::Derivatives),
-        ..Settings::default()
-    };
+    let settings = Settings::new().transport(Transport::Derivatives);
     says(
         &error(text, "whole", &settings),
         &["IVec2", "floats alone", "`subgroup`"],
@@ -144,38 +136,25 @@ fn transports_fit_their_stage() {
         .expect_err("no fine ones")
         .to_string();
     says(&error, &["fine derivatives", "msl", "`subgroup`"]);
-    let settings = Settings {
-        transport: Some(Transport::Subgroup),
-        ..Settings::default()
-    };
+    let settings = Settings::new().transport(Transport::Subgroup);
     let error = Kernel::builtin("sraa")
         .and_then(|k| k.compile(&settings))
         .expect_err("one pixel")
         .to_string();
     says(&error, &["sends no messages"]);
-    let settings = Settings {
-        block: [2, 1],
-        ..Settings::default()
-    };
+    let settings = Settings::new().block(2, 1);
     let error = Kernel::builtin("pcf")
         .and_then(|k| k.compile(&settings))
         .expect_err("quads")
         .to_string();
     says(&error, &["a block of 2x1 pixels has other"]);
-    let settings = Settings {
-        block: [4, 2],
-        transport: Some(Transport::Subgroup),
-        ..Settings::default()
-    };
+    let settings = Settings::new().block(4, 2).transport(Transport::Subgroup);
     let error = Kernel::builtin("pcf")
         .and_then(|k| k.compile(&settings))
         .expect_err("one invocation")
         .to_string();
     says(&error, &["send no messages"]);
-    let settings = Settings {
-        block: [64, 64],
-        ..Settings::default()
-    };
+    let settings = Settings::new().block(64, 64);
     let error = Kernel::builtin("sraa")
         .and_then(|k| k.compile(&settings))
         .expect_err("too large")

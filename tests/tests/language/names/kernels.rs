@@ -84,12 +84,10 @@ pub fn sources() -> Vec<(String, Source)> {
             .position(|text| text.contains(&format!("pub fn {}(", entry.kernel)));
         texts.swap(0, own.expect("the kernel's file"));
         let options = entry.options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
-        let settings = Settings {
-            options: options.collect(),
-            unroll: entry.unroll,
-            transport: entry.transport,
-            ..Settings::default()
-        };
+        let settings = Settings::new()
+            .set_all(options)
+            .unroll(entry.unroll)
+            .transport(entry.transport);
         let function = entry.kernel.to_owned();
         all.push((
             entry.stem.to_owned(),
@@ -110,10 +108,7 @@ pub fn sources() -> Vec<(String, Source)> {
         let source = |branches: Branches| Source {
             texts: vec![kernel.files()[0].text.clone()],
             function: kernel.name().to_owned(),
-            settings: Settings {
-                branches,
-                ..Settings::default()
-            },
+            settings: Settings::new().branches(branches),
         };
         // Some need a branch in the shader.
         let selected = source(Branches::Select);

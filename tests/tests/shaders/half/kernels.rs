@@ -109,10 +109,7 @@ fn shaders_compute_what_the_interpreter_does() {
     let gpu = half_bench();
     for (case, kernel) in kernels() {
         for unroll in [Unroll::Full, Unroll::None] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let compiled = kernel.compile(&settings).unwrap_or_else(|e| panic!("{e}"));
             let inputs = held(test_inputs(&compiled.in_blocks().graph, SIZE));
             let [shown, expected] = both(&gpu, &compiled, Stage::Compute, &inputs);

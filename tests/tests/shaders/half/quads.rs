@@ -12,10 +12,7 @@ pub fn k(value: &Frame<f32>, pixel: Quad<IVec2>) -> Quad<Vec4> {
 ";
 
 fn by(transport: Option<Transport>) -> Settings {
-    Settings {
-        transport,
-        ..Settings::default()
-    }
+    Settings::new().transport(transport)
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! What the variants of a sweep read: files of the command line, and the test card for all else.
 
-use crate::args::{CommonArgs, Executor, GivenArgs, StageArg, SweepArgs};
+use crate::args::{CommonArgs, Executor, GivenArgs, SweepArgs};
 use crate::commands::run::inputs;
 use crate::failure::Failure;
 use glam::UVec2;
 use std::collections::BTreeSet;
 use std::fmt;
-use straightline_codegen::Compiled;
+use straightline_codegen::{Compiled, Stage};
 use straightline_testbed::execute::{Inputs, test_inputs};
 
 /// What the command line gives.
@@ -66,7 +66,7 @@ impl Given {
         if args.input.is_empty() {
             args.size = args.size.or(Some(self.size));
         }
-        let mut inputs = inputs::inputs(&args, StageArg::Compute, compiled)?;
+        let mut inputs = inputs::inputs(&args, Stage::Compute, compiled)?;
         let card = test_inputs(&compiled.in_blocks().graph, inputs.size);
         fill(&mut inputs.images, card.images);
         fill(&mut inputs.integers, card.integers);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("errors")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/errors")
 }
 
 fn cases() -> Vec<PathBuf> {

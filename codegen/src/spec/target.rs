@@ -6,6 +6,7 @@ use straightline_manifest::{Form, Stage};
 
 /// A language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Target {
     /// WebGPU's own.
     Wgsl,
@@ -82,7 +83,7 @@ impl Target {
     }
 
     /// The `#version` of a GLSL.
-    pub(super) fn version(self) -> &'static str {
+    pub(crate) fn version(self) -> &'static str {
         match self {
             Target::Glsl430 => "430",
             Target::Glsl330 => "330",

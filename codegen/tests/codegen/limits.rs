@@ -1,13 +1,11 @@
 //! Limits of the generator: chains of operators are read up to what the language page says, kernels that cost too much are refused
 //! with the place of the work, and time and memory have limits of their own. Work is counted, never timed.
 
-use glam::{Vec4, uvec2};
 use std::fmt::Write;
 use std::time::Duration;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Limits, Settings, Unroll};
-use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Inputs, interpret};
+use straightline_codegen::interp::{Bindings, Image, Interpreter};
+use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 
 fn compile(text: &str, settings: &Settings) -> Result<Compiled, Errors> {
     Kernel::from_text("k.rs", text, "k").compile(settings)
@@ -22,13 +20,10 @@ fn kernel(items: &str, body: &str) -> String {
 }
 
 fn texel(compiled: &Compiled) -> f32 {
-    let mut inputs = Inputs::new(uvec2(1, 1));
-    let frame = Frame::new(uvec2(1, 1), vec![Vec4::new(0.5, 0.25, 2.0, 1.0)]);
-    inputs.images = vec![("color".to_owned(), vec![frame])];
-    inputs.uniforms = vec![("n".to_owned(), vec![3.0])];
-    interpret::<f32>(compiled, &inputs, false)
-        .unwrap_or_else(|e| panic!("{e}"))
-        .texels[0][0]
+    let image = Image::new([1, 1], vec![vec![[0.5, 0.25, 2.0, 1.0]]]).expect("one texel");
+    let bindings = Bindings::new().texture("color", &image).uniform("n", &[3.0]);
+    let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, [1, 1], &bindings).expect("all is bound");
+    interpreter.pixel(0, 0, &mut interpreter.scratch())[0]
 }
 
 /// Chains as long as the language page allows, with their values.
@@ -103,10 +98,7 @@ fn long_chains_are_read() {
     for (name, body, expected) in chains {
         let body = format!("let (y, w, b) = (c.y, c.w, n == 3);\n{body}");
         for branches in [Branches::Select, Branches::Keep] {
-            let settings = Settings {
-                branches,
-                ..Settings::default()
-            };
+            let settings = Settings::new().branches(branches);
             let compiled = compile(&kernel("", &body), &settings).unwrap_or_else(|e| panic!("{name}: {e}"));
             assert_eq!(texel(&compiled), expected, "{name}");
             compiled
@@ -192,10 +184,7 @@ fn attempts_do_not_multiply() {
     let long = "let mut s = c.x;
     let mut i = 0;
     while i < 1_000_000 { s = s * 0.5 + 1.0; i += 1; }";
-    let settings = Settings {
-        unroll: Unroll::None,
-        ..Settings::default()
-    };
+    let settings = Settings::new().unroll(Unroll::None);
     let compiled = compile(&kernel("", long), &settings).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(compiled.counts.loops, 1);
     assert_eq!(texel(&compiled), 2.0);
@@ -206,24 +195,14 @@ fn time_and_memory_have_limits() {
     let loops = "let mut s = c.x;
     for a in 0..30 { for b in 0..30 { s = s * 1.5 + (a * b) as f32; } }";
     let text = kernel("", loops);
-    let of = |limits| Settings {
-        limits,
-        ..Settings::default()
-    };
-    let late = of(Limits {
-        time: Duration::from_nanos(1),
-        ..Limits::default()
-    });
+    let late = Settings::new().time_limit(Duration::from_nanos(1));
     let refused = compile(&text, &late).expect_err("no time").to_string();
     assert!(refused.contains("takes more than 0.000000001 s"), "{refused}");
     assert!(
         refused.contains("`k.b`") && refused.contains("--time-limit"),
         "{refused}"
     );
-    let small = of(Limits {
-        memory: 100_000,
-        ..Limits::default()
-    });
+    let small = Settings::new().memory_limit(100_000);
     let refused = compile(&text, &small).expect_err("no memory").to_string();
     assert!(refused.contains("takes more than 0 MB"), "{refused}");
     assert!(
@@ -244,13 +223,7 @@ fn time_and_memory_have_limits() {
 /// Copies of arrays that are held at the same time count; copies that are gone do not.
 #[test]
 fn memory_is_what_is_held() {
-    let settings = Settings {
-        limits: Limits {
-            memory: 40_000_000,
-            ..Limits::default()
-        },
-        ..Settings::default()
-    };
+    let settings = Settings::new().memory_limit(40_000_000);
     let gone = "let mut s = c.x;
     for k in 0..60 { let mut a = [c.x; 20000]; let b = a; a[k] = b[0] * 2.0; s += a[k]; }";
     compile(&kernel("", gone), &settings).unwrap_or_else(|e| panic!("{e}"));
@@ -272,21 +245,4 @@ fn arrays_beyond_an_instruction_are_refused() {
         .expect_err("too large")
         .to_string();
     assert!(refused.contains("65536 elements"), "{refused}");
-}
-
-#[test]
-fn a_loop_without_end_ends_in_the_interpreter() {
-    let body = "let mut s = c.x;
-    loop { s = s * 0.5; if s > 100.0 { break; } }";
-    let compiled = compile(&kernel("", body), &Settings::default()).unwrap_or_else(|e| panic!("{e}"));
-    let mut inputs = Inputs::new(uvec2(1, 1));
-    inputs.images = vec![("color".to_owned(), vec![Frame::new(uvec2(1, 1), vec![Vec4::ONE])])];
-    inputs.uniforms = vec![("n".to_owned(), vec![3.0])];
-    let refused = interpret::<f32>(&compiled, &inputs, false)
-        .expect_err("endless")
-        .to_string();
-    assert!(
-        refused.contains("does not end at the pixel (0, 0)") && refused.contains("`k.while`"),
-        "{refused}"
-    );
 }

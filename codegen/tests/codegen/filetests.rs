@@ -1,84 +1,32 @@
-//! The graph as text: passes and emission on `tests/filetests/*/*.ir`, and printing and parsing there and back.
+//! Emission of graphs as text: `tests/filetests/{tidy,legalise}/*.ir`; and printing and parsing there and back.
 //!
-//! A case is a graph of a few nodes, and says in a directive what is done with it:
-//!
-//! - `// run: PASS`: after a line `// gives` stands the graph that the pass makes of it.
-//! - `// emit: TARGET`: after `// gives` stand the statements that are emitted for it, without bindings and without what every
-//!   entry point begins with. `// emit: TARGET fragment` emits a fragment shader, `half` in half precision. The
-//!   language's compiler reads the shader.
-//! - `// verify: TEXT` or `// parse: TEXT`: the error contains the text.
-//!
-//! `STRAIGHTLINE_BLESS=1` rewrites what stands after `// gives`.
+//! A case is a graph of a few nodes with a directive `// emit: TARGET`: after `// gives` stand the statements that are emitted for
+//! it, without bindings and without the beginning of every entry point. `// emit: TARGET fragment` emits a fragment shader, `half` in
+//! half precision, `rows` with reads in the order of rows. The language's compiler reads the shader.
 
-use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use crate::cases::{self, directive, input, with_output};
+use crate::compilers;
+use std::path::Path;
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::{Graph, parse, print, verify};
 use straightline_codegen::policy::Policy;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, ReadOrder, Settings, Stage, Unroll, passes};
-use straightline_tests::compilers;
-
-const GIVES: &str = "// gives\n";
 
 /// Lines that a case of emission may have.
 const LONGEST: usize = 30;
 
-fn cases() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("filetests");
-    let entries = |folder: &Path| -> Vec<PathBuf> {
-        let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
-        entries.map(|entry| entry.expect("an entry").path()).collect()
-    };
-    let folders = entries(&root);
-    let mut paths: Vec<PathBuf> = folders.iter().flat_map(|folder| entries(folder)).collect();
-    paths.sort();
-    paths
-}
-
-fn directive<'t>(text: &'t str, name: &str) -> Option<&'t str> {
-    text.lines()
-        .find_map(|line| line.strip_prefix("// ")?.strip_prefix(name)?.strip_prefix(": "))
-}
-
-/// The case with what it gives now.
+/// The case with the output that it has now.
 fn now(text: &str, template: &Compiled) -> Result<String, String> {
-    let input = text.split(GIVES).next().unwrap_or_default();
-    let parsed = parse(input);
-    if let Some(expected) = directive(text, "parse") {
-        return match parsed {
-            Err(error) if error.to_string().contains(expected) => Ok(text.to_owned()),
-            other => Err(format!("parsing gives {:?}", other.err().map(|e| e.to_string()))),
-        };
+    let input = input(text);
+    let graph = parse(input).map_err(|e| e.to_string())?;
+    verify::verify(&graph)?;
+    let how = directive(text, "emit").ok_or("no directive")?;
+    let case = with_output(input, &emitted(graph, how, template)?);
+    let lines = case.lines().count();
+    match lines < LONGEST {
+        true => Ok(case),
+        false => Err(format!("{lines} lines: a case has less than {LONGEST}\n{case}")),
     }
-    let graph = parsed.map_err(|e| e.to_string())?;
-    let verified = verify::verify(&graph);
-    if let Some(expected) = directive(text, "verify") {
-        return match verified {
-            Err(why) if why.contains(expected) => Ok(text.to_owned()),
-            other => Err(format!("verification gives {other:?}")),
-        };
-    }
-    verified?;
-    if let Some(how) = directive(text, "emit") {
-        let case = format!("{input}{GIVES}{}", emitted(graph, how, template)?);
-        let lines = case.lines().count();
-        return match lines < LONGEST {
-            true => Ok(case),
-            false => Err(format!("{lines} lines: a case has less than {LONGEST}\n{case}")),
-        };
-    }
-    let made = match directive(text, "run").ok_or("no directive")? {
-        "clean" => passes::clean(&graph),
-        "share-loads" => passes::share_loads(&graph),
-        "coordinates" => passes::clean(&passes::by_component(&graph)),
-        "exactness" => passes::clean(&passes::exactness(&graph)),
-        "fast" => passes::clean(&passes::fast(&graph)),
-        "gathers" => passes::clean(&passes::gathers(&graph)?.0),
-        "share-by-workgroup" => passes::clean(&passes::by_workgroup(&graph, [4, 4])?.0),
-        other => return Err(format!("there is no pass `{other}`")),
-    };
-    verify::verify(&made)?;
-    Ok(format!("{input}{GIVES}{}", print(&made)))
 }
 
 /// A kernel whose graph and schedule are replaced by those of the cases.
@@ -156,31 +104,9 @@ fn of_the_kernel(text: &str) -> String {
 }
 
 #[test]
-fn passes_and_emission_give_what_the_files_say() {
-    let bless = std::env::var_os("STRAIGHTLINE_BLESS").is_some();
+fn graphs_are_emitted_as_in_the_files() {
     let template = template();
-    let cases = cases();
-    assert!(cases.len() >= 100);
-    let wrong = cases.par_iter().filter_map(|path| {
-        let text = std::fs::read_to_string(path).expect("a case");
-        match now(&text, &template) {
-            Err(why) => Some(format!("{}: {why}", path.display())),
-            Ok(found) if bless => {
-                std::fs::write(path, found).expect("the case is written");
-                None
-            }
-            Ok(found) if found != text => Some(format!("{}: it gives now\n{found}", path.display())),
-            Ok(_) => None,
-        }
-    });
-    let wrong: Vec<String> = wrong.collect();
-    let help = "bless with STRAIGHTLINE_BLESS=1";
-    assert!(
-        wrong.is_empty(),
-        "{}\n{} cases; {help}",
-        wrong.join("\n\n"),
-        wrong.len()
-    );
+    cases::run(200, |text| now(text, &template));
 }
 
 /// Every graph of the kernels, after every stage, is the same graph when it is read back.
@@ -197,10 +123,7 @@ fn printed_graphs_read_back() {
     assert!(kernels.len() > 10);
     for kernel in kernels {
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
-            let settings = Settings {
-                unroll,
-                ..Settings::default()
-            };
+            let settings = Settings::new().unroll(unroll);
             let mut observe = |stage: &str, graph: &straightline_codegen::ir::Graph| {
                 let text = print(graph);
                 let again = parse(&text).unwrap_or_else(|e| panic!("{} after {stage}: {e}", kernel.name()));

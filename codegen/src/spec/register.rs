@@ -15,9 +15,9 @@ pub struct Register {
 }
 
 /// The largest number of a binding or a register; WebGPU's.
-pub(super) const LAST_BINDING: u32 = 999;
+pub(crate) const LAST_BINDING: u32 = 999;
 /// The largest number of a bind group, a descriptor set or a register space.
-pub(super) const LAST_GROUP: u32 = 31;
+pub(crate) const LAST_GROUP: u32 = 31;
 
 impl FromStr for Register {
     type Err = String;
@@ -26,7 +26,10 @@ impl FromStr for Register {
         let parse = || {
             let (register, space) = match text.split_once(',') {
                 None => (text, None),
-                Some((register, space)) => (register, Some(number(space.strip_prefix("space")?, LAST_GROUP)?)),
+                Some((register, space)) => (
+                    register,
+                    Some(number(space.trim_start().strip_prefix("space")?, LAST_GROUP)?),
+                ),
             };
             let class = register.chars().next().filter(|class| "tsbu".contains(*class))?;
             let number = number(&register[1..], LAST_BINDING)?;

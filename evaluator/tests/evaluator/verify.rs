@@ -1,6 +1,6 @@
 //! Every rule of the verifier is broken by one change of a graph that keeps all of them.
 
-use straightline_codegen::ir::{
+use straightline_evaluator::ir::{
     Access, AtomicOp, BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Memory, Node, NodeId, Op,
     RegionId, Rules, Sampler, Scalar, Shared, Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
@@ -346,7 +346,7 @@ fn rules_of_effects_are_checked() {
 fn passes_keep_effects() {
     let mut graph = writing();
     graph.regions[0].effects.clear();
-    let passes = straightline_codegen::passes::clean;
+    let passes = straightline_evaluator::passes::clean;
     assert_eq!(passes(&graph).nodes.len(), 0, "what happens nowhere is dropped");
     let kept = passes(&writing());
     assert_eq!(kept.nodes.iter().filter(|n| n.op.is_effect()).count(), 1);
@@ -401,7 +401,7 @@ fn rules_of_workgroups_are_checked() {
         assert!(said.contains(expected), "`{expected}`: {said}");
     }
     // What nobody uses of what is shared is not read.
-    let clean = straightline_codegen::passes::clean(&sharing());
+    let clean = straightline_evaluator::passes::clean(&sharing());
     assert!(!clean.nodes.iter().any(|n| n.op == Op::SharedLoad(0)));
     assert!(clean.nodes.iter().any(|n| n.op == Op::Barrier { buffers: false }));
 }

@@ -1,0 +1,316 @@
+//! A kernel's source: its files, its options, and what they define.
+
+use crate::compiled::{Compiled, internal};
+use crate::emit::Emitted;
+use crate::files;
+use crate::pipeline::{self, Observer, Source};
+use crate::spec::{Settings, ShaderSpec};
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
+use straightline_evaluator::eval::{self, OptionInfo};
+use straightline_evaluator::front::{self, Library, Parsed};
+use straightline_evaluator::infer;
+use straightline_evaluator::limits::Meter;
+use straightline_kernels::{OptionText, OptionValues};
+
+/// Longest file of a kernel that is read, in bytes.
+const MAX_SOURCE: u64 = 1 << 24;
+
+/// A kernel's source: its files and which function it is.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    source: Source,
+    /// What the files define, read once for all variants.
+    library: OnceLock<Arc<Library>>,
+    described: OnceLock<Arc<[OptionInfo]>>,
+}
+
+impl Kernel {
+    fn new(source: Source) -> Kernel {
+        Kernel {
+            source,
+            library: OnceLock::new(),
+            described: OnceLock::new(),
+        }
+    }
+
+    /// A kernel that comes with Straightline.
+    pub fn builtin(name: &str) -> Result<Kernel, Errors> {
+        let Some(entry) = straightline_kernels::find(name) else {
+            let known: Vec<&str> = straightline_kernels::CATALOGUE.iter().map(|e| e.name).collect();
+            return Err(Errors::of(
+                Diagnostic::new(Code::UnknownKernel, format!("there is no kernel `{name}`")).help(format!(
+                    "built in: {}; for one of your own give FILE.rs::FUNCTION",
+                    known.join(", ")
+                )),
+            ));
+        };
+        let files = entry.sources.iter().map(|s| File {
+            path: s.path.to_owned(),
+            text: s.text.to_owned(),
+        });
+        Ok(Kernel::new(Source {
+            name: name.to_owned(),
+            builtin: Some(entry),
+            files: Arc::new(files.collect()),
+        }))
+    }
+
+    /// A kernel of one's own, from its text. `path` is only shown.
+    pub fn from_text(path: &str, text: &str, function: &str) -> Kernel {
+        let file = File {
+            path: path.to_owned(),
+            text: text.to_owned(),
+        };
+        Kernel::new(Source {
+            name: front::unraw(function).to_owned(),
+            builtin: None,
+            files: Arc::new(vec![file]),
+        })
+    }
+
+    /// A kernel of one's own, from a file. Without `function` it is the public function that has the file's name, or else the only
+    /// public one that takes and gives what a kernel does.
+    pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
+        let shown = path.display().to_string();
+        let text = read(path)?;
+        let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
+        let function = match function {
+            Some(function) => function.to_owned(),
+            None => front::kernel_of(&text, stem, &shown).map_err(|error| {
+                let file = File {
+                    path: shown.clone(),
+                    text: text.clone(),
+                };
+                Errors::new(vec![*error], &Arc::new(vec![file]))
+            })?,
+        };
+        Ok(Kernel::from_text(&shown, &text, &function))
+    }
+
+    /// The same kernel with a further file that it calls functions of.
+    pub fn with_file(self, path: &Path) -> Result<Kernel, Errors> {
+        Ok(self.with_text(&path.display().to_string(), &read(path)?))
+    }
+
+    /// The same kernel with the text of a further file that it calls functions of. `path` is only shown.
+    pub fn with_text(mut self, path: &str, text: &str) -> Kernel {
+        Arc::make_mut(&mut self.source.files).push(File {
+            path: path.to_owned(),
+            text: text.to_owned(),
+        });
+        self.library = OnceLock::new();
+        self.described = OnceLock::new();
+        self
+    }
+
+    /// What a command line or a `build.rs` calls a kernel: a built-in name, `FILE.rs` or `FILE.rs::FUNCTION`.
+    pub fn locate(text: &str) -> Result<Kernel, Errors> {
+        match text.split_once(".rs::") {
+            Some((path, function)) => Kernel::from_file(Path::new(&format!("{path}.rs")), Some(function)),
+            None if text.ends_with(".rs") => Kernel::from_file(Path::new(text), None),
+            None => Kernel::builtin(text),
+        }
+    }
+
+    /// The function's name.
+    pub fn name(&self) -> &str {
+        &self.source.name
+    }
+
+    /// The kernel's files.
+    pub fn files(&self) -> &[File] {
+        &self.source.files
+    }
+
+    /// Where the kernel's name stands, or the first line of its file: the place of errors that concern all of it. `None` of an empty file.
+    pub fn place(&self) -> Option<Span> {
+        let library = deep(|| self.library()).ok();
+        let named = library.and_then(|library| library.functions.get(&self.source.name).map(|function| function.span));
+        named.or_else(|| {
+            let line = self.source.files.first()?.text.lines().next()?;
+            Some(Span {
+                end: line.len() as u32,
+                line: 1,
+                column: 1,
+                ..Span::default()
+            })
+        })
+    }
+
+    /// The kernel's options in order of declaration.
+    pub fn options(&self) -> Result<Vec<OptionInfo>, Errors> {
+        deep(|| self.described(&*self.library()?).map(|infos| infos.to_vec()))
+    }
+
+    /// Values of all options of the kernel under `settings`, pairs of option and text, without compiling it: the same that
+    /// [`Compiled::options`] has.
+    ///
+    /// # Errors
+    ///
+    /// Each setting that the kernel has no option for, that stands twice, or that is no value of its option; an error in the
+    /// kernel's text.
+    pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, Errors> {
+        let library = deep(|| self.library())?;
+        let infos = deep(|| self.described(&library))?;
+        eval::parse_settings(&self.source.name, infos, settings).map_err(|found| Errors::new(found, &self.source.files))
+    }
+
+    fn described(&self, library: &Library) -> Result<&[OptionInfo], Errors> {
+        if let Some(infos) = self.described.get() {
+            return Ok(infos);
+        }
+        let infos = eval::describe(library, &self.source.files, &self.source.name)?.into();
+        Ok(self.described.get_or_init(|| infos))
+    }
+
+    /// The tree of all of the kernel's files as its `Debug` form: for tests that ask which constructs a text has.
+    #[doc(hidden)]
+    pub fn tree(&self) -> Result<String, Errors> {
+        deep(|| self.library().map(|library| format!("{library:?}")))
+    }
+
+    /// Looks at the types of the functions that the kernel does not reach, as rustc does: what else they hold does not concern it.
+    ///
+    /// # Errors
+    ///
+    /// Every two types in them that do not match, and what is wrong with the kernel's text.
+    pub fn check_others(&self) -> Result<(), Errors> {
+        deep(|| {
+            let Parsed {
+                library,
+                others,
+                errors: mut found,
+                ..
+            } = front::parse(&self.source.files, &self.source.name)?;
+            found.extend(infer::mismatches(&library, &others));
+            match found.is_empty() {
+                true => Ok(()),
+                false => Err(Errors::new(found, &self.source.files)),
+            }
+        })
+    }
+
+    /// What the files define, with the type of every expression that the kernel reaches.
+    ///
+    /// # Errors
+    ///
+    /// What the language does not have, types that do not match, and parameters that a kernel cannot take: all at once.
+    fn library(&self) -> Result<Arc<Library>, Errors> {
+        if let Some(library) = self.library.get() {
+            return Ok(Arc::clone(library));
+        }
+        let Parsed {
+            mut library,
+            reached,
+            mut errors,
+            ..
+        } = front::parse(&self.source.files, &self.source.name)?;
+        add(
+            &mut errors,
+            infer::infer(&mut library, &reached).err().unwrap_or_default(),
+        );
+        if !errors.is_empty() {
+            let of_parameters = eval::parameter_errors(&library, &self.source.files, &self.source.name);
+            add(&mut errors, of_parameters);
+            errors.sort_by_key(|error| error.span);
+            return Err(Errors::new(errors, &self.source.files));
+        }
+        let library = Arc::new(library);
+        Ok(Arc::clone(self.library.get_or_init(|| library)))
+    }
+
+    /// Decides everything that can be decided now.
+    pub fn compile(&self, settings: &Settings) -> Result<Compiled, Errors> {
+        self.compile_observed(settings, &mut |_, _| {})
+    }
+
+    /// As [`Kernel::compile`], showing the graph after each stage. The graph is verified between stages.
+    pub fn compile_observed(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
+        deep(|| {
+            let _meter = Meter::open(settings.limits());
+            let library = self.library()?;
+            let mut compiled = pipeline::compile(&self.source, &library, settings, observer)?;
+            compiled.changed = self.changed(&library, settings, &compiled.options)?;
+            Ok(compiled)
+        })
+    }
+
+    /// Names of the options whose values differ from those of a kernel without settings.
+    fn changed(&self, library: &Library, settings: &Settings, values: &OptionValues) -> Result<Vec<String>, Errors> {
+        if settings.options.is_empty() {
+            return Ok(Vec::new());
+        }
+        let infos = self.described(library)?.iter();
+        let changed = infos.filter(|info| values.get(&info.name).is_some_and(|value| *value != info.unset()));
+        Ok(changed.map(|info| info.name.clone()).collect())
+    }
+}
+
+impl ShaderSpec {
+    /// Compiles a kernel.
+    ///
+    /// # Errors
+    ///
+    /// As [`Kernel::compile`].
+    pub fn compile(&self, kernel: &Kernel) -> Result<Compiled, Errors> {
+        let mut settings = self.settings.clone();
+        // A workgroup that shares texels is the one that is dispatched.
+        if let Some(size) = self.emit.workgroup {
+            settings.share = settings.share.of_size(size);
+        }
+        kernel.compile(&settings)
+    }
+
+    /// Compiles a kernel and writes its shader.
+    ///
+    /// # Errors
+    ///
+    /// As [`Kernel::compile`] and [`Compiled::emit`].
+    pub fn emit(&self, kernel: &Kernel) -> Result<(Compiled, Emitted), Errors> {
+        let compiled = self.compile(kernel)?;
+        let emitted = compiled.emit(&self.emit)?;
+        Ok((compiled, emitted))
+    }
+}
+
+/// Adds what a later stage found, but at places where an earlier one found something.
+fn add(errors: &mut Vec<Diagnostic>, found: Vec<Diagnostic>) {
+    let places: Vec<Option<Span>> = errors.iter().map(|error| error.span).collect();
+    errors.extend(found.into_iter().filter(|error| !places.contains(&error.span)));
+}
+
+fn read(path: &Path) -> Result<String, Errors> {
+    files::read_text(path, MAX_SOURCE).map_err(|error| {
+        let what = format!("cannot read the kernel file `{}`: {error}", path.display());
+        Errors::of(
+            Diagnostic::new(Code::UnreadableFile, what)
+                .help("paths are taken from the folder that the build runs in: the crate's own")
+                .caused_by(error),
+        )
+    })
+}
+
+/// Runs on a stack that is deep enough for every nesting that the front end lets through.
+#[cfg(not(target_arch = "wasm32"))]
+fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
+    const STACK: usize = 256 << 20;
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
+        match thread {
+            Ok(handle) => handle.join().unwrap_or_else(|_| Err(internal("front", "it panicked"))),
+            Err(error) => {
+                let what = format!("cannot start a thread: {error}");
+                Err(Errors::of(Diagnostic::new(Code::Limit, what).caused_by(error)))
+            }
+        }
+    })
+}
+
+/// Runs on the host's stack: WebAssembly has no threads of its own, and the front end lets less nesting through there
+/// (`front/depth.rs`).
+#[cfg(target_arch = "wasm32")]
+fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
+    work()
+}

@@ -1,0 +1,112 @@
+//! A kernel with the description of its shader, as a `build.rs` asks for it.
+
+use super::{ShaderSpec, Target};
+use std::path::{Path, PathBuf};
+use straightline_kernels::KernelOptions;
+
+/// One shader: a kernel and how it is to be computed and written. Made by [`Config::kernel`](crate::Config::kernel) and
+/// [`Config::file_with`](crate::Config::file_with).
+#[derive(Clone, Debug)]
+pub struct KernelConfig {
+    pub(crate) source: Source,
+    /// Of a file, the function that is the kernel.
+    pub(crate) function: Option<String>,
+    pub(crate) name: Option<String>,
+    pub(crate) spec: ShaderSpec,
+    /// Further files that the kernel calls functions of.
+    pub(crate) sources: Vec<PathBuf>,
+}
+
+/// Where a kernel's text is.
+#[derive(Clone, Debug)]
+pub(crate) enum Source {
+    /// Among the built-in kernels, by this name.
+    Builtin(String),
+    File(PathBuf),
+}
+
+impl KernelConfig {
+    pub(crate) fn new(source: Source) -> Self {
+        KernelConfig {
+            source,
+            function: None,
+            name: None,
+            spec: ShaderSpec::new(),
+            sources: Vec::new(),
+        }
+    }
+
+    /// Describes the shader by `spec`, in place of what was said before: for one description of several shaders.
+    ///
+    /// ```
+    /// use straightline_codegen::{Config, ShaderSpec, Stage};
+    ///
+    /// let fragment = ShaderSpec::new().stage(Stage::Fragment);
+    /// let shaders = Config::new().kernel("sraa", |k| k.spec(fragment.clone())).kernel("tabula_rasa", |k| k.spec(fragment));
+    /// ```
+    pub fn spec(mut self, spec: ShaderSpec) -> Self {
+        self.spec = spec;
+        self
+    }
+
+    /// Sets options of the kernel by its own structure of them, those that differ from its `Default`: checked by the editor. The
+    /// feature `typed-options` gives the structures of the built-in kernels.
+    ///
+    /// ```
+    /// # #[cfg(feature = "typed-options")] {
+    /// use straightline_codegen::kernels::sraa::{Pattern, Sraa};
+    ///
+    /// let shaders = straightline_codegen::Config::new()
+    ///     .kernel("sraa", |k| k.options(&Sraa { pattern: Pattern::Latin16, ..Default::default() }));
+    /// # }
+    /// ```
+    pub fn options(mut self, options: &impl KernelOptions) -> Self {
+        self.spec = self.spec.options(options);
+        self
+    }
+
+    /// Also writes the shader in another language.
+    ///
+    /// ```
+    /// # use straightline_codegen::{emit::Target, Config};
+    /// let shaders = Config::new().kernel("sraa", |k| k.target(Target::Hlsl));
+    /// ```
+    pub fn target(mut self, target: Target) -> Self {
+        self.spec = self.spec.target(target);
+        self
+    }
+
+    /// Adds a further file that the kernel calls functions of.
+    ///
+    /// ```
+    /// # use straightline_codegen::Config;
+    /// let shaders = Config::new().file_with("src/glow.rs", |k| k.source("src/colour.rs"));
+    /// ```
+    pub fn source(mut self, path: impl AsRef<Path>) -> Self {
+        self.sources.push(path.as_ref().to_owned());
+        self
+    }
+
+    /// Name of the module and of the files; by default the kernel's. Variants of one kernel need names.
+    ///
+    /// ```
+    /// # use straightline_codegen::Config;
+    /// let shaders = Config::new().kernel("sraa", |k| k.set("pattern", "latin16").name("sraa_16"));
+    /// ```
+    pub fn name(mut self, name: &str) -> Self {
+        self.name = Some(name.to_owned());
+        self
+    }
+
+    /// Of a file, the function that is the kernel; by default the public one with the file's name, or else the only public one
+    /// that takes and gives what a kernel does.
+    ///
+    /// ```
+    /// # use straightline_codegen::Config;
+    /// let shaders = Config::new().file_with("src/filters.rs", |k| k.function("glow"));
+    /// ```
+    pub fn function(mut self, function: &str) -> Self {
+        self.function = Some(function.to_owned());
+        self
+    }
+}

@@ -1,0 +1,36 @@
+//! Ways of a function to read texels.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// How a function ([`Form::Function`](straightline_manifest::Form)) reads the texels of its inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Texels {
+    /// Of textures and samplers, which are its parameters.
+    #[default]
+    Textures,
+    /// By functions of the host, defined before it. For hosts that give no texture, only a way to read one.
+    Functions,
+}
+
+impl fmt::Display for Texels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Texels::Textures => "textures",
+            Texels::Functions => "functions",
+        })
+    }
+}
+
+impl FromStr for Texels {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "textures" => Ok(Texels::Textures),
+            "functions" => Ok(Texels::Functions),
+            _ => Err(format!("unknown source of texels `{text}`: textures or functions")),
+        }
+    }
+}

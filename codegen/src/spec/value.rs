@@ -1,0 +1,268 @@
+//! Values of knobs as text: the spelling of the command line, `engine.toml` and the page's messages.
+
+use super::{Register, Target, Texels};
+use std::collections::BTreeSet;
+use std::fmt::Display;
+use std::time::Duration;
+use straightline_evaluator::policy::{Branches, LoopPolicy, Math, ReadOrder, Share, Transport, Unroll};
+use straightline_evaluator::shorten;
+use straightline_kernels::OptionText;
+use straightline_manifest::{Form, Format, Origin, Precision, Stage};
+
+/// Number of texts that a knob takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arity {
+    /// No value: the knob is set or not. As text `true` or `false`.
+    Flag,
+    /// One value.
+    One,
+    /// Any number of values, each a text of its own.
+    Many,
+}
+
+/// Type of a knob.
+pub(super) trait KnobValue: Sized {
+    /// Number of texts that make a value.
+    const ARITY: Arity = Arity::One;
+
+    /// Reads a value.
+    ///
+    /// # Errors
+    ///
+    /// A text that is no such value, with what would be one.
+    fn from_texts(texts: &[&str]) -> Result<Self, String>;
+
+    /// Texts that [`KnobValue::from_texts`] reads as this value; none of a value that is not set.
+    fn texts(&self) -> Vec<String>;
+}
+
+/// The only text of a knob that takes one.
+fn only<'a>(texts: &[&'a str]) -> Result<&'a str, String> {
+    match texts {
+        [text] => Ok(text),
+        _ => Err(format!("it takes one value, and {} are given", texts.len())),
+    }
+}
+
+/// Types that are spelled by `Display` and read by `FromStr`.
+macro_rules! spelled {
+    ($($ty:ty),*) => {
+        $(
+            impl KnobValue for $ty {
+                fn from_texts(texts: &[&str]) -> Result<Self, String> {
+                    only(texts)?.parse()
+                }
+
+                fn texts(&self) -> Vec<String> {
+                    vec![self.to_string()]
+                }
+            }
+
+            impl KnobValue for Option<$ty> {
+                fn from_texts(texts: &[&str]) -> Result<Self, String> {
+                    match texts {
+                        [] => Ok(None),
+                        texts => KnobValue::from_texts(texts).map(Some),
+                    }
+                }
+
+                fn texts(&self) -> Vec<String> {
+                    self.as_ref().map_or_else(Vec::new, KnobValue::texts)
+                }
+            }
+        )*
+    };
+}
+
+spelled!(
+    Unroll, Branches, ReadOrder, Share, Math, Transport, Stage, Form, Format, Origin, Precision, Texels
+);
+
+impl KnobValue for bool {
+    const ARITY: Arity = Arity::Flag;
+
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        match only(texts)? {
+            "true" => Ok(true),
+            "false" => Ok(false),
+            other => Err(format!("`{}` is neither `true` nor `false`", shorten(other))),
+        }
+    }
+
+    fn texts(&self) -> Vec<String> {
+        vec![self.to_string()]
+    }
+}
+
+impl KnobValue for u32 {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        let text = only(texts)?;
+        let digits = text.bytes().all(|byte| byte.is_ascii_digit());
+        let number = digits.then(|| text.parse().ok()).flatten();
+        number.ok_or_else(|| format!("`{}` is no number from 0 to {}", shorten(text), u32::MAX))
+    }
+
+    fn texts(&self) -> Vec<String> {
+        vec![self.to_string()]
+    }
+}
+
+/// Bytes of a unit of the memory limit.
+const MEGABYTE: u64 = 1_000_000;
+
+/// Most millions of bytes that can be allowed.
+const MOST_MEGABYTES: u64 = 1_000_000;
+
+/// The memory limit, in bytes; as text in millions of them.
+impl KnobValue for u64 {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        let text = only(texts)?;
+        let megabytes = text.parse::<u64>().ok();
+        let megabytes = megabytes.filter(|megabytes| (1..=MOST_MEGABYTES).contains(megabytes));
+        let bytes = megabytes.map(|megabytes| megabytes * MEGABYTE);
+        bytes.ok_or_else(|| {
+            let text = shorten(text);
+            format!("`{text}` is no number of megabytes from 1 to {MOST_MEGABYTES}")
+        })
+    }
+
+    fn texts(&self) -> Vec<String> {
+        vec![(self / MEGABYTE).to_string()]
+    }
+}
+
+/// Seconds.
+impl KnobValue for Duration {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        let text = only(texts)?;
+        let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
+        let time = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        time.ok_or_else(|| {
+            let text = shorten(text);
+            format!("`{text}` is no time: give a positive number of seconds, such as 60 or 0.5")
+        })
+    }
+
+    fn texts(&self) -> Vec<String> {
+        vec![self.as_secs_f64().to_string()]
+    }
+}
+
+impl KnobValue for Option<String> {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        match texts {
+            [] => Ok(None),
+            texts => only(texts).map(|text| Some(text.to_owned())),
+        }
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.iter().cloned().collect()
+    }
+}
+
+/// Largest side of a block or workgroup that is read; what a device takes is less, and checked later.
+const MOST_ACROSS: u32 = 8192;
+
+/// Width and height: `8x4`.
+impl KnobValue for [u32; 2] {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        let text = only(texts)?;
+        let parsed = text
+            .split_once('x')
+            .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+        let size = parsed.filter(|size| size.iter().all(|side| (1..=MOST_ACROSS).contains(side)));
+        size.ok_or_else(|| {
+            let text = shorten(text);
+            format!("`{text}` is not a size such as 8x4, from 1x1 to {MOST_ACROSS}x{MOST_ACROSS}")
+        })
+    }
+
+    fn texts(&self) -> Vec<String> {
+        vec![format!("{}x{}", self[0], self[1])]
+    }
+}
+
+impl KnobValue for Option<[u32; 2]> {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        match texts {
+            [] => Ok(None),
+            texts => KnobValue::from_texts(texts).map(Some),
+        }
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.as_ref().map_or_else(Vec::new, KnobValue::texts)
+    }
+}
+
+/// Words, each text one of them or several with commas between.
+fn words<'a>(texts: &[&'a str]) -> impl Iterator<Item = &'a str> {
+    texts
+        .iter()
+        .flat_map(|text| text.split(','))
+        .filter(|word| !word.is_empty())
+}
+
+impl KnobValue for BTreeSet<Target> {
+    const ARITY: Arity = Arity::Many;
+
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        words(texts).map(str::parse).collect()
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.iter().map(Target::to_string).collect()
+    }
+}
+
+impl KnobValue for BTreeSet<String> {
+    const ARITY: Arity = Arity::Many;
+
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        Ok(words(texts).map(str::to_owned).collect())
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.iter().cloned().collect()
+    }
+}
+
+/// Lists of names with values, each text `NAME=VALUE`.
+macro_rules! named {
+    ($($ty:ty, $form:literal, $such:literal, |$text:ident| $parse:expr;)*) => {
+        $(
+            impl KnobValue for Vec<$ty> {
+                const ARITY: Arity = Arity::Many;
+
+                fn from_texts(texts: &[&str]) -> Result<Self, String> {
+                    let each = texts.iter().map(|text| {
+                        let misshapen = || {
+                            let text = shorten(text);
+                            format!("`{text}` is not of the form {}, such as {}", $form, $such)
+                        };
+                        let named = text.split_once('=').filter(|(name, value)| !name.is_empty() && !value.is_empty());
+                        let (name, $text) = named.ok_or_else(misshapen)?;
+                        Ok((name.to_owned(), $parse.map_err(|why: Option<String>| why.unwrap_or_else(misshapen))?))
+                    });
+                    each.collect()
+                }
+
+                fn texts(&self) -> Vec<String> {
+                    self.iter().map(|(name, value)| pair(name, value)).collect()
+                }
+            }
+        )*
+    };
+}
+
+named! {
+    OptionText, "OPTION=VALUE", "pattern=ordered16", |text| Ok(text.to_owned());
+    LoopPolicy, "LOOP=POLICY", "sraa.tap=none", |text| text.parse().map_err(Some);
+    (String, u32), "NAME=NUMBER", "depth=3", |text| text.parse().map_err(|_| None);
+    (String, Register), "NAME=REGISTER", "depth=t3 or depth=t3,space1", |text| text.parse().map_err(Some);
+}
+
+fn pair(name: &str, value: &impl Display) -> String {
+    format!("{name}={value}")
+}

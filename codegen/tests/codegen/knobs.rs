@@ -1,0 +1,197 @@
+//! Knobs: each has one text, one example and one place in `docs/settings.md`, whichever way it is set.
+//!
+//! `STRAIGHTLINE_BLESS=1` writes the page.
+
+use std::path::Path;
+use straightline_codegen::kernels::sraa::{Metric, Pattern, Sraa};
+use straightline_codegen::spec::{Arity, KNOBS, Knob, Part};
+use straightline_codegen::{Config, Kernel, Overrides, ShaderSpec, Stage};
+
+const INTRODUCTION: &str = "# Settings of a shader
+
+A shader is described by settings.
+Each has the same name, values and default everywhere:
+
+- `build.rs`: a method of the kernel's configuration, of `ShaderSpec`, and of its half `Settings` or `EmitOptions`;
+- the command line: `--NAME` of `emit` and `check`; commands that run a kernel take those of the first half;
+- the page: a control, and a key of the messages to its generator;
+- `engine.toml`: a key of a shader, for what an engine decides.
+";
+
+/// The page that `docs/settings.md` is to be.
+fn page() -> String {
+    let mut page = INTRODUCTION.to_owned();
+    for (part, heading, about) in [
+        (Part::Settings, "What is computed", "`Settings`, for `Kernel::compile`."),
+        (
+            Part::EmitOptions,
+            "How it is written",
+            "`EmitOptions`, for `Compiled::emit`.",
+        ),
+    ] {
+        page += &format!("\n## {heading}\n\n{about}\n");
+        for knob in KNOBS.iter().filter(|knob| knob.part == part) {
+            let value = if knob.value.is_empty() {
+                String::new()
+            } else {
+                format!(" {}", knob.value)
+            };
+            page += &format!("\n### {}\n\n{}.\n\n", knob.name, knob.help().replace(". ", ".\n"));
+            page += &format!("`--{}{value}`, `{}`", knob.name, knob.call);
+            let default = knob.texts(&ShaderSpec::new()).join(",");
+            page += &match (knob.arity, default.as_str()) {
+                (Arity::Flag, _) | (_, "") => "\n".to_owned(),
+                (_, default) => format!("; by default `{default}`\n"),
+            };
+        }
+    }
+    page
+}
+
+#[test]
+fn the_page_has_every_knob() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/settings.md");
+    if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
+        std::fs::write(&path, page()).expect("a page that can be written");
+    }
+    let written = std::fs::read_to_string(&path).expect("docs/settings.md");
+    assert_eq!(written, page(), "STRAIGHTLINE_BLESS=1 writes docs/settings.md");
+}
+
+/// Texts of a knob in its example.
+fn texts(knob: &Knob) -> Vec<String> {
+    knob.texts(&knob.example(ShaderSpec::new()))
+}
+
+#[test]
+fn each_text_is_read_as_the_value_that_wrote_it() {
+    for knob in KNOBS {
+        let example = knob.example(ShaderSpec::new());
+        assert_ne!(example, ShaderSpec::new(), "{}: the example is the default", knob.name);
+        for spec in [example, ShaderSpec::new()] {
+            let (mut read, texts) = (knob.example(ShaderSpec::new()), knob.texts(&spec));
+            let borrowed: Vec<&str> = texts.iter().map(String::as_str).collect();
+            let set = if knob.arity == Arity::Many || !texts.is_empty() {
+                knob.set(&mut read, &borrowed)
+            } else {
+                continue;
+            };
+            assert_eq!((set, &read), (Ok(()), &spec), "{}", knob.name);
+        }
+    }
+}
+
+#[test]
+fn values_that_are_none_are_refused_by_name() {
+    for knob in KNOBS {
+        let mut spec = ShaderSpec::new();
+        let refused = knob.set(&mut spec, &["no such \u{1b}value"]);
+        // Any word is a name.
+        if ["entry", "reserve"].contains(&knob.name) {
+            assert_eq!(refused, Ok(()));
+            continue;
+        }
+        let refused = refused.expect_err(knob.name);
+        assert!(refused.contains("no such"), "{}: {refused}", knob.name);
+        assert_eq!(spec, ShaderSpec::new(), "{}", knob.name);
+    }
+    let unknown = Knob::find("unrol").expect_err("no knob");
+    assert_eq!(unknown, "a shader has no setting `unrol`: did you mean `unroll`?");
+}
+
+#[test]
+fn json_holds_what_is_changed() {
+    let all = KNOBS.iter().fold(ShaderSpec::new(), |spec, knob| knob.example(spec));
+    let json = serde_json::to_string_pretty(&all).expect("JSON");
+    assert_eq!(serde_json::from_str::<ShaderSpec>(&json).expect(&json), all, "{json}");
+    assert_eq!(serde_json::to_string(&ShaderSpec::new()).expect("JSON"), "{}");
+    let other = r#"{ "set": { "pattern": "latin16", "tau": 500 }, "block": "2x2", "region": true, "group": 1 }"#;
+    let other: ShaderSpec = serde_json::from_str(other).expect("a description");
+    let same = ShaderSpec::new()
+        .set("pattern", "latin16")
+        .set("tau", 500)
+        .block(2, 2)
+        .region(true)
+        .group(1);
+    assert_eq!(other, same);
+    for (json, says) in [
+        (r#"{ "unrol": "none" }"#, "did you mean `unroll`?"),
+        (r#"{ "unroll": "some" }"#, "unknown unroll policy `some`"),
+        (
+            r#"{ "unroll": ["full", "none"] }"#,
+            "it takes one value, and 2 are given",
+        ),
+        (r#"{ "region": "yes" }"#, "neither `true` nor `false`"),
+        (r#"{ "block": { "x": 2 } }"#, "not a size"),
+        (r#"{ "block": null }"#, "a text, a number"),
+    ] {
+        let error = serde_json::from_str::<Overrides>(json).expect_err(json).to_string();
+        assert!(error.contains(says), "{json}: {error}");
+    }
+}
+
+/// A built-in kernel's own structure of options says what texts say.
+#[test]
+fn structures_of_options_are_texts() {
+    let typed = Sraa {
+        pattern: Pattern::Listed,
+        metric: Metric::Normals,
+        offsets: &[-0.25, -0.25, 0.25, 0.25],
+        tau: 250.0,
+        rest: true,
+        ..Sraa::default()
+    };
+    let spec = ShaderSpec::new().options(&typed);
+    let texts = [
+        "pattern=listed",
+        "offsets=-0.25,-0.25,0.25,0.25",
+        "metric=normals",
+        "rest=true",
+        "tau=250.0",
+    ];
+    let mut found: Vec<String> = spec
+        .settings
+        .options
+        .iter()
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
+    found.sort_unstable();
+    let mut wanted = texts.map(str::to_owned);
+    wanted.sort_unstable();
+    assert_eq!(found, wanted);
+    let kernel = Kernel::builtin("sraa").expect("a kernel");
+    let values = kernel.option_values(&spec.settings.options).expect("values");
+    let set = texts.iter().filter_map(|text| text.split_once('='));
+    let set: Vec<_> = set.map(|(name, value)| (name.to_owned(), value.to_owned())).collect();
+    assert_eq!(values, kernel.option_values(&set).expect("values"));
+    assert!(ShaderSpec::new().options(&Sraa::default()).settings.options.is_empty());
+}
+
+/// One description of several shaders, in a `build.rs` and without one, writes the same files.
+#[test]
+fn configurations_write_what_a_description_says() {
+    let spec = ShaderSpec::new()
+        .set("pattern", "ordered4")
+        .stage(Stage::Fragment)
+        .entry("antialias");
+    let folder = std::env::temp_dir().join(format!("straightline-knobs-{}", std::process::id()));
+    let config = Config::new()
+        .kernel("sraa", |k| k.spec(spec.clone()).name("aa"))
+        .out_dir(&folder);
+    config.compile().unwrap_or_else(|errors| panic!("{errors}"));
+    let (_, emitted) = spec
+        .emit(&Kernel::builtin("sraa").expect("a kernel"))
+        .unwrap_or_else(|e| panic!("{e}"));
+    for (name, bytes) in emitted.named("aa") {
+        assert_eq!(std::fs::read(folder.join(&name)).expect(&name), bytes, "{name}");
+    }
+    std::fs::remove_dir_all(&folder).expect("a folder of ours");
+}
+
+#[test]
+fn the_order_of_knobs_is_that_of_their_halves() {
+    let parts: Vec<Part> = KNOBS.iter().map(|knob| knob.part).collect();
+    let first = parts.iter().take_while(|part| **part == Part::Settings).count();
+    assert!(parts[first..].iter().all(|part| *part == Part::EmitOptions));
+    assert!(KNOBS.iter().all(|knob| !texts(knob).is_empty()));
+}

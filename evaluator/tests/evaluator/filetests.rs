@@ -1,0 +1,48 @@
+//! Passes on graphs as text: `tests/filetests/passes/PASS/*.ir`, and texts that are refused.
+//!
+//! A case is a graph of a few nodes with a directive:
+//!
+//! - `// run: PASS`: the graph after `// gives` is the result of the pass.
+//! - `// verify: TEXT` or `// parse: TEXT`: the error contains the text.
+
+use crate::cases::{self, directive, input, with_output};
+use straightline_evaluator::ir::{parse, print, verify};
+use straightline_evaluator::passes;
+
+/// The case with the output that it has now.
+fn now(text: &str) -> Result<String, String> {
+    let input = input(text);
+    let parsed = parse(input);
+    if let Some(expected) = directive(text, "parse") {
+        return match parsed {
+            Err(error) if error.to_string().contains(expected) => Ok(text.to_owned()),
+            other => Err(format!("parsing gives {:?}", other.err().map(|e| e.to_string()))),
+        };
+    }
+    let graph = parsed.map_err(|e| e.to_string())?;
+    let verified = verify::verify(&graph);
+    if let Some(expected) = directive(text, "verify") {
+        return match verified {
+            Err(why) if why.contains(expected) => Ok(text.to_owned()),
+            other => Err(format!("verification gives {other:?}")),
+        };
+    }
+    verified?;
+    let made = match directive(text, "run").ok_or("no directive")? {
+        "clean" => passes::clean(&graph),
+        "share-loads" => passes::share_loads(&graph),
+        "coordinates" => passes::clean(&passes::by_component(&graph)),
+        "exactness" => passes::clean(&passes::exactness(&graph)),
+        "fast" => passes::clean(&passes::fast(&graph)),
+        "gathers" => passes::clean(&passes::gathers(&graph)?.0),
+        "share-by-workgroup" => passes::clean(&passes::by_workgroup(&graph, [4, 4])?.0),
+        other => return Err(format!("there is no pass `{other}`")),
+    };
+    verify::verify(&made)?;
+    Ok(with_output(input, &print(&made)))
+}
+
+#[test]
+fn passes_make_the_graphs_of_the_files() {
+    cases::run(55, now);
+}
