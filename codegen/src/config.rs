@@ -61,7 +61,16 @@ impl Built {
             name: &self.name,
             compiled: &self.compiled,
             manifest: &self.manifest,
+            wgsl: self.wgsl(),
         }
+    }
+
+    /// The text of the WGSL, which is always written.
+    fn wgsl(&self) -> &str {
+        let bytes = self.files.get(&format!("{}.wgsl", self.name));
+        bytes
+            .and_then(|bytes| std::str::from_utf8(bytes).ok())
+            .unwrap_or_default()
     }
 }
 
@@ -176,7 +185,8 @@ impl Config {
             return Err(Error { problems });
         }
         let modules: Vec<emit::Module<'_>> = built.iter().map(Built::module).collect();
-        all.insert(BINDINGS.to_owned(), emit::bindings(&modules).into_bytes());
+        let bindings = emit::bindings(&modules).map_err(|e| Error::of(Problem::Kernel(e)))?;
+        all.insert(BINDINGS.to_owned(), bindings.into_bytes());
         files::write_all(&folder, &all)
             .map(|_| ())
             .map_err(|e| Error::of(Problem::Write(e)))

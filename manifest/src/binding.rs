@@ -1,6 +1,6 @@
 //! What a shader binds: in WebGPU's words, and language by language.
 
-use crate::{Element, Scalar, ValueType};
+use crate::{BufferType, Dimension, Element, Extent, REGION, SampleType, SamplerType, Scalar, ValueType};
 use serde::{Deserialize, Serialize};
 
 /// One input resource. Of a function ([`Form::Function`](crate::Form::Function)) nothing is bound: group and number are those
@@ -83,10 +83,6 @@ pub enum BindingKind {
     },
 }
 
-/// Name of the uniform buffer of a shader that filters a rectangle of the image: see [`region_fields`]. Where the kernel has a
-/// use for the name it is followed by an underscore or a number: see [`Binding::is_region`].
-pub const REGION: &str = "region";
-
 /// Fields of the uniform buffer [`REGION`]: the rectangle's upper left pixel in the inputs, its size, and its upper left
 /// pixel in the target.
 pub fn region_fields() -> Vec<UniformField> {
@@ -99,153 +95,6 @@ pub fn region_fields() -> Vec<UniformField> {
         part: None,
     };
     (0..).zip(["first", "size", "place"]).map(field).collect()
-}
-
-/// Size in bytes of the uniform buffer [`REGION`].
-pub const REGION_SIZE: u32 = 32;
-
-/// How a buffer is bound, in the words of WebGPU's `GPUBufferBindingType`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum BufferType {
-    /// `uniform`.
-    Uniform,
-    /// `read-only-storage`.
-    ReadOnlyStorage,
-    /// `storage`: the shader writes to it.
-    Storage,
-}
-
-/// How a storage texture is accessed, in the words of WebGPU's `GPUStorageTextureAccess`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Access {
-    /// `read-only`.
-    ReadOnly,
-    /// `write-only`.
-    WriteOnly,
-}
-
-/// Dimension of a texture view, in the words of WebGPU's `GPUTextureViewDimension`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ViewDimension {
-    /// `2d`.
-    #[serde(rename = "2d")]
-    D2,
-    /// `2d-array`.
-    #[serde(rename = "2d-array")]
-    D2Array,
-    /// `3d`.
-    #[serde(rename = "3d")]
-    D3,
-    /// `cube`: six layers, +X, -X, +Y, -Y, +Z, -Z.
-    #[serde(rename = "cube")]
-    Cube,
-}
-
-/// Shape of a texture. In JSON two fields, as WebGPU has them: `view_dimension` and `multisampled`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(into = "Shape", try_from = "Shape")]
-pub enum Dimension {
-    /// One 2-D image.
-    D2,
-    /// A stack of 2-D images.
-    D2Array,
-    /// A volume.
-    D3,
-    /// Six square 2-D images around a point.
-    Cube,
-    /// One 2-D image with several samples a texel.
-    D2Multisampled,
-}
-
-impl Dimension {
-    /// Dimension of the view that is bound.
-    pub fn view(self) -> ViewDimension {
-        match self {
-            Dimension::D2 | Dimension::D2Multisampled => ViewDimension::D2,
-            Dimension::D2Array => ViewDimension::D2Array,
-            Dimension::D3 => ViewDimension::D3,
-            Dimension::Cube => ViewDimension::Cube,
-        }
-    }
-
-    /// Whether a texel has several samples.
-    pub fn is_multisampled(self) -> bool {
-        self == Dimension::D2Multisampled
-    }
-}
-
-#[derive(Serialize, Deserialize)]
-struct Shape {
-    view_dimension: ViewDimension,
-    multisampled: bool,
-}
-
-impl From<Dimension> for Shape {
-    fn from(dimension: Dimension) -> Shape {
-        Shape {
-            view_dimension: dimension.view(),
-            multisampled: dimension.is_multisampled(),
-        }
-    }
-}
-
-impl TryFrom<Shape> for Dimension {
-    type Error = &'static str;
-
-    fn try_from(shape: Shape) -> Result<Dimension, &'static str> {
-        match (shape.view_dimension, shape.multisampled) {
-            (ViewDimension::D2, false) => Ok(Dimension::D2),
-            (ViewDimension::D2Array, false) => Ok(Dimension::D2Array),
-            (ViewDimension::D2, true) => Ok(Dimension::D2Multisampled),
-            (ViewDimension::D3, false) => Ok(Dimension::D3),
-            (ViewDimension::Cube, false) => Ok(Dimension::Cube),
-            (_, true) => Err("a texture is multisampled and not 2d, which WebGPU does not have"),
-        }
-    }
-}
-
-/// How the texels of a texture are read, which decides the formats that fit, in the words of WebGPU's `GPUTextureSampleType`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SampleType {
-    /// `unfilterable-float`: one by one; any float, normalised or depth format.
-    #[serde(rename = "unfilterable-float")]
-    Unfilterable,
-    /// `float`: by a filtering sampler too; any float or normalised format that the device can filter.
-    #[serde(rename = "float")]
-    Filterable,
-    /// `depth`: by a comparison sampler, or one by one from a `texture_depth_2d`; a depth format.
-    #[serde(rename = "depth")]
-    Depth,
-    /// `sint`: one by one; a format of signed integers, whose bits arrive as they are.
-    #[serde(rename = "sint")]
-    Sint,
-    /// `uint`: one by one; a format of unsigned integers, whose bits arrive as they are.
-    #[serde(rename = "uint")]
-    Uint,
-}
-
-/// What a sampler is used for, in the words of WebGPU's `GPUSamplerBindingType`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SamplerType {
-    /// To filter.
-    Filtering,
-    /// To gather texels as they are: give it one that takes the nearest texel and clamps to the edge.
-    NonFiltering,
-    /// To compare with a reference depth.
-    Comparison,
-}
-
-/// Which size a texture must have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Extent {
-    /// That of the output.
-    Output,
-    /// Any: the shader asks for it.
-    Any,
 }
 
 /// A field of a uniform struct, or of the elements of a buffer.

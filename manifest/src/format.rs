@@ -1,12 +1,13 @@
 //! Texel formats that a result can be written in.
 
+#[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// A texel format that WebGPU can use for a write-only storage texture everywhere.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "lowercase"))]
 #[allow(missing_docs)] // named as in WebGPU
 pub enum Format {
     /// 8 bits a component, 0 to 1.

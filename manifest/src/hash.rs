@@ -1,23 +1,33 @@
 //! The hash by which a text is known to be the one that its manifest was written for.
 
+const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+const PRIME: u64 = 0x100_0000_01b3;
+
 /// FNV-1a of 64 bits, in 16 hexadecimal digits. It finds files that were mixed up or edited, not ones that were forged.
 ///
 /// Of a text, a line that ends in `\r\n` counts as one that ends in `\n`, so that a checkout on Windows changes nothing.
 pub fn hash_of_text(text: &str) -> String {
-    let bytes = text.as_bytes();
-    let ends_line = |k: usize| bytes[k] == b'\r' && bytes.get(k + 1) == Some(&b'\n');
-    fnv((0..bytes.len()).filter(|k| !ends_line(*k)).map(|k| bytes[k]))
+    format!("{:016x}", text_hash(text))
+}
+
+/// [`hash_of_text`] as a number, also at compile time: rustc takes some 3 µs a byte.
+pub const fn text_hash(text: &str) -> u64 {
+    let (mut hash, mut left) = (BASIS, text.as_bytes());
+    while let [byte, rest @ ..] = left {
+        let ends_line = *byte == b'\r' && matches!(rest, [b'\n', ..]);
+        if !ends_line {
+            hash = (hash ^ *byte as u64).wrapping_mul(PRIME);
+        }
+        left = rest;
+    }
+    hash
 }
 
 /// [`hash_of_text`] of a binary file, in which every byte counts.
 pub fn hash_of_bytes(bytes: &[u8]) -> String {
-    fnv(bytes.iter().copied())
-}
-
-fn fnv(bytes: impl Iterator<Item = u8>) -> String {
-    let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-    });
+    let hash = bytes
+        .iter()
+        .fold(BASIS, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME));
     format!("{hash:016x}")
 }
 

@@ -1,255 +1,43 @@
 //! What an emitted shader needs and offers.
 //!
 //! The generator writes one manifest beside each shader; the runtime, or any other engine, reads it to
-//! bind the shader without looking inside. Fields are plain data and serialise to JSON.
+//! bind the shader without looking inside. Fields are plain data and serialise to JSON: the feature `json`.
+//!
+//! Without that feature there is the [`plan`] of a shader alone, which the Rust of a `build.rs` has as constants.
 
+#[cfg(feature = "json")]
 mod binding;
+#[cfg(feature = "json")]
 mod form;
 mod format;
 mod hash;
+#[cfg(feature = "json")]
+mod manifest;
+#[cfg(feature = "json")]
 mod output;
+pub mod plan;
+#[cfg(feature = "json")]
 mod precision;
+#[cfg(feature = "json")]
 mod tuned;
 mod value;
+mod words;
 
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::fmt;
-use std::str::FromStr;
-
-pub use binding::{
-    Access, Binding, BindingKind, BufferType, Dimension, Extent, LanguageBinding, LanguageKind, Part, REGION,
-    REGION_SIZE, SampleType, SamplerType, UniformField, ViewDimension, region_fields,
-};
+#[cfg(feature = "json")]
+pub use binding::{Binding, BindingKind, LanguageBinding, LanguageKind, Part, UniformField, region_fields};
+#[cfg(feature = "json")]
 pub use form::{Form, Origin};
 pub use format::{Component, Format};
-pub use hash::{hash_of_bytes, hash_of_text};
+pub use hash::{hash_of_bytes, hash_of_text, text_hash};
+#[cfg(feature = "json")]
+pub use manifest::{Counts, Error, Manifest, SCHEMA, Varying};
+#[cfg(feature = "json")]
 pub use output::Output;
+#[cfg(feature = "json")]
 pub use precision::Precision;
+#[cfg(feature = "json")]
 pub use tuned::{LeftOut, Tuned};
 pub use value::{Element, NotAType, Scalar, ValueType};
-
-/// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
-pub const SCHEMA: u32 = 3;
-
-/// Everything a host must know to run one emitted shader.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Manifest {
-    /// Layout version, [`SCHEMA`].
-    pub schema: u32,
-    /// Name and version of the generator.
-    pub generator: String,
-    /// The kernel's name, as in `straightline list`.
-    pub kernel: String,
-    /// The pipeline stage that the shader is for.
-    pub stage: Stage,
-    /// How loops were treated: `full`, `none` or `partial(N)`, followed by what was said of single loops.
-    pub unroll: String,
-    /// What the shader computes in. Uniforms, buffers and textures are the same in every precision.
-    #[serde(default, skip_serializing_if = "Precision::is_default")]
-    pub precision: Precision,
-    /// Whether the shader is complete, or a function for another.
-    #[serde(default, skip_serializing_if = "Form::is_default")]
-    pub form: Form,
-    /// Where row 0 of textures, target and positions is.
-    #[serde(default, skip_serializing_if = "Origin::is_default")]
-    pub origin: Origin,
-    /// Name of the entry point, or of the function.
-    pub entry_point: String,
-    /// Its name in languages that have it under another, by target name: `main` in GLSL.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub entry_points: BTreeMap<String, String>,
-    /// Invocations in a workgroup; compute only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub workgroup_size: Option<[u32; 3]>,
-    /// Pixels that one invocation computes, across and down. Compute dispatches one invocation for each block, and blocks
-    /// that stick out of the target store what lies inside.
-    #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
-    pub block: [u32; 2],
-    /// What the device must be able to do besides: `subgroup`, quad operations in the shader's stage; `shader-f16`,
-    /// arithmetic in half precision.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub features: Vec<String>,
-    /// Values that the host's vertex shader gives for interpolation; fragment only. A shader that has some is drawn in a
-    /// pipeline of the host's own.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub varyings: Vec<Varying>,
-    /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
-    /// unnecessary is not listed. Together with `outputs` this is the bind group layout, in WebGPU's words, and all that WGSL
-    /// and SPIR-V bind.
-    pub bindings: Vec<Binding>,
-    /// All that the other languages bind, each by its own numbers, registers or names; of functions, their parameters in order,
-    /// in WGSL too.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub language_bindings: Vec<LanguageBinding>,
-    /// Where the results go: in JSON an object where there is one, else a list. A kernel that gives a structure or a tuple has
-    /// an output for each of its fields.
-    #[serde(rename = "output", with = "output")]
-    pub outputs: Vec<Output>,
-    /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
-    pub options: BTreeMap<String, String>,
-    /// What one invocation executes.
-    pub counts: Counts,
-    /// File of each target that was written, by target name (`wgsl`, `glsl450`, `glsl430`, `glsl330`,
-    /// `essl310`, `essl300`, `spirv`, `hlsl`, `msl`).
-    #[serde(default)]
-    pub files: BTreeMap<String, String>,
-    /// Hash of each of those files, by target name: [`hash_of_text`] of all of the text, comments included, and
-    /// [`hash_of_bytes`] of `spirv`. A manifest without one, written by hand say, claims nothing of that file.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub hashes: BTreeMap<String, String>,
-    /// Of a shader that `straightline tune` chose: what was left out, and what that cost.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tuned: Option<Tuned>,
-}
-
-/// A value that is interpolated for each fragment.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Varying {
-    /// Name in the kernel's source.
-    pub name: String,
-    /// A number or a vector.
-    #[serde(rename = "type")]
-    pub ty: ValueType,
-    /// Location of the fragment's input.
-    pub location: u32,
-}
-
-/// A pipeline stage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Stage {
-    /// One invocation a pixel, result through a storage texture.
-    Compute,
-    /// One fragment a pixel, result at colour location 0. The host draws a triangle over the target.
-    Fragment,
-}
-
-impl Stage {
-    /// `compute` or `fragment`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Stage::Compute => "compute",
-            Stage::Fragment => "fragment",
-        }
-    }
-}
-
-impl fmt::Display for Stage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for Stage {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "compute" => Ok(Stage::Compute),
-            "fragment" => Ok(Stage::Fragment),
-            _ => Err(format!("unknown stage `{text}`: compute or fragment")),
-        }
-    }
-}
-
-/// What one invocation executes, counted on the generated graph. Loops count as often as they run; of the
-/// two sides of a branch the larger counts.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Counts {
-    /// Basic blocks: labels of the SPIR-V that naga makes of the shader, those of functions that it calls among them. 1 means
-    /// straight-line code; a compute shader has two more, for pixels outside of the target.
-    pub basic_blocks: u32,
-    /// Loops that are left in the shader.
-    pub loops: u32,
-    /// Reads of geometry: every texture but the image being filtered.
-    pub texture_reads: u32,
-    /// Reads of the image being filtered, the texture named `color`.
-    pub colour_reads: u32,
-    /// Reads by texture name.
-    pub reads: BTreeMap<String, u32>,
-    /// Values that the kernel tallies by name, such as `weight_evaluations`.
-    pub tallies: BTreeMap<String, u32>,
-    /// Exponentials, logarithms, powers, roots and trigonometric calls.
-    pub transcendentals: u32,
-    /// Messages between the lanes of a quad, or the derivatives that carry them.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub messages: u32,
-    /// Atomic operations on buffers, and stores into them.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub writes: u32,
-    /// Reads of what a workgroup shares.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub shared_reads: u32,
-    /// Barriers at which the invocations of a workgroup wait for each other.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub barriers: u32,
-    /// Bytes of memory that a workgroup shares; devices of WebGPU promise 16384.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub shared_memory: u32,
-    /// Operations on floats that no driver may reorder or contract.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub exact: u32,
-    /// All other arithmetic, comparison and selection operations, a vector operation counting once.
-    pub alu: u32,
-    /// Statements of the emitted body.
-    pub statements: u32,
-    /// Scalars alive at the widest point of the emitted order.
-    pub max_live: u32,
-}
-
-fn one_pixel() -> [u32; 2] {
-    [1, 1]
-}
-
-fn is_one_pixel(block: &[u32; 2]) -> bool {
-    *block == [1, 1]
-}
-
-fn is_zero(n: &u32) -> bool {
-    *n == 0
-}
-
-/// Why a text is not a manifest.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// Not JSON, or not of this shape.
-    #[error("not a shader manifest: {0}")]
-    Json(#[from] serde_json::Error),
-    /// Made by a generator of another time.
-    #[error("manifest schema {found}, but this reader knows schema {SCHEMA}: generate the shader again")]
-    Schema {
-        /// The schema that the manifest states.
-        found: u32,
-    },
-}
-
-impl Manifest {
-    /// Reads a manifest from JSON, refusing other schemas and unknown fields.
-    pub fn from_json(text: &str) -> Result<Self, Error> {
-        #[derive(Deserialize)]
-        struct Head {
-            schema: u32,
-        }
-        let head: Head = serde_json::from_str(text)?;
-        if head.schema != SCHEMA {
-            return Err(Error::Schema { found: head.schema });
-        }
-        Ok(serde_json::from_str(text)?)
-    }
-
-    /// The manifest as indented JSON that ends in a newline. Equal manifests give equal text.
-    pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).expect("a manifest is plain data");
-        text.push('\n');
-        text
-    }
-
-    /// The binding called `name`.
-    pub fn binding(&self, name: &str) -> Option<&Binding> {
-        self.bindings.iter().find(|b| b.name == name)
-    }
-}
+pub use words::{
+    Access, BufferType, Dimension, Extent, REGION, REGION_SIZE, SampleType, SamplerType, Stage, ViewDimension,
+};

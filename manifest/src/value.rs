@@ -1,5 +1,6 @@
 //! Types of values, as hosts see them.
 
+#[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -34,6 +35,27 @@ impl Scalar {
         }
     }
 
+    /// Bits of `value` as a number of this type, little-endian, if that can hold it.
+    pub fn word(self, value: f64) -> Option<[u8; 4]> {
+        if !value.is_finite() {
+            return None;
+        }
+        match self {
+            Scalar::F32 => {
+                let narrow = value as f32;
+                narrow.is_finite().then(|| narrow.to_le_bytes())
+            }
+            Scalar::I32 => {
+                let whole = value as i32;
+                (f64::from(whole) == value).then(|| whole.to_le_bytes())
+            }
+            Scalar::U32 => {
+                let whole = value as u32;
+                (f64::from(whole) == value).then(|| whole.to_le_bytes())
+            }
+        }
+    }
+
     fn of(name: &str) -> Option<Scalar> {
         [Scalar::F32, Scalar::I32, Scalar::U32]
             .into_iter()
@@ -42,8 +64,12 @@ impl Scalar {
 }
 
 /// Type of a value that passes between host and shader. Its text is WGSL's: `f32`, `vec3i`, `mat3x3f`, `array<vec4f, 3>`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(into = "String", try_from = "String")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(
+    feature = "json",
+    derive(Serialize, Deserialize),
+    serde(into = "String", try_from = "String")
+)]
 pub enum ValueType {
     /// One number.
     Scalar(Scalar),
@@ -135,9 +161,20 @@ impl fmt::Display for ValueType {
 }
 
 /// A text is not the type of a value.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a 32-bit number or vector, a matrix or an array of these, as WGSL spells them")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotAType(pub String);
+
+impl fmt::Display for NotAType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = &self.0;
+        write!(
+            f,
+            "`{text}` is not a 32-bit number or vector, a matrix or an array of these, as WGSL spells them"
+        )
+    }
+}
+
+impl std::error::Error for NotAType {}
 
 impl FromStr for ValueType {
     type Err = NotAType;
@@ -202,8 +239,12 @@ fn component(suffix: &str) -> Option<Scalar> {
 }
 
 /// What the elements of a storage buffer are.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(into = "String", from = "String")]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "json",
+    derive(Serialize, Deserialize),
+    serde(into = "String", from = "String")
+)]
 pub enum Element {
     /// Numbers or vectors.
     Value(ValueType),
@@ -281,6 +322,22 @@ mod tests {
             "array<array<f32, 2>, 2>",
         ] {
             assert_eq!(text.parse::<ValueType>(), Err(NotAType(text.to_owned())), "{text}");
+        }
+    }
+
+    #[test]
+    fn words_are_of_numbers_that_fit() {
+        assert_eq!(Scalar::F32.word(0.5), Some(0.5f32.to_le_bytes()));
+        assert_eq!(Scalar::I32.word(-3.0), Some((-3i32).to_le_bytes()));
+        assert_eq!(Scalar::U32.word(4294967295.0), Some(u32::MAX.to_le_bytes()));
+        for (scalar, value) in [
+            (Scalar::U32, -1.0),
+            (Scalar::I32, 0.5),
+            (Scalar::I32, 3e9),
+            (Scalar::F32, 1e300),
+            (Scalar::F32, f64::NAN),
+        ] {
+            assert_eq!(scalar.word(value), None, "{scalar:?} {value}");
         }
     }
 

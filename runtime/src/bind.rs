@@ -126,7 +126,7 @@ impl Pass {
             (Error::Combination { kernel, .. }, Some((input, target))) if is_one_image(target.texture()) => {
                 Error::Input {
                     kernel,
-                    name: input.name.clone(),
+                    name: input.name.to_string(),
                     problem: ViewProblem::IsTarget,
                 }
             }
@@ -139,7 +139,7 @@ impl Pass {
         let of_inputs = || frame_size(&self.plan, resources);
         let whole = targets.first().map(|target| size(target.texture())).or_else(of_inputs);
         whole.ok_or_else(|| Error::BadManifest {
-            kernel: self.plan.kernel.clone(),
+            kernel: self.plan.kernel.to_string(),
             place: "output".to_owned(),
             problem: "nothing is given, and no input has a size that tells how many pixels there are".to_owned(),
         })
@@ -150,7 +150,7 @@ impl Pass {
         match (&self.plan.region, region) {
             (None, None) => Ok(Region::at([0, 0], whole)),
             (None, Some(region)) => Err(Error::Region {
-                kernel: self.plan.kernel.clone(),
+                kernel: self.plan.kernel.to_string(),
                 region,
                 problem: "its shader filters whole images: generate it with `region`".to_owned(),
             }),
@@ -171,11 +171,11 @@ impl Pass {
         let kernel = &self.plan.kernel;
         let refused = |description| match shared {
             true => Error::Combination {
-                kernel: kernel.clone(),
+                kernel: kernel.to_string(),
                 description,
             },
             false => Error::Target {
-                kernel: kernel.clone(),
+                kernel: kernel.to_string(),
                 name: None,
                 problem: ViewProblem::Refused { description },
             },

@@ -124,8 +124,14 @@ impl Bound {
         self.uniforms.write_all(&self.plan, queue, bytes)
     }
 
+    /// Writes `bytes` at `offset` of the uniform struct, for generated code, which knows both.
+    #[doc(hidden)]
+    pub fn write_at(&self, queue: &Queue, offset: u32, bytes: &[u8]) {
+        self.uniforms.write_at(queue, offset, bytes);
+    }
+
     fn record(&self, encoder: &mut CommandEncoder, span: Option<&Span<'_>>) {
-        let label = Some(self.plan.kernel.as_str());
+        let label = Some(self.plan.kernel.as_ref());
         match &self.work {
             Work::Compute { pipeline, workgroups } => {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -1,12 +1,13 @@
 //! Runs emitted shaders in the caller's own [`wgpu::Device`] and encoder.
 //!
-//! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Binding it takes texture
+//! A [`Pass`] is made once, from a [`Shader`]: the constant that the generator wrote in a build script, see [`include_shaders`], or a
+//! text and a manifest that travelled (the feature `manifest`). Binding it takes texture
 //! views, samplers and buffers by name, and a target, and checks them; the [`Bound`] that it gives is recorded every frame, which cannot
 //! fail and costs what a hand-written wgpu pass does. A [`Draw`] is the same for triangles of the caller's. Nothing here creates a device, submits, or owns a texture, but for
 //! [`Quads::detect`], which asks a device what its pixel quads can do.
 //!
 //! ```no_run
-//! use straightline_runtime::{Bound, Error, Pass, wgpu};
+//! use straightline_runtime::{Bound, Error, Pass, PassOptions, Shader, wgpu};
 //!
 //! struct Antialiasing {
 //!     pass: Pass,
@@ -14,15 +15,15 @@
 //! }
 //!
 //! impl Antialiasing {
-//!     // Usually `include_str!` of the two files that the generator wrote.
+//!     // Usually `shaders::sraa::SHADER`; generated code is a thin layer on what is written out here.
 //!     fn new(
 //!         device: &wgpu::Device,
-//!         (manifest, shader): (&str, &str),
+//!         shader: &Shader<'_>,
 //!         [color, depth, normal]: [&wgpu::TextureView; 3],
 //!         target: &wgpu::TextureView,
 //!     ) -> Result<Self, Error> {
-//!         let pass = Pass::from_json(device, manifest, shader)?;
-//!         // Once more whenever one of these is another one.
+//!         let pass = Pass::from_shader(device, shader, &PassOptions::default())?;
+//!         // Once more whenever one of these is replaced.
 //!         let bound = pass.bind(&[("color", color), ("depth", depth), ("normal", normal)], target)?;
 //!         Ok(Antialiasing { pass, bound })
 //!     }
@@ -38,6 +39,11 @@
 //! Every failure is an [`Error`] that names what is at fault and what to do: a wrong view, a shader that is not
 //! its manifest's, a lost device. Errors that wgpu raises meanwhile are caught in error scopes and do not reach the
 //! device's own handler; the device's callbacks are left alone.
+//!
+//! # Features
+//!
+//! - `manifest`: reads manifests, and compares texts with them by naga: `Shader::from_json`, `Pass::from_json`. Without it the crate
+//!   has no naga, serde or serde_json of its own, and nothing but the WGSL is parsed, by wgpu.
 //!
 //! # What an emitted shader looks like
 //!
@@ -59,18 +65,20 @@ mod error;
 mod guard;
 mod inputs;
 mod layout;
-mod loops;
 mod module;
 mod options;
 mod pass;
 mod pipeline;
-mod plan;
+#[doc(hidden)]
+pub mod plan;
 mod quads;
-mod reflect;
 mod region;
 mod resource;
+mod shader;
 mod targets;
 mod timer;
+#[cfg(feature = "manifest")]
+mod travelling;
 mod uniforms;
 
 pub use bound::Bound;
@@ -81,6 +89,7 @@ pub use pass::Pass;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};
+pub use shader::Shader;
 pub use straightline_manifest as manifest;
 pub use targets::Targets;
 pub use timer::{Span, Timer};

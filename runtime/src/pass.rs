@@ -6,10 +6,9 @@ use crate::layout::Layout;
 use crate::module::Source;
 use crate::pipeline::{Pipeline, check_formats};
 use crate::plan::Plan;
-use crate::{Error, PassOptions, reflect};
+use crate::{Error, PassOptions, Shader};
 use std::sync::Arc;
 use std::time::Duration;
-use straightline_manifest::Manifest;
 use wgpu::{Device, TextureFormat};
 
 /// One emitted shader on one device: pipeline and bind group layouts.
@@ -29,58 +28,22 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// A pass of the shader `wgsl` that `manifest` describes, with default options.
+    /// A pass of `shader`: of the constant `SHADER` that a build script wrote, or of one that was read.
     ///
     /// # Errors
     ///
-    /// [`Error::BadManifest`], [`Error::Hash`], [`Error::Mismatch`] and [`Error::Shader`] if the two are damaged or do not
-    /// belong together; [`Error::Limit`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
-    /// shader; [`Error::DeviceLost`].
-    pub fn new(device: &Device, manifest: &Manifest, wgsl: &str) -> Result<Self, Error> {
-        Self::with_options(device, manifest, wgsl, &PassOptions::default())
+    /// [`Error::Limit`], [`Error::Shader`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
+    /// shader; [`Error::TargetFormat`] if the shader cannot write the format asked for; [`Error::UnboundedLoop`] if loops are to
+    /// go without a bound and one may not end; [`Error::DeviceLost`].
+    pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &PassOptions) -> Result<Self, Error> {
+        check_varyings(&shader.plan)?;
+        let source = Source::wgsl(shader, options);
+        Self::made(device, shader.plan.clone(), source, options)
     }
 
-    /// [`new`](Self::new) for a manifest as it lies on disk.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`new`](Self::new), and [`Error::Manifest`] if `manifest_json` is not a manifest or of another schema.
-    pub fn from_json(device: &Device, manifest_json: &str, wgsl: &str) -> Result<Self, Error> {
-        Self::new(device, &Manifest::from_json(manifest_json)?, wgsl)
-    }
-
-    /// [`new`](Self::new) with options.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`new`](Self::new); [`Error::TargetFormat`] if the shader cannot write the format asked for, and
-    /// [`Error::UnboundedLoop`] if loops are to go without a bound and one may not end.
-    pub fn with_options(
-        device: &Device,
-        manifest: &Manifest,
-        wgsl: &str,
-        options: &PassOptions,
-    ) -> Result<Self, Error> {
-        let plan = Plan::new(manifest)?;
-        check_varyings(&plan)?;
-        check_hash(manifest, wgsl)?;
-        reflect::check(&plan, wgsl)?;
-        let source = Source::Wgsl {
-            text: wgsl,
-            unbounded_loops: options.unbounded_loops,
-        };
-        Self::made(device, manifest, plan, source, options)
-    }
-
-    /// A pass of a shader that is the manifest's, whose plan is `plan`.
-    pub(crate) fn made(
-        device: &Device,
-        manifest: &Manifest,
-        plan: Plan,
-        source: Source<'_>,
-        options: &PassOptions,
-    ) -> Result<Self, Error> {
-        check_features(device, manifest)?;
+    /// A pass of a shader whose plan is `plan`.
+    pub(crate) fn made(device: &Device, plan: Plan, source: Source<'_>, options: &PassOptions) -> Result<Self, Error> {
+        check_features(device, &plan)?;
         let formats = check_formats(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);
         let loss_probe = LossProbe::new(device, &doing)?;
@@ -107,7 +70,7 @@ impl Pass {
 
     /// Names of the inputs that [`bind`](Self::bind) wants, textures, samplers and buffers, in binding order.
     pub fn inputs(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.plan.inputs.iter().map(|input| input.name.as_str())
+        self.plan.inputs.iter().map(|input| input.name.as_ref())
     }
 
     /// The format that the target must have; of several, the first one. Panics if the kernel has none.
@@ -118,7 +81,7 @@ impl Pass {
     /// Names of the targets that [`bind`](Self::bind) wants, with the format that each must have, in the order of the
     /// kernel's fields.
     pub fn targets(&self) -> impl ExactSizeIterator<Item = (&str, TextureFormat)> {
-        let names = self.plan.outputs.iter().map(|output| output.name.as_str());
+        let names = self.plan.outputs.iter().map(|output| output.name.as_ref());
         names.zip(self.formats.iter().copied())
     }
 
@@ -129,26 +92,12 @@ impl Pass {
     }
 }
 
-/// Refuses a text that is not the one that the manifest was written for, though it may bind the same. A manifest without a
-/// hash of it claims nothing.
-pub(crate) fn check_hash(manifest: &Manifest, wgsl: &str) -> Result<(), Error> {
-    let found = straightline_manifest::hash_of_text(wgsl);
-    match manifest.hashes.get("wgsl") {
-        Some(wanted) if *wanted != found => Err(Error::Hash {
-            kernel: manifest.kernel.clone(),
-            wanted: wanted.clone(),
-            found,
-        }),
-        _ => Ok(()),
-    }
-}
-
 /// Refuses a shader that needs triangles.
 pub(crate) fn check_varyings(plan: &Plan) -> Result<(), Error> {
     match plan.varyings.first() {
         None => Ok(()),
         Some(first) => Err(Error::Pipeline {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             description: format!(
                 "its `{}` is interpolated, and a pass has no vertices to interpolate between: draw your triangles with it by \
                  `Draw`, or generate it for compute, where it is read from a texture",
@@ -159,13 +108,13 @@ pub(crate) fn check_varyings(plan: &Plan) -> Result<(), Error> {
 }
 
 /// Refuses what a shader needs and the device, or this crate, does not have.
-pub(crate) fn check_features(device: &Device, manifest: &Manifest) -> Result<(), Error> {
+pub(crate) fn check_features(device: &Device, plan: &Plan) -> Result<(), Error> {
     let refused = |description: String| Error::Pipeline {
-        kernel: manifest.kernel.clone(),
+        kernel: plan.kernel.to_string(),
         description,
     };
-    for feature in &manifest.features {
-        let (needed, why) = match feature.as_str() {
+    for feature in plan.features.iter() {
+        let (needed, why) = match feature.as_ref() {
             "subgroup" => (
                 wgpu::Features::SUBGROUP,
                 "it sends messages by quad operations, and the device was created without the feature SUBGROUP: ask for \

@@ -31,10 +31,10 @@ impl Pipeline {
         formats: &[TextureFormat],
     ) -> Result<(Self, Duration), Error> {
         let kernel = &plan.kernel;
-        let label = Some(kernel.as_str());
+        let label = Some(kernel.as_ref());
         let doing = format!("compiling `{kernel}`");
         let refused = |description| Error::Pipeline {
-            kernel: kernel.clone(),
+            kernel: kernel.to_string(),
             description,
         };
         let module = source.module(device, plan)?;
@@ -105,7 +105,7 @@ pub(crate) fn render_pipeline(
         })
         .collect();
     let refused = |description| Error::Pipeline {
-        kernel: kernel.clone(),
+        kernel: kernel.to_string(),
         description,
     };
     guarded(device, &format!("compiling `{kernel}`"), refused, || {
@@ -136,14 +136,14 @@ pub(crate) fn render_pipeline(
 /// The formats that the pipeline is to write: those asked for, if the shader and the device can.
 pub(crate) fn check_formats(device: &Device, plan: &Plan, options: &PassOptions) -> Result<Vec<TextureFormat>, Error> {
     let refuse = |format, reason| Error::TargetFormat {
-        kernel: plan.kernel.clone(),
+        kernel: plan.kernel.to_string(),
         format,
         reason,
     };
     let known = || {
         plan.outputs
             .iter()
-            .map(|output| output.name.as_str())
+            .map(|output| output.name.as_ref())
             .collect::<Names>()
     };
     for (name, format) in &options.formats {
@@ -187,7 +187,7 @@ fn check_bytes(device: &Device, plan: &Plan, formats: &[TextureFormat]) -> Resul
     let available = device.limits().max_color_attachment_bytes_per_sample;
     match needed > available {
         true => Err(Error::Limit {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             limit: "max_color_attachment_bytes_per_sample",
             needed: u64::from(needed),
             available: u64::from(available),

@@ -1,5 +1,6 @@
 //! What a caller gives for an input.
 
+use crate::plan::InputKind;
 use std::fmt;
 use wgpu::{Buffer, Sampler, TextureView};
 
@@ -12,6 +13,7 @@ use wgpu::{Buffer, Sampler, TextureView};
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum Resource<'a> {
     /// A view of a texture.
     Texture(&'a TextureView),
@@ -61,6 +63,7 @@ impl<'a> From<&'a Buffer> for Resource<'a> {
 
 /// The kind of a [`Resource`], for messages: `a texture`, `a sampler` or `a storage buffer`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum ResourceKind {
     /// A view of a texture.
     Texture,
@@ -71,6 +74,15 @@ pub enum ResourceKind {
 }
 
 impl ResourceKind {
+    /// The kind that an input must be.
+    pub(crate) fn of_input(input: InputKind) -> Self {
+        match input {
+            InputKind::Texture(_) => ResourceKind::Texture,
+            InputKind::Sampler(_) => ResourceKind::Sampler,
+            InputKind::Buffer(_) => ResourceKind::Buffer,
+        }
+    }
+
     /// The wgpu type of such a resource.
     pub(crate) fn type_name(self) -> &'static str {
         match self {

@@ -38,11 +38,11 @@ impl<'t, const N: usize> From<&[(&'t str, &'t TextureView); N]> for Targets<'t> 
 impl<'t> Targets<'t> {
     /// The targets in the order of the plan's outputs: each exactly once, and nothing else.
     pub(crate) fn arranged(self, plan: &Plan) -> Result<Vec<&'t TextureView>, Error> {
-        let kernel = || plan.kernel.clone();
+        let kernel = || plan.kernel.to_string();
         let known = || {
             plan.outputs
                 .iter()
-                .map(|output| output.name.as_str())
+                .map(|output| output.name.as_ref())
                 .collect::<Names>()
         };
         let views = match self.0 {
@@ -74,7 +74,7 @@ impl<'t> Targets<'t> {
         let ordered = plan.outputs.iter().map(|output| {
             view(&output.name).ok_or_else(|| Error::MissingTarget {
                 kernel: kernel(),
-                name: output.name.clone(),
+                name: output.name.to_string(),
                 known: known(),
             })
         });

@@ -1,12 +1,14 @@
 //! The Rust that binds a shader compiles, whatever its uniforms are called.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use straightline_codegen::emit::{self, Module};
-use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
+use straightline_codegen::emit::{self, Module, Target};
+use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 
-/// As much of the runtime as bindings name.
+/// As much of the runtime as bindings name, beside what their constants are made of, which is the runtime's own.
 const RUNTIME: &str = r#"
+pub use shader::Shader;
 pub mod wgpu {
     pub struct Device; pub struct Queue; pub struct CommandEncoder; pub struct RenderPass<'a>(pub &'a ());
     #[derive(Debug)] pub struct TextureView; #[derive(Debug)] pub struct Sampler; #[derive(Debug)] pub struct Buffer;
@@ -31,10 +33,11 @@ pub struct Resource<'a>(pub &'a ());
 impl<'a> From<&'a wgpu::Buffer> for Resource<'a> { fn from(_: &'a wgpu::Buffer) -> Self { Resource(&()) } }
 impl<'a> From<&'a wgpu::Sampler> for Resource<'a> { fn from(_: &'a wgpu::Sampler) -> Self { Resource(&()) } }
 impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
+#[derive(Default)] pub struct PassOptions;
 #[derive(Debug)] pub struct Pass;
 impl Pass {
-    pub fn from_json(_: &wgpu::Device, _: &str, _: &str) -> Result<Pass, Error> { Ok(Pass) }
-    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
+    pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &PassOptions) -> Result<Pass, Error> { Ok(Pass) }
+    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: impl Into<Targets>, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
 }
 #[derive(Default)] pub struct BindOptions<'a> { pub uniforms: &'a [u8] }
 impl<'a> BindOptions<'a> {
@@ -42,32 +45,47 @@ impl<'a> BindOptions<'a> {
     pub fn region(self, _: Region) -> Self { self }
 }
 pub struct Region;
+pub struct Targets;
+impl From<&wgpu::TextureView> for Targets { fn from(_: &wgpu::TextureView) -> Self { Targets } }
+impl<const N: usize> From<&[(&str, &wgpu::TextureView); N]> for Targets { fn from(_: &[(&str, &wgpu::TextureView); N]) -> Self { Targets } }
+impl From<&[(&str, &wgpu::TextureView)]> for Targets { fn from(_: &[(&str, &wgpu::TextureView)]) -> Self { Targets } }
 #[derive(Debug)] pub struct Bound;
 impl Bound {
     pub fn encode(&self, _: &mut wgpu::CommandEncoder) {}
-    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
-    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+    pub fn write_at(&self, _: &wgpu::Queue, _: u32, _: &[u8]) {}
 }
 pub struct DrawOptions<'a>(pub &'a ());
 #[derive(Debug)] pub struct Draw;
 impl Draw {
-    pub fn from_json(_: &wgpu::Device, _: &str, _: &str, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }
+    pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }
     pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &BindOptions<'_>) -> Result<BoundDraw, Error> { Ok(BoundDraw) }
 }
 #[derive(Debug)] pub struct BoundDraw;
 impl BoundDraw {
     pub fn set(&self, _: &mut wgpu::RenderPass<'_>) {}
-    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
-    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
-}
-pub struct UniformValue;
-impl UniformValue {
-    pub fn array(_: &[f32]) -> Option<Self> { None }
-    pub fn vectors<const N: usize>(_: &[[f32; N]]) -> Option<Self> { None }
+    pub fn write_at(&self, _: &wgpu::Queue, _: u32, _: &[u8]) {}
 }
 "#;
 
+/// Arguments of rustc for a file of bindings.
+const BINDINGS: [&str; 6] = [
+    "--extern",
+    "straightline_runtime=libstraightline_runtime.rmeta",
+    "-L",
+    ".",
+    // As a crate may.
+    "-F",
+    "unsafe_code",
+];
+
 fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
+    let said = try_rustc(folder, file, arguments);
+    let text = std::fs::read_to_string(folder.join(file)).unwrap_or_default();
+    said.unwrap_or_else(|said| panic!("{said}\n{text}"));
+}
+
+/// The messages of rustc, if it refuses a file.
+fn try_rustc(folder: &Path, file: &str, arguments: &[&str]) -> Result<(), String> {
     let run = Command::new("rustc")
         .current_dir(folder)
         .args([
@@ -84,9 +102,10 @@ fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
         .arg(file)
         .output()
         .expect("rustc is on the path");
-    let said = String::from_utf8_lossy(&run.stderr);
-    let text = std::fs::read_to_string(folder.join(file)).unwrap_or_default();
-    assert!(run.status.success(), "{said}\n{text}");
+    match run.status.success() {
+        true => Ok(()),
+        false => Err(String::from_utf8_lossy(&run.stderr).into_owned()),
+    }
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -97,11 +116,30 @@ fn folder(name: &str) -> PathBuf {
 
 /// The runtime that bindings are compiled against, in a folder.
 fn runtime(folder: &Path) {
-    std::fs::write(folder.join("straightline_runtime.rs"), RUNTIME).expect("written");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let module = |name: &str| {
+        let path = root.join("runtime/src").join(format!("{name}.rs"));
+        format!("#[path = {path:?}] pub mod {name};\n")
+    };
+    let text = format!("{}{}{RUNTIME}", module("plan"), module("shader"));
+    std::fs::write(folder.join("straightline_runtime.rs"), text).expect("written");
+    let manifest = root.join("manifest/src/lib.rs");
+    rustc(
+        folder,
+        &manifest.to_string_lossy(),
+        &["--crate-name", "straightline_manifest"],
+    );
     rustc(
         folder,
         "straightline_runtime.rs",
-        &["--crate-name", "straightline_runtime"],
+        &[
+            "--crate-name",
+            "straightline_runtime",
+            "--extern",
+            "straightline_manifest=libstraightline_manifest.rmeta",
+            "-A",
+            "dead_code",
+        ],
     );
 }
 
@@ -117,20 +155,18 @@ fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
     let emitted = compiled
         .emit(&EmitOptions::new().stage(stage))
         .map_err(|e| e.to_string())?;
+    let wgsl = String::from_utf8(emitted.files[&Target::Wgsl].clone()).map_err(|e| e.to_string())?;
     let module = Module {
         name: "shader",
         compiled: &compiled,
         manifest: &emitted.manifest,
+        wgsl: &wgsl,
     };
     for (file, contents) in emitted.named("shader") {
         std::fs::write(folder.join(file), contents).expect("written");
     }
-    std::fs::write(folder.join(file), emit::bindings(&[module])).expect("written");
-    rustc(
-        folder,
-        file,
-        &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
-    );
+    std::fs::write(folder.join(file), emit::bindings(&[module]).map_err(|e| e.to_string())?).expect("written");
+    rustc(folder, file, &BINDINGS);
     Ok(())
 }
 
@@ -157,6 +193,10 @@ fn bindings_compile_whatever_is_read() {
             let turned = turns[1] * palette[step].xy() * weights[2];
             (grade * palette[2]).extend(turned.x + turned.y)
         }",
+        // Without a target.
+        "pub fn k(color: &Frame<Vec4>, brightest: &StorageBuffer<f32>, gain: f32, pixel: IVec2) {
+            brightest.store((pixel.x & 7) as usize, color.load(pixel).x * gain);
+        }",
         // Drawn behind a vertex shader: with all, and with nothing to read but what is interpolated.
         "pub fn k(shadow: &DepthTexture, compare: &ComparisonSampler, bias: f32, coord: Quad<Vec3>, shade: Quad<f32>) -> Quad<Vec4> {
             let lit = shadow.compare(compare, coord.truncate(), coord.z() - bias);
@@ -169,6 +209,24 @@ fn bindings_compile_whatever_is_read() {
     for (k, text) in reads.into_iter().enumerate() {
         compiles(&folder, &format!("bindings_{k}.rs"), text).unwrap_or_else(|e| panic!("{e}"));
     }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// Constants are of the text that they were generated with.
+#[test]
+fn bindings_of_another_text_do_not_compile() {
+    let folder = folder("changed");
+    runtime(&folder);
+    let text = "pub fn k(color: &Frame<Vec4>, gain: f32, pixel: IVec2) -> Vec4 { color.load(pixel) * gain }";
+    compiles(&folder, "bindings.rs", text).unwrap_or_else(|e| panic!("{e}"));
+    let wgsl = std::fs::read_to_string(folder.join("shader.wgsl")).expect("written");
+    let write = |text: String| std::fs::write(folder.join("shader.wgsl"), text).expect("written");
+    write(wgsl.replace("@workgroup_size(256", "@workgroup_size(128"));
+    let said = try_rustc(&folder, "bindings.rs", &BINDINGS).expect_err("another text");
+    assert!(said.contains("was changed since its bindings were generated"), "{said}");
+    // As a checkout on Windows has it.
+    write(wgsl.replace('\n', "\r\n"));
+    rustc(&folder, "bindings.rs", &BINDINGS);
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
@@ -235,4 +293,56 @@ fn bindings_compile_whatever_uniforms_are_called() {
         let _ = compiles(&folder, &format!("bindings_{k}.rs"), &text);
     }
     std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// Writes the bindings of the kernels beside them, and of a built-in one, as a build script does.
+fn write(out: &Path) {
+    let kernel = |name: &str| format!("tests/bindings/kernels/{name}.rs");
+    let written = Config::new()
+        .file_with(kernel("all"), |k| k.format(Format::Rgba32Float))
+        .file_with(kernel("all"), |k| {
+            k.name("tile").region(true).group(1).binding("color", 7)
+        })
+        .file_with(kernel("graded"), |k| k.format(Format::Rgba32Float))
+        .file_with(kernel("drawn"), |k| k.stage(Stage::Fragment))
+        .file_with(kernel("several"), |k| k.stage(Stage::Fragment))
+        .file(kernel("waiting"))
+        .kernel("sraa", |k| {
+            let k = k.set("pattern", "latin4").set("metric", "depth").set("tau", "uniform");
+            k.unroll(Unroll::None).format(Format::Rgba32Float)
+        })
+        .out_dir(out)
+        .compile();
+    written.unwrap_or_else(|e| panic!("{e}"));
+}
+
+fn files(folder: &Path) -> BTreeMap<String, String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let named = paths.filter(|path| path.is_file()).map(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        (name, std::fs::read_to_string(&path).expect("a text"))
+    });
+    named.collect()
+}
+
+#[test]
+fn captured_bindings_are_up_to_date() {
+    let captured = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bindings");
+    let out = std::env::temp_dir().join(format!("straightline-captured-{}", std::process::id()));
+    std::fs::create_dir_all(&out).expect("a folder");
+    write(&out);
+    if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
+        write(&captured);
+    }
+    let (written, present) = (files(&out), files(&captured));
+    std::fs::remove_dir_all(&out).expect("removed");
+    for (name, text) in &written {
+        assert!(
+            present.get(name) == Some(text),
+            "codegen/tests/bindings/{name} is not what is generated: STRAIGHTLINE_BLESS=1 cargo test --workspace --test codegen \
+             bindings::"
+        );
+    }
+    assert_eq!(written.len(), present.len(), "a file is generated no more: delete it");
 }

@@ -169,10 +169,10 @@ impl Renderer {
             queue.write_buffer(uniforms, 0, &view.uniforms(*sample, jitter, albedo_floor, &past.layers));
         }
         // Without SRAA nobody borrows, and each pixel needs the colour of its centre.
-        targets.placing.set_unseen(queue, if parts.sraa && parts.placing { 0.01 } else { NEVER })?;
-        targets.sraa.set_search_threshold(queue, if parts.searching { 0.05 } else { NEVER })?;
-        targets.sraa.set_albedo_floor(queue, albedo_floor)?;
-        targets.sraa.set_jitter(queue, jitter.to_array())?;
+        targets.placing.set_unseen(queue, if parts.sraa && parts.placing { 0.01 } else { NEVER });
+        targets.sraa.set_search_threshold(queue, if parts.searching { 0.05 } else { NEVER });
+        targets.sraa.set_albedo_floor(queue, albedo_floor);
+        targets.sraa.set_jitter(queue, jitter);
 
         let mut encoder = passes.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for layer in 0..LAYERS {

@@ -8,13 +8,12 @@ use crate::guard::LossProbe;
 use crate::inputs::{Abilities, arrange, check_inputs, frame_size};
 use crate::layout::{BoundGroup, Layout};
 use crate::module::Source;
-use crate::pass::{check_features, check_hash};
+use crate::pass::check_features;
 use crate::pipeline::{VertexSide, check_formats, render_pipeline};
 use crate::plan::{Plan, StagePlan};
 use crate::uniforms::{UniformValue, Uniforms};
-use crate::{BindOptions, Resource, reflect};
+use crate::{BindOptions, Resource, Shader};
 use std::sync::Arc;
-use straightline_manifest::Manifest;
 use wgpu::{Device, Queue, RenderPass, RenderPipeline, TextureFormat};
 
 pub use options::{DrawOptions, VertexShader};
@@ -26,7 +25,7 @@ pub use options::{DrawOptions, VertexShader};
 /// the kernel's bind groups in it.
 ///
 /// ```no_run
-/// use straightline_runtime::{BoundDraw, Draw, DrawOptions, Error, PassOptions, Resource, wgpu};
+/// use straightline_runtime::{BoundDraw, Draw, DrawOptions, Error, PassOptions, Resource, Shader, wgpu};
 ///
 /// const SCENE: &str = "
 ///     struct Corner { @builtin(position) clip: vec4f, @location(0) coord: vec3f }
@@ -37,8 +36,8 @@ pub use options::{DrawOptions, VertexShader};
 ///
 /// fn shadowed(
 ///     device: &wgpu::Device,
-///     // Of `straightline emit pcf --stage fragment`: its varying is `coord: vec3f` at location 0.
-///     (manifest, shader): (&str, &str),
+///     // `shaders::pcf::SHADER` of a build script: its varying is `coord: vec3f` at location 0.
+///     pcf: &Shader<'_>,
 ///     matrices: &wgpu::BindGroupLayout,
 ///     (shadow, compare): (&wgpu::TextureView, &wgpu::Sampler),
 /// ) -> Result<BoundDraw, Error> {
@@ -52,7 +51,7 @@ pub use options::{DrawOptions, VertexShader};
 ///         .buffers(&vertices)
 ///         .group(1, matrices)
 ///         .pass(PassOptions::default().target_format(wgpu::TextureFormat::Rgba8UnormSrgb));
-///     let draw = Draw::from_json(device, manifest, shader, &options)?;
+///     let draw = Draw::from_shader(device, pcf, &options)?;
 ///     draw.bind(&[("shadow", Resource::from(shadow)), ("shadow_sampler", compare.into())])
 /// }
 ///
@@ -75,32 +74,27 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// The fragment shader `wgsl` that `manifest` describes, behind the vertex shader of `options`. All that does not depend on
-    /// what is read is checked here: that the vertex shader gives each varying at its location and of its type, the formats of
+    /// The fragment shader `shader` behind the vertex shader of `options`. All that does not depend on
+    /// what is read is checked here: that the vertex shader returns each varying at its location and of its type, the formats of
     /// vertices, the states of the pipeline.
     ///
     /// # Errors
     ///
-    /// Those of [`Pass::with_options`](crate::Pass::with_options); [`Error::Varying`] for a varying that the vertex shader does not
-    /// give or gives otherwise; [`Error::VertexShader`] for one that does not compile or has no such entry point;
-    /// [`Error::Pipeline`] for a shader of another stage or for regions, a bind group that the kernel has itself, and whatever wgpu
-    /// holds against the pipeline.
-    pub fn new(device: &Device, manifest: &Manifest, wgsl: &str, options: &DrawOptions<'_>) -> Result<Self, Error> {
-        let plan = Plan::new(manifest)?;
-        check_hash(manifest, wgsl)?;
-        reflect::check(&plan, wgsl)?;
+    /// Those of [`Pass::from_shader`](crate::Pass::from_shader); [`Error::VertexShader`] for a vertex shader that does not compile;
+    /// [`Error::Pipeline`] for a shader of another stage or for regions, a bind group that the kernel has itself, a varying that
+    /// the vertex shader does not return or returns otherwise, and whatever else wgpu holds against the pipeline. With the feature
+    /// `manifest`, such a varying is an [`Error::Varying`], by name, and a vertex shader without the entry point an
+    /// [`Error::VertexShader`].
+    pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &DrawOptions<'_>) -> Result<Self, Error> {
+        let plan = shader.plan.clone();
         drawable(&plan)?;
-        check_features(device, manifest)?;
+        check_features(device, &plan)?;
         let formats = check_formats(device, &plan, &options.pass)?;
         let doing = format!("making a pipeline of `{}`", plan.kernel);
         let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::with_groups(device, &plan, &options.groups)?;
         let vertices = vertices::module(device, &plan, &options.vertex)?;
-        let source = Source::Wgsl {
-            text: wgsl,
-            unbounded_loops: options.pass.unbounded_loops,
-        };
-        let fragment = source.module(device, &plan)?;
+        let fragment = Source::wgsl(shader, &options.pass).module(device, &plan)?;
         let side = VertexSide {
             module: &vertices,
             entry_point: options.vertex.entry_point(),
@@ -124,20 +118,6 @@ impl Draw {
         })
     }
 
-    /// [`new`](Self::new) for a manifest as it lies on disk.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`new`](Self::new), and [`Error::Manifest`] if `manifest_json` is not a manifest or of another schema.
-    pub fn from_json(
-        device: &Device,
-        manifest_json: &str,
-        wgsl: &str,
-        options: &DrawOptions<'_>,
-    ) -> Result<Self, Error> {
-        Self::new(device, &Manifest::from_json(manifest_json)?, wgsl, options)
-    }
-
     /// The kernel's name.
     pub fn kernel(&self) -> &str {
         &self.plan.kernel
@@ -145,13 +125,13 @@ impl Draw {
 
     /// Names of the inputs that [`bind`](Self::bind) wants, textures, samplers and buffers, in binding order.
     pub fn inputs(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.plan.inputs.iter().map(|input| input.name.as_str())
+        self.plan.inputs.iter().map(|input| input.name.as_ref())
     }
 
     /// Names of what the kernel gives, with the format that the render pass must have for each, in the order of its colour
     /// attachments.
     pub fn targets(&self) -> impl ExactSizeIterator<Item = (&str, TextureFormat)> {
-        let names = self.plan.outputs.iter().map(|output| output.name.as_str());
+        let names = self.plan.outputs.iter().map(|output| output.name.as_ref());
         names.zip(self.formats.iter().copied())
     }
 
@@ -182,7 +162,7 @@ impl Draw {
         let plan = &self.plan;
         if let Some(region) = options.region {
             return Err(Error::Region {
-                kernel: plan.kernel.clone(),
+                kernel: plan.kernel.to_string(),
                 region,
                 problem: "triangles say what is drawn; cut it by the render pass's scissor".to_owned(),
             });
@@ -211,7 +191,7 @@ impl Draw {
 fn drawable(plan: &Plan) -> Result<(), Error> {
     let refused = |description: &str| {
         Err(Error::Pipeline {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             description: description.to_owned(),
         })
     };
@@ -268,5 +248,11 @@ impl BoundDraw {
     /// [`Error::NoUniforms`], or [`Error::UniformSize`] for another length. Nothing has been written then.
     pub fn write_uniforms(&self, queue: &Queue, bytes: &[u8]) -> Result<(), Error> {
         self.uniforms.write_all(&self.plan, queue, bytes)
+    }
+
+    /// Writes `bytes` at `offset` of the uniform struct, for generated code, which knows both.
+    #[doc(hidden)]
+    pub fn write_at(&self, queue: &Queue, offset: u32, bytes: &[u8]) {
+        self.uniforms.write_at(queue, offset, bytes);
     }
 }

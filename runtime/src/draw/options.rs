@@ -7,6 +7,7 @@ use wgpu::{
 
 /// A vertex shader: its text, which is checked against the kernel's varyings by name, or a module that wgpu alone checks.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum VertexShader<'a> {
     /// WGSL with an entry point of stage vertex; other entry points may be there too.
     Wgsl {

@@ -1,12 +1,10 @@
-//! Whether a vertex shader gives what a kernel has interpolated.
+//! The module of a vertex shader, which returns what a kernel has interpolated.
 
 use super::VertexShader;
 use crate::error::{Error, Names};
 use crate::guard::guarded;
 use crate::plan::Plan;
-use crate::reflect::{is_type, located};
-use naga::{Binding, Interpolation, Sampling, ShaderStage};
-use straightline_manifest::Varying;
+use straightline_manifest::plan::VaryingPlan;
 use wgpu::{Device, ShaderModule};
 
 /// The module of the vertex shader, whose text gives all varyings of `plan`.
@@ -16,9 +14,10 @@ pub(super) fn module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) ->
         VertexShader::Module { module, .. } => return Ok(module.clone()),
     };
     let refused = |description| Error::VertexShader {
-        kernel: plan.kernel.clone(),
+        kernel: plan.kernel.to_string(),
         description,
     };
+    #[cfg(feature = "manifest")]
     check(plan, text, entry_point)?;
     guarded(device, "compiling a vertex shader", refused, || {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -28,83 +27,41 @@ pub(super) fn module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) ->
     })
 }
 
+/// Names what the vertex shader lacks, before wgpu finds it.
+#[cfg(feature = "manifest")]
 fn check(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
+    use straightline_reflect::VertexProblem;
     let refused = |description| Error::VertexShader {
-        kernel: plan.kernel.clone(),
+        kernel: plan.kernel.to_string(),
         description,
     };
-    let module =
-        naga::front::wgsl::parse_str(text).map_err(|error| refused(error.emit_to_string(text).trim().to_owned()))?;
-    let vertex: Vec<_> = module
-        .entry_points
-        .iter()
-        .filter(|entry| entry.stage == ShaderStage::Vertex)
-        .collect();
-    let Some(entry) = vertex.iter().find(|entry| entry.name == entry_point) else {
-        let there: Names = vertex.iter().map(|entry| entry.name.as_str()).collect();
-        return Err(refused(format!(
-            "it has no entry point `{entry_point}` of stage vertex; of that stage it has {there}"
-        )));
-    };
-    let result = entry.function.result.as_ref();
-    let given = result.map_or_else(Vec::new, |result| located(&module, &result.binding, result.ty));
-    for varying in &plan.varyings {
-        let wrong = |problem: String| Error::Varying {
-            kernel: plan.kernel.clone(),
-            name: varying.name.clone(),
+    straightline_reflect::check_vertices(plan, text, entry_point).map_err(|problem| match problem {
+        VertexProblem::Refused(description) => refused(description),
+        VertexProblem::NoEntryPoint { there } => refused(format!(
+            "it has no entry point `{entry_point}` of stage vertex; of that stage it has {}",
+            Names(there)
+        )),
+        VertexProblem::Varying { varying, problem } => Error::Varying {
+            kernel: plan.kernel.to_string(),
+            name: varying.name.into_owned(),
             location: varying.location,
             ty: varying.ty.to_string(),
             problem,
-        };
-        let Some((binding, ty)) = given
-            .iter()
-            .find(|(binding, _)| location(binding) == Some(varying.location))
-        else {
-            return Err(wrong(format!(
-                "and `{entry_point}` gives nothing there: have it return `@location({}) {}: {}`",
-                varying.location, varying.name, varying.ty
-            )));
-        };
-        if !is_type(&module.types[*ty].inner, varying.ty) {
-            return Err(wrong(format!(
-                "and `{entry_point}` gives another type there: have it return `{}`",
-                varying.ty
-            )));
-        }
-        if let Binding::Location {
-            interpolation,
-            sampling,
-            ..
-        } = binding
-            && (interpolation.unwrap_or(Interpolation::Perspective) != Interpolation::Perspective
-                || sampling.unwrap_or(Sampling::Center) != Sampling::Center)
-        {
-            return Err(wrong(format!(
-                "and `{entry_point}` has it interpolated otherwise than in perspective, at the pixel's centre: leave \
-                 `@interpolate` out there"
-            )));
-        }
-    }
-    Ok(())
+        },
+    })
 }
 
-fn location(binding: &Binding) -> Option<u32> {
-    match binding {
-        Binding::Location { location, .. } => Some(*location),
-        Binding::BuiltIn(_) => None,
-    }
-}
-
-/// What wgpu said of a pipeline, and, where the vertex shader is a module that only wgpu has looked into, what the kernel takes.
+/// An error of a pipeline; where only wgpu has looked into the vertex shader, with what the kernel takes of it.
 pub(super) fn explained(error: Error, plan: &Plan, vertex: &VertexShader<'_>) -> Error {
-    match (error, vertex) {
-        (Error::Pipeline { kernel, description }, VertexShader::Module { .. }) if !plan.varyings.is_empty() => {
-            let taken = |v: &Varying| format!("@location({}) {}: {}", v.location, v.name, v.ty);
+    let checked = cfg!(feature = "manifest") && matches!(vertex, VertexShader::Wgsl { .. });
+    match error {
+        Error::Pipeline { kernel, description } if !checked && !plan.varyings.is_empty() => {
+            let taken = |v: &VaryingPlan| format!("@location({}) {}: {}", v.location, v.name, v.ty);
             let all: Vec<String> = plan.varyings.iter().map(taken).collect();
             let all: Names = all.iter().map(String::as_str).collect();
             let description = format!("{description}; of the vertex shader it takes {all}");
             Error::Pipeline { kernel, description }
         }
-        (error, _) => error,
+        error => error,
     }
 }

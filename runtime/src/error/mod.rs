@@ -15,6 +15,7 @@ pub use problem::{BufferProblem, SamplerProblem, ViewProblem};
 #[non_exhaustive]
 pub enum Error {
     /// The text given as a manifest is not one.
+    #[cfg(feature = "manifest")]
     #[error(transparent)]
     Manifest(#[from] straightline_manifest::Error),
 

@@ -3,9 +3,9 @@
 mod target;
 mod texture;
 
-use crate::Resource;
 use crate::error::{BufferProblem, Error, Names};
 use crate::plan::{BufferPlan, InputKind, InputPlan, Plan};
+use crate::{Resource, ResourceKind};
 use straightline_manifest::Extent;
 use texture::check_texture;
 use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
@@ -38,8 +38,8 @@ impl Abilities {
 
 /// The resources for `plan.inputs`, in that order: each exactly once, of its kind, and nothing else.
 pub(crate) fn arrange<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Result<Vec<Resource<'r>>, Error> {
-    let kernel = || plan.kernel.clone();
-    let known = || plan.inputs.iter().map(|input| input.name.as_str()).collect::<Names>();
+    let kernel = || plan.kernel.to_string();
+    let known = || plan.inputs.iter().map(|input| input.name.as_ref()).collect::<Names>();
     for (i, (name, _)) in inputs.iter().enumerate() {
         if plan.inputs.iter().all(|input| input.name != *name) {
             return Err(Error::UnknownInput {
@@ -58,16 +58,16 @@ pub(crate) fn arrange<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Resul
     plan.inputs
         .iter()
         .map(|input| match inputs.iter().find(|(name, _)| *name == input.name) {
-            Some((_, resource)) if resource.kind() == input.kind.resource() => Ok(*resource),
+            Some((_, resource)) if resource.kind() == ResourceKind::of_input(input.kind) => Ok(*resource),
             Some((_, resource)) => Err(Error::InputKind {
                 kernel: kernel(),
-                name: input.name.clone(),
-                needed: input.kind.resource(),
+                name: input.name.to_string(),
+                needed: ResourceKind::of_input(input.kind),
                 given: resource.kind(),
             }),
             None => Err(Error::MissingInput {
                 kernel: kernel(),
-                name: input.name.clone(),
+                name: input.name.to_string(),
                 known: known(),
             }),
         })
@@ -93,7 +93,7 @@ pub(crate) fn check_inputs(
     frame: [u32; 2],
 ) -> Result<(), Error> {
     for (input, resource) in plan.inputs.iter().zip(resources) {
-        let names = || (plan.kernel.clone(), input.name.clone());
+        let names = || (plan.kernel.to_string(), input.name.to_string());
         match (&input.kind, resource) {
             (InputKind::Texture(texture), Resource::Texture(view)) => {
                 check_texture(texture, abilities, view.texture(), frame).map_err(|problem| {
@@ -126,10 +126,10 @@ fn check_aliases(plan: &Plan, resources: &[Resource<'_>]) -> Result<(), Error> {
         let other = bound().enumerate().find(|(n, (_, other))| *n != k && is_same(other));
         if let Some((_, (other, _))) = other {
             return Err(Error::InputBuffer {
-                kernel: plan.kernel.clone(),
-                name: input.name.clone(),
+                kernel: plan.kernel.to_string(),
+                name: input.name.to_string(),
                 problem: BufferProblem::IsOther {
-                    other: other.name.clone(),
+                    other: other.name.to_string(),
                 },
             });
         }

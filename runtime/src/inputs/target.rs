@@ -18,7 +18,7 @@ pub(crate) fn check_targets(
     for (k, (view, format)) in targets.iter().zip(formats).enumerate() {
         let checked = check(plan, *format, abilities, view).and_then(|()| beside(plan, targets, k));
         checked.map_err(|problem| Error::Target {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             name: plan.target_name(k),
             problem,
         })?;
@@ -38,7 +38,7 @@ fn beside(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewPro
     };
     match targets[..k].iter().position(|other| is_same(other)) {
         Some(other) => Err(ViewProblem::IsOtherTarget {
-            other: plan.outputs[other].name.clone(),
+            other: plan.outputs[other].name.to_string(),
         }),
         None => Ok(()),
     }

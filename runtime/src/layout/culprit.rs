@@ -21,7 +21,7 @@ pub(super) fn culprit(
         let Err(description) = bind_alone(device, binding_type(&input.kind), resource.binding()) else {
             continue;
         };
-        let (kernel, name) = (plan.kernel.clone(), input.name.clone());
+        let (kernel, name) = (plan.kernel.to_string(), input.name.to_string());
         let fits = |other| bind_alone(device, other, resource.binding()).is_ok();
         return match &input.kind {
             InputKind::Texture(texture) => {
@@ -38,7 +38,7 @@ pub(super) fn culprit(
             }
         };
     }
-    let kernel = plan.kernel.clone();
+    let kernel = plan.kernel.to_string();
     for (k, (output, target)) in plan.outputs.iter().zip(targets).enumerate() {
         if output.place.is_some()
             && let Err(description) = bind_alone(

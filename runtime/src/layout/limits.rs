@@ -7,7 +7,12 @@ use crate::{Error, ResourceKind};
 /// The limits that a pass can exceed, each by its own name; wgpu names some of them only in passing.
 pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) -> Result<(), Error> {
     let limits = device.limits();
-    let count = |kind| plan.inputs.iter().filter(|input| input.kind.resource() == kind).count() as u64;
+    let count = |kind| {
+        plan.inputs
+            .iter()
+            .filter(|input| ResourceKind::of_input(input.kind) == kind)
+            .count() as u64
+    };
     let [textures, samplers, buffers] = [ResourceKind::Texture, ResourceKind::Sampler, ResourceKind::Buffer].map(count);
     let mut wanted = vec![
         (
@@ -86,7 +91,7 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
     match wanted.into_iter().find(|(_, needed, available)| needed > available) {
         None => Ok(()),
         Some((limit, needed, available)) => Err(Error::Limit {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             limit,
             needed,
             available,

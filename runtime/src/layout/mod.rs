@@ -48,7 +48,7 @@ impl Layout {
 
         let kernel = &plan.kernel;
         let refused = |description| Error::Pipeline {
-            kernel: kernel.clone(),
+            kernel: kernel.to_string(),
             description,
         };
         for (k, (index, _)) in others.iter().enumerate() {
@@ -176,7 +176,7 @@ fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
         count: None,
     };
     let mut entries = Vec::new();
-    for input in &plan.inputs {
+    for input in plan.inputs.iter() {
         entries.push((input.group, entry(input.binding, binding_type(&input.kind))));
     }
     for uniform in plan.uniform_structs() {
@@ -187,7 +187,7 @@ fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
         };
         entries.push((uniform.group, entry(uniform.binding, ty)));
     }
-    for output in &plan.outputs {
+    for output in plan.outputs.iter() {
         if let Some((group, binding)) = output.place {
             entries.push((group, entry(binding, storage_type(output.format))));
         }

@@ -21,7 +21,7 @@ impl Uniforms {
         let contents = start(plan, options)?;
         let buffers = plan.uniforms.iter().zip(contents).map(|(block, bytes)| {
             let refused = |description| Error::Pipeline {
-                kernel: plan.kernel.clone(),
+                kernel: plan.kernel.to_string(),
                 description,
             };
             filled(device, &plan.kernel, &block.name, &bytes, refused)
@@ -47,6 +47,13 @@ impl Uniforms {
         place(plan, name, value, |block, offset, bytes| {
             queue.write_buffer(&self.buffers[block], u64::from(offset), bytes);
         })
+    }
+
+    /// Puts `bytes` at `offset` of the first struct, ahead of the queue's next submission.
+    pub(crate) fn write_at(&self, queue: &wgpu::Queue, offset: u32, bytes: &[u8]) {
+        if let Some(buffer) = self.buffers.first() {
+            queue.write_buffer(buffer, u64::from(offset), bytes);
+        }
     }
 
     /// Puts `bytes` into all structs, one after the other, ahead of the queue's next submission.
@@ -90,9 +97,9 @@ fn start(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> 
     let mut blocks: Vec<Vec<u8>> = plan.uniforms.iter().map(|block| vec![0; block.size as usize]).collect();
     let mut missing: Vec<(usize, u32)> = Vec::new();
     for (k, block) in plan.uniforms.iter().enumerate() {
-        for FieldPlan { offset, default, .. } in &block.fields {
+        for FieldPlan { offset, default, .. } in block.fields.iter() {
             match default {
-                Some(value) => put(&mut blocks[k], *offset, value.part(0)),
+                Some(word) => put(&mut blocks[k], *offset, word),
                 None => missing.push((k, *offset)),
             }
         }
@@ -116,7 +123,7 @@ fn start(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> 
     match unset {
         None => Ok(blocks),
         Some(field) => Err(Error::UniformUnset {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             name: field.whole().to_owned(),
         }),
     }
@@ -131,14 +138,14 @@ fn put(block: &mut [u8], offset: u32, bytes: &[u8]) {
 /// the shader reads.
 fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usize, u32, &[u8])) -> Result<(), Error> {
     let mismatch = |needed: String| Error::UniformType {
-        kernel: plan.kernel.clone(),
+        kernel: plan.kernel.to_string(),
         name: name.to_owned(),
         needed,
         given: value.ty().to_string(),
     };
     let mut found = false;
     for (k, block) in plan.uniforms.iter().enumerate() {
-        for field in &block.fields {
+        for field in block.fields.iter() {
             let (ty, index) = match &field.part {
                 _ if field.name == name => (field.ty, 0),
                 Some(part) if part.of == name => (part.ty, part.index),
@@ -154,7 +161,7 @@ fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usiz
     match found {
         true => Ok(()),
         false => Err(Error::UnknownUniform {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             name: name.to_owned(),
             known: names(plan),
         }),
@@ -166,7 +173,7 @@ fn names(plan: &Plan) -> Names {
     let mut names: Vec<&str> = plan
         .uniforms
         .iter()
-        .flat_map(|block| &block.fields)
+        .flat_map(|block| block.fields.iter())
         .map(FieldPlan::whole)
         .collect();
     names.dedup();
@@ -177,14 +184,14 @@ fn names(plan: &Plan) -> Names {
 fn divided<'b>(plan: &Plan, bytes: &'b [u8]) -> Result<impl Iterator<Item = &'b [u8]>, Error> {
     if plan.uniforms.is_empty() {
         return Err(Error::NoUniforms {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
         });
     }
     let needed: u64 = plan.uniforms.iter().map(|block| u64::from(block.size)).sum();
     let given = bytes.len() as u64;
     if given != needed {
         return Err(Error::UniformSize {
-            kernel: plan.kernel.clone(),
+            kernel: plan.kernel.to_string(),
             needed,
             given,
         });

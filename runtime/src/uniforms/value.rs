@@ -118,27 +118,6 @@ impl UniformValue {
         words.map_or(&[], <[[u8; 4]]>::as_flattened)
     }
 
-    /// `value` as a number of type `scalar`, if that can hold it.
-    pub(crate) fn number(scalar: Scalar, value: f64) -> Option<UniformValue> {
-        if !value.is_finite() {
-            return None;
-        }
-        match scalar {
-            Scalar::F32 => {
-                let narrow = value as f32;
-                narrow.is_finite().then(|| narrow.into())
-            }
-            Scalar::I32 => {
-                let whole = value as i32;
-                (f64::from(whole) == value).then(|| whole.into())
-            }
-            Scalar::U32 => {
-                let whole = value as u32;
-                (f64::from(whole) == value).then(|| whole.into())
-            }
-        }
-    }
-
     fn elements<T: Component>(count: usize, components: u8, numbers: impl Iterator<Item = T>) -> Option<Self> {
         let count = u32::try_from(count).ok().filter(|count| *count > 0)?;
         let ty = ValueType::Array {
@@ -189,23 +168,6 @@ impl fmt::Debug for UniformValue {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn defaults_must_fit_their_type() {
-        let of = UniformValue::number;
-        assert_eq!(of(Scalar::F32, 0.5), Some(0.5f32.into()));
-        assert_eq!(of(Scalar::I32, -3.0), Some((-3i32).into()));
-        assert_eq!(of(Scalar::U32, 4294967295.0), Some(u32::MAX.into()));
-        for (scalar, value) in [
-            (Scalar::U32, -1.0),
-            (Scalar::I32, 0.5),
-            (Scalar::I32, 3e9),
-            (Scalar::F32, 1e300),
-            (Scalar::F32, f64::NAN),
-        ] {
-            assert_eq!(of(scalar, value), None, "{scalar:?} {value}");
-        }
-    }
 
     #[test]
     fn parts_lie_component_by_component() {

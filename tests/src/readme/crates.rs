@@ -19,11 +19,13 @@ pub fn needs(workspace: &Path) -> Result<String, String> {
         let name = name.ok_or_else(|| format!("`{member}` has no name"))?;
         names.insert(name.to_owned(), (member.to_owned(), manifest.clone()));
     }
-    let needed = |manifest: &toml::Table, tables: &[&str]| -> String {
+    let needed = |own: &str, manifest: &toml::Table, tables: &[&str]| -> String {
         let all = tables.iter().filter_map(|table| manifest.get(*table)?.as_table());
         let mut folders: Vec<&str> = all
             .flat_map(|table| table.keys())
             .filter_map(|name| Some(names.get(name)?.0.as_str()))
+            // Tests that need a feature of their own crate.
+            .filter(|folder| *folder != own)
             .collect();
         folders.sort_unstable();
         folders.dedup();
@@ -32,8 +34,8 @@ pub fn needs(workspace: &Path) -> Result<String, String> {
     let mut rows: Vec<(usize, &str, String, String)> = names
         .values()
         .map(|(folder, manifest)| {
-            let built = needed(manifest, &["dependencies", "build-dependencies"]);
-            let tested = needed(manifest, &["dev-dependencies"]);
+            let built = needed(folder, manifest, &["dependencies", "build-dependencies"]);
+            let tested = needed(folder, manifest, &["dev-dependencies"]);
             let count = built.split(", ").filter(|name| !name.is_empty()).count();
             (count, folder.as_str(), built, tested)
         })

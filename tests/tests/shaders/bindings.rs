@@ -231,6 +231,7 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
                 Some((_, Resource::Buffer(buffer))) => buffer.as_entire_binding(),
                 None if name == "parameters" => uniforms.as_entire_binding(),
                 None => wgpu::BindingResource::TextureView(&view),
+                Some((_, other)) => panic!("{name} is {}", other.kind()),
             };
             let binding = binding["binding"].as_u64().expect("a number") as u32;
             wgpu::BindGroupEntry { binding, resource }

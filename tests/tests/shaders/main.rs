@@ -4,6 +4,7 @@ mod bare;
 mod bindings;
 #[path = "../common/mod.rs"]
 mod common;
+mod constants;
 mod drift;
 mod edges;
 mod edges_of_functions;

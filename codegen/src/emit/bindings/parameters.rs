@@ -14,7 +14,9 @@ pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     match uniforms {
         Some((fields, size)) => {
             let docs = " Values that are set at run time, as they lie in the shader's uniform buffer.";
-            (structure("Parameters", docs, fields, size), setters(fields))
+            let structure = structure("Parameters", docs, fields, size);
+            let by_name = by_name(fields);
+            (quote! { #structure #by_name }, setters(fields))
         }
         None => (TokenStream::new(), TokenStream::new()),
     }
@@ -117,6 +119,7 @@ fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenS
     let names: Vec<_> = fields.iter().map(|f| identifier(&f.name)).collect();
     let arguments: Vec<_> = (0..fields.len()).map(|k| argument(fields, k)).collect();
     let types: Vec<_> = fields.iter().map(|f| stored_type(f.ty)).collect();
+    let zeros: Vec<_> = fields.iter().map(|f| zero(f.ty)).collect();
     let offsets: Vec<_> = fields.iter().map(|f| Literal::u32_unsuffixed(f.offset)).collect();
     let total = Literal::u32_unsuffixed(size);
     let copies = fields.iter().map(|field| {
@@ -190,6 +193,11 @@ fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenS
             assert!(core::mem::size_of::<#of>() == #total);
         };
 
+        impl #of {
+            /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+            pub const ZERO: Self = Self { #(#names: #zeros,)* #(#pads,)* };
+        }
+
         #new
 
         #default
@@ -249,69 +257,155 @@ fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fields: &[Un
     pads.push(quote! { #name: [0; #words] });
 }
 
-/// Methods of what is bound: one that sets all, and one for each value, a matrix or an array being one.
-fn setters(fields: &[UniformField]) -> TokenStream {
-    let mut seen: Vec<&str> = Vec::new();
-    let each = fields.iter().filter_map(|field| {
-        let (name, ty) = match &field.part {
-            Some(part) => (&part.of, part.ty),
-            None => (&field.name, field.ty),
+/// A value that a kernel has set at run time; a matrix or an array is one, with a field for each part that is read.
+struct Whole<'f> {
+    name: &'f str,
+    ty: ValueType,
+    /// The fields, each with the index of its part.
+    parts: Vec<(&'f UniformField, u32)>,
+}
+
+/// The values that `fields` are of, in order.
+fn wholes(fields: &[UniformField]) -> Vec<Whole<'_>> {
+    let mut wholes: Vec<Whole<'_>> = Vec::new();
+    for field in fields {
+        let (name, ty, index) = match &field.part {
+            Some(part) => (&part.of, part.ty, part.index),
+            None => (&field.name, field.ty, 0),
         };
-        if seen.contains(&name.as_str()) {
-            return None;
+        match wholes.iter_mut().find(|whole| whole.name == name) {
+            Some(whole) => whole.parts.push((field, index)),
+            None => wholes.push(Whole {
+                name,
+                ty,
+                parts: vec![(field, index)],
+            }),
         }
-        seen.push(name);
-        let setter = setter(fields, name);
-        let docs = spaced(&format!("Sets `{name}` from the next submission on."));
-        let columns = match ty {
+    }
+    wholes
+}
+
+impl Whole<'_> {
+    /// The type by which a method takes it, and what makes its own type of that.
+    fn taken(&self) -> (TokenStream, TokenStream) {
+        let value = value_type(self.ty);
+        match self.ty {
+            // An array, or a vector of another crate.
+            ValueType::Vector { .. } => (
+                quote! { impl Into<#value> },
+                quote! { let value: #value = value.into(); },
+            ),
+            _ => (value, TokenStream::new()),
+        }
+    }
+
+    /// Each field with the expression of its part of `value`.
+    fn values(&self) -> impl Iterator<Item = (&UniformField, TokenStream)> {
+        self.parts.iter().map(|(field, index)| {
+            let index = Literal::u32_unsuffixed(*index);
+            let value = match self.ty.is_single() {
+                true => quote! { value },
+                false => quote! { value[#index] },
+            };
+            (*field, value)
+        })
+    }
+
+    fn columns(&self) -> TokenStream {
+        match self.ty {
             ValueType::Matrix { .. } => quote! { #[doc = " Columns first."] },
             _ => TokenStream::new(),
-        };
-        let given = match ty {
-            ValueType::Array { components, .. } => {
-                let make = format_ident!("{}", if components == 1 { "array" } else { "vectors" });
-                // An array of the kernel language has an element at least.
-                quote! {
-                    match straightline_runtime::UniformValue::#make(&value) {
-                        Some(value) => self.0.write_uniform(queue, #name, value),
-                        None => Ok(()),
-                    }
-                }
-            }
-            _ => quote! { self.0.write_uniform(queue, #name, value) },
-        };
-        let ty = value_type(ty);
-        Some(quote! {
+        }
+    }
+}
+
+/// Methods of `Parameters` that set one value, by name.
+fn by_name(fields: &[UniformField]) -> TokenStream {
+    let wholes = wholes(fields);
+    let each = wholes.iter().map(|whole| {
+        let method = format_ident!("with_{}", whole.name);
+        let docs = spaced(&format!("Replaces `{}`.", whole.name));
+        let columns = whole.columns();
+        let (taken, own) = whole.taken();
+        let sets = whole.values().map(|(field, value)| {
+            let name = identifier(&field.name);
+            quote! { self.#name = #value; }
+        });
+        quote! {
             #[doc = #docs]
             #columns
-            ///
-            /// # Errors
-            ///
-            /// None but those of a damaged build.
-            pub fn #setter(
-                &self,
-                queue: &wgpu::Queue,
-                value: #ty,
-            ) -> Result<(), Error> {
-                #given
+            #[must_use]
+            pub fn #method(mut self, value: #taken) -> Self {
+                #own
+                #(#sets)*
+                self
             }
-        })
+        }
+    });
+    quote! {
+        impl Parameters {
+            #(#each)*
+        }
+    }
+}
+
+/// Methods of what is bound: one that sets all, and one for each value. They cannot fail: the compiler has checked names and types.
+fn setters(fields: &[UniformField]) -> TokenStream {
+    let wholes = wholes(fields);
+    let each = wholes.iter().map(|whole| {
+        let setter = setter(fields, whole.name);
+        let docs = spaced(&format!("Sets `{}` from the next submission on.", whole.name));
+        let columns = whole.columns();
+        let (taken, own) = whole.taken();
+        let writes = whole.values().map(|(field, value)| {
+            let offset = Literal::u32_unsuffixed(field.offset);
+            let scalar = format_ident!("{}", field.ty.scalar().name());
+            let bytes = match field.ty.components() {
+                1 => quote! { &#value.to_le_bytes() },
+                _ => quote! { #value.map(#scalar::to_le_bytes).as_flattened() },
+            };
+            quote! { self.0.write_at(queue, #offset, #bytes); }
+        });
+        quote! {
+            #[doc = #docs]
+            #columns
+            pub fn #setter(&self, queue: &wgpu::Queue, value: #taken) {
+                #own
+                #(#writes)*
+            }
+        }
     });
     quote! {
         /// Sets all values that are set at run time, from the next submission on.
-        ///
-        /// # Errors
-        ///
-        /// None but those of a damaged build.
-        pub fn set_parameters(
-            &self,
-            queue: &wgpu::Queue,
-            parameters: &Parameters,
-        ) -> Result<(), Error> {
-            self.0.write_uniforms(queue, &parameters.to_bytes())
+        pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
+            self.0.write_at(queue, 0, &parameters.to_bytes());
         }
 
         #(#each)*
+    }
+}
+
+/// Zeros of a field as it lies in the buffer.
+fn zero(ty: ValueType) -> TokenStream {
+    let number = match ty.scalar() {
+        Scalar::F32 => quote! { 0.0 },
+        Scalar::I32 | Scalar::U32 => quote! { 0 },
+    };
+    let part = match ty {
+        // An element of three has the room of four.
+        ValueType::Array { components: 3, .. } => quote! { [#number; 4] },
+        _ if ty.components() == 1 => number,
+        _ => {
+            let components = Literal::u8_unsuffixed(ty.components());
+            quote! { [#number; #components] }
+        }
+    };
+    match ty.is_single() {
+        true => part,
+        false => {
+            let count = Literal::u32_unsuffixed(ty.parts());
+            quote! { [#part; #count] }
+        }
     }
 }
 

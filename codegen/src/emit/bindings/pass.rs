@@ -72,7 +72,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
                 &self,
                 #used,
                 #parameters
-                #target_ty,
+                #target_ty
                 region: straightline_runtime::Region,
             ) -> Result<Bound, Error> {
                 #pairs
@@ -92,7 +92,16 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
             ///
             /// If the device cannot run it or is lost.
             pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
-                straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
+                Self::with_options(device, &straightline_runtime::PassOptions::default())
+            }
+
+            /// Compiles the shader with options: for a target of another format, say.
+            ///
+            /// # Errors
+            ///
+            /// Those of `new`, and if the shader does not have the options.
+            pub fn with_options(device: &wgpu::Device, options: &straightline_runtime::PassOptions) -> Result<Self, Error> {
+                straightline_runtime::Pass::from_shader(device, &SHADER, options).map(Self)
             }
 
             /// Binds the shader: from `inputs` to the target.
@@ -104,7 +113,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
                 &self,
                 #used,
                 #parameters
-                #target_ty,
+                #target_ty
             ) -> Result<Bound, Error> {
                 #pairs
                 self.0.bind_with(&inputs, #target, &#options).map(Bound)
@@ -168,7 +177,7 @@ pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
             ///
             /// If they do not fit together, the device cannot run them or is lost.
             pub fn new(device: &wgpu::Device, options: &straightline_runtime::DrawOptions<'_>) -> Result<Self, Error> {
-                straightline_runtime::Draw::from_json(device, MANIFEST, WGSL, options).map(Self)
+                straightline_runtime::Draw::from_shader(device, &SHADER, options).map(Self)
             }
 
             /// Binds the shader to what it reads.
@@ -211,7 +220,7 @@ pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
 
 /// How a pass is given what it writes.
 pub struct Targets {
-    /// The parameter.
+    /// The parameter, with the comma behind it; nothing for a kernel that writes to buffers alone.
     ty: TokenStream,
     /// What is passed on.
     given: TokenStream,
@@ -223,7 +232,7 @@ impl Targets {
     pub fn of(manifest: &Manifest) -> Targets {
         if manifest.outputs.len() == 1 {
             return Targets {
-                ty: quote! { target: &wgpu::TextureView },
+                ty: quote! { target: &wgpu::TextureView, },
                 given: quote! { target },
                 structure: TokenStream::new(),
             };
@@ -245,7 +254,7 @@ impl Targets {
             ))
         });
         Targets {
-            ty: quote! { targets: &Targets<'_> },
+            ty: quote! { targets: &Targets<'_>, },
             given: quote! { &[#((#names, targets.#fields)),*] },
             structure: quote! {
                 /// What the shader writes: textures of one size.

@@ -1,77 +1,21 @@
-//! Shader modules: of WGSL, which wgpu checks, and of SPIR-V, which it hands to the driver as it is.
+//! Modules of SPIR-V, which wgpu hands to the driver as it is.
 
-use crate::guard::guarded;
+use super::Source;
 use crate::pass::check_varyings;
 use crate::plan::Plan;
-use crate::{Error, Pass, PassOptions, loops};
+use crate::travelling::read_plan;
+use crate::{Error, Pass, PassOptions};
 use straightline_manifest::Manifest;
 use wgpu::{Device, ShaderModule};
-
-/// What a shader module is made of.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Source<'a> {
-    /// Text, with or without wgpu's bound on the trip counts of its loops.
-    Wgsl { text: &'a str, unbounded_loops: bool },
-    /// Words that the caller of [`Pass::from_spirv`] answers for.
-    Spirv(&'a [u32]),
-}
-
-impl Source<'_> {
-    /// The module on a device.
-    pub(crate) fn module(self, device: &Device, plan: &Plan) -> Result<ShaderModule, Error> {
-        let kernel = &plan.kernel;
-        if let Source::Wgsl {
-            text,
-            unbounded_loops: true,
-        } = self
-        {
-            loops::check(text).map_err(|problem| Error::UnboundedLoop {
-                kernel: kernel.clone(),
-                problem,
-            })?;
-        }
-        let refused = |description| Error::Shader {
-            kernel: kernel.clone(),
-            description,
-        };
-        guarded(device, &format!("compiling `{kernel}`"), refused, || match self {
-            Source::Wgsl { text, unbounded_loops } => {
-                let descriptor = wgpu::ShaderModuleDescriptor {
-                    label: Some(kernel),
-                    source: wgpu::ShaderSource::Wgsl(text.into()),
-                };
-                match unbounded_loops {
-                    true => without_bounds_on_loops(device, descriptor),
-                    false => device.create_shader_module(descriptor),
-                }
-            }
-            Source::Spirv(words) => unchecked(device, plan, words),
-        })
-    }
-}
-
-/// A module whose loops have no bound on their trip counts; all other checks stay.
-///
-/// wgpu calls this unsafe because a loop that never ends lets the driver's compiler do anything. [`loops::check`] has
-/// shown of this text that each of its loops ends.
-#[allow(unsafe_code)]
-fn without_bounds_on_loops(device: &Device, descriptor: wgpu::ShaderModuleDescriptor<'_>) -> ShaderModule {
-    let checks = wgpu::ShaderRuntimeChecks {
-        force_loop_bounding: false,
-        ..wgpu::ShaderRuntimeChecks::checked()
-    };
-    // SAFETY: the only check that is left out is that of loops, and the caller has had `loops::check` pass the text.
-    unsafe { device.create_shader_module_trusted(descriptor, checks) }
-}
 
 /// A module of words that nothing checks: the caller of [`Pass::from_spirv`] has promised that they are what the manifest
 /// describes.
 #[allow(unsafe_code)]
-fn unchecked(device: &Device, plan: &Plan, words: &[u32]) -> ShaderModule {
+pub(super) fn unchecked(device: &Device, plan: &Plan, words: &[u32]) -> ShaderModule {
     let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
-        label: Some(plan.kernel.as_str()),
+        label: Some(&plan.kernel),
         entry_points: vec![wgpu::PassthroughShaderEntryPoint {
-            name: plan.entry_point.as_str().into(),
+            name: plan.entry_point.as_ref().into(),
             // Only Metal asks for it.
             workgroup_size: (1, 1, 1),
         }]
@@ -107,11 +51,11 @@ impl Pass {
         words: &[u32],
         options: &PassOptions,
     ) -> Result<Self, Error> {
-        let plan = Plan::new(manifest)?;
+        let plan = read_plan(manifest)?;
         check_varyings(&plan)?;
         if let Some((group, binding, free)) = plan.hole() {
             return Err(Error::Pipeline {
-                kernel: plan.kernel,
+                kernel: plan.kernel.into_owned(),
                 description: format!(
                     "it has a binding {binding} in group {group} and none {free}, and wgpu numbers what it binds for Vulkan from 0 \
                      without holes, which SPIR-V that it leaves as it is does not follow: generate the shader with numbers \
@@ -125,6 +69,6 @@ impl Pass {
                 feature: "PASSTHROUGH_SHADERS",
             });
         }
-        Self::made(device, manifest, plan, Source::Spirv(words), options)
+        Self::made(device, plan, Source::Spirv(words), options)
     }
 }

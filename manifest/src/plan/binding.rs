@@ -1,8 +1,8 @@
 //! What is bound, each checked for itself: textures, storage buffers, and the fields of uniform structs.
 
-use super::{BufferPlan, FieldPlan, TexturePlan, require};
-use crate::uniforms::UniformValue;
-use straightline_manifest::{Dimension, Element, Part, SampleType, UniformField};
+use super::read::require;
+use super::{BufferPlan, FieldPlan, PartPlan, TexturePlan};
+use crate::{Dimension, Element, Part, SampleType, UniformField};
 
 /// Checks a texture's numbers against one another and against the types that a shader can declare.
 pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
@@ -116,7 +116,7 @@ pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, Strin
         Some(value) => Some(
             Some(ty.scalar())
                 .filter(|_| ty.components() == 1)
-                .and_then(|scalar| UniformValue::number(scalar, *value))
+                .and_then(|scalar| scalar.word(*value))
                 .ok_or_else(|| format!("the default {value} of field `{name}` is no {ty}"))?,
         ),
     };
@@ -126,10 +126,14 @@ pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, Strin
         })?;
     }
     Ok(FieldPlan {
-        name: name.clone(),
+        name: name.clone().into(),
         ty: *ty,
         offset: *offset,
         default,
-        part: part.clone(),
+        part: part.as_ref().map(|part| PartPlan {
+            of: part.of.clone().into(),
+            ty: part.ty,
+            index: part.index,
+        }),
     })
 }

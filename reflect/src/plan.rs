@@ -1,40 +1,31 @@
-//! Compares a shader with its manifest.
+//! Compares a shader with its plan.
 //!
-//! wgpu checks a shader against the layout it is given, which finds a binding that the manifest lacks. It does not
+//! wgpu checks a shader against the layout it is given, which finds a binding that the layout lacks. It does not
 //! find two textures that changed places, a uniform field that moved, or another workgroup size; each of those
 //! would run and give a wrong picture.
 
-use crate::Error;
-use crate::plan::{BufferPlan, InputKind, InputPlan, OutputPlan, Plan, StagePlan, TexturePlan, UniformPlan};
+use crate::spelling::Spelling;
 use naga::{AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
+use straightline_manifest::plan::{
+    BufferPlan, InputKind, InputPlan, OutputPlan, Plan, StagePlan, TexturePlan, UniformPlan,
+};
 use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType, Scalar, ValueType};
 
-/// Parses `wgsl` and checks that it is the shader that `plan` describes.
-///
-/// wgpu parses the text once more when it makes the module, because a module handed over as naga IR has no text
-/// left to quote in its messages.
-pub(crate) fn check(plan: &Plan, wgsl: &str) -> Result<(), Error> {
-    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| Error::Shader {
-        kernel: plan.kernel.clone(),
-        description: error.emit_to_string(wgsl).trim().to_owned(),
-    })?;
-    let mismatch = |problem| Error::Mismatch {
-        kernel: plan.kernel.clone(),
-        problem,
-    };
-    entry_point(plan, &module).map_err(mismatch)?;
-    for input in &plan.inputs {
-        check_input(plan, &module, input).map_err(mismatch)?;
+/// Checks that `module` is the shader that `plan` describes, with names as `spelling` has them.
+pub fn check(plan: &Plan, spelling: &Spelling<'_>, module: &Module) -> Result<(), String> {
+    entry_point(plan, module)?;
+    for input in plan.inputs.iter() {
+        check_input(spelling, module, input)?;
     }
     for uniform in plan.uniform_structs() {
-        check_uniform(plan, &module, uniform).map_err(mismatch)?;
+        check_uniform(spelling, module, uniform)?;
     }
-    for output in &plan.outputs {
-        if let Some((group, binding)) = output.place {
-            check_storage(plan, &module, &output.name, group, binding, output.format).map_err(mismatch)?;
+    for output in plan.outputs.iter() {
+        if let Some(place) = output.place {
+            check_storage(spelling, module, output, place)?;
         }
     }
-    nothing_else(plan, &module).map_err(mismatch)
+    nothing_else(plan, module)
 }
 
 fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
@@ -68,7 +59,7 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
 }
 
 /// What has a location in a value that an entry point takes or gives, itself or as members of a structure.
-pub(crate) fn located(
+pub fn located(
     module: &Module,
     binding: &Option<naga::Binding>,
     ty: naga::Handle<naga::Type>,
@@ -91,7 +82,7 @@ pub(crate) fn located(
 fn varyings(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
     let arguments = entry.function.arguments.iter();
     let found: Vec<_> = arguments.flat_map(|a| located(module, &a.binding, a.ty)).collect();
-    for varying in &plan.varyings {
+    for varying in plan.varyings.iter() {
         let at = |binding: &naga::Binding| matches!(binding, naga::Binding::Location { location, .. } if *location == varying.location);
         let fits = found
             .iter()
@@ -158,13 +149,12 @@ fn scalar_kind(format: Format) -> ScalarKind {
 
 /// The variable at a place, which must be called `name`, as the text spells it.
 fn variable<'m>(
-    plan: &Plan,
+    spelling: &Spelling<'_>,
     module: &'m Module,
     name: &str,
-    group: u32,
-    binding: u32,
+    (group, binding): (u32, u32),
 ) -> Result<&'m GlobalVariable, String> {
-    let name = plan.in_text(name, binding);
+    let name = spelling.of_binding(name, binding);
     let at_place = |v: &GlobalVariable| {
         v.binding
             .as_ref()
@@ -184,8 +174,8 @@ fn variable<'m>(
     }
 }
 
-fn check_input(whole: &Plan, module: &Module, plan: &InputPlan) -> Result<(), String> {
-    let variable = variable(whole, module, &plan.name, plan.group, plan.binding)?;
+fn check_input(spelling: &Spelling<'_>, module: &Module, plan: &InputPlan) -> Result<(), String> {
+    let variable = variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
     let found = &module.types[variable.ty].inner;
     let (fits, wanted) = match &plan.kind {
         InputKind::Texture(texture) => {
@@ -272,14 +262,12 @@ fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> b
 }
 
 fn check_storage(
-    plan: &Plan,
+    spelling: &Spelling<'_>,
     module: &Module,
-    name: &str,
-    group: u32,
-    binding: u32,
-    format: Format,
+    OutputPlan { name, format, .. }: &OutputPlan,
+    place: (u32, u32),
 ) -> Result<(), String> {
-    let variable = variable(plan, module, name, group, binding)?;
+    let variable = variable(spelling, module, name, place)?;
     let wanted = TypeInner::Image {
         dim: naga::ImageDimension::D2,
         arrayed: false,
@@ -306,8 +294,8 @@ fn check_storage(
     Err(format!("`{name}` is not a `texture_storage_2d<{format}, write>`"))
 }
 
-fn check_uniform(whole: &Plan, module: &Module, plan: &UniformPlan) -> Result<(), String> {
-    let variable = variable(whole, module, &plan.name, plan.group, plan.binding)?;
+fn check_uniform(spelling: &Spelling<'_>, module: &Module, plan: &UniformPlan) -> Result<(), String> {
+    let variable = variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
     let name = &plan.name;
     let TypeInner::Struct { members, span } = &module.types[variable.ty].inner else {
         return Err(format!("`{name}` is not a struct"));
@@ -318,10 +306,10 @@ fn check_uniform(whole: &Plan, module: &Module, plan: &UniformPlan) -> Result<()
     if *span > plan.size {
         return Err(format!("`{name}` takes {span} bytes, the manifest says {}", plan.size));
     }
-    for field in &plan.fields {
+    for field in plan.fields.iter() {
         let Some(member) = members
             .iter()
-            .find(|m| m.name.as_deref() == Some(whole.member_in_text(&field.name)))
+            .find(|m| m.name.as_deref() == Some(spelling.of_member(&field.name)))
         else {
             return Err(format!("`{name}` has no member `{}`", field.name));
         };
@@ -339,7 +327,7 @@ fn check_uniform(whole: &Plan, module: &Module, plan: &UniformPlan) -> Result<()
     match members.iter().find(|m| {
         plan.fields
             .iter()
-            .all(|f| m.name.as_deref() != Some(whole.member_in_text(&f.name)))
+            .all(|f| m.name.as_deref() != Some(spelling.of_member(&f.name)))
     }) {
         None => Ok(()),
         Some(member) => {
@@ -351,7 +339,7 @@ fn check_uniform(whole: &Plan, module: &Module, plan: &UniformPlan) -> Result<()
     }
 }
 
-pub(crate) fn is_type(inner: &TypeInner, ty: ValueType) -> bool {
+pub fn is_type(inner: &TypeInner, ty: ValueType) -> bool {
     let (components, scalar) = match *inner {
         TypeInner::Scalar(scalar) => (1, scalar),
         TypeInner::Vector { size, scalar } => (size as u8, scalar),

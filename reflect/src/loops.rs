@@ -1,25 +1,24 @@
-//! Whether every loop of a shader ends, told from its text alone.
+//! Proof that every loop of a shader ends, from its text alone.
 //!
-//! wgpu puts a bound on the rounds of every loop, because a compiler may take one that never ends for unreachable code and
+//! wgpu puts a bound on the iterations of every loop, because a compiler may take one that never ends for unreachable code and
 //! draw conclusions. Where it is shown here that all loops end, that bound can go.
 
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Scalar,
-    Statement, TypeInner, front,
+    Statement, TypeInner,
 };
 
-/// Checks that each loop of `wgsl` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
+/// Checks that each loop of `module` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
 /// change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap. Emitted
 /// shaders have such loops, but for a `while` whose trip count is a runtime value, which is refused here.
 ///
 /// # Errors
 ///
-/// What is wrong with the first loop that is not.
-pub(crate) fn check(wgsl: &str) -> Result<(), String> {
-    let module = front::wgsl::parse_str(wgsl).map_err(|error| error.message().to_owned())?;
+/// The first loop of another form, and how it differs.
+pub fn check(module: &Module) -> Result<(), String> {
     let entries = module.entry_points.iter().map(|entry| &entry.function);
     for function in entries.chain(module.functions.iter().map(|(_, function)| function)) {
-        walk(&module, function, &function.body)?;
+        walk(module, function, &function.body)?;
     }
     Ok(())
 }
@@ -198,9 +197,10 @@ mod tests {
     use super::check;
 
     fn of(body: &str) -> Result<(), String> {
-        check(&format!(
+        let text = format!(
             "struct U {{ n: i32, m: i32 }}\n@group(0) @binding(0) var<uniform> u: U;\n@group(0) @binding(1) var<storage, read_write> s: U;\nfn change(p: ptr<function, i32>) {{ *p = 0; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
-        ))
+        );
+        check(&naga::front::wgsl::parse_str(&text).expect("WGSL"))
     }
 
     #[test]

@@ -1,0 +1,9 @@
+//! Types of a shader's constants, for generated code: see [`Shader`](crate::Shader).
+
+pub use crate::shader::{Loops, LoopsEnd};
+pub use std::borrow::Cow::Borrowed;
+pub use straightline_manifest::plan::{
+    BufferPlan, FieldPlan, InputKind, InputPlan, OutputPlan, PartPlan, Plan, StagePlan, TexturePlan, UniformPlan,
+    VaryingPlan,
+};
+pub use straightline_manifest::{Dimension, Extent, Format, SampleType, SamplerType, Scalar, ValueType};

@@ -1,0 +1,78 @@
+//! A shader with everything that is known of it before there is a device.
+
+use crate::plan::Plan;
+use std::borrow::Cow;
+use straightline_manifest::text_hash;
+
+/// An emitted shader: its text, with its plan. A [`Pass`](crate::Pass) or a [`Draw`](crate::Draw) is made of one.
+///
+/// In a crate with a build script it is the constant `SHADER` of the shader's module, and nothing is parsed when the program
+/// starts: the generator has compared the text with what stands beside it. A shader that travels is read by
+/// `Shader::from_manifest` (the feature `manifest`). Both are the same afterwards.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shader<'a> {
+    pub(crate) plan: Plan,
+    pub(crate) wgsl: &'a str,
+    pub(crate) loops: Loops,
+}
+
+impl Shader<'static> {
+    /// A shader of constants, for generated code alone, which has checked them. Does not compile if `wgsl` is not the text with
+    /// this hash.
+    #[doc(hidden)]
+    pub const fn generated(wgsl: &'static str, hash: u64, loops: Loops, plan: Plan) -> Self {
+        assert!(
+            text_hash(wgsl) == hash,
+            "the WGSL was changed since its bindings were generated: generate both again"
+        );
+        Shader { plan, wgsl, loops }
+    }
+}
+
+impl Shader<'_> {
+    /// The kernel's name.
+    pub fn kernel(&self) -> &str {
+        &self.plan.kernel
+    }
+
+    /// The text.
+    pub fn wgsl(&self) -> &str {
+        self.wgsl
+    }
+}
+
+/// Result of the proof that the loops of a shader end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Loops {
+    /// Each ends.
+    End(LoopsEnd),
+    /// One may not: how the first such loop differs from one that counts.
+    Unproven(Cow<'static, str>),
+}
+
+/// Witness that each loop of a text ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoopsEnd(());
+
+impl LoopsEnd {
+    /// The witness.
+    ///
+    /// # Safety
+    ///
+    /// Each loop of the text that it stands beside must end.
+    #[allow(unsafe_code)]
+    pub const unsafe fn new() -> Self {
+        LoopsEnd(())
+    }
+}
+
+/// States of the text beside it that each of its loops ends, for generated code alone: the generator has proved it. A macro, so
+/// that crates which forbid `unsafe` can include what is generated.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! loops_end {
+    () => {
+        // SAFETY: the generator writes it only beside a text of which it has proved this.
+        $crate::plan::Loops::End(unsafe { $crate::plan::LoopsEnd::new() })
+    };
+}
