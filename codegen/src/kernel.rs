@@ -207,11 +207,14 @@ impl Kernel {
             mut errors,
             ..
         } = front::parse(&self.source.files, &self.source.name)?;
-        errors.extend(infer::infer(&mut library, &reached).err().into_iter().flatten());
+        add(
+            &mut errors,
+            infer::infer(&mut library, &reached).err().unwrap_or_default(),
+        );
         if !errors.is_empty() {
-            errors.extend(eval::parameter_errors(&library, &self.source.files, &self.source.name));
+            let of_parameters = eval::parameter_errors(&library, &self.source.files, &self.source.name);
+            add(&mut errors, of_parameters);
             errors.sort_by_key(|error| error.span);
-            errors.dedup();
             return Err(Errors::new(errors, &self.source.files));
         }
         let library = Arc::new(library);
@@ -270,6 +273,12 @@ impl ShaderSpec {
         let emitted = compiled.emit(&self.emit)?;
         Ok((compiled, emitted))
     }
+}
+
+/// Adds what a later stage found, but at places where an earlier one found something.
+fn add(errors: &mut Vec<Diagnostic>, found: Vec<Diagnostic>) {
+    let places: Vec<Option<Span>> = errors.iter().map(|error| error.span).collect();
+    errors.extend(found.into_iter().filter(|error| !places.contains(&error.span)));
 }
 
 fn read(path: &Path) -> Result<String, Errors> {

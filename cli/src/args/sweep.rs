@@ -4,9 +4,9 @@ use super::{pair, size};
 use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;
-use straightline_codegen::{Stage, Unroll, shorten};
+use straightline_codegen::{ShaderSpec, Stage, Unroll, shorten};
 use straightline_study::record::Shard;
-use straightline_study::sweep::{Loops, values};
+use straightline_study::sweep::{Loops, values, varied_knob};
 
 #[derive(Clone, Debug, Args)]
 pub struct SweepArgs {
@@ -20,6 +20,10 @@ pub struct SweepArgs {
     /// Where values have commas of their own, semicolons separate them
     #[arg(help_heading = "What is varied", long = "set", value_name = "OPTION=VALUES", value_parser = options)]
     pub set: Vec<(String, Vec<String>)>,
+    /// Values of a further setting of `emit`: branches, reads, repeat-loads, share, math, transport or precision, such as
+    /// math=exact,fast; may be given several times
+    #[arg(help_heading = "What is varied", long, value_name = "SETTING=VALUES", value_parser = varied)]
+    pub vary: Vec<(&'static str, Vec<String>)>,
     /// How far loops are unrolled: `none`, `full`, or factors such as `2`
     #[arg(help_heading = "What is varied", long, value_name = "POLICIES", value_delimiter = ',', default_value = "none,full", value_parser = |s: &str| s.parse::<Unroll>())]
     pub unroll: Vec<Unroll>,
@@ -90,6 +94,16 @@ pub struct RecordsArgs {
 fn options(text: &str) -> Result<(String, Vec<String>), String> {
     let (name, list) = pair(text)?;
     Ok((name, values(&list)?))
+}
+
+fn varied(text: &str) -> Result<(&'static str, Vec<String>), String> {
+    let (name, list) = pair(text)?;
+    let knob = varied_knob(&name)?;
+    let values = values(&list)?;
+    values
+        .iter()
+        .try_for_each(|value| knob.set(&mut ShaderSpec::new(), &[value]))?;
+    Ok((knob.name, values))
 }
 
 fn loops(text: &str) -> Result<Loops, String> {

@@ -8,7 +8,7 @@ use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, EmitOptions, Format, Settings, Stage, Unroll};
+use straightline_codegen::{Compiled, Format, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::hash_of_text;
 use straightline_runtime::{Pass, PassOptions};
@@ -47,10 +47,8 @@ pub fn measured(
     let compiled: Vec<Result<Compiled, String>> = group
         .iter()
         .map(|variant| {
-            sweep
-                .kernel
-                .compile(&variant.compile_settings())
-                .map_err(|errors| errors.first_message().to_owned())
+            let compiled = variant.spec()?.compile(&sweep.kernel);
+            compiled.map_err(|errors| errors.first_message().to_owned())
         })
         .collect();
     for (swept, compiled) in swept.iter_mut().zip(&compiled) {
@@ -76,10 +74,7 @@ pub fn measured(
             return Ok(None);
         }
         if let Ok(compiled) = compiled {
-            let emitted = compiled
-                .emit(&emit_options(variant))
-                .map_err(|errors| errors.first_message().to_owned());
-            match emitted.and_then(|emitted| stand.put(at, emitted, variant.loops, false)) {
+            match emit(variant, compiled).and_then(|emitted| stand.put(at, emitted, variant.loops, false)) {
                 Ok(variant) => ready.push(variant),
                 Err(why) => swept[at].refused = Some(why),
             }
@@ -137,14 +132,14 @@ fn judge(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]
     full.or_else(|| compiled[first].as_ref().ok().cloned())
 }
 
-fn emit_options(variant: &Variant) -> EmitOptions {
-    let mut options = EmitOptions::new()
-        .stage(variant.stage)
+fn emit(variant: &Variant, compiled: &Compiled) -> Result<Emitted, String> {
+    let options = variant.spec()?.emit;
+    let options = options
         .format(Format::Rgba32Float)
-        .unbounded_loops(variant.loops == Loops::Unbounded)
         .targets([Target::Wgsl, Target::Spirv]);
-    options.workgroup = (variant.stage == Stage::Compute).then_some(variant.workgroup);
-    options
+    compiled
+        .emit(&options)
+        .map_err(|errors| errors.first_message().to_owned())
 }
 
 /// Where variants are put onto the device.

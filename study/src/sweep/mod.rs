@@ -20,7 +20,7 @@ use straightline_testbed::execute::{Bench, ExecuteError, Inputs};
 pub use bootstrap::{Interval, median_of, quotient_of};
 pub use joined::{Compared, JoinError, compared, joined};
 pub use rival::Rival;
-pub use space::{Axis, Loops, RESERVED, Space, Variant, spelled, values};
+pub use space::{Axis, Loops, RESERVED, Space, Variant, spelled, values, varied_knob};
 
 /// What is swept, and how it is measured.
 #[derive(Clone, Debug)]

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use straightline_codegen::emit::EmitOptions;
-use straightline_codegen::{Kernel, Settings, Stage, Unroll};
+use straightline_codegen::spec::{Arity, Knob, Part};
+use straightline_codegen::{Kernel, ShaderSpec, Stage, Unroll};
 use straightline_kernels::OptionText;
 
 /// What becomes of a loop that stays one.
@@ -38,11 +39,32 @@ pub struct Axis {
 /// Names of axes that every sweep has, after those of the options.
 pub const RESERVED: [&str; 5] = ["unroll", "loops", "stage", "workgroup", "block"];
 
+/// The knob of a shader that is an axis by this name, beside [`RESERVED`].
+///
+/// # Errors
+///
+/// There is none, or it does not change what is measured.
+pub fn varied_knob(name: &str) -> Result<&'static Knob, String> {
+    let knob = Knob::find(name)?;
+    let limits = ["budget", "time-limit", "memory-limit"];
+    let is_computed = knob.part == Part::Settings && knob.arity != Arity::Many && !limits.contains(&knob.name);
+    match knob.name {
+        name if RESERVED.contains(&name) => Err(format!("`{name}` is an axis of every sweep: --{name}")),
+        "precision" => Ok(knob),
+        _ if is_computed => Ok(knob),
+        name => Err(format!(
+            "`{name}` is no axis: it changes neither what is computed nor in which precision"
+        )),
+    }
+}
+
 /// One way to write a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// Options that are not left at their default.
     pub options: Vec<OptionText>,
+    /// Further knobs by name, with a text of each.
+    pub knobs: Vec<(&'static str, String)>,
     /// What becomes of loops.
     pub unroll: Unroll,
     /// What becomes of those that stay.
@@ -60,6 +82,8 @@ pub struct Variant {
 pub struct Space {
     /// Options of the kernel, each with its values.
     pub options: Vec<(String, Vec<String>)>,
+    /// Further knobs ([`varied_knob`]), each with texts of its values.
+    pub knobs: Vec<(&'static str, Vec<String>)>,
     /// What becomes of loops.
     pub unroll: Vec<Unroll>,
     /// What becomes of those that stay.
@@ -77,6 +101,7 @@ impl Default for Space {
     fn default() -> Self {
         Space {
             options: Vec::new(),
+            knobs: Vec::new(),
             unroll: vec![Unroll::Full],
             loops: vec![Loops::Bounded],
             stages: vec![Stage::Compute],
@@ -87,9 +112,13 @@ impl Default for Space {
 }
 
 impl Space {
-    /// Everything that is varied, with the names of the values: options first, then those of [`RESERVED`].
+    /// Everything that is varied, with the names of the values: options first, then further knobs, then those of [`RESERVED`].
     pub fn axes(&self) -> Vec<Axis> {
-        let options = self.options.iter().cloned();
+        let knobs = self
+            .knobs
+            .iter()
+            .map(|(name, values)| ((*name).to_owned(), values.clone()));
+        let options = self.options.iter().cloned().chain(knobs);
         let fixed: [Vec<String>; 5] = [
             self.unroll.iter().map(Unroll::to_string).collect(),
             self.loops.iter().map(|loops| loops.name().to_owned()).collect(),
@@ -118,18 +147,18 @@ impl Space {
     /// Every combination, the last axis fastest. A fragment has neither workgroup nor block: in that stage their first values
     /// stand for all.
     pub fn variants(&self) -> Vec<Variant> {
-        let mut options: Vec<Vec<OptionText>> = vec![Vec::new()];
-        for (name, values) in &self.options {
-            let with = |known: &Vec<OptionText>| {
-                let known = known.clone();
-                let each = values.iter().map(|value| (name.clone(), value.clone()));
-                each.map(move |option| [known.as_slice(), &[option]].concat())
-                    .collect::<Vec<_>>()
-            };
-            options = options.iter().flat_map(with).collect();
-        }
+        let knobs = self.knobs.iter().map(|(name, values)| (*name, values.as_slice()));
+        let knobs = combinations(knobs);
+        let of_options = combinations(
+            self.options
+                .iter()
+                .map(|(name, values)| (name.clone(), values.as_slice())),
+        );
+        let each = of_options
+            .iter()
+            .flat_map(|options| knobs.iter().map(move |knobs| (options, knobs)));
         let mut all = Vec::new();
-        for options in options {
+        for (options, knobs) in each {
             for &unroll in &self.unroll {
                 for &loops in &self.loops {
                     for &stage in &self.stages {
@@ -138,6 +167,7 @@ impl Space {
                             for &block in &self.blocks[..of_compute(self.blocks.len())] {
                                 all.push(Variant {
                                     options: options.clone(),
+                                    knobs: knobs.clone(),
                                     unroll,
                                     loops,
                                     stage,
@@ -165,16 +195,44 @@ impl Variant {
             by(&self.block),
         ];
         let fixed = RESERVED.map(str::to_owned).into_iter().zip(fixed);
-        self.options.iter().cloned().chain(fixed).collect()
+        let knobs = self.knobs.iter().map(|(name, text)| ((*name).to_owned(), text.clone()));
+        self.options.iter().cloned().chain(knobs).chain(fixed).collect()
     }
 
-    /// How the generator is asked for it.
-    pub fn compile_settings(&self) -> Settings {
-        Settings::new()
-            .set_all(self.options.clone())
+    /// The description of its shader.
+    ///
+    /// # Errors
+    ///
+    /// A text that is no value of its knob.
+    pub fn spec(&self) -> Result<ShaderSpec, String> {
+        let [width, height] = self.block;
+        let mut spec = ShaderSpec::new()
             .unroll(self.unroll)
-            .block(self.block[0], self.block[1])
+            .block(width, height)
+            .stage(self.stage)
+            .unbounded_loops(self.loops == Loops::Unbounded)
+            // The loss is what is measured.
+            .accept_loss(true);
+        spec.settings.options.clone_from(&self.options);
+        spec.emit.workgroup = (self.stage == Stage::Compute).then_some(self.workgroup);
+        for (name, text) in &self.knobs {
+            Knob::find(name)?.set(&mut spec, &[text])?;
+        }
+        Ok(spec)
     }
+}
+
+/// Every choice of one value of each, the last name's fastest.
+fn combinations<'v, N: Clone>(all: impl Iterator<Item = (N, &'v [String])>) -> Vec<Vec<(N, String)>> {
+    let mut chosen = vec![Vec::new()];
+    for (name, values) in all {
+        let with = |known: &Vec<(N, String)>| {
+            let each = values.iter().map(|value| (name.clone(), value.clone()));
+            each.map(|one| [known.as_slice(), &[one]].concat()).collect::<Vec<_>>()
+        };
+        chosen = chosen.iter().flat_map(with).collect();
+    }
+    chosen
 }
 
 fn by(size: &[u32; 2]) -> String {

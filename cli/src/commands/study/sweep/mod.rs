@@ -119,14 +119,26 @@ fn written(common: &CommonArgs) {
 fn space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
     let space = Space {
         options: args.set.clone(),
+        knobs: args.vary.clone(),
         unroll: args.unroll.clone(),
         loops: args.loops.clone(),
         stages: args.stage.clone(),
         workgroups: args.workgroup.iter().map(|size| size.to_array()).collect(),
         blocks: args.block.iter().map(|size| size.to_array()).collect(),
     };
+    let mut knobs = BTreeSet::new();
+    if let Some((twice, _)) = space.knobs.iter().find(|(name, _)| !knobs.insert(*name)) {
+        return Err(Failure::Usage(format!(
+            "--vary {twice} is given twice: give all its values at once"
+        )));
+    }
     let mut names = BTreeSet::new();
     for (name, _) in &space.options {
+        if knobs.contains(name.as_str()) {
+            return Err(Failure::Usage(format!(
+                "the option `{name}` and --vary {name} would be one axis: sweep one of them at a time"
+            )));
+        }
         if RESERVED.contains(&name.as_str()) {
             return Err(Failure::Usage(format!(
                 "an option called `{name}` cannot be swept: --{name} is another axis; call it differently in the kernel"
@@ -169,7 +181,7 @@ fn first_of_groups(sweep: &Sweep) -> Result<Vec<Compiled>, Failure> {
     let mut wrong = None;
     let mut compiled = Vec::new();
     for variant in sweep.groups().map_err(failure)?.iter().flatten() {
-        match sweep.kernel.compile(&variant.compile_settings()) {
+        match variant.spec().map_err(Failure::Usage)?.compile(&sweep.kernel) {
             Ok(one) => compiled.push(one),
             Err(errors) => wrong = wrong.or(Some(errors)),
         }
