@@ -1,7 +1,8 @@
-//! The one module that opens files to read and makes files to be written: a set of files is whole or not there, only what has
-//! changed is written, and only regular files are read.
+//! The one crate that opens files to read and makes files to be written: a set of files is whole or not there, only what has
+//! changed is written, and only regular files are read. [`shorten()`] prepares a value from outside for a message.
 
 mod read;
+mod shorten;
 mod unfinished;
 
 use std::collections::BTreeMap;
@@ -10,6 +11,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 pub use read::{open, read, read_text};
+pub use shorten::shorten;
 pub use unfinished::{Folders, Scrap, abandon};
 
 /// Why files could not be written. None of them has been changed.
