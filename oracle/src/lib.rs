@@ -1,8 +1,8 @@
-//! Definitions of kernels in `f64` with bounds of the error, and error metrics: what judges an emitted shader.
+//! The judges of emitted shaders: definitions of kernels in `f64` with bounds of the error, and error metrics.
 //!
-//! Shares no code with what it judges: no evaluator, no generator, no runtime is among its dependencies. Of `straightline-kernels` it
-//! uses the prelude's images and vectors and the values of options, and no kernel; of `straightline-scene` the inputs of a kernel and the
-//! transfer function of sRGB.
+//! This crate shares no code with the code it judges: none of its dependencies evaluates, emits or runs kernels. From
+//! `straightline-kernels` it uses the prelude's images and vectors and the values of options, but no kernel. From `straightline-scene` it
+//! uses the inputs of a kernel and the transfer function of sRGB.
 
 pub mod metrics;
 pub mod oracle;

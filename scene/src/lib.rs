@@ -1,6 +1,6 @@
-//! Scenes and their renderers, captures, pictures, encodings, G-buffers and sequences of frames: what kernels run on.
+//! The data that kernels run on: scenes and their renderers, captures, pictures, encodings, G-buffers and sequences of frames.
 //!
-//! [`inputs`] is the plain data that a kernel reads. Nothing here evaluates, emits or runs a compiled kernel.
+//! [`inputs`] is the plain data that a kernel reads. No module evaluates, emits or runs a compiled kernel.
 
 pub mod capture;
 pub mod encode;

@@ -1,4 +1,4 @@
-//! What judges shares no code with what it judges: neither it nor anything that it depends on evaluates, emits or runs kernels.
+//! Independence of the judges: neither this crate nor any of its dependencies evaluates, emits or runs kernels.
 
 use cargo_metadata::{CargoOpt, DependencyKind, MetadataCommand};
 use std::collections::BTreeSet;
@@ -12,11 +12,11 @@ const JUDGED: [&str; 4] = [
 ];
 
 #[test]
-fn the_oracle_depends_on_nothing_that_it_judges() {
+fn the_oracle_depends_on_no_code_that_it_judges() {
     let metadata = MetadataCommand::new()
         .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
         .features(CargoOpt::AllFeatures)
-        .other_options(["--locked".to_owned(), "--offline".to_owned()])
+        .other_options(["--locked", "--filter-platform", "x86_64-unknown-linux-gnu"].map(str::to_owned))
         .exec()
         .expect("the workspace's metadata");
     let nodes = metadata.resolve.as_ref().expect("a resolved graph").nodes.iter();
