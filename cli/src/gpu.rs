@@ -2,7 +2,7 @@
 
 use crate::args::AdapterArgs;
 use crate::failure::Failure;
-use straightline_testbed::execute::Bench;
+use straightline_bench::execute::Bench;
 use wgpu::{Backends, Features};
 
 /// A device to work on, and what it is.

@@ -6,10 +6,10 @@ use crate::gpu::Gpu;
 use glam::{UVec2, Vec2};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
-use straightline_testbed::capture::ShadingSample;
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::{CpuRenderer, GpuRenderer, Renderer};
-use straightline_testbed::scene::{self, Scene, Viewpoint};
+use straightline_scene::capture::ShadingSample;
+use straightline_scene::gbuffer;
+use straightline_scene::render::{CpuRenderer, GpuRenderer, Renderer};
+use straightline_scene::scene::{self, Scene, Viewpoint};
 
 /// A model, or else the built-in scene of a name.
 pub fn load(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {

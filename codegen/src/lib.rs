@@ -15,7 +15,6 @@ mod compiled;
 pub mod config;
 pub mod default_set;
 pub mod emit;
-pub mod files;
 mod kernel;
 mod pipeline;
 pub mod spec;
@@ -29,6 +28,7 @@ pub use straightline_evaluator::eval::{LoopReport, Numeric, OptionInfo, OptionKi
 pub use straightline_evaluator::limits::Limits;
 pub use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 pub use straightline_evaluator::{diagnostic, shorten};
+pub use straightline_files as files;
 // Internals of the evaluator, for this workspace's studies and tests. They change with any version.
 #[doc(hidden)]
 pub use straightline_evaluator::{interp, ir, passes, policy};

@@ -14,8 +14,7 @@ pub mod ir;
 pub mod limits;
 pub mod passes;
 pub mod policy;
-mod shorten;
 mod suggest;
 
-pub use shorten::shorten;
+pub use straightline_files::shorten;
 pub use suggest::suggest;

@@ -2,7 +2,7 @@
 //! compilers say, the search for the cheapest variant, filters of pixel quads by every transport, and any kernel in every combination
 //! of options and forms. Each gives a [`record`]; [`report`] makes a page of records.
 //!
-//! What runs kernels, and what judges them, is `straightline-testbed`.
+//! `straightline-bench` runs kernels, `straightline-oracle` judges them.
 
 pub mod baselines;
 mod builtin;

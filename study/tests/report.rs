@@ -1,11 +1,11 @@
 //! The page made of records: whole, self-contained, and saying what the records say.
 
 use glam::{Vec4, uvec2};
+use straightline_bench::execute::{Clock, Ratio, Times};
 use straightline_kernels::prelude::Frame;
+use straightline_scene::picture;
 use straightline_study::record::*;
 use straightline_study::report;
-use straightline_testbed::execute::{Clock, Ratio, Times};
-use straightline_testbed::picture;
 
 fn circumstances() -> Circumstances {
     Circumstances {

@@ -4,6 +4,7 @@
 
 use crate::compilers;
 use glam::{UVec2, Vec4};
+use straightline_bench::execute::Inputs;
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_foreign::vulkan::{Binding, Device, Dispatch, Format, Image, Resource};
@@ -11,7 +12,6 @@ use straightline_kernels::prelude::Frame;
 use straightline_runtime::manifest::{
     BindingKind, Dimension, Element, LanguageKind, Manifest, SampleType, SamplerType, Scalar, UniformField, ValueType,
 };
-use straightline_testbed::execute::Inputs;
 
 /// Languages that a driver runs here.
 pub const LANGUAGES: [Target; 3] = [Target::Glsl450, Target::Spirv, Target::Hlsl];

@@ -3,7 +3,7 @@
 //! [`random`]: differential testing of the generator. A random kernel is compiled natively by rustc, and by the generator in
 //! every form: all must compute the same bits.
 
-pub use straightline_testbed::oracle::quads;
+pub use straightline_oracle::oracle::quads;
 pub mod bare;
 pub mod compilers;
 pub mod edges;

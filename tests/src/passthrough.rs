@@ -3,12 +3,12 @@
 
 use crate::compilers;
 use glam::Vec4;
+use straightline_bench::execute::{AllWritten, Bench, Buffers, Inputs, SamplerState, Written};
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::manifest::{Binding, BindingKind, LanguageKind, Manifest, SamplerType};
 use straightline_runtime::{Pass, PassOptions};
-use straightline_testbed::execute::{AllWritten, Bench, Buffers, Inputs, SamplerState, Written};
 use wgpu::Features;
 
 /// A bench that runs SPIR-V, of any Vulkan adapter, with what kernels can use of it.

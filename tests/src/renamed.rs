@@ -1,10 +1,10 @@
 //! Kernels under other names: what a host knows by name is called by words of shading languages and of hosts' languages.
 
 use std::collections::{BTreeMap, BTreeSet};
+use straightline_bench::execute::Inputs;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::ir::{Element, Graph, Target};
 use straightline_codegen::{Compiled, Kernel, Settings};
-use straightline_testbed::execute::Inputs;
 
 /// Words that some language has a use for, and names that texts, engines and hosts have; all are names in Rust, keywords by `r#`.
 pub const WORDS: &[&str] = &[

@@ -4,9 +4,9 @@ use crate::args::{CaptureArgs, PlacedByArg};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
-use straightline_testbed::capture::ShadingSample;
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, PlacedBy};
+use straightline_scene::capture::ShadingSample;
+use straightline_scene::gbuffer;
+use straightline_scene::render::{self, PlacedBy};
 
 /// Renders and writes a capture, or nothing.
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {

@@ -6,8 +6,8 @@ use glam::Vec4;
 use serde_json::json;
 use std::path::Path;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::metrics::{self, MOST_DB};
-use straightline_testbed::picture;
+use straightline_oracle::metrics::{self, MOST_DB};
+use straightline_scene::picture;
 
 /// Reads two pictures of one size and prints PSNR, SSIM and FLIP.
 ///

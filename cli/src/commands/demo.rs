@@ -9,16 +9,17 @@ use glam::{UVec2, Vec4};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Instant, SystemTime};
+use straightline_bench::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, files};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
+use straightline_oracle::metrics;
+use straightline_oracle::oracle::{self, SraaParams};
 use straightline_runtime::Pass;
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret};
-use straightline_testbed::gbuffer;
-use straightline_testbed::oracle::{self, SraaParams};
-use straightline_testbed::render::{self, Renderer};
-use straightline_testbed::{metrics, picture};
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::gbuffer;
+use straightline_scene::picture;
+use straightline_scene::render::{self, Renderer};
 
 /// One antialiased picture and what it took.
 struct Method {

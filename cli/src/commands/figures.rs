@@ -10,9 +10,9 @@ use crate::{scene, table};
 use std::collections::BTreeMap;
 use std::time::Duration;
 use straightline_codegen::files;
+use straightline_scene::picture;
 use straightline_study::quads;
 use straightline_study::quality::{FIGURES, Figure};
-use straightline_testbed::picture;
 
 /// What is made of the chapter: its pictures, and what they show.
 const OF_THE_CHAPTER: [(&str, &str); 2] = [

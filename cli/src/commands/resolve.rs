@@ -5,12 +5,13 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
+use straightline_bench::execute::interpret;
 use straightline_codegen::{Compiled, Kernel, OptionValue, OptionValues, Settings, files};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::capture::Capture;
-use straightline_testbed::execute::interpret;
-use straightline_testbed::gbuffer;
-use straightline_testbed::{metrics, picture};
+use straightline_oracle::metrics;
+use straightline_scene::capture::Capture;
+use straightline_scene::gbuffer;
+use straightline_scene::picture;
 
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
 pub fn run(args: &ResolveArgs) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use crate::args::ScenesArgs;
 use crate::failure::Failure;
 use serde_json::json;
-use straightline_testbed::scene::{NAMES, OF_SHADING};
+use straightline_scene::scene::{NAMES, OF_SHADING};
 
 /// Prints every scene's name and purpose.
 pub fn run(args: &ScenesArgs) -> Result<(), Failure> {

@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{fails, finishes, here, scratch};
 use straightline_kernels::prelude::{Frame, UVec2, Vec4};
-use straightline_testbed::picture;
+use straightline_scene::picture;
 
 /// A grey picture with one brighter pixel.
 fn grey(size: u32, light: f32) -> Frame<Vec4> {

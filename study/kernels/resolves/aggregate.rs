@@ -1,5 +1,5 @@
 //! Aggregate G-buffer antialiasing (Crassin, McGuire, Fatahalian and Lefohn 2015), before and after its shading:
-//! `testbed/src/render/aggregate.rs` says what it does.
+//! `scene/src/render/aggregate.rs` says what it does.
 
 use straightline_kernels::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Textures copied by drawing them.
 
-use straightline_testbed::execute::Bench;
+use straightline_bench::execute::Bench;
 use wgpu::TextureFormat;
 
 /// Copies a texture into a target of another format.

@@ -12,7 +12,7 @@
 use glam::{DMat2, DVec2, UVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::picture;
+use straightline_scene::picture;
 
 /// The least difference of luma that is an edge: a step of 8 bits.
 const EDGE: f64 = 1.0 / 255.0;
@@ -146,7 +146,7 @@ mod tests {
     /// A straight edge: nearer to how much of each pixel it covers than the mean of the samples is.
     #[test]
     fn straight_edges_have_more_steps_than_samples() {
-        let offsets = straightline_testbed::gbuffer::samples("latin4").expect("a pattern");
+        let offsets = straightline_scene::gbuffer::samples("latin4").expect("a pattern");
         let size = UVec2::new(24, 12);
         let covered = |place: Vec2| place.y < 4.0 + 0.17 * place.x;
         let white = |inside: bool| {
@@ -163,7 +163,7 @@ mod tests {
         let samples: Vec<Frame<Vec4>> = offsets.iter().map(drawn).collect();
         let (found, plain) = (
             directional(&samples, &offsets),
-            straightline_testbed::capture::mean(&samples),
+            straightline_scene::capture::mean(&samples),
         );
         let plain = plain.expect("pictures");
         let exact = |k: u32| {

@@ -6,10 +6,10 @@ use glam::{UVec2, Vec4};
 use smaa::{SmaaMode, SmaaTarget};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
+use straightline_bench::execute::{Bench, Clock, ExecuteError, texture_bytes};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Dimension, SampleType};
-use straightline_testbed::execute::{Bench, Clock, ExecuteError, texture_bytes};
-use straightline_testbed::render::{RenderError, guarded};
+use straightline_scene::render::{RenderError, guarded};
 use wgpu::TextureFormat;
 
 /// Of the picture that it reads and the one that it writes: more than 8 bits, so that rounding is no part of its error, and

@@ -7,7 +7,7 @@
 
 use glam::{Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::picture::srgb;
+use straightline_scene::picture::srgb;
 
 /// What the numbers of a picture mean that a filter is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! What a hard case is: something seen at every sample, and the settings that it is filtered with.
 
 use glam::{UVec2, Vec2, Vec3, Vec4, vec2, vec3};
-use straightline_testbed::encode::DepthStorage;
+use straightline_scene::encode::DepthStorage;
 
 /// A small world with one thing in it that is hard to compute.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use super::case::Case;
 use crate::builtin::builtin;
 use straightline_codegen::Math;
 use straightline_kernels::{HalfPrecision, OptionText, OptionValues};
-use straightline_testbed::render::PlacedBy;
+use straightline_scene::render::PlacedBy;
 
 /// What a kernel reads, and which definition judges it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,11 +4,11 @@ use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
 use super::form::{self, Family, Form, choice};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
+use straightline_bench::execute::Inputs;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_kernels::{OptionValue, OptionValues};
-use straightline_testbed::encode::{self, DepthEncoding, NormalEncoding};
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::oracle::{self, Shading, SraaParams};
+use straightline_oracle::oracle::{self, Shading, SraaParams};
+use straightline_scene::encode::{self, DepthEncoding, NormalEncoding};
 
 /// What a form reads of a case, and the numbers of its definition.
 pub struct Reads {

@@ -8,12 +8,12 @@ use super::inputs::{Reads, reads};
 use super::reals::{Flushed, Loose};
 use crate::builtin::builtin;
 use crate::record::{Executor, HardResult};
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, interpret};
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
 use straightline_kernels::OptionText;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs, interpret};
 
 /// A form on a case, with what should come out.
 pub struct Trial<'a> {

@@ -2,8 +2,8 @@
 //!
 //! [`run`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by the
 //! interpreter with subnormal numbers flushed, by the interpreter as inexact as WGSL allows, and by the shader that is
-//! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`straightline_testbed::oracle`]) and held to a
-//! bound that follows from an error analysis of the case's inputs ([`straightline_testbed::oracle::bound`]).
+//! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`straightline_oracle::oracle`]) and held to a
+//! bound that follows from an error analysis of the case's inputs ([`straightline_oracle::oracle::bound`]).
 //!
 //! In `f16` no such bound is useful, because it grows beyond what can be seen as soon as depths are compared; there each
 //! result is held to what can be seen, and [`half_precision_verdict`] says which kernels may compute in it.
@@ -24,9 +24,9 @@ pub use reals::{Flushed, Loose};
 pub use run::{Selection, judged_as, run};
 pub use verdict::half_precision_verdict;
 
+use straightline_bench::execute::ExecuteError;
 use straightline_codegen::diagnostic::Errors;
-use straightline_testbed::execute::ExecuteError;
-use straightline_testbed::oracle::OracleError;
+use straightline_oracle::oracle::OracleError;
 
 /// Every case.
 pub fn cases() -> Vec<Case> {

@@ -9,11 +9,11 @@ use crate::progress::Progress;
 use crate::record::{Circumstances, Executor, HardCase, HardRecord, HardResult};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use straightline_bench::execute::{Bench, ExecuteError};
 use straightline_codegen::{Compiled, Precision, Stage};
 use straightline_kernels::OptionText;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, ExecuteError};
 
 /// What to run.
 #[derive(Clone, Debug)]

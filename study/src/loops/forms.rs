@@ -5,13 +5,13 @@ use crate::record::FormKind;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use straightline_bench::execute::{Bench, Inputs, Uploaded, Uploads};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::print;
 use straightline_codegen::{
     Compiled, EmitOptions, Format, Kernel, Math, Precision, ReadOrder, Settings, Share, Stage, Unroll,
 };
 use straightline_runtime::{Pass, PassOptions};
-use straightline_testbed::execute::{Bench, Inputs, Uploaded, Uploads};
 
 /// A kernel in every form that it has, looped first, and why it does not have the others.
 pub struct Forms {
@@ -235,7 +235,7 @@ impl<'a> Stand<'a> {
     pub fn put(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
         let emitted = compiled
             .emit(&emit_options(kind))
-            .map_err(straightline_testbed::execute::ExecuteError::from)?;
+            .map_err(straightline_bench::execute::ExecuteError::from)?;
         let options = PassOptions::default().unbounded_loops(is_unbounded(kind));
         let mut made = Vec::new();
         for _ in 0..times.max(1) {
@@ -266,7 +266,7 @@ impl<'a> Stand<'a> {
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let bound = uploaded
             .bind(pass, &view)
-            .map_err(straightline_testbed::execute::ExecuteError::from)?;
+            .map_err(straightline_bench::execute::ExecuteError::from)?;
         bound.encode(&mut encoder);
         // What was written before is not to be waited for.
         bench.wait()?;

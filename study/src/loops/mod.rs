@@ -12,13 +12,13 @@ use crate::record::{Form, FormKind, KernelForms};
 use forms::{Forms, Ready, Stand};
 use glam::{UVec2, Vec4};
 use std::time::Duration;
+use straightline_bench::execute::{Bench, ExecuteError, Job};
 use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Bench, ExecuteError, Job};
-use straightline_testbed::gbuffer::GBufferError;
-use straightline_testbed::oracle::OracleError;
-use straightline_testbed::render::RenderError;
-use straightline_testbed::scene::SceneError;
+use straightline_oracle::oracle::OracleError;
+use straightline_scene::gbuffer::GBufferError;
+use straightline_scene::render::RenderError;
+use straightline_scene::scene::SceneError;
 use truth::Truth;
 
 pub use subjects::{ByHand, Input, Subject, subjects};

@@ -9,9 +9,9 @@ use straightline_kernels::filters::FILTERS;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// The built-in scene `roof`, rendered with the geometry samples that the kernel's options name; judged by
-    /// [`oracle`](straightline_testbed::oracle).
+    /// [`oracle`](straightline_oracle::oracle).
     Roof,
-    /// [`test_inputs`](straightline_testbed::execute::test_inputs); judged by the same graph in `f64`.
+    /// [`test_inputs`](straightline_bench::execute::test_inputs); judged by the same graph in `f64`.
     TestCard,
 }
 

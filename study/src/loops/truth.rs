@@ -2,13 +2,13 @@
 
 use super::{Input, LoopsError, Subject};
 use glam::{UVec2, Vec4};
+use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_codegen::Compiled;
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
-use straightline_testbed::gbuffer;
-use straightline_testbed::oracle::{self, SraaParams};
-use straightline_testbed::render::{self, GpuRenderer};
-use straightline_testbed::scene::Scene;
+use straightline_oracle::oracle::{self, SraaParams};
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::gbuffer;
+use straightline_scene::render::{self, GpuRenderer};
+use straightline_scene::scene::Scene;
 
 /// The scene that SRAA is run on.
 const SCENE: &str = "roof";

@@ -3,11 +3,11 @@
 use super::subject::{OCCLUSION, compile};
 use super::{QUAD, QuadsError};
 use glam::{UVec2, Vec2, Vec4, vec3};
+use straightline_bench::execute::{Bench, Inputs};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
-use straightline_testbed::execute::{Bench, Inputs};
-use straightline_testbed::render::{GpuRenderer, Renderer};
-use straightline_testbed::scene::Scene;
+use straightline_scene::render::{GpuRenderer, Renderer};
+use straightline_scene::scene::Scene;
 
 /// A rendered frame: its colours with depth, its depths, normals, and the angle of a pixel.
 pub fn screen(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, QuadsError> {

@@ -12,14 +12,14 @@ use families::{FAMILIES, Source};
 use glam::{UVec2, Vec4};
 use inputs::{low_resolution, screen};
 use std::time::Duration;
+use straightline_bench::execute::{Bench, ExecuteError, Forward, Inputs, Shadowed, Work};
 use straightline_codegen::Transport;
 use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::Quads;
-use straightline_testbed::execute::{Bench, ExecuteError, Forward, Inputs, Shadowed, Work};
-use straightline_testbed::render::RenderError;
-use straightline_testbed::scene::Scene;
+use straightline_scene::render::RenderError;
+use straightline_scene::scene::Scene;
 use subject::Subject;
 
 /// Pixels of a quad.

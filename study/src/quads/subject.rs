@@ -3,12 +3,12 @@
 use super::families::{Family, Source};
 use super::{QUAD, QuadsError, Setup};
 use glam::Vec4;
+use straightline_bench::execute::{Bench, ExecuteError, Forward, Inputs, Job, Shadowed, Uploaded, Work};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Counts, Stage};
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, ExecuteError, Forward, Inputs, Job, Shadowed, Uploaded, Work};
 
 /// Occlusion as far as the scene's walls and steps, dark enough to be judged.
 pub const OCCLUSION: [(&str, &str); 3] = [("pixel-angle", "uniform"), ("radius", "1.2"), ("strength", "4")];

@@ -5,7 +5,7 @@ use crate::record::Shares;
 use glam::{IVec2, UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::picture::srgb;
+use straightline_scene::picture::srgb;
 
 /// How much sRGB values vary over an edge of shading: eight steps of 255.
 pub const STEP: f32 = 8.0 / 255.0;

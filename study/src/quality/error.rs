@@ -1,10 +1,10 @@
 //! Why methods could not be compared.
 
+use straightline_bench::execute::ExecuteError;
 use straightline_codegen::diagnostic::Errors;
-use straightline_testbed::execute::ExecuteError;
-use straightline_testbed::gbuffer::GBufferError;
-use straightline_testbed::picture::PictureError;
-use straightline_testbed::render::RenderError;
+use straightline_scene::gbuffer::GBufferError;
+use straightline_scene::picture::PictureError;
+use straightline_scene::render::RenderError;
 
 /// Why methods could not be compared.
 #[derive(Debug, thiserror::Error)]

@@ -7,14 +7,14 @@ use super::{QualityError, SIDE, check};
 use crate::builtin::builtin;
 use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
+use straightline_bench::execute::Bench;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::capture::Capture;
-use straightline_testbed::execute::Bench;
-use straightline_testbed::gbuffer;
-use straightline_testbed::metrics::psnr;
-use straightline_testbed::picture;
-use straightline_testbed::render::GpuRenderer;
-use straightline_testbed::scene::{SKY_DEPTH, Scene};
+use straightline_oracle::metrics::psnr;
+use straightline_scene::capture::Capture;
+use straightline_scene::gbuffer;
+use straightline_scene::picture;
+use straightline_scene::render::GpuRenderer;
+use straightline_scene::scene::{SKY_DEPTH, Scene};
 
 /// A picture of the paper.
 #[derive(Clone, Copy, Debug)]

@@ -6,11 +6,11 @@ use super::pan::{self, changes};
 use super::{Method, QualityError};
 use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
+use straightline_bench::execute::Bench;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::Bench;
-use straightline_testbed::picture;
-use straightline_testbed::render::GpuRenderer;
-use straightline_testbed::scene::Scene;
+use straightline_scene::picture;
+use straightline_scene::render::GpuRenderer;
+use straightline_scene::scene::Scene;
 
 /// How it is filmed.
 #[derive(Clone, Debug)]

@@ -8,17 +8,17 @@ use crate::baselines::{Smaa, Transfer, fxaa, mlaa};
 use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::Instant;
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::OptionText;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
 use straightline_runtime::Pass;
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::encode::NormalEncoding;
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
-use straightline_testbed::gbuffer;
-use straightline_testbed::picture;
-use straightline_testbed::render;
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::encode::NormalEncoding;
+use straightline_scene::gbuffer;
+use straightline_scene::picture;
+use straightline_scene::render;
 
 /// Bytes of a pixel of full floats, which pictures are read and written in.
 const PICTURE: u64 = 16;

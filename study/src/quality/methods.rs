@@ -6,9 +6,9 @@ use crate::record::Family;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::{OptionText, OptionValues};
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::PlacedBy;
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::gbuffer;
+use straightline_scene::render::PlacedBy;
 
 /// What a method is, beyond its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -30,12 +30,12 @@ use glam::{UVec2, Vec2, Vec4};
 use scores::{gaps, scores, share_of_gap};
 use shot::supersampled;
 use std::collections::BTreeMap;
+use straightline_bench::execute::{Bench, Times};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::capture::Capture;
-use straightline_testbed::execute::{Bench, Times};
-use straightline_testbed::picture;
-use straightline_testbed::render::{Extra, GpuRenderer};
-use straightline_testbed::scene::Scene;
+use straightline_scene::capture::Capture;
+use straightline_scene::picture;
+use straightline_scene::render::{Extra, GpuRenderer};
+use straightline_scene::scene::Scene;
 
 pub use classes::STEP;
 pub use error::QualityError;

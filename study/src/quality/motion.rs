@@ -8,14 +8,15 @@ use crate::progress::Progress;
 use crate::record::{MOST_DB, Motion, MovedMethod};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
+use straightline_bench::execute::Bench;
 use straightline_codegen::{Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::capture::{ShadingSample, mean};
-use straightline_testbed::execute::Bench;
-use straightline_testbed::render::{CpuRenderer, Renderer};
-use straightline_testbed::scene::{Scene, Vertex};
-use straightline_testbed::sequence::{Moment, PLACES};
-use straightline_testbed::{gbuffer, metrics, picture};
+use straightline_oracle::metrics;
+use straightline_scene::capture::{ShadingSample, mean};
+use straightline_scene::render::{CpuRenderer, Renderer};
+use straightline_scene::scene::{Scene, Vertex};
+use straightline_scene::sequence::{Moment, PLACES};
+use straightline_scene::{gbuffer, picture};
 
 /// Frames before the first that is judged: as many as the longest history.
 pub const BEFORE: usize = 4;

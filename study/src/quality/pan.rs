@@ -7,8 +7,8 @@ use super::shot::{Shot, supersampled};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3, Vec4, vec2};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::picture;
-use straightline_testbed::render::{Renderer, Shifted};
+use straightline_scene::picture;
+use straightline_scene::render::{Renderer, Shifted};
 
 /// Pixels from frame to frame.
 const STEP: Vec2 = vec2(0.125, 0.0625);

@@ -1,5 +1,5 @@
 //! Antialiasing by samples that a renderer shades more than once a pixel: its pictures after their definitions, on the processor
-//! (`bounds`, [`straightline_testbed::render::aggregated`]), and kernels that resolve the same samples on a device, to be timed.
+//! (`bounds`, [`straightline_scene::render::aggregated`]), and kernels that resolve the same samples on a device, to be timed.
 
 use super::QualityError;
 use super::bounds::{along_edges, by_coverage, once_a_surface, stored, where_edges_are, whose};
@@ -7,11 +7,11 @@ use super::methods::{Kind, Method, NEAR_LATIN4};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use glam::{UVec2, UVec4, Vec3, Vec4};
+use straightline_bench::execute::Inputs;
 use straightline_codegen::Kernel;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::{Aggregated, Surface};
+use straightline_scene::gbuffer;
+use straightline_scene::render::{Aggregated, Surface};
 
 macro_rules! kernel {
     ($file:literal, $name:expr) => {

@@ -9,8 +9,8 @@ use super::surfaces::Surfaces;
 use crate::record::{Gap, MOST_DB, MethodErrors};
 use glam::Vec4;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::metrics;
-use straightline_testbed::picture;
+use straightline_oracle::metrics;
+use straightline_scene::picture;
 
 /// Everything but time, bytes and pictures.
 pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, classes: &Classes) -> MethodErrors {

@@ -7,9 +7,9 @@ use glam::{DVec4, UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::capture::{Capture, ShadingSample, mean};
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Aggregated, Extra, Renderer};
+use straightline_scene::capture::{Capture, ShadingSample, mean};
+use straightline_scene::gbuffer;
+use straightline_scene::render::{self, Aggregated, Extra, Renderer};
 
 /// Of so many pixels one may be shaded once more: 2 %.
 pub const BUDGET: usize = 50;

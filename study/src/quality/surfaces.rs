@@ -7,9 +7,9 @@
 
 use glam::{IVec2, UVec2, Vec2, Vec3};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::capture::Capture;
-use straightline_testbed::gbuffer::has_planes;
-use straightline_testbed::scene::SKY_DEPTH;
+use straightline_scene::capture::Capture;
+use straightline_scene::gbuffer::has_planes;
+use straightline_scene::scene::SKY_DEPTH;
 
 /// Cosine of the angle between two normals of one surface: ten degrees.
 const ALIKE: f32 = 0.984_8;

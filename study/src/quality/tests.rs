@@ -5,8 +5,8 @@ use super::classes::{Classes, varies_within};
 use super::surfaces::Surfaces;
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec3};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample, mean};
-use straightline_testbed::scene::{Camera, SKY_DEPTH};
+use straightline_scene::capture::{Capture, NormalSpace, ShadingSample, mean};
+use straightline_scene::scene::{Camera, SKY_DEPTH};
 
 const SIZE: UVec2 = uvec2(8, 6);
 const CAMERA: Camera = Camera {
@@ -36,7 +36,7 @@ fn plane(normal: Vec3, through: Vec3, color: f32) -> Plane {
 
 /// What `seen` puts at each place, in pixels; `None` for the sky, which is black.
 fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>) {
-    let samples = straightline_testbed::gbuffer::samples("latin4").expect("a pattern");
+    let samples = straightline_scene::gbuffer::samples("latin4").expect("a pattern");
     let extent = CAMERA.half_extent(SIZE);
     let texel = |place: Vec2| {
         let at = place / SIZE.as_vec2() * 2.0 - 1.0;

@@ -2,8 +2,8 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_bench::execute::{Ratio, Times};
 use straightline_kernels::OptionText;
-use straightline_testbed::execute::{Ratio, Times};
 
 /// What became of a kernel's loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

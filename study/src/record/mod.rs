@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::Clock;
 use straightline_codegen::files;
-use straightline_testbed::execute::Clock;
 
 pub use film::{FilmRecord, FilmedMethod};
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};

@@ -2,10 +2,10 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_bench::execute::Times;
 use straightline_kernels::OptionText;
-use straightline_testbed::execute::Times;
 
-pub use straightline_testbed::metrics::MOST_DB;
+pub use straightline_oracle::metrics::MOST_DB;
 
 /// What kind of method it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

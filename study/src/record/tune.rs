@@ -2,8 +2,8 @@
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
+use straightline_bench::execute::{Ratio, Times};
 use straightline_kernels::OptionText;
-use straightline_testbed::execute::{Ratio, Times};
 
 /// A variant that was tried.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

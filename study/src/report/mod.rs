@@ -30,7 +30,7 @@ pub enum ReportError {
     Record(#[from] RecordError),
     /// A picture that a record names cannot be shown.
     #[error(transparent)]
-    Picture(#[from] straightline_testbed::picture::PictureError),
+    Picture(#[from] straightline_scene::picture::PictureError),
     /// There is no record.
     #[error("there is no record in `{}`: run `study loops`, `study error`, `study hard`, `study isa` or `tune` with this --out first", .0.display())]
     Empty(PathBuf),
@@ -159,8 +159,8 @@ fn caption(circumstances: &Circumstances) -> String {
         complete,
     } = circumstances;
     let clock = match clock {
-        straightline_testbed::execute::Clock::GpuTimestamps => "GPU timestamps",
-        straightline_testbed::execute::Clock::WallClock => "wall clock",
+        straightline_bench::execute::Clock::GpuTimestamps => "GPU timestamps",
+        straightline_bench::execute::Clock::WallClock => "wall clock",
     };
     let interrupted = if *complete {
         ""

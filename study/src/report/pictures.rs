@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::picture::{self, PictureError};
+use straightline_scene::picture::{self, PictureError};
 
 /// Largest part of a picture that is shown: a page with eleven scenes has to be loaded by a browser.
 const WINDOW: UVec2 = UVec2::new(480, 270);

@@ -7,12 +7,12 @@ use crate::record::{Measured, Swept};
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, Format, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::hash_of_text;
 use straightline_runtime::{Pass, PassOptions};
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret};
 
 /// Rounds between two looks at how sure the ratios are.
 const ROUNDS_AT_ONCE: u32 = 10;

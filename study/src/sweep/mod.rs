@@ -14,8 +14,8 @@ use crate::progress::Progress;
 use crate::record::{Shard, Swept};
 use std::collections::BTreeMap;
 use std::time::Duration;
+use straightline_bench::execute::{Bench, ExecuteError, Inputs};
 use straightline_codegen::{Compiled, Kernel};
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs};
 
 pub use bootstrap::{Interval, median_of, quotient_of};
 pub use joined::{Compared, JoinError, compared, joined};

@@ -7,8 +7,8 @@ use crate::builtin::spell_settings;
 use crate::progress::Progress;
 use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord};
 use std::collections::BTreeMap;
+use straightline_bench::execute::Ratio;
 use straightline_manifest::Tuned;
-use straightline_testbed::execute::Ratio;
 
 /// Variants of the predicted front that are measured; a longer one is thinned out evenly.
 const OF_THE_FRONT: usize = 14;

@@ -1,7 +1,7 @@
 //! How far surfaces lie apart in a capture: the scale of depth with which real steps count as 1 (SRAA, section 3.2).
 
-use straightline_testbed::capture::Capture;
-use straightline_testbed::scene::SKY_DEPTH;
+use straightline_scene::capture::Capture;
+use straightline_scene::scene::SKY_DEPTH;
 
 /// Share of the reciprocal of depth by which a pixel must miss the planes of both sides of a step.
 const MISSED: f64 = 0.01;
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
     use glam::{UVec2, Vec4, uvec2};
     use straightline_kernels::prelude::{Frame, FrameLayers};
-    use straightline_testbed::capture::ShadingSample;
+    use straightline_scene::capture::ShadingSample;
 
     const SIZE: UVec2 = uvec2(40, 30);
 

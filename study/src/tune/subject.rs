@@ -4,9 +4,9 @@ use super::TuneError;
 use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Placed, PlacedBy, Renderer};
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::gbuffer;
+use straightline_scene::render::{self, Placed, PlacedBy, Renderer};
 
 /// Patterns that a scene is sampled in, the most samples first.
 pub const PATTERNS: [&str; 3] = ["latin16", "standard8", "latin4"];
@@ -197,7 +197,7 @@ fn apart(a: Vec2, b: Vec2) -> f32 {
 mod tests {
     use super::*;
     use glam::{Vec3, uvec2};
-    use straightline_testbed::capture::NormalSpace;
+    use straightline_scene::capture::NormalSpace;
 
     fn capture(samples: Vec<Vec2>, shading: ShadingSample) -> Capture {
         let size = uvec2(2, 1);

@@ -3,13 +3,13 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use straightline_bench::execute::Bench;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, UVec2, Vec4, uvec2};
-use straightline_testbed::capture::ShadingSample;
-use straightline_testbed::execute::Bench;
-use straightline_testbed::render::{self, CpuRenderer, PlacedBy};
-use straightline_testbed::scene::Scene;
-use straightline_testbed::{gbuffer, picture};
+use straightline_scene::capture::ShadingSample;
+use straightline_scene::render::{self, CpuRenderer, PlacedBy};
+use straightline_scene::scene::Scene;
+use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::compiled;
 use straightline_tests::sraa::options::{Options, options, value};
 

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
+use straightline_bench::execute::Bench;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::uvec2;
-use straightline_testbed::execute::Bench;
-use straightline_testbed::oracle::{self, SraaParams};
+use straightline_oracle::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{choices, completed, refusal, samples_needed};
 use straightline_tests::sraa::{Options, compiled, difference, scenes, surfaces};
 

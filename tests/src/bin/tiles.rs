@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 use std::time::Instant;
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, Tile};
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, UVec2, Vec2, Vec4, uvec2, vec4};
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Tile};
 use straightline_tests::sraa::compiled;
 use straightline_tests::sraa::options::options;
 

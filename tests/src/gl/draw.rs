@@ -3,9 +3,9 @@
 use super::link::link;
 use super::program::{Place, Program, Stage, Texture, Uniform};
 use glow::HasContext;
+use straightline_bench::execute::{Address, Comparison};
 use straightline_codegen::Format;
 use straightline_manifest::Component;
-use straightline_testbed::execute::{Address, Comparison};
 
 /// The picture that a program computes. The context must be current.
 pub fn run(gl: &glow::Context, program: &Program<'_>) -> Result<Vec<[f32; 4]>, String> {

@@ -1,11 +1,11 @@
 //! Running what the generator emits for OpenGL, by its manifest.
 
 use super::{Context, Program, Texture, Uniform};
+use straightline_bench::execute::{Inputs, SamplerState};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Format, Stage};
 use straightline_kernels::prelude::{Frame, Vec4};
 use straightline_manifest::{BindingKind, Dimension, Element, Manifest, SampleType, Scalar, UniformField, ValueType};
-use straightline_testbed::execute::{Inputs, SamplerState};
 
 /// The picture that the text of a language of OpenGL computes, row by row from the first; pixel rows count as the kernel's do.
 ///

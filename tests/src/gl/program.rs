@@ -1,8 +1,8 @@
 //! A shader with all that it reads.
 
+use straightline_bench::execute::SamplerState;
 use straightline_codegen::Format;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::SamplerState;
 
 /// A shader with all that it reads, to be run by [`Context::run`](super::Context::run).
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Unroll against loop.
 
 use super::markdown;
+use straightline_bench::execute::Ratio;
 use straightline_study::record::{Form, FormKind, KernelForms, LoopsRecord};
-use straightline_testbed::execute::Ratio;
 
 /// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
 pub fn in_short(record: &LoopsRecord) -> String {

@@ -9,7 +9,7 @@ pub mod surfaces;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::{Frame, Vec4};
-use straightline_testbed::oracle::Resolved;
+use straightline_oracle::oracle::Resolved;
 
 pub use options::Options;
 

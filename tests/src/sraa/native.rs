@@ -2,12 +2,12 @@
 
 use super::options::Options;
 use glam::{UVec2, Vec3, ivec2, vec2};
+use straightline_bench::execute::Inputs;
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite,
     Normalisation, Normals, Pattern, Plane, Projection, Resolve, Search, Shading, Sraa, Turn, Variation, View, sraa,
 };
-use straightline_testbed::execute::Inputs;
 
 /// Every pixel, by the native kernel.
 pub fn run(options: &Options, inputs: &Inputs) -> Vec<[f32; 4]> {

@@ -4,14 +4,14 @@ use super::options::options;
 use super::{Options, compiled};
 use glam::{UVec2, uvec2};
 use std::collections::BTreeMap;
+use straightline_bench::execute::Bench;
 use straightline_codegen::{Stage, Unroll};
-use straightline_testbed::capture::ShadingSample;
-use straightline_testbed::execute::Bench;
-use straightline_testbed::gbuffer;
-use straightline_testbed::oracle::bound::{self, Rounding};
-use straightline_testbed::oracle::{self, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer};
-use straightline_testbed::scene::{NAMES, Scene};
+use straightline_oracle::oracle::bound::{self, Rounding};
+use straightline_oracle::oracle::{self, SraaParams};
+use straightline_scene::capture::ShadingSample;
+use straightline_scene::gbuffer;
+use straightline_scene::render::{self, CpuRenderer};
+use straightline_scene::scene::{NAMES, Scene};
 
 /// Width and height of the pictures.
 const SIZE: UVec2 = uvec2(192, 108);

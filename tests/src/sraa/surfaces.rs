@@ -3,13 +3,13 @@
 use super::options::{Options, value, values};
 use super::{Random, compiled};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2, vec3, vec4};
+use straightline_bench::execute::Inputs;
 use straightline_codegen::Unroll;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample};
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::gbuffer;
-use straightline_testbed::oracle::SraaParams;
-use straightline_testbed::scene::{Camera, SKY_DEPTH};
+use straightline_oracle::oracle::SraaParams;
+use straightline_scene::capture::{Capture, NormalSpace, ShadingSample};
+use straightline_scene::gbuffer;
+use straightline_scene::scene::{Camera, SKY_DEPTH};
 
 /// Surfaces sampled where the options of a set say, with random colours.
 pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {

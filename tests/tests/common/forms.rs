@@ -2,10 +2,10 @@
 
 use super::{bench, same_bits};
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::{Branches, Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret};
-use straightline_testbed::picture;
+use straightline_scene::picture;
 
 /// A kernel of a file.
 pub struct Example {

@@ -6,9 +6,9 @@ pub mod forms;
 
 use std::path::PathBuf;
 use std::process::Command;
+use straightline_bench::execute;
 use straightline_codegen::emit::Emitted;
 use straightline_kernels::prelude::{IVec2, IVec3, IVec4, UVec2, UVec3, UVec4, Vec2, Vec3, Vec4};
-use straightline_testbed::execute;
 #[allow(unused_imports)] // each test uses a part
 pub use straightline_tests::sraa::Random;
 

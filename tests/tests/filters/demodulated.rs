@@ -5,15 +5,15 @@ use crate::common;
 
 use common::bench;
 use glam::{UVec2, Vec4, uvec2, vec4};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::{Compiled, Stage, Unroll};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_testbed::capture::{Capture, ShadingSample, mean};
-use straightline_testbed::execute::{Inputs, interpret};
-use straightline_testbed::metrics::psnr;
-use straightline_testbed::oracle::{self, Resolved, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer, Renderer};
-use straightline_testbed::scene::Scene;
-use straightline_testbed::{gbuffer, picture};
+use straightline_oracle::metrics::psnr;
+use straightline_oracle::oracle::{self, Resolved, SraaParams};
+use straightline_scene::capture::{Capture, ShadingSample, mean};
+use straightline_scene::render::{self, CpuRenderer, Renderer};
+use straightline_scene::scene::Scene;
+use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, values};
 use straightline_tests::sraa::{Random, compiled, native, surfaces};
 

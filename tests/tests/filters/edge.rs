@@ -11,15 +11,16 @@ use common::{bench, other_compilers, same_bits};
 use filter::{Filter, compile};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::edge::{Depth, Form, Output, Stalker, TabulaRasa};
 use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
-use straightline_testbed::execute::{Inputs, interpret};
-use straightline_testbed::render::{CpuRenderer, Renderer, reference};
-use straightline_testbed::scene::builtin;
-use straightline_testbed::{metrics, picture};
+use straightline_oracle::metrics;
+use straightline_scene::picture;
+use straightline_scene::render::{CpuRenderer, Renderer, reference};
+use straightline_scene::scene::builtin;
 use world::{World, pixels};
 
 #[test]

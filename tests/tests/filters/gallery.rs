@@ -19,12 +19,12 @@ use common::forms::{first, pixels, save};
 use rayon::prelude::*;
 use shader::{Shader, Within};
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::Inputs;
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_study::baselines;
-use straightline_testbed::execute::Inputs;
 use straightline_tests::compilers;
 
 const SIZE: UVec2 = uvec2(96, 64);

@@ -5,12 +5,12 @@ use crate::common;
 
 use common::bench;
 use std::collections::BTreeSet;
+use straightline_bench::execute::Clock;
 use straightline_codegen::{Kernel, OptionKind, Precision, Settings};
 use straightline_kernels::{CATALOGUE, HalfPrecision};
 use straightline_study::hard::{self, Form, HardError, Selection};
 use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, Executor, HardRecord, Record};
-use straightline_testbed::execute::Clock;
 use straightline_tests::impatient::StopsAfter;
 
 fn circumstances() -> Circumstances {

@@ -28,9 +28,9 @@ mod sobel;
 mod ssao;
 
 use common::forms::{Example, first, image, save, texture};
+use straightline_bench::execute::{Inputs, test_inputs};
 use straightline_codegen::Settings;
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, test_inputs};
 
 const SIZE: UVec2 = uvec2(96, 64);
 

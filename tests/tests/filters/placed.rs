@@ -4,14 +4,14 @@ use crate::common;
 
 use common::bench;
 use glam::{UVec2, uvec2};
+use straightline_bench::execute::{Bench, Inputs, interpret};
 use straightline_codegen::{Compiled, Stage, Unroll};
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::execute::{Bench, Inputs, interpret};
-use straightline_testbed::metrics::psnr;
-use straightline_testbed::oracle::{self, Placed, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer, PlacedBy, Renderer};
-use straightline_testbed::scene::Scene;
-use straightline_testbed::{gbuffer, picture};
+use straightline_oracle::metrics::psnr;
+use straightline_oracle::oracle::{self, Placed, SraaParams};
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::render::{self, CpuRenderer, PlacedBy, Renderer};
+use straightline_scene::scene::Scene;
+use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, one_at_a_time, options, refusal, samples_needed, value, values};
 use straightline_tests::sraa::{self, surfaces};
 

@@ -19,9 +19,9 @@ mod scatter;
 mod shadows;
 
 use common::{Random, bench, same_bits};
+use straightline_bench::execute::{Bench, Inputs, interpret};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret};
 use straightline_tests::quads::Picture;
 
 /// Even and odd sizes, one smaller than a quad, and one with quads at the right border only.

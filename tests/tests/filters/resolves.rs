@@ -3,14 +3,14 @@
 
 use crate::common;
 
+use straightline_bench::execute::{Bench, Inputs, Written, interpret};
 use straightline_codegen::{Compiled, Settings, Stage};
 use straightline_kernels::prelude::*;
+use straightline_scene::render::{Aggregate, CpuRenderer, Surface};
+use straightline_scene::scene::{SKY_DEPTH, Scene};
 use straightline_study::progress::Silent;
 use straightline_study::quality::resolves;
 use straightline_study::quality::{Kind, Method, Shot, methods};
-use straightline_testbed::execute::{Bench, Inputs, Written, interpret};
-use straightline_testbed::render::{Aggregate, CpuRenderer, Surface};
-use straightline_testbed::scene::{SKY_DEPTH, Scene};
 
 const SIZE: UVec2 = UVec2::new(96, 54);
 

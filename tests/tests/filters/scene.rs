@@ -3,15 +3,15 @@
 use crate::common;
 
 use common::same_bits;
+use straightline_bench::execute::interpret;
 use straightline_codegen::Unroll;
 use straightline_kernels::prelude::*;
-use straightline_testbed::capture::{Capture, ShadingSample};
-use straightline_testbed::execute::interpret;
-use straightline_testbed::gbuffer;
-use straightline_testbed::metrics;
-use straightline_testbed::picture;
-use straightline_testbed::render::{CpuRenderer, capture, reference};
-use straightline_testbed::scene::{SKY_DEPTH, Scene, builtin};
+use straightline_oracle::metrics;
+use straightline_scene::capture::{Capture, ShadingSample};
+use straightline_scene::gbuffer;
+use straightline_scene::picture;
+use straightline_scene::render::{CpuRenderer, capture, reference};
+use straightline_scene::scene::{SKY_DEPTH, Scene, builtin};
 use straightline_tests::sraa::compiled;
 use straightline_tests::sraa::options::options;
 

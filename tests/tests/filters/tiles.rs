@@ -5,11 +5,11 @@ use crate::common;
 use common::{bench, other_compilers, same_bits};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use straightline_bench::execute::cropped;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Format, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Error, Region};
-use straightline_testbed::execute::cropped;
 use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::{Options, compiled, surfaces};
 

@@ -3,9 +3,9 @@
 use crate::common;
 
 use common::{bench, same_bits};
+use straightline_bench::execute::interpret;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::interpret;
 use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::surfaces;
 

@@ -10,9 +10,9 @@
 mod kernels;
 
 use glam::{IVec2, Vec4, ivec2, uvec2};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Inputs, interpret};
 
 type Native = fn(&Frame<Vec4>, i32, IVec2) -> Vec4;
 

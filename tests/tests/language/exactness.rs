@@ -1,12 +1,12 @@
 //! Sums whose order of operations matters: what rustc makes of them is what every form computes, in every language on a driver, bit
 //! for bit. And kernels in which nothing hangs on an order, where nothing is marked.
 
+use straightline_bench::execute::{Bench, Inputs, interpret};
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::Op;
 use straightline_codegen::policy::Math;
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret};
 use straightline_tests::gl::{self, Context};
 use straightline_tests::passthrough;
 use straightline_tests::random::oracle::{self, Rustc, Text};

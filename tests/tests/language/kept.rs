@@ -9,11 +9,11 @@ mod kernels;
 use common::{Shaders, bench, same_bits};
 use glam::{IVec2, Vec4, ivec2, uvec2};
 use std::time::{Duration, Instant};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Inputs, interpret};
 
 type Native = fn(&Frame<Vec4>, i32, IVec2) -> Vec4;
 

@@ -4,10 +4,10 @@ use crate::common;
 
 use common::{Texel, bench, other_compilers, same_texels};
 use std::path::PathBuf;
+use straightline_bench::execute::{self, SamplerState, interpret};
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, emit::Target};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{self, SamplerState, interpret};
 use straightline_tests::sraa::Random;
 
 /// What the examples read, by name.

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
+use straightline_bench::execute::{Inputs, interpret, sampler_state, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
@@ -15,7 +16,6 @@ use straightline_runtime::{Error, Pass, PassOptions};
 use straightline_study::loops::{LoopsError, Setup, Subject, study, subjects};
 use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, FormKind, LoopsRecord, Record};
-use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::impatient::StopsAfter;
 
 /// Every built-in kernel with its default options, and the ten of `kernels/filters`.
@@ -110,7 +110,7 @@ fn tampered(compiled: &Compiled, inputs: &Inputs, tampered: usize) -> (Vec<[f32;
         bindings = bindings.texture(name, image);
     }
     for (name, state) in &inputs.samplers {
-        bindings = bindings.sampler(name, *state);
+        bindings = bindings.sampler(name, sampler_state(*state));
     }
     for (name, elements) in &inputs.buffers {
         bindings = bindings.buffer(name, elements);
@@ -347,7 +347,7 @@ fn every_form_is_there_or_says_why_not() {
             date: "2000-01-01T00:00:00Z".to_owned(),
             adapter: "any".to_owned(),
             processor: "any".to_owned(),
-            clock: straightline_testbed::execute::Clock::WallClock,
+            clock: straightline_bench::execute::Clock::WallClock,
             size: SETUP.size.to_array(),
             rounds: SETUP.rounds,
             complete: true,

@@ -15,13 +15,13 @@ use kernels::{ROLES, SIZE, Words, roles, sources};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
+use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Origin, Settings, Stage};
 use straightline_engines::{Engine, Request, names};
 use straightline_manifest::LanguageKind;
-use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_tests::compilers;
 use straightline_tests::renamed::{Source, inputs_of};
 

@@ -6,10 +6,10 @@ use crate::common;
 use common::bench;
 use glam::{Vec4, uvec2};
 use std::fmt::Write;
+use straightline_bench::execute::Inputs;
 use straightline_codegen::interp::{Bindings, Image, Interpreter};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::Inputs;
 
 const FORMS: [Unroll; 4] = [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(3)];
 

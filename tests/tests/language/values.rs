@@ -1,10 +1,10 @@
 //! Values of functions and operators where drivers depart from Rust unless the shader keeps them: what the kernel returns natively,
 //! in every form by the interpreter, and on lavapipe and SwiftShader in every language that they read.
 
+use straightline_bench::execute::{Bench, Inputs, interpret};
 use straightline_codegen::{EmitOptions, Format, Kernel, Stage};
 use straightline_foreign::vulkan::{Device, Driver};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret};
 use straightline_tests::bare::{LANGUAGES, Shader};
 use straightline_tests::random::forms::{FORMS, Form};
 

@@ -1,10 +1,10 @@
 //! Shaders on lavapipe and SwiftShader without wgpu, compared with the interpreter.
 
+use straightline_bench::execute::{Inputs, interpret, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 use straightline_foreign::vulkan::{Binding, Device, Dispatch, Driver, Format as TexelFormat, Image, Resource};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::bare::{LANGUAGES, SENTINEL, Shader};
 use straightline_tests::compilers;
 

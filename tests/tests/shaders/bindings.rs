@@ -5,12 +5,12 @@ use crate::common;
 
 use common::{bench, same_bits};
 use serde_json::Value;
+use straightline_bench::execute::{Bench, Inputs, test_inputs};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, ir};
 use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
 use straightline_runtime::{BindOptions, Error, Pass, Resource, UniformValue};
-use straightline_testbed::execute::{Bench, Inputs, test_inputs};
 use straightline_tests::passthrough;
 
 /// One of each kind of resource that kernels read.

@@ -14,7 +14,7 @@ use straightline_kernels::prelude::*;
 use straightline_manifest::Manifest;
 use straightline_manifest::plan::Plan;
 use straightline_runtime::{Error, Pass, PassOptions, Shader};
-use straightline_testbed::execute::test_inputs;
+use straightline_bench::execute::test_inputs;
 
 mod generated {
     include!("../../../codegen/tests/bindings/straightline.rs");

@@ -4,9 +4,9 @@
 use crate::common;
 
 use common::{bench, same_bits};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::{Branches, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret};
 
 /// The halves of a word: a float holds each.
 fn halves(n: u32) -> Vec2 {

@@ -3,10 +3,10 @@
 use crate::common;
 
 use common::same_bits;
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::ir::print;
 use straightline_codegen::{Compiled, Kernel, Math, Settings, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal};
 use straightline_tests::sraa::{Options, compiled, native, surfaces};
 

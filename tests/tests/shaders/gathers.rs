@@ -3,12 +3,12 @@
 use crate::common;
 
 use common::{bench, same_bits, same_texels};
+use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Origin, Precision, ReadOrder, Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_manifest::{BindingKind, SampleType, SamplerType};
 use straightline_runtime::{Error, Region, Resource, wgpu};
-use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_tests::random::forms::same as same_texel;
 use straightline_tests::random::make::{Features, make};
 use straightline_tests::random::oracle::{World, computed};

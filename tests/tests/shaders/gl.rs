@@ -1,8 +1,8 @@
 //! The runner of OpenGL itself, on shaders whose pictures are known by a formula.
 
+use straightline_bench::execute::{Address, Comparison, SamplerState};
 use straightline_codegen::Format;
 use straightline_kernels::prelude::{Frame, Vec4};
-use straightline_testbed::execute::{Address, Comparison, SamplerState};
 use straightline_tests::gl::{Context, Program, Texture, Varying};
 
 /// Neither side a multiple of a workgroup's or of a row's alignment.

@@ -3,11 +3,11 @@
 use crate::common;
 
 use common::bench;
+use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Kernel, ReadOrder, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
-use straightline_testbed::oracle::{self, SraaParams};
+use straightline_oracle::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal, samples_needed, values};
 use straightline_tests::sraa::{Difference, Options, compiled, difference, scenes, surfaces};
 

@@ -15,10 +15,10 @@ mod values;
 
 use common::bench;
 use half::f16;
+use straightline_bench::execute::{Bench, Inputs, interpret};
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Compiled, Kernel, Precision, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret};
 
 /// A kernel of a test's own, `k`.
 fn compile_text(text: &str, settings: &Settings) -> Compiled {

@@ -3,10 +3,10 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
+use straightline_bench::execute::{Inputs, Written, interpret};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Format, Origin, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, Written, interpret};
 use straightline_tests::gl::{self, Context};
 use straightline_tests::texts::{compiled, texels};
 use straightline_tests::{compilers, kernel, passthrough};

@@ -1,10 +1,10 @@
 //! What is emitted for OpenGL and OpenGL ES, run on Mesa's software driver without a display, against the interpreter.
 
+use straightline_bench::execute::{Inputs, interpret, test_inputs};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::gl::{self, Context};
 use straightline_tests::sraa::surfaces;
 

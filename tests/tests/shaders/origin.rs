@@ -4,15 +4,16 @@
 use crate::common;
 
 use common::{bench, same_bits};
+use straightline_bench::execute::{Bench, Inputs, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Form, Format, Kernel, Origin, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
+use straightline_oracle::metrics;
 use straightline_runtime::Region;
-use straightline_testbed::capture::ShadingSample;
-use straightline_testbed::execute::{Bench, Inputs, test_inputs};
-use straightline_testbed::render::{CpuRenderer, capture, reference};
-use straightline_testbed::scene::builtin;
-use straightline_testbed::{gbuffer, metrics};
+use straightline_scene::capture::ShadingSample;
+use straightline_scene::gbuffer;
+use straightline_scene::render::{CpuRenderer, capture, reference};
+use straightline_scene::scene::builtin;
 use straightline_tests::gl::{self, Context};
 use straightline_tests::sraa::compiled as sraa;
 use straightline_tests::sraa::options::options;

@@ -4,12 +4,12 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
+use straightline_bench::execute::{Bench, Inputs, Written, interpret};
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, EmitOptions, Form, Format, Origin, Precision, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Error, PassOptions, Region, wgpu};
-use straightline_testbed::execute::{Bench, Inputs, Written, interpret};
 use straightline_tests::texts::{compiled, texels};
 use straightline_tests::{compilers, kernel, passthrough};
 
@@ -314,7 +314,7 @@ fn regions_and_rows_from_below_hold_for_every_target() {
 fn written(
     bench: &Bench,
     pass: &straightline_runtime::Pass,
-    uploaded: &straightline_testbed::execute::Uploaded,
+    uploaded: &straightline_bench::execute::Uploaded,
     size: UVec2,
     region: Option<Region>,
 ) -> Vec<Written> {

@@ -3,10 +3,10 @@
 
 use crate::common;
 
+use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_tests::passthrough;
 use straightline_tests::sraa::surfaces;
 

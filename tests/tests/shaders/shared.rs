@@ -3,13 +3,13 @@
 use crate::common;
 
 use common::{bench, same_bits, same_texels};
+use straightline_bench::execute::{Inputs, interpret, test_inputs};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Origin, Precision, Settings, Share, Stage, Unroll};
 use straightline_kernels::filters::FILTERS;
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
-use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::random::forms::same as same_texel;
 use straightline_tests::random::make::{Features, make};
 use straightline_tests::random::oracle::{World, computed};

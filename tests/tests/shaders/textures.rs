@@ -4,9 +4,9 @@
 use crate::common;
 
 use common::{bench, same_bits};
+use straightline_bench::execute::{Inputs, SamplerState, interpret};
 use straightline_codegen::{Compiled, Kernel, Origin, Settings, Stage};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{self, Inputs, SamplerState, interpret};
 use straightline_tests::sraa::Random;
 
 /// Kernels for rustc, and their text for the generator.
@@ -160,16 +160,11 @@ impl World {
 
     fn inputs(&self) -> Inputs {
         let linear = |filter| filter == Filter::Linear;
-        let address = match self.sampler.address {
-            Address::Clamp => execute::Address::Clamp,
-            Address::Repeat => execute::Address::Repeat,
-            Address::Mirror => execute::Address::Mirror,
-        };
         let state = SamplerState {
             linear: linear(self.sampler.filter),
             linear_mip: linear(self.sampler.mip),
-            address,
-            comparison: execute::Comparison::Less,
+            address: self.sampler.address,
+            comparison: Comparison::Less,
         };
         let level = |t: &Texture<Vec4>, k| Frame::new(t.size_of_level(k), t.texels_of_level(k).to_vec());
         let levels = |layers: &[&Texture<Vec4>]| -> Vec<Vec<Frame<Vec4>>> {

@@ -3,12 +3,12 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
-use straightline_testbed::execute::{Inputs, interpret};
 use straightline_tests::texts::{compiled, texels};
 use straightline_tests::{compilers, kernel, passthrough};
 

@@ -3,11 +3,11 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
+use straightline_bench::execute::{Buffers, Inputs, interpret};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
-use straightline_testbed::execute::{Buffers, Inputs, interpret};
 use straightline_tests::texts::{compiled, texels};
 use straightline_tests::{compilers, kernel, passthrough};
 

@@ -7,11 +7,11 @@ use crate::common;
 
 use common::bench;
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::{Bench, Corner, Inputs, interpret};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, Corner, Inputs, interpret};
 use straightline_tests::compilers;
 use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::{Random, compiled, surfaces};

@@ -4,16 +4,17 @@ use crate::common;
 
 use common::bench;
 use std::path::Path;
+use straightline_bench::execute::Inputs;
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
+use straightline_oracle::metrics;
+use straightline_scene::capture::Capture;
+use straightline_scene::picture;
+use straightline_scene::scene::Scene;
 use straightline_study::baselines::{Smaa, Transfer, fxaa, mlaa};
 use straightline_study::progress::Silent;
 use straightline_study::quality::{Method, Outcome, QualityError, Setup, Source, losses, study};
 use straightline_study::record::Family;
-use straightline_testbed::capture::Capture;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::scene::Scene;
-use straightline_testbed::{metrics, picture};
 use straightline_tests::impatient::StopsAfter;
 
 /// A line of slope 1/5 between light and dark, each pixel shaded at its centre, and what it should look like.

@@ -3,8 +3,8 @@
 use super::measure::Measured;
 use crate::failure::Failure;
 use serde::Serialize;
-use straightline_testbed::execute::Quartiles;
-use straightline_testbed::render::{FramePass, Samples};
+use straightline_bench::execute::Quartiles;
+use straightline_scene::render::{FramePass, Samples};
 
 /// A way to antialias a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,13 +7,13 @@ use crate::gpu::Gpu;
 use crate::scene;
 use serde::Serialize;
 use std::time::Duration;
+use straightline_bench::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work, timestamps};
 use straightline_codegen::{Compiled, Kernel, Settings};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work};
-use straightline_testbed::render::{FramePass, FramePasses, GpuRenderer, Samples};
-use straightline_testbed::scene::Scene;
-use straightline_testbed::{gbuffer, render};
+use straightline_scene::render::{FramePass, FramePasses, GpuRenderer, Samples};
+use straightline_scene::scene::Scene;
+use straightline_scene::{gbuffer, render};
 
 /// The paper's table 1: milliseconds at 1280×720 with 4 samples on a GeForce GTX 480.
 const METRICS: [(&str, f64); 4] = [
@@ -157,7 +157,8 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
     for (_, pass) in PASSES {
         let frame = &frame;
         let work = bench.recorded(pass.passes(), Duration::ZERO, move |encoder, timer| {
-            Ok(frame.encode(pass, encoder, timer)?)
+            frame.encode(pass, encoder, &timestamps(timer, pass.passes())?);
+            Ok(())
         });
         works.push(work.map_err(Failure::of)?);
     }
@@ -172,7 +173,7 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         let frame = &frame;
         let work = bench.recorded(1, Duration::ZERO, move |encoder, _| {
             for pass in TOGETHER {
-                frame.encode(pass, encoder, None)?;
+                frame.encode(pass, encoder, &[]);
             }
             filter(encoder);
             Ok(())

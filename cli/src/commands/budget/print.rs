@@ -5,7 +5,7 @@ use super::{Cost, FORMATS, Record};
 use crate::args::BudgetArgs;
 use crate::failure::Failure;
 use crate::table;
-use straightline_testbed::execute::{Clock, Quartiles};
+use straightline_bench::execute::{Clock, Quartiles};
 
 /// The paper's table 2: milliseconds at 1280×720 on a GeForce GTX 480, of geometry, shading, filter and net.
 const PAPER: [(&str, [f64; 4]); 3] = [

@@ -4,11 +4,11 @@ use crate::failure::Failure;
 use glam::Vec4;
 use std::collections::BTreeMap;
 use std::path::Path;
+use straightline_bench::execute::{Bench, Inputs};
 use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
+use straightline_scene::picture;
 use straightline_study::quads::Studied;
-use straightline_testbed::execute::{Bench, Inputs};
-use straightline_testbed::picture;
 
 /// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
 pub fn write(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Failure> {

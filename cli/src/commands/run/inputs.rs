@@ -6,11 +6,11 @@ use crate::args::{Executor, GivenArgs};
 use crate::failure::Failure;
 use glam::{UVec2, Vec4};
 use std::path::Path;
+use straightline_bench::execute::{self, Inputs};
 use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
 use straightline_codegen::{Compiled, Stage, shorten};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{self, Inputs};
-use straightline_testbed::picture;
+use straightline_scene::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
 pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {

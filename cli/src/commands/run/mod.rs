@@ -9,10 +9,10 @@ use crate::args::{Executor, RunArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use std::path::PathBuf;
+use straightline_bench::execute::{AllWritten, Inputs, interpret};
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
-use straightline_testbed::execute::{AllWritten, Inputs, interpret};
 
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {

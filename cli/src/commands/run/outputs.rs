@@ -4,10 +4,10 @@ use crate::args::RunArgs;
 use crate::failure::Failure;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::{AllWritten, Written};
 use straightline_codegen::ir::Access;
 use straightline_codegen::{Compiled, files, shorten};
-use straightline_testbed::execute::{AllWritten, Written};
-use straightline_testbed::picture;
+use straightline_scene::picture;
 
 /// Endings of files that hold the elements of a buffer, a line each.
 const TEXTS: [&str; 2] = ["csv", "txt"];

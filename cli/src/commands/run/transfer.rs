@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Mutex;
 use straightline_codegen::ir::Texture;
-use straightline_testbed::picture;
+use straightline_scene::picture;
 
 /// How the numbers of a PNG become those of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,10 +8,10 @@ use crate::table;
 use std::collections::BTreeSet;
 use std::path::Path;
 use straightline_codegen::files;
+use straightline_scene::capture::Capture;
+use straightline_scene::scene::{self, NAMES, OF_SHADING, Scene};
 use straightline_study::quality::{self, Method, OwnError, QualityError, Setup, Source};
 use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
-use straightline_testbed::capture::Capture;
-use straightline_testbed::scene::{self, NAMES, OF_SHADING, Scene};
 
 /// Frames of the pan.
 const FRAMES: u32 = 5;

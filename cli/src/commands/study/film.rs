@@ -11,9 +11,9 @@ use glam::UVec2;
 use std::collections::BTreeSet;
 use std::path::Path;
 use straightline_codegen::files;
+use straightline_scene::picture;
 use straightline_study::quality::{self, Film, Method, REFERENCE, Shooting};
 use straightline_study::record::{FilmRecord, FilmedMethod, Record};
-use straightline_testbed::picture;
 
 /// What is filmed unless something else is asked for.
 const USUAL: [&str; 3] = ["1x", "MLAA", "SRAA 4"];

@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 use straightline_codegen::{Kernel, Settings, files, shorten};
+use straightline_scene::picture;
 use straightline_study::loops::{LoopsError, Setup, Studied, Subject, study, subjects};
 use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
-use straightline_testbed::picture;
 
 /// How long a form is run at least for one time. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
 /// in 10 ms by 0.81, and of a single frame by 1.06.

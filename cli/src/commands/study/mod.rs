@@ -16,11 +16,11 @@ use crate::gpu::Gpu;
 use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
+use straightline_bench::execute::Clock;
 use straightline_codegen::files;
 use straightline_study::progress::Progress;
 use straightline_study::record::Circumstances;
 use straightline_study::report;
-use straightline_testbed::execute::Clock;
 
 pub use progress::ProgressBars;
 

@@ -12,11 +12,11 @@ use glam::UVec2;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, OptionValue, OptionValues, Settings, files};
 use straightline_isa::Compiler;
+use straightline_scene::capture::Capture;
+use straightline_scene::gbuffer;
 use straightline_study::progress::Progress;
 use straightline_study::record::Record;
 use straightline_study::tune::{self, Beyond, Chosen, Cost, Gauge, PATTERNS, Question, Subject, TuneError};
-use straightline_testbed::capture::Capture;
-use straightline_testbed::gbuffer;
 
 /// Size of a scene's picture where none is asked for.
 const SIZE: UVec2 = UVec2::new(640, 360);

@@ -4,9 +4,9 @@ use crate::args::TuneArgs;
 use crate::failure::Failure;
 use crate::table;
 use std::path::PathBuf;
+use straightline_bench::execute::Ratio;
 use straightline_study::record::{Candidate, TuneRecord};
 use straightline_study::tune::ErrorMetric;
-use straightline_testbed::execute::Ratio;
 
 /// Prints the record: as JSON, or its findings as tables.
 pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use super::{Numeric, OptionInfo, OptionKind, canonical};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Scalar;
-use crate::shorten::shorten;
+use crate::shorten;
 use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
 /// The word for an option that is set at run time.

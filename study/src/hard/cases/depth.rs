@@ -3,7 +3,7 @@
 use super::{seen, steps_from, walls};
 use crate::hard::case::{Case, Place, Seen};
 use glam::{Vec3, vec3};
-use straightline_testbed::encode::DepthStorage;
+use straightline_scene::encode::DepthStorage;
 
 const PERSPECTIVE: &[(&str, &str)] = &[("depth", "perspective")];
 const REVERSED: &[(&str, &str)] = &[("depth", "reversed")];

@@ -23,13 +23,13 @@ use super::case::Case;
 use super::form::{Family, Form, choice};
 use super::inputs::Reads;
 use glam::{IVec2, Vec4};
+use straightline_bench::execute::Inputs;
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::oracle;
-use straightline_testbed::oracle::bound::{self, Rounding, Share};
-use straightline_testbed::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
-use straightline_testbed::oracle::quads::{self, Picture};
+use straightline_oracle::oracle;
+use straightline_oracle::oracle::bound::{self, Rounding, Share};
+use straightline_oracle::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
+use straightline_oracle::oracle::quads::{self, Picture};
 
 /// What should come out.
 pub struct Expected {

@@ -6,10 +6,10 @@
 
 use super::{Expected, number, picture, places};
 use crate::hard::form::{self, Family, choice};
+use straightline_bench::execute::Inputs;
 use straightline_kernels::OptionValues;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::oracle::bound::Rounding;
-use straightline_testbed::oracle::quads::{self, Counted, Shadow};
+use straightline_oracle::oracle::bound::Rounding;
+use straightline_oracle::oracle::quads::{self, Counted, Shadow};
 
 /// What a form with `options` should give for coordinates and a shadow map.
 pub fn shadowed(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {

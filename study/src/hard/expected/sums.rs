@@ -2,10 +2,10 @@
 
 use super::{Expected, number, picture, places, size};
 use crate::hard::form::choice;
+use straightline_bench::execute::Inputs;
 use straightline_kernels::OptionValues;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::oracle::bound::Rounding;
-use straightline_testbed::oracle::quads::{self, Ao, Picture};
+use straightline_oracle::oracle::bound::Rounding;
+use straightline_oracle::oracle::quads::{self, Ao, Picture};
 
 /// What a convolution should give. A sum of n products is off by n + 2 roundings of the largest; bilinear taps by the place between
 /// texels, too, and on a device by its steps of 1/256 on each axis.

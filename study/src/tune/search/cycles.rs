@@ -3,10 +3,10 @@
 use super::Search;
 use crate::progress::Progress;
 use crate::tune::{Gauge, Term, TuneError};
+use straightline_bench::execute::Ratio;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Precision, Stage};
 use straightline_isa::IsaError;
-use straightline_testbed::execute::Ratio;
 
 impl Search {
     /// Asks the compiler for the cycles of variants, of which the first is the most general one. Whether all was done.
@@ -73,7 +73,7 @@ impl Search {
             .targets([Target::Spirv]);
         let emitted = compiled
             .emit(&options)
-            .map_err(straightline_testbed::execute::ExecuteError::from)?;
+            .map_err(straightline_bench::execute::ExecuteError::from)?;
         let Gauge::Compiler(compiler) = &mut self.gauge else {
             unreachable!("a compiler is asked where there is one");
         };

@@ -5,14 +5,14 @@ use crate::tune::features::Static;
 use crate::tune::space::{Offer, SampleSet, Space, Variant};
 use crate::tune::steps::depth_scale;
 use crate::tune::{Question, Subject, Term, TuneError};
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, Uploaded};
 use straightline_codegen::{Compiled, Kernel, Manifest, Settings, Stage};
 use straightline_kernels::{OptionText, OptionValue};
 use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::Pass;
-use straightline_testbed::capture::Capture;
-use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Uploaded};
-use straightline_testbed::gbuffer;
-use straightline_testbed::render::{Placed, PlacedBy};
+use straightline_scene::capture::Capture;
+use straightline_scene::gbuffer;
+use straightline_scene::render::{Placed, PlacedBy};
 
 /// Bytes of a geometry sample: depth as `r32float`, a normal as `rgba16float`, as `straightline budget` counts; albedo as
 /// `rgba8unorm`.

@@ -16,12 +16,12 @@ use crate::record::Model;
 use glam::{UVec2, Vec4};
 use ground::{Ground, Placing, no_blocks, offer, sample_set};
 use std::collections::BTreeMap;
+use straightline_bench::execute::{Bench, ExecuteError, Ratio, Times, Uploaded};
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::Frame;
+use straightline_oracle::metrics;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, ExecuteError, Ratio, Times, Uploaded};
-use straightline_testbed::metrics;
 
 /// PSNR that counts as no difference at all; equal pictures would have an infinite one.
 const NO_DIFFERENCE_DB: f64 = 100.0;

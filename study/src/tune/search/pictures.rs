@@ -7,7 +7,7 @@ use crate::tune::{Term, TuneError};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_codegen::Precision;
-use straightline_testbed::metrics;
+use straightline_oracle::metrics;
 
 /// Rounds in which half precision is compared with whole.
 const PROBED: u32 = 3;

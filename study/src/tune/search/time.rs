@@ -7,7 +7,7 @@ use crate::tune::features::NAMES;
 use crate::tune::{Gauge, TuneError, model};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use straightline_testbed::execute::{Job, Work};
+use straightline_bench::execute::{Job, Work};
 
 /// Variants that times are learned from, and on which the model is then tested; less in a small space.
 const LEARNED_FROM: usize = 32;

@@ -4,10 +4,10 @@ use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, Form};
 use crate::{compilers, passthrough};
 use std::fmt;
+use straightline_bench::execute::{AllWritten, Bench, Inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, Kernel, Stage};
 use straightline_runtime::manifest::Manifest;
-use straightline_testbed::execute::{AllWritten, Bench, Inputs};
 
 /// Most that a driver may be off the native value where rounding shows, relative to its size (and to 1 below that): it
 /// may round the sum of a product once instead of twice.

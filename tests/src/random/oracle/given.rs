@@ -1,8 +1,8 @@
 //! What a kernel gives and writes.
 
+use straightline_bench::execute::{self, Written};
 use straightline_codegen::Compiled;
 use straightline_codegen::ir::Real;
-use straightline_testbed::execute::{self, Written};
 
 use super::World;
 

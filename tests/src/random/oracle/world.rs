@@ -8,8 +8,8 @@ use crate::edges;
 use crate::random::Random;
 use resources::Resources;
 use std::fmt::Write;
+use straightline_bench::execute::{Inputs, SamplerState};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{self, Inputs, SamplerState};
 
 /// Width and height of the picture.
 pub const SIZE: [u32; 2] = [4, 2];
@@ -255,11 +255,7 @@ impl World {
 fn state(filter: Filter, address: Address, mip: Filter) -> SamplerState {
     SamplerState {
         linear: filter == Filter::Linear,
-        address: match address {
-            Address::Clamp => execute::Address::Clamp,
-            Address::Repeat => execute::Address::Repeat,
-            Address::Mirror => execute::Address::Mirror,
-        },
+        address,
         linear_mip: mip == Filter::Linear,
         ..SamplerState::default()
     }

@@ -1,11 +1,11 @@
 //! One setting of one filter: as a kernel, natively, and by definition.
 
 use super::world::{World, pixels};
+use straightline_bench::execute::Inputs;
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_kernels::edge::{Depth, Form, NonFinite, Normals, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::oracle::edge as oracle;
+use straightline_oracle::oracle::edge as oracle;
 
 /// Values by the names of options.
 type Named<T> = Vec<(&'static str, T)>;

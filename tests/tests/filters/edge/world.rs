@@ -1,10 +1,10 @@
 //! What the edge filters are run on.
 
+use straightline_bench::execute::Inputs;
 use straightline_kernels::edge::Normals;
 use straightline_kernels::prelude::*;
-use straightline_testbed::encode::NormalEncoding;
-use straightline_testbed::execute::Inputs;
-use straightline_testbed::oracle::edge as oracle;
+use straightline_oracle::oracle::edge as oracle;
+use straightline_scene::encode::NormalEncoding;
 
 /// What both filters read.
 pub struct World {

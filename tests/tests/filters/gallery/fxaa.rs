@@ -1,7 +1,7 @@
 //! FXAA 3.11 as its author wrote it: NVIDIA's shader, from the text that Debian's `libjs-three` holds, run by OpenGL.
 
+use straightline_bench::execute::SamplerState;
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::SamplerState;
 use straightline_tests::gl::{Context, Program, Texture, Varying};
 
 const FILE: &str = "/usr/share/javascript/three/examples/js/shaders/FXAAShader.js";

@@ -2,9 +2,9 @@
 
 use crate::common::{bench, forms::pixels};
 use crate::gallery::shaders::{average_luminance, global_histogram, luminance_histogram};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret};
 
 /// Logarithms of luminance from here on, and how many of them.
 const LEAST: f32 = -8.0;

@@ -3,9 +3,9 @@
 use crate::common::forms::{Example, first, image, pixels, save, texture};
 use crate::gallery::world::World;
 use glam::DVec4;
+use straightline_bench::execute::{Inputs, test_inputs};
 use straightline_codegen::Settings;
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, test_inputs};
 
 /// A shader with what it reads.
 pub struct Shader {

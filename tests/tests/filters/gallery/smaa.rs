@@ -3,11 +3,11 @@
 use crate::common::forms::Example;
 use std::collections::BTreeMap;
 use std::path::Path;
+use straightline_bench::execute::Bench;
 use straightline_codegen::{Branches, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{PassOptions, Resource};
-use straightline_testbed::execute::Bench;
-use straightline_testbed::picture;
+use straightline_scene::picture;
 use wgpu::TextureFormat::{R8Unorm, Rg8Unorm, Rgba8Unorm, Rgba16Float, Rgba32Float};
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 

@@ -1,7 +1,7 @@
 //! What the shaders of the gallery read, in f64: nothing of this is shared with what it judges.
 
 use glam::{DVec2, DVec3, DVec4, Vec4};
-use straightline_testbed::execute::Inputs;
+use straightline_bench::execute::Inputs;
 
 /// The inputs of a shader.
 pub struct World<'a>(pub &'a Inputs);

@@ -1,10 +1,10 @@
 //! Quads at the edges of triangles, at the border, and with lanes that are discarded.
 
 use super::*;
+use straightline_bench::execute::Corner;
 use straightline_codegen::Form;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_manifest::Manifest;
-use straightline_testbed::execute::Corner;
 
 const PLACES: &str = "
 /// Where the pixel lies on its triangle, and where the three others of its quad do.

@@ -2,7 +2,7 @@
 
 use super::shadows::{MAP, Plane, coordinates, draw, map, shadow, unsure};
 use super::*;
-use straightline_codegen::interp::SamplerState;
+use straightline_bench::execute::SamplerState;
 use straightline_kernels::quad::pcf::{Gradient, Pcf, pcf};
 use straightline_tests::quads::{self, Shadow};
 

@@ -1,9 +1,9 @@
 //! Shadow maps, filtered in a forward pass.
 
 use super::*;
+use straightline_bench::execute::{Corner, Forward};
 use straightline_kernels::quad::pcf::{Gradient, Method, Mirroring, Pcf, ShadowWeights, Tap, Width, join, pcf, table};
 use straightline_kernels::quad::pcss::{Pcss, SearchSharing, pcss};
-use straightline_testbed::execute::{Corner, Forward};
 use straightline_tests::quads::{self, Shadow};
 
 const WEIGHTS: [(ShadowWeights, &str); 7] = [

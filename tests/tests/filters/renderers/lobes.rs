@@ -2,10 +2,10 @@
 
 use crate::common::{bench, same_bits};
 use glam::{UVec2, Vec4, uvec2, vec4};
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Inputs, interpret};
-use straightline_testbed::oracle::{self, SraaParams};
+use straightline_oracle::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{Options, options, values};
 use straightline_tests::sraa::{compiled, native, surfaces};
 

@@ -2,13 +2,13 @@
 
 use crate::common::{bench, same_bits};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3};
+use straightline_bench::execute::interpret;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_testbed::capture::{Capture, NormalSpace};
-use straightline_testbed::execute::interpret;
-use straightline_testbed::gbuffer;
-use straightline_testbed::oracle::{self, SraaParams};
-use straightline_testbed::scene::{Camera, SKY_DEPTH};
+use straightline_oracle::oracle::{self, SraaParams};
+use straightline_scene::capture::{Capture, NormalSpace};
+use straightline_scene::gbuffer;
+use straightline_scene::scene::{Camera, SKY_DEPTH};
 use straightline_tests::sraa::options::{Options, options, values};
 use straightline_tests::sraa::{compiled, difference, kernel, native, surfaces};
 

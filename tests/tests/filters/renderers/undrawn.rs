@@ -3,15 +3,15 @@
 
 use crate::common::{bench, same_bits};
 use glam::{Mat3, UVec2, Vec3, uvec2};
+use straightline_bench::execute::{Bench, Inputs, interpret};
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample};
-use straightline_testbed::execute::{Bench, Inputs, interpret};
-use straightline_testbed::metrics::psnr;
-use straightline_testbed::oracle::{self, SraaParams};
-use straightline_testbed::render::{self, CpuRenderer};
-use straightline_testbed::scene::Scene;
-use straightline_testbed::{gbuffer, picture};
+use straightline_oracle::metrics::psnr;
+use straightline_oracle::oracle::{self, SraaParams};
+use straightline_scene::capture::{Capture, NormalSpace, ShadingSample};
+use straightline_scene::render::{self, CpuRenderer};
+use straightline_scene::scene::Scene;
+use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, options, values};
 use straightline_tests::sraa::{compiled, difference, kernel, native, surfaces};
 

@@ -3,10 +3,10 @@
 use crate::edges_of_functions::compare::{self, Mismatch};
 use crate::edges_of_functions::functions::{FUNCTIONS, Function};
 use crate::edges_of_functions::roads::INTERPRETER;
+use straightline_bench::execute::{Inputs, interpret};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Inputs, interpret};
 use straightline_tests::bare::{LANGUAGES, Shader};
 use straightline_tests::edges::{FEW, FLOATS};
 

@@ -2,10 +2,10 @@
 
 use crate::edges_of_functions::kernels::Made;
 use std::sync::Mutex;
+use straightline_bench::execute::Bench;
 use straightline_foreign::vulkan::{Device, Driver};
 use straightline_kernels::prelude::*;
 use straightline_runtime::PassOptions;
-use straightline_testbed::execute::Bench;
 use straightline_tests::bare::{LANGUAGES, SENTINEL};
 
 /// Name of the road that leads to no driver.

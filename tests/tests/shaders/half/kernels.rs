@@ -2,7 +2,7 @@
 
 use super::*;
 use std::path::Path;
-use straightline_testbed::execute::test_inputs;
+use straightline_bench::execute::test_inputs;
 
 const SIZE: UVec2 = uvec2(96, 64);
 

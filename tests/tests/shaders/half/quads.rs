@@ -1,8 +1,8 @@
 //! Messages between the lanes of a quad: they travel as `f32`, which holds every number of half precision.
 
 use super::*;
+use straightline_bench::execute::test_inputs;
 use straightline_codegen::Transport;
-use straightline_testbed::execute::test_inputs;
 
 const HEARD: &str = "
 pub fn k(value: &Frame<f32>, pixel: Quad<IVec2>) -> Quad<Vec4> {

@@ -1,7 +1,7 @@
 //! What comes in, what is stated, what goes out.
 
 use super::*;
-use straightline_testbed::execute::SamplerState;
+use straightline_bench::execute::SamplerState;
 
 /// One row of texels.
 fn row(texels: &[Vec4]) -> Inputs {

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use glam::UVec2;
 use std::collections::BTreeSet;
 use std::fmt;
+use straightline_bench::execute::{Inputs, test_inputs};
 use straightline_codegen::{Compiled, Stage};
-use straightline_testbed::execute::{Inputs, test_inputs};
 
 /// What the command line gives.
 pub struct Given {

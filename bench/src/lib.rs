@@ -1,0 +1,3 @@
+//! Execution of compiled kernels on images, by the interpreter or on a GPU, and its timing.
+
+pub mod execute;

@@ -1,0 +1,151 @@
+//! The deferred testbed: a scene's geometry and colour at any place of a pixel, on a GPU or on the CPU.
+//!
+//! Both renderers rasterise depth, normal, colour and material to a G-buffer (paper §3.4: the projection is shifted
+//! by the sample's offset), then shade from that alone. What they draw agrees but for pixels whose sample lies
+//! within a rounding of a triangle's edge.
+
+mod aggregate;
+mod captured;
+mod cpu;
+mod demodulated;
+mod error;
+mod extra;
+mod frame;
+mod gpu;
+mod paint;
+mod placed;
+mod reference;
+mod shade;
+mod shifted;
+#[cfg(test)]
+mod tests;
+
+use crate::scene::{Camera, SKY_DEPTH};
+use glam::{UVec2, Vec2, Vec3, Vec4};
+use straightline_kernels::prelude::Frame;
+
+pub use aggregate::{Aggregate, Aggregated, aggregated};
+pub use captured::{capture, capture_placed};
+pub use cpu::CpuRenderer;
+pub use demodulated::add_albedo;
+pub use error::RenderError;
+pub use extra::{Extra, extra, listing_options};
+pub use gpu::guard::guarded;
+pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples, Timestamps};
+pub(crate) use placed::gathered;
+pub use placed::{Placed, PlacedBy, placed};
+pub use reference::{grid, reference};
+pub use shade::Surface;
+pub use shifted::Shifted;
+
+/// Draws one scene at one size, sampled anywhere in a pixel.
+///
+/// An `offset` is in pixels from each pixel's centre, x to the right, y down. Usually each axis is in -0.5..=0.5; any
+/// finite offset works, and a whole number shifts the picture.
+pub trait Renderer {
+    /// Width and height of what is drawn, in pixels.
+    fn size(&self) -> UVec2;
+
+    /// What the scene is seen with.
+    fn camera(&self) -> Camera;
+
+    /// Geometry seen `offset` from each pixel's centre: linear depth along the view direction in scene units, and
+    /// the unit normal in view space, on the side that is seen. The sky is at [`SKY_DEPTH`]
+    /// and has the normal (0, 0, 1).
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::Offset`] if `offset` is not finite; [`RenderError::Device`].
+    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError>;
+
+    /// Linear colour of each pixel shaded `offset` from its centre. RGB is in 0..=1 but on what is polished or shines by
+    /// itself ([`Material::Glossy`](crate::scene::Material::Glossy), [`Material::Emissive`](crate::scene::Material::Emissive)):
+    /// there it goes up to 65504, the largest half. Alpha is 1.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError>;
+
+    /// All that a G-buffer holds of what is seen `offset` from each pixel's centre, row by row from the top.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError>;
+
+    /// Linear colour of a surface that is seen `place` pixels from the picture's upper left corner, as [`shaded`](Self::shaded) has
+    /// it.
+    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3;
+
+    /// What a filter that takes light apart from paint and shadow is given of a surface that is seen `place` pixels from the
+    /// picture's upper left corner: see [`albedo`](Self::albedo).
+    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4;
+
+    /// Linear RGB that the sun adds to [`shade`](Self::shade) of a surface where no shadow falls.
+    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3;
+
+    /// Albedo of what is seen `offset` from each pixel's centre, linear RGB, and in alpha the share of the sun's light that no
+    /// shadow keeps away. Of what shines by itself the albedo is what it shines with; of the sky 1.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn albedo(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::frame(self, offset, |surface, place| self.paint(surface, place))
+    }
+
+    /// What the sun adds to [`shaded`](Self::shaded) at `offset` where no shadow falls: linear RGB, alpha 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn sunlight(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::frame(self, offset, |surface, place| self.direct(surface, place).extend(0.0))
+    }
+
+    /// Linear RGB of [`shade`](Self::shade) that does not follow the albedo: highlights and haze. Of the sky 0, whose albedo is 1.
+    fn rest(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        match surface.depth >= SKY_DEPTH {
+            true => Vec3::ZERO,
+            // Black paint has nothing else.
+            false => self.shade(
+                &Surface {
+                    color: Vec3::ZERO,
+                    ..*surface
+                },
+                place,
+            ),
+        }
+    }
+
+    /// What of [`shaded`](Self::shaded) at `offset` does not follow the albedo: linear RGB, alpha 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn unpainted(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::frame(self, offset, |surface, place| self.rest(surface, place).extend(0.0))
+    }
+
+    /// Mean of the pictures shaded at each of `offsets`.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry), and [`RenderError::NoOffsets`] if there are none.
+    fn mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
+        check_offsets(offsets)?;
+        reference::mean_of(self, offsets)
+    }
+}
+
+/// Refuses no offsets at all, and those that are not numbers.
+fn check_offsets(offsets: &[Vec2]) -> Result<(), RenderError> {
+    if offsets.is_empty() {
+        return Err(RenderError::NoOffsets);
+    }
+    match offsets.iter().find(|offset| !offset.is_finite()) {
+        Some(offset) => Err(RenderError::Offset { offset: *offset }),
+        None => Ok(()),
+    }
+}
