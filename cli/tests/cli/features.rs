@@ -78,7 +78,9 @@ fn the_default_build_is_small() {
         );
     }
     assert!(all.contains("straightline-study") && all.contains("exr") && all.contains("gltf"));
-    assert!(small.len() <= 133, "the default build has {} packages", small.len());
+    // The workspace's own crates are its code, in however many parts.
+    let of_others = names.iter().filter(|name| !name.starts_with("straightline")).count();
+    assert!(of_others <= 120, "the default build has {of_others} packages of others");
     let document = std::fs::read_to_string(here("CONTRIBUTING.md")).expect("CONTRIBUTING.md");
     for (count, of) in [(small.len(), "default features"), (full.len(), "`--features full`")] {
         let row = format!("| {of} | {count} |");

@@ -7,6 +7,7 @@ use crate::common;
 use common::{bench, same_bits};
 use proc_macro2::{Group, TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
+use straightline_bench::execute::test_inputs;
 use straightline_codegen::emit::{self, Emitted, Module, Target};
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll, default_set};
 use straightline_kernels::CATALOGUE;
@@ -14,7 +15,6 @@ use straightline_kernels::prelude::*;
 use straightline_manifest::Manifest;
 use straightline_manifest::plan::Plan;
 use straightline_runtime::{Error, Pass, PassOptions, Shader};
-use straightline_bench::execute::test_inputs;
 
 mod generated {
     include!("../../../codegen/tests/bindings/straightline.rs");
