@@ -16,6 +16,7 @@ mod guards;
 mod imports;
 mod knobs;
 mod limits;
+mod one_mistake;
 mod option_values;
 mod places;
 mod syn_variants;
