@@ -193,7 +193,9 @@ fn shaded(space: &Space, variant: Variant, place: &str) -> Settings {
             *value = OptionValue::Choice(place.to_owned());
         }
     }
-    space.settings(variant).set_all(spell_settings(&options))
+    let mut settings = space.settings(variant);
+    settings.options = spell_settings(&options);
+    settings
 }
 
 /// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
