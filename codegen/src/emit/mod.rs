@@ -167,6 +167,14 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
         );
         return Err(Refusal::new(Code::StageUnfit, what).help("leave `workgroup` out, or emit it for compute"));
     }
+    if !options.is_function() && (options.texels == Texels::Functions || options.global_uniforms) {
+        let what = format!(
+            "`{}` is to be a whole shader, which binds what it reads itself",
+            compiled.kernel
+        );
+        return Err(Refusal::new(Code::UnfitSetting, what)
+            .help("leave `texels` and `global-uniforms` out, or emit the form `function`"));
+    }
     if options.precision == Precision::F16
         && !options.accept_loss
         && let HalfPrecision::Lost(reason) = compiled.half_precision()
@@ -244,10 +252,12 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
                     manifest.entry_points.insert(target.to_string(), name);
                 }
                 let mut header = print::header(compiled, &counts, &resources);
-                header.push(
-                    "Translated by naga; resources are bound at the numbers of the manifest, each kind by itself."
-                        .to_owned(),
-                );
+                if !options.strip_comments {
+                    header.push(
+                        "Translated by naga; resources are bound at the numbers of the manifest, each kind by itself."
+                            .to_owned(),
+                    );
+                }
                 format!("{}\n{text}", print::commented(&header)).into_bytes()
             }
         };

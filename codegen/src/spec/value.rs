@@ -198,10 +198,7 @@ impl KnobValue for Option<[u32; 2]> {
 
 /// Words, each text one of them or several with commas between.
 fn words<'a>(texts: &[&'a str]) -> impl Iterator<Item = &'a str> {
-    texts
-        .iter()
-        .flat_map(|text| text.split(','))
-        .filter(|word| !word.is_empty())
+    texts.iter().flat_map(|text| text.split(','))
 }
 
 impl KnobValue for BTreeSet<Target> {
@@ -220,7 +217,11 @@ impl KnobValue for BTreeSet<String> {
     const ARITY: Arity = Arity::Many;
 
     fn from_texts(texts: &[&str]) -> Result<Self, String> {
-        Ok(words(texts).map(str::to_owned).collect())
+        let word = |word: &str| match word.is_empty() {
+            true => Err("an empty word: separate words by one comma".to_owned()),
+            false => Ok(word.to_owned()),
+        };
+        words(texts).map(word).collect()
     }
 
     fn texts(&self) -> Vec<String> {

@@ -194,6 +194,23 @@ fn comparisons_beside_one_another_are_told_apart() {
 }
 
 /// A straight-line kernel has no branch, however its conditions are joined.
+/// A whole shader binds its textures and uniforms itself.
+#[test]
+fn whole_shaders_take_nothing_of_a_host() {
+    let compiled = Kernel::builtin("tabula_rasa")
+        .and_then(|kernel| kernel.compile(&Settings::new()))
+        .expect("a kernel");
+    let fragment = EmitOptions::new().stage(Stage::Fragment).targets([Target::Hlsl]);
+    for options in [
+        fragment.clone().texels(Texels::Functions),
+        fragment.clone().global_uniforms(true),
+    ] {
+        let refused = compiled.emit(&options).expect_err("a whole shader");
+        assert_eq!(refused.code(), Some(Code::UnfitSetting));
+        assert!(compiled.emit(&options.form(Form::Function)).is_ok());
+    }
+}
+
 /// Without comments the same text is left, but for the first two lines.
 #[test]
 fn comments_are_stripped() {

@@ -124,6 +124,8 @@ fn json_holds_what_is_changed() {
         (r#"{ "region": "yes" }"#, "neither `true` nor `false`"),
         (r#"{ "block": { "x": 2 } }"#, "not a size"),
         (r#"{ "block": null }"#, "a text, a number"),
+        (r#"{ "target": "" }"#, "unknown language ``"),
+        (r#"{ "reserve": "a,,b" }"#, "an empty word"),
     ] {
         let error = serde_json::from_str::<Overrides>(json).expect_err(json).to_string();
         assert!(error.contains(says), "{json}: {error}");
