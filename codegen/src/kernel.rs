@@ -21,7 +21,7 @@ const MAX_SOURCE: u64 = 1 << 24;
 #[derive(Clone, Debug)]
 pub struct Kernel {
     source: Source,
-    /// What the files define, read once for all variants.
+    /// Items of the files, read once for all variants.
     library: OnceLock<Arc<Library>>,
     described: OnceLock<Arc<[OptionInfo]>>,
 }
@@ -89,12 +89,12 @@ impl Kernel {
         Ok(Kernel::from_text(&shown, &text, &function))
     }
 
-    /// The same kernel with a further file that it calls functions of.
+    /// Adds a file that the kernel calls functions of.
     pub fn with_file(self, path: &Path) -> Result<Kernel, Errors> {
         Ok(self.with_text(&path.display().to_string(), &read(path)?))
     }
 
-    /// The same kernel with the text of a further file that it calls functions of. `path` is only shown.
+    /// Adds the text of a file that the kernel calls functions of. `path` is only shown.
     pub fn with_text(mut self, path: &str, text: &str) -> Kernel {
         Arc::make_mut(&mut self.source.files).push(File {
             path: path.to_owned(),
@@ -105,7 +105,7 @@ impl Kernel {
         self
     }
 
-    /// What a command line or a `build.rs` calls a kernel: a built-in name, `FILE.rs` or `FILE.rs::FUNCTION`.
+    /// Finds a kernel by its name on a command line: a built-in name, `FILE.rs` or `FILE.rs::FUNCTION`.
     pub fn locate(text: &str) -> Result<Kernel, Errors> {
         match text.split_once(".rs::") {
             Some((path, function)) => Kernel::from_file(Path::new(&format!("{path}.rs")), Some(function)),
@@ -124,7 +124,7 @@ impl Kernel {
         &self.source.files
     }
 
-    /// Where the kernel's name stands, or the first line of its file: the place of errors that concern all of it. `None` of an empty file.
+    /// Place of the kernel's name, or the first line of its file: the place of errors that concern all of it. `None` of an empty file.
     pub fn place(&self) -> Option<Span> {
         let library = deep(|| self.library()).ok();
         let named = library.and_then(|library| library.functions.get(&self.source.name).map(|function| function.span));
@@ -192,7 +192,7 @@ impl Kernel {
         })
     }
 
-    /// What the files define, with the type of every expression that the kernel reaches.
+    /// Items of the files, with the type of every expression that the kernel reaches.
     ///
     /// # Errors
     ///

@@ -132,7 +132,7 @@ struct Stages<'s, 'o> {
 /// A kernel by its invocations.
 struct Lanes {
     graph: Graph,
-    /// Of a kernel whose invocations are lanes, the graph in which one invocation computes a quad.
+    /// Graph in which one invocation computes a quad, of a kernel whose invocations are lanes.
     quad: Option<Arc<Graph>>,
     transport: Option<Transport>,
 }

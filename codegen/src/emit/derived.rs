@@ -32,7 +32,7 @@ pub enum Derived {
     Host(HostFunction),
 }
 
-/// What a host's function does with a texture.
+/// Read that a host's function stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum What {
     Load,
@@ -41,7 +41,7 @@ enum What {
 }
 
 impl What {
-    /// What the function is called, before the texture's name.
+    /// Prefix of the function's name, before the texture's.
     fn prefix(self) -> &'static str {
         match self {
             What::Load => "load_",
@@ -50,7 +50,7 @@ impl What {
         }
     }
 
-    /// What the function gives, for a manifest.
+    /// Description of the function's result, for a manifest.
     fn gives(self) -> &'static str {
         match self {
             What::Load => "the texel at a pixel (two integers)",
@@ -83,7 +83,7 @@ impl HostFunction {
         }
     }
 
-    /// What it gives, in words.
+    /// Description of its result.
     pub fn gives(self) -> &'static str {
         self.what.gives()
     }

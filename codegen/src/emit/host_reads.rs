@@ -30,7 +30,7 @@ pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
     Some(Text::call(name, &args.iter().collect::<Vec<_>>()))
 }
 
-/// Whether functions of the host's can give all that a kernel reads.
+/// Checks that functions of the host can give all that a kernel reads.
 ///
 /// # Errors
 ///

@@ -37,7 +37,7 @@ pub const OF_GROUPS: [&str; 3] = ["local_id", "group_id", "local_index"];
 /// The variable that holds several outputs in HLSL.
 pub const VARIABLE: &str = "outputs";
 
-/// Whether the text around a kernel has a use for a name.
+/// True if the text around a kernel has a use for a name.
 pub fn is_own(name: &str) -> bool {
     name == OUTPUT || OWN.contains(&name) || OF_REGIONS.contains(&name) || OF_GROUPS.contains(&name)
 }

@@ -42,7 +42,7 @@ pub struct Shader<'s, 'g> {
 
 /// The WGSL of a shader without its header.
 pub struct Wgsl {
-    /// What it binds, as it is spelled there.
+    /// Bindings under their names in WGSL.
     resources: Resources,
     text: print::Printed,
 }
@@ -140,7 +140,7 @@ fn finish(tree: &mut ast::Module<'_>, resources: &Resources, target: Target) -> 
     names::assign(tree, resources, target)
 }
 
-/// What stands between a directive and a text that begins with another, or with its header.
+/// Text between a directive and the directive or header that follows it.
 fn gap(precision: Precision) -> &'static str {
     match precision {
         Precision::F32 => "\n",

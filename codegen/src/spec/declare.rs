@@ -2,8 +2,8 @@
 
 /// Declares the knobs of a shader, by the half of the description that they belong to.
 ///
-/// Of each: documentation, field, type, default, name as text with the placeholder of its value in messages, the method
-/// that sets it, and an example of that method's arguments.
+/// A declaration has documentation, field, type, default, name as text with the placeholder of its value in messages, the
+/// method that sets it, and an example of that method's arguments.
 macro_rules! knobs {
     ($(
         $(#[$meta:meta])*

@@ -9,7 +9,7 @@ use straightline_kernels::KernelOptions;
 #[derive(Clone, Debug)]
 pub struct KernelConfig {
     pub(crate) source: Source,
-    /// Of a file, the function that is the kernel.
+    /// Function that is the kernel of a file.
     pub(crate) function: Option<String>,
     pub(crate) name: Option<String>,
     pub(crate) spec: ShaderSpec,
@@ -17,7 +17,7 @@ pub struct KernelConfig {
     pub(crate) sources: Vec<PathBuf>,
 }
 
-/// Where a kernel's text is.
+/// Origin of a kernel's text.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
     /// Among the built-in kernels, by this name.
@@ -98,7 +98,7 @@ impl KernelConfig {
         self
     }
 
-    /// Of a file, the function that is the kernel; by default the public one with the file's name, or else the only public one
+    /// Function that is the kernel of a file; by default the public one with the file's name, or else the only public one
     /// that takes and gives what a kernel does.
     ///
     /// ```

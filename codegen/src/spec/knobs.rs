@@ -13,20 +13,20 @@ use straightline_kernels::OptionText;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
 knobs! {
-    /// What a shader computes: the kernel's options, and how the kernel is evaluated.
+    /// Settings of a shader's computation: options of the kernel, and policies of its evaluation.
     Settings in settings {
         /// Value of an option of the kernel, in any spelling that its declaration takes; other options stay at their defaults.
         /// A number may be `uniform`: the host sets it at run time.
         options: Vec<OptionText> = Vec::new(), "set" ["OPTION=VALUE"],
             set(option: &str, value: impl Display) |options| options.push((option.to_owned(), value.to_string())),
             example ("pattern", "latin16");
-        /// How far loops are unrolled: `full`, `none`, or by a factor such as `4`, which leaves loops with four iterations in a
+        /// Unroll policy of all loops: `full`, `none`, or a factor such as `4`, which leaves loops with four iterations in a
         /// row.
         unroll: Unroll = Unroll::Full, "unroll" ["POLICY"],
             unroll(unroll: Unroll) |all| *all = unroll,
             example (Unroll::Partial(4));
-        /// How far one loop is unrolled, whatever is said of all: LOOP is `function.counter` as `explain` prints it, or the
-        /// counter alone.
+        /// Unroll policy of one loop, in place of that of all: LOOP is `function.counter` as `explain` prints it, or the counter
+        /// alone.
         loops: Vec<LoopPolicy> = Vec::new(), "unroll-loop" ["LOOP=POLICY"],
             unroll_loop(path: &str, unroll: Unroll) |loops| loops.push((path.to_owned(), unroll)),
             example ("tap", Unroll::None);
@@ -58,7 +58,7 @@ knobs! {
         memory_limit: u64 = Limits::DEFAULT.memory, "memory-limit" ["MEGABYTES"],
             memory_limit(bytes: u64) |limit| *limit = bytes,
             example (500_000_000);
-        /// How the lanes of a pixel quad exchange values: `subgroup`, `derivatives` or `block`; by default subgroup operations
+        /// Transport of values between the lanes of a pixel quad: `subgroup`, `derivatives` or `block`; by default subgroup operations
         /// in fragment shaders and blocks in compute. Of kernels of quads.
         transport: Option<Transport> = None, "transport" ["TRANSPORT"],
             transport(transport: impl Into<Option<Transport>>) |chosen| *chosen = transport.into(),
@@ -80,7 +80,7 @@ knobs! {
             example (2, 2);
     }
 
-    /// How a shader is written: stage, languages, bindings and names.
+    /// Settings of a shader's text: stage, languages, bindings and names.
     EmitOptions in emit {
         /// Pipeline stage: `compute` or `fragment`. A function (see `form`) is called by a fragment shader in any case.
         stage: Stage = Stage::Compute, "stage" ["STAGE"],
@@ -118,7 +118,7 @@ knobs! {
         form: Form = Form::Entry, "form" ["FORM"],
             form(form: Form) |chosen| *chosen = form,
             example (Form::Function);
-        /// Where row 0 of textures, target and positions is: `upper-left`, or `lower-left` as in engines on OpenGL. The kernel
+        /// Corner where row 0 of textures, target and positions is: `upper-left`, or `lower-left` as in engines on OpenGL. The kernel
         /// computes on the upright picture in both.
         origin: Origin = Origin::UpperLeft, "origin" ["ORIGIN"],
             origin(origin: Origin) |chosen| *chosen = origin,
@@ -150,7 +150,7 @@ knobs! {
         unbounded_loops: bool = false, "unbounded-loops",
             unbounded_loops(unbounded: bool) |bounds| *bounds = unbounded,
             example (true);
-        /// How a function reads texels: of `textures`, its parameters, or by `functions` of the host, which are defined before
+        /// Source of the texels that a function reads: `textures`, its parameters, or `functions` of the host, defined before
         /// it: `load_NAME` returns the texel at a pixel, `sample_NAME` the filtered colour at a place from 0 to 1,
         /// `size_of_NAME` width and height. The latter in GLSL of OpenGL and HLSL, of 2D textures of floats, at their finest
         /// level.

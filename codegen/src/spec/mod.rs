@@ -44,18 +44,18 @@ use straightline_manifest::{Form, Origin};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShaderSpec {
-    /// What it computes.
+    /// Settings of its computation.
     pub settings: Settings,
-    /// How it is written.
+    /// Settings of its text.
     pub emit: EmitOptions,
 }
 
 /// The half of a [`ShaderSpec`] that a knob belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// What is computed.
+    /// Settings of the computation.
     Settings,
-    /// How it is written.
+    /// Settings of the text.
     EmitOptions,
 }
 
@@ -194,7 +194,7 @@ impl EmitOptions {
         self.form == Form::Function
     }
 
-    /// Whether texels come from functions of the host's.
+    /// True of a function whose texels come from functions of the host.
     pub(crate) fn calls_host(&self) -> bool {
         self.is_function() && self.texels == Texels::Functions
     }
@@ -203,7 +203,7 @@ impl EmitOptions {
         self.origin == Origin::LowerLeft
     }
 
-    /// Whether the entry point has a variable for the place that it writes, which is not the pixel then.
+    /// True if the entry point has a variable for the place that it writes, which is not the pixel then.
     pub(crate) fn has_place(&self) -> bool {
         self.region || self.counts_from_below()
     }

@@ -13,7 +13,7 @@ use std::fmt;
 pub struct Overrides(Vec<(&'static Knob, Vec<String>)>);
 
 impl Overrides {
-    /// Those of a description's knobs that are not at their defaults.
+    /// The knobs of a description that are not at their defaults.
     pub fn of_changed(spec: &ShaderSpec) -> Overrides {
         let unset = ShaderSpec::new();
         let changed = super::KNOBS.iter().filter_map(|knob| {
@@ -37,7 +37,7 @@ impl Overrides {
         Ok(())
     }
 
-    /// Whether something is said of a knob.
+    /// True if a knob is set.
     pub fn has(&self, name: &str) -> bool {
         self.0.iter().any(|(knob, _)| knob.name == name)
     }

@@ -3,14 +3,14 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// How a function ([`Form::Function`](straightline_manifest::Form)) reads the texels of its inputs.
+/// Source of the texels that a function ([`Form::Function`](straightline_manifest::Form)) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Texels {
-    /// Of textures and samplers, which are its parameters.
+    /// Textures and samplers, which are its parameters.
     #[default]
     Textures,
-    /// By functions of the host, defined before it. For hosts that give no texture, only a way to read one.
+    /// Functions of the host, defined before it. For hosts that give no texture, only a way to read one.
     Functions,
 }
 
