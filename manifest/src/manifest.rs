@@ -2,7 +2,7 @@
 
 use crate::{Binding, Form, LanguageBinding, Origin, Output, Precision, Stage, Tuned, ValueType, output};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
 pub const SCHEMA: u32 = 3;
@@ -74,6 +74,10 @@ pub struct Manifest {
     /// [`hash_of_bytes`](crate::hash_of_bytes) of `spirv`. A manifest without one, written by hand say, claims nothing of that file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub hashes: BTreeMap<String, String>,
+    /// Languages of `files` whose texts naga has validated: WGSL as it is written, SPIR-V and MSL as translations of that, and
+    /// GLSL 4.50 where naga's reader knows all that is in it.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub validated: BTreeSet<String>,
     /// Of a shader that `straightline tune` chose: what was left out, and what that cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tuned: Option<Tuned>,

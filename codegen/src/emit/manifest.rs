@@ -126,6 +126,7 @@ impl Resources {
             counts: counts.clone(),
             files: Default::default(),
             hashes: Default::default(),
+            validated: Default::default(),
             tuned: None,
         })
     }

@@ -6,7 +6,6 @@
 
 mod ast;
 mod bindings;
-mod check;
 mod comments;
 mod derived;
 mod entry;
@@ -235,7 +234,9 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
                 if !options.is_function() {
                     manifest.entry_points.insert(target.to_string(), "main".to_owned());
                 }
-                shader.glsl(*target, &counts)?.into_bytes()
+                let (text, is_validated) = shader.glsl(*target, &counts)?;
+                manifest.validated.extend(is_validated.then(|| target.to_string()));
+                text.into_bytes()
             }
             Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
             Target::Hlsl => shader.hlsl(&counts)?.into_bytes(),
@@ -265,6 +266,10 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
             Ok(text) if *target != Target::Spirv => hash_of_text(text),
             _ => hash_of_bytes(&bytes),
         };
+        // SPIR-V and MSL are translations of the module that was validated.
+        if matches!(target, Target::Wgsl | Target::Spirv | Target::Msl) {
+            manifest.validated.insert(target.to_string());
+        }
         manifest.hashes.insert(target.to_string(), hash);
         files.insert(*target, bytes);
     }

@@ -479,15 +479,6 @@ impl Resources {
             })
     }
 
-    /// Names of the textures that samplers compare, and what GLSL calls their kinds.
-    pub fn compared(&self) -> Vec<(&str, &'static str)> {
-        let compared = self.read.iter().filter(|bound| bound.compared);
-        let texture = compared.map(|bound| self.texture(bound.index));
-        texture
-            .map(|t| (t.name.as_str(), super::print::glsl_shape(t.kind)))
-            .collect()
-    }
-
     /// Binding number of the uniform buffer, if there is one.
     pub fn uniform_binding(&self) -> Option<u32> {
         (!self.fields.is_empty()).then(|| self.places.number(&self.own_names.uniforms))

@@ -3,7 +3,7 @@
 use super::refusal::Refusal;
 use super::resources::Resources;
 use super::statements::count;
-use super::{ast, check, comments, host_reads, legalise, lower, names, print, tidy, translate};
+use super::{ast, comments, host_reads, legalise, lower, names, print, tidy, translate};
 use crate::compiled::Compiled;
 use crate::spec::Target;
 use straightline_manifest::{Counts, Form, Precision};
@@ -101,7 +101,8 @@ impl Shader<'_, '_> {
         })
     }
 
-    pub fn glsl(&self, target: Target, counts: &Counts) -> Result<String, Refusal> {
+    /// The GLSL of a target, and whether naga has validated it.
+    pub fn glsl(&self, target: Target, counts: &Counts) -> Result<(String, bool), Refusal> {
         let resources = &self.resources.spelled(target)?;
         let mut tree = self.tree.clone();
         // Hosts compile functions with what stands around them, in a version of theirs.
@@ -109,13 +110,14 @@ impl Shader<'_, '_> {
         legalise::glsl(&mut tree, resources, target == Target::Glsl450, precise);
         finish(&mut tree, resources, target)?;
         let header = print::header(self.compiled, counts, self.resources);
-        let glsl = print::module(&print::Glsl::new(resources, target), &tree, &header);
-        // naga reads no other GLSL, no text without `main`, and no atomic operations.
-        if target == Target::Glsl450 && !resources.options.is_function() && !self.compiled.graph.has_effects() {
-            let compared = resources.compared();
-            check::check_glsl(&self.compiled.kernel, resources.options.stage, &glsl, &compared)?;
+        let printer = print::Glsl::new(resources, target);
+        let glsl = print::module(&printer, &tree, &header);
+        // naga reads no other GLSL.
+        let is_read = target == Target::Glsl450 && printer.unread(&tree).is_empty();
+        if is_read {
+            translate::validate_glsl(&self.compiled.kernel, resources.options.stage, &glsl)?;
         }
-        Ok(glsl)
+        Ok((glsl, is_read))
     }
 
     pub fn hlsl(&self, counts: &Counts) -> Result<String, Refusal> {

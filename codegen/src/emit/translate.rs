@@ -179,14 +179,24 @@ fn checks(resources: &Resources) -> BoundsCheckPolicies {
     }
 }
 
-pub(super) fn stage(stage: Stage) -> naga::ShaderStage {
+/// Parses and validates GLSL 4.50.
+pub fn validate_glsl(kernel: &str, of: Stage, text: &str) -> Result<(), Refusal> {
+    let invalid = |message: String| Refusal::invalid(kernel, "glsl450", &message);
+    let options = naga::front::glsl::Options::from(stage(of));
+    let module = naga::front::glsl::Frontend::default()
+        .parse(&options, text)
+        .map_err(|error| invalid(error.emit_to_string(text)))?;
+    validate(&module, text).map_err(invalid).map(drop)
+}
+
+fn stage(stage: Stage) -> naga::ShaderStage {
     match stage {
         Stage::Compute => naga::ShaderStage::Compute,
         Stage::Fragment => naga::ShaderStage::Fragment,
     }
 }
 
-pub(super) fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
+fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
     let mut validator = Validator::new(
         ValidationFlags::all(),
         Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16,

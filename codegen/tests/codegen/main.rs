@@ -20,3 +20,4 @@ mod one_mistake;
 mod option_values;
 mod places;
 mod syn_variants;
+mod validated;

@@ -6,23 +6,19 @@ use super::expr::{float, integer, unsigned};
 use super::wgsl::four;
 use super::{Language, Text, commented};
 use crate::emit::Target;
-use crate::emit::ast::{Builtin, Effect, Ty};
+use crate::emit::ast::{Builtin, Effect, Module, Ty};
 use crate::emit::derived::Derived;
 use crate::emit::host_reads;
 use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use crate::emit::resources::Resources;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use straightline_evaluator::ir::{
     self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
 };
 use straightline_manifest::{REGION, Stage};
 
-pub use types::{declared, image_type, plain_sampler, sampler_of, sampler_type, shape, texture_type, type_name};
-
-/// What follows a buffer's name to ask for its length.
-pub const LENGTH: &str = ".elements.length()";
-
-/// The four texels around a place, or what a comparison gives of them.
-pub const GATHER: &str = "textureGather";
+pub use types::{declared, image_type, plain_sampler, sampler_of, sampler_type, texture_type, type_name};
 
 /// The region's uniforms where no block holds them, with the fields that they are otherwise.
 pub const LOOSE_REGION: [(&str, &str); 3] = [
@@ -31,23 +27,54 @@ pub const LOOSE_REGION: [(&str, &str); 3] = [
     ("region_place", "place"),
 ];
 
-/// Quad operations, horizontal, vertical and diagonal.
-pub const MESSAGES: [&str; 3] = [
-    "subgroupQuadSwapHorizontal",
-    "subgroupQuadSwapVertical",
-    "subgroupQuadSwapDiagonal",
-];
+/// Construct of GLSL 4.50 that naga's reader does not know, or takes for another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unread {
+    /// A function for another shader: a text without `main`.
+    Function,
+    /// `.length()` of a buffer, of which naga makes an invalid module.
+    Length,
+    /// `textureGather`.
+    Gather,
+    /// `subgroupQuadSwapHorizontal` and its like.
+    QuadSwap,
+    /// `precise`.
+    Precise,
+    /// Texels of a texture that a sampler compares, which naga takes for one of depths alone.
+    ComparedTexels,
+    /// Writes to memory, of which it does not know the atomic ones.
+    Effect,
+}
 
 /// A GLSL.
 pub struct Glsl<'a> {
     pub(super) resources: &'a Resources,
     pub(super) target: Target,
+    /// Constructs in what was printed that naga does not read.
+    unread: RefCell<BTreeSet<Unread>>,
 }
 
 impl<'a> Glsl<'a> {
     /// In the GLSL of a target.
     pub fn new(resources: &'a Resources, target: Target) -> Glsl<'a> {
-        Glsl { resources, target }
+        Glsl {
+            resources,
+            target,
+            unread: RefCell::default(),
+        }
+    }
+
+    /// Constructs that naga does not read, in all that was printed of a module.
+    pub fn unread(&self, module: &Module<'_>) -> BTreeSet<Unread> {
+        let mut unread = self.unread.borrow().clone();
+        unread.extend(self.is_function().then_some(Unread::Function));
+        let precise = module.variables.iter().any(|variable| variable.precise);
+        unread.extend(precise.then_some(Unread::Precise));
+        unread
+    }
+
+    fn note(&self, construct: Unread) {
+        self.unread.borrow_mut().insert(construct);
     }
 
     fn is_function(&self) -> bool {
@@ -73,6 +100,14 @@ impl<'a> Glsl<'a> {
         if !self.vulkan() {
             return self.combined(texture, None);
         }
+        if self
+            .resources
+            .read
+            .iter()
+            .any(|bound| bound.index == texture && bound.compared)
+        {
+            self.note(Unread::ComparedTexels);
+        }
         let texture = self.resources.texture(texture);
         Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture), texture.name))
     }
@@ -85,6 +120,18 @@ impl<'a> Glsl<'a> {
         let (texture, sampler) = (self.resources.texture(texture), self.resources.sampler(sampler));
         let kind = sampler_of(texture, sampler.comparison);
         Text::name(format!("{kind}({}, {})", texture.name, sampler.name))
+    }
+
+    /// The four texels around a place, or the results of a comparison with them.
+    fn gather(&self, args: &[&Text]) -> Text {
+        self.note(Unread::Gather);
+        Text::call("textureGather", args)
+    }
+
+    /// Number of elements of a buffer, an `int`.
+    fn length(&self, buffer: u32) -> Text {
+        self.note(Unread::Length);
+        Text::name(format!("{}.elements.length()", self.resources.buffer(buffer).name))
     }
 
     /// A place with the layer and the reference behind it, in one vector, and what else there is; and how many components the
@@ -295,7 +342,7 @@ impl Language for Glsl<'_> {
             } => {
                 let through = self.through(*texture, *sampler);
                 let (place, _) = self.packed(*texture, args, false);
-                Text::call(GATHER, &[&through, &place, &Text::name(component.to_string())])
+                self.gather(&[&through, &place, &Text::name(component.to_string())])
             }
             ir::Op::Compare { texture, sampler, .. } => {
                 let through = self.through(*texture, *sampler);
@@ -312,7 +359,7 @@ impl Language for Glsl<'_> {
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
                 let through = self.through(*texture, *sampler);
-                Text::call(GATHER, &[&through, &args[0], &args[1]])
+                self.gather(&[&through, &args[0], &args[1]])
             }
             ir::Op::SharedLoad(shared) => Text::index(
                 &Text::name(self.resources.shared[*shared as usize].name.as_str()),
@@ -324,15 +371,13 @@ impl Language for Glsl<'_> {
                 let element = Text::index(&elements, &args[0]);
                 super::part(&element, &buffer.element, *field, args.get(1))
             }
-            ir::Op::BufferLen(buffer) => {
-                let length = Text::name(format!("{}{LENGTH}", self.resources.buffer(*buffer).name));
-                Text::call("int", &[&length])
-            }
+            ir::Op::BufferLen(buffer) => Text::call("int", &[&self.length(*buffer)]),
             ir::Op::Message(direction) => {
+                self.note(Unread::QuadSwap);
                 let function = match direction {
-                    Direction::Horizontal => MESSAGES[0],
-                    Direction::Vertical => MESSAGES[1],
-                    Direction::Diagonal => MESSAGES[2],
+                    Direction::Horizontal => "subgroupQuadSwapHorizontal",
+                    Direction::Vertical => "subgroupQuadSwapVertical",
+                    Direction::Diagonal => "subgroupQuadSwapDiagonal",
                 };
                 Text::call(function, &[&args[0]])
             }
@@ -396,6 +441,7 @@ impl Language for Glsl<'_> {
     }
 
     fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        self.note(Unread::Effect);
         let (element, name) = self.resources.memory(effect.memory);
         let elements = match effect.memory {
             Memory::Buffer(_) => Text::name(format!("{name}.elements")),
@@ -419,8 +465,7 @@ impl Language for Glsl<'_> {
     }
 
     fn unsigned_length(&self, buffer: u32) -> Text {
-        let length = Text::name(format!("{}{LENGTH}", self.resources.buffer(buffer).name));
-        Text::call("uint", &[&length])
+        Text::call("uint", &[&self.length(buffer)])
     }
 
     fn barrier(&self, buffers: bool) -> &'static [&'static str] {

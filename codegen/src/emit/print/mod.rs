@@ -13,7 +13,7 @@ use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Stmt, StmtKind, Ty
 use super::text::{Binds, Text, wrapped_comment};
 use straightline_evaluator::ir::{self, Scalar, UnaryOp};
 
-pub use glsl::{GATHER, Glsl, LENGTH, LOOSE_REGION, MESSAGES};
+pub use glsl::{Glsl, LOOSE_REGION};
 pub use header::{GENERATOR, header};
 pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;
@@ -21,11 +21,6 @@ pub use wgsl::Wgsl;
 /// A type as GLSL spells it.
 pub fn glsl_type(ty: Ty) -> String {
     glsl::type_name(ty)
-}
-
-/// What GLSL calls a kind of texture, behind `texture` and `sampler`.
-pub fn glsl_shape(kind: ir::TextureKind) -> &'static str {
-    glsl::shape(kind)
 }
 
 /// A type as HLSL spells it.
