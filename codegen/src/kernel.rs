@@ -1,6 +1,6 @@
 //! A kernel's source: its files, its options, and what they define.
 
-use crate::compiled::{Compiled, internal};
+use crate::compiled::Compiled;
 use crate::emit::Emitted;
 use crate::files;
 use crate::pipeline::{self, Observer, Source};
@@ -299,7 +299,9 @@ fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, E
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
         match thread {
-            Ok(handle) => handle.join().unwrap_or_else(|_| Err(internal("front", "it panicked"))),
+            Ok(handle) => handle
+                .join()
+                .unwrap_or_else(|_| Err(crate::compiled::internal("front", "it panicked"))),
             Err(error) => {
                 let what = format!("cannot start a thread: {error}");
                 Err(Errors::of(Diagnostic::new(Code::Limit, what).caused_by(error)))

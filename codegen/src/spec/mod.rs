@@ -34,9 +34,9 @@ pub use target::Target;
 pub use texels::Texels;
 pub use value::Arity;
 
+use straightline_evaluator::is_close;
 use straightline_evaluator::limits::Limits;
 use straightline_evaluator::policy::Policy;
-use straightline_evaluator::suggest;
 use straightline_kernels::{KernelOptions, OptionText};
 use straightline_manifest::{Form, Origin};
 
@@ -84,16 +84,15 @@ impl Knob {
     ///
     /// # Errors
     ///
-    /// There is none; with the name that is meant, or all names.
+    /// There is none; with the name that is meant, if one is close.
     pub fn find(name: &str) -> Result<&'static Knob, String> {
         let spelled = name.replace('_', "-");
         KNOBS.iter().find(|knob| knob.name == spelled).ok_or_else(|| {
-            let names: Vec<&str> = KNOBS.iter().map(|knob| knob.name).collect();
-            let help = suggest(&spelled, &names, "a shader has");
-            format!(
-                "a shader has no setting `{}`: {help}",
-                straightline_evaluator::shorten(name)
-            )
+            let name = straightline_evaluator::shorten(name);
+            match KNOBS.iter().find(|knob| is_close(&spelled, knob.name)) {
+                Some(close) => format!("a shader has no setting `{name}`: did you mean `{}`?", close.name),
+                None => format!("a shader has no setting `{name}`: docs/settings.md lists them"),
+            }
         })
     }
 

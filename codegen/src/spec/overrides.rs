@@ -87,6 +87,7 @@ impl<'de> Deserialize<'de> for Overrides {
                 let mut overrides = Overrides::default();
                 while let Some(name) = map.next_key::<String>()? {
                     let Texts(texts) = map.next_value()?;
+                    Knob::find(&name).map_err(A::Error::custom)?;
                     let set = overrides.set(&name, texts);
                     set.map_err(|why| A::Error::custom(format!("`{name}`: {why}")))?;
                 }

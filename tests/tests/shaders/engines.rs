@@ -195,7 +195,7 @@ fn folders_of_users_are_engines() {
         ),
         (
             &format!("{head}language = \"wgsl\"\nwhat = 1\n[files]\n\"t.tera\" = \"a\"\n"),
-            "unknown field `what`",
+            "a shader has no setting `what`",
         ),
         (
             &format!("{head}language = \"wgsl\"\n[files]\n\"none.tera\" = \"a\"\n"),
