@@ -62,7 +62,7 @@ pub fn answer(request: &[u8]) -> Vec<u8> {
 
 fn act(state: &mut State, message: Message) -> Result<Message, Refusal> {
     let request = serde_json::from_value::<Request>(message.json);
-    match request.map_err(|error| Refusal::of(&format!("the page asked for what is not known: {error}")))? {
+    match request.map_err(|error| Refusal::of(&error.to_string()))? {
         Request::Catalogue => Ok(Message::of(catalogue::to_json())),
         Request::Source { kernel } => Ok(Message::of(kernel.source(state)?)),
         Request::Compile(request) => compile(state, &request).map(Message::of),
