@@ -18,7 +18,9 @@ use crate::compiled::Compiled;
 use crate::emit;
 use crate::files::{self, WriteError};
 use crate::kernel::Kernel;
-use crate::spec::{KernelConfig, Source};
+pub use crate::spec::KernelConfig;
+
+use crate::spec::Source;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
