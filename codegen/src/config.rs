@@ -18,8 +18,6 @@ use crate::compiled::Compiled;
 use crate::emit;
 use crate::files::{self, WriteError};
 use crate::kernel::Kernel;
-pub use crate::spec::KernelConfig;
-
 use crate::spec::Source;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -27,6 +25,8 @@ use std::path::{Path, PathBuf};
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::front::raw;
 use straightline_manifest::Manifest;
+
+pub use crate::spec::KernelConfig;
 
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";

@@ -196,7 +196,7 @@ impl Kernel {
     ///
     /// # Errors
     ///
-    /// What the language does not have, types that do not match, and parameters that a kernel cannot take: all at once.
+    /// Constructs that the language does not have, types that do not match, and parameters that a kernel cannot take: all at once.
     fn library(&self) -> Result<Arc<Library>, Errors> {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));

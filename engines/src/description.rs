@@ -3,7 +3,6 @@
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_codegen::emit::Target;
-use straightline_codegen::spec::Part;
 use straightline_codegen::{EmitOptions, Overrides, ShaderSpec, Stage};
 use straightline_manifest::{BindingKind, Manifest};
 
@@ -118,8 +117,8 @@ impl Description {
         for (name, shader) in &description.shaders {
             let refused = |why| format!("shader `{name}`: {why}");
             shader.target().map_err(refused)?;
-            let decided = |(knob, _): &(&str, Part)| FIXED.contains(knob) && *knob != "target";
-            if let Some((other, _)) = shader.knobs.names().find(|knob| !decided(knob)) {
+            let decided = |knob: &&str| FIXED.contains(knob) && *knob != "target";
+            if let Some(other) = shader.knobs.names().find(|knob| !decided(knob)) {
                 return Err(refused(format!("`{other}` is for a user to say, not for an engine")));
             }
         }

@@ -37,7 +37,7 @@ pub struct CheckArgs {
 impl CheckArgs {
     /// The description of the shader that is checked.
     pub fn spec(&self) -> ShaderSpec {
-        self.writing.0.apply(self.options.0.apply(ShaderSpec::new()))
+        self.options.spec(&self.writing)
     }
 
     /// The arguments for one of the kernels.

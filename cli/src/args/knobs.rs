@@ -29,6 +29,11 @@ impl SettingsArgs {
     pub fn settings(&self) -> Settings {
         self.0.apply(ShaderSpec::new()).settings
     }
+
+    /// The description of a shader that is written as `writing` says.
+    pub fn spec(&self, writing: &WritingArgs) -> ShaderSpec {
+        writing.0.apply(self.0.apply(ShaderSpec::new()))
+    }
 }
 
 impl<const WRITING: bool> Args for KnobArgs<WRITING> {

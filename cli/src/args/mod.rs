@@ -132,7 +132,7 @@ pub struct EmitArgs {
 impl EmitArgs {
     /// The description of the shader.
     pub fn spec(&self) -> ShaderSpec {
-        self.writing.0.apply(self.kernel.options.0.apply(ShaderSpec::new()))
+        self.kernel.options.spec(&self.writing)
     }
 }
 

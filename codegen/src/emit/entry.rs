@@ -3,8 +3,7 @@
 use super::own_words::is_own;
 use super::refusal::Refusal;
 use super::words::{LONGEST, Words, identifier, is_among};
-use crate::spec::EmitOptions;
-use crate::spec::Target;
+use crate::spec::{EmitOptions, Target};
 use straightline_evaluator::shorten;
 
 /// The name of a kernel's entry point or function: the one that is asked for, or else the kernel's, changed where shading

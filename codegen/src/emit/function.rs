@@ -3,8 +3,7 @@
 use super::refusal::Refusal;
 use super::resources::Resources;
 use crate::compiled::Compiled;
-use crate::spec::EmitOptions;
-use crate::spec::Target;
+use crate::spec::{EmitOptions, Target};
 
 /// Whether a kernel can be a function in every language that is written.
 ///

@@ -1,6 +1,6 @@
 //! Knobs by name, as texts: what an engine, a message or a command line says of a shader.
 
-use super::{Arity, Knob, Part, ShaderSpec};
+use super::{Arity, Knob, ShaderSpec};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -42,9 +42,9 @@ impl Overrides {
         self.0.iter().any(|(knob, _)| knob.name == name)
     }
 
-    /// Names of the knobs that it sets, in order, with the half that each belongs to.
-    pub fn names(&self) -> impl Iterator<Item = (&'static str, Part)> {
-        self.0.iter().map(|(knob, _)| (knob.name, knob.part))
+    /// Names of the knobs that it sets, in order.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.0.iter().map(|(knob, _)| knob.name)
     }
 
     /// A description with these values.

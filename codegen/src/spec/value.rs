@@ -2,7 +2,6 @@
 
 use super::{Register, Target, Texels};
 use std::collections::BTreeSet;
-use std::fmt::Display;
 use std::time::Duration;
 use straightline_evaluator::policy::{Branches, LoopPolicy, Math, ReadOrder, Share, Transport, Unroll};
 use straightline_evaluator::shorten;
@@ -57,19 +56,6 @@ macro_rules! spelled {
                     vec![self.to_string()]
                 }
             }
-
-            impl KnobValue for Option<$ty> {
-                fn from_texts(texts: &[&str]) -> Result<Self, String> {
-                    match texts {
-                        [] => Ok(None),
-                        texts => KnobValue::from_texts(texts).map(Some),
-                    }
-                }
-
-                fn texts(&self) -> Vec<String> {
-                    self.as_ref().map_or_else(Vec::new, KnobValue::texts)
-                }
-            }
         )*
     };
 }
@@ -77,6 +63,20 @@ macro_rules! spelled {
 spelled!(
     Unroll, Branches, ReadOrder, Share, Math, Transport, Stage, Form, Format, Origin, Precision, Texels
 );
+
+/// A value that need not be set.
+impl<T: KnobValue> KnobValue for Option<T> {
+    fn from_texts(texts: &[&str]) -> Result<Self, String> {
+        match texts {
+            [] => Ok(None),
+            texts => T::from_texts(texts).map(Some),
+        }
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.as_ref().map_or_else(Vec::new, T::texts)
+    }
+}
 
 impl KnobValue for bool {
     const ARITY: Arity = Arity::Flag;
@@ -148,16 +148,14 @@ impl KnobValue for Duration {
     }
 }
 
-impl KnobValue for Option<String> {
+/// A name.
+impl KnobValue for String {
     fn from_texts(texts: &[&str]) -> Result<Self, String> {
-        match texts {
-            [] => Ok(None),
-            texts => only(texts).map(|text| Some(text.to_owned())),
-        }
+        only(texts).map(str::to_owned)
     }
 
     fn texts(&self) -> Vec<String> {
-        self.iter().cloned().collect()
+        vec![self.clone()]
     }
 }
 
@@ -180,19 +178,6 @@ impl KnobValue for [u32; 2] {
 
     fn texts(&self) -> Vec<String> {
         vec![format!("{}x{}", self[0], self[1])]
-    }
-}
-
-impl KnobValue for Option<[u32; 2]> {
-    fn from_texts(texts: &[&str]) -> Result<Self, String> {
-        match texts {
-            [] => Ok(None),
-            texts => KnobValue::from_texts(texts).map(Some),
-        }
-    }
-
-    fn texts(&self) -> Vec<String> {
-        self.as_ref().map_or_else(Vec::new, KnobValue::texts)
     }
 }
 
@@ -250,7 +235,7 @@ macro_rules! named {
                 }
 
                 fn texts(&self) -> Vec<String> {
-                    self.iter().map(|(name, value)| pair(name, value)).collect()
+                    self.iter().map(|(name, value)| format!("{name}={value}")).collect()
                 }
             }
         )*
@@ -262,8 +247,4 @@ named! {
     LoopPolicy, "LOOP=POLICY", "sraa.tap=none", |text| text.parse().map_err(Some);
     (String, u32), "NAME=NUMBER", "depth=3", |text| text.parse().map_err(|_| None);
     (String, Register), "NAME=REGISTER", "depth=t3 or depth=t3,space1", |text| text.parse().map_err(Some);
-}
-
-fn pair(name: &str, value: &impl Display) -> String {
-    format!("{name}={value}")
 }

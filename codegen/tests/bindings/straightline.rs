@@ -13,7 +13,7 @@ pub mod all {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("all.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("all.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
@@ -207,7 +207,7 @@ pub mod all {
         ///
         /// # Errors
         ///
-        /// Those of `new`, and if the shader does not have the options.
+        /// Errors of `new`, and options that the shader does not have.
         pub fn with_options(
             device: &wgpu::Device,
             options: &straightline_runtime::PassOptions,
@@ -432,7 +432,7 @@ pub mod tile {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("tile.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("tile.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
@@ -636,7 +636,7 @@ pub mod tile {
         ///
         /// # Errors
         ///
-        /// Those of `new`, and if the shader does not have the options.
+        /// Errors of `new`, and options that the shader does not have.
         pub fn with_options(
             device: &wgpu::Device,
             options: &straightline_runtime::PassOptions,
@@ -932,7 +932,7 @@ pub mod graded {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("graded.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("graded.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "graded";
@@ -1205,7 +1205,7 @@ pub mod graded {
         ///
         /// # Errors
         ///
-        /// Those of `new`, and if the shader does not have the options.
+        /// Errors of `new`, and options that the shader does not have.
         pub fn with_options(
             device: &wgpu::Device,
             options: &straightline_runtime::PassOptions,
@@ -1516,7 +1516,7 @@ pub mod drawn {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("drawn.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("drawn.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "drawn";
@@ -1777,7 +1777,7 @@ pub mod several {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("several.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("several.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "several";
@@ -1829,7 +1829,7 @@ pub mod several {
         ///
         /// # Errors
         ///
-        /// Those of `new`, and if the shader does not have the options.
+        /// Errors of `new`, and options that the shader does not have.
         pub fn with_options(
             device: &wgpu::Device,
             options: &straightline_runtime::PassOptions,
@@ -1945,7 +1945,7 @@ pub mod waiting {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("waiting.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("waiting.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "waiting";
@@ -2055,7 +2055,7 @@ pub mod waiting {
         ///
         /// # Errors
         ///
-        /// Those of `new`, and if the shader does not have the options.
+        /// Errors of `new`, and options that the shader does not have.
         pub fn with_options(
             device: &wgpu::Device,
             options: &straightline_runtime::PassOptions,
@@ -2199,7 +2199,7 @@ pub mod sraa {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("sraa.wgsl");
-    /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
     pub const MANIFEST: &str = include_str!("sraa.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "sraa";
@@ -2331,7 +2331,7 @@ pub mod sraa {
         ///
         /// # Errors
         ///
-        /// Those of `new`, and if the shader does not have the options.
+        /// Errors of `new`, and options that the shader does not have.
         pub fn with_options(
             device: &wgpu::Device,
             options: &straightline_runtime::PassOptions,

@@ -197,7 +197,7 @@ fn constants(module: &Module<'_>) -> TokenStream {
         /// The shader.
         pub const WGSL: &str = include_str!(#wgsl);
 
-        /// What the shader binds, as JSON: for other programs, since a pass is made of [`SHADER`].
+        /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
         pub const MANIFEST: &str = include_str!(#json);
 
         /// Name of the entry point.

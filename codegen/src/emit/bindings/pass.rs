@@ -99,7 +99,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
             ///
             /// # Errors
             ///
-            /// Those of `new`, and if the shader does not have the options.
+            /// Errors of `new`, and options that the shader does not have.
             pub fn with_options(device: &wgpu::Device, options: &straightline_runtime::PassOptions) -> Result<Self, Error> {
                 straightline_runtime::Pass::from_shader(device, &SHADER, options).map(Self)
             }
