@@ -18,7 +18,7 @@ use crate::compiled::Compiled;
 use crate::emit;
 use crate::files::{self, WriteError};
 use crate::kernel::Kernel;
-use crate::spec::Source;
+use crate::spec::{Source, Target};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -92,7 +92,9 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
     if syn::parse_str::<syn::Ident>(&raw(&name)).is_err() {
         return Err(Error::of(Problem::Name(name)));
     }
-    let (compiled, emitted) = config.spec.emit(&kernel).map_err(|e| Error::of(Problem::Kernel(e)))?;
+    // The bindings include it.
+    let spec = config.spec.clone().target(Target::Wgsl);
+    let (compiled, emitted) = spec.emit(&kernel).map_err(|e| Error::of(Problem::Kernel(e)))?;
     let files = emitted.named(&name);
     Ok(Built {
         name,

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 use straightline_codegen::kernels::sraa::{Metric, Pattern, Sraa};
-use straightline_codegen::spec::{Arity, KNOBS, Knob, Part};
+use straightline_codegen::spec::{Arity, KNOBS, Knob, Part, Target};
 use straightline_codegen::{Config, Kernel, Overrides, ShaderSpec, Stage};
 
 const INTRODUCTION: &str = "# Settings of a shader
@@ -186,6 +186,21 @@ fn configurations_write_what_a_description_says() {
         .unwrap_or_else(|e| panic!("{e}"));
     for (name, bytes) in emitted.named("aa") {
         assert_eq!(std::fs::read(folder.join(&name)).expect(&name), bytes, "{name}");
+    }
+    std::fs::remove_dir_all(&folder).expect("a folder of ours");
+}
+
+/// Bindings include the WGSL, whichever languages are asked for.
+#[test]
+fn configurations_always_write_wgsl() {
+    let folder = std::env::temp_dir().join(format!("straightline-targets-{}", std::process::id()));
+    let config = Config::new()
+        .kernel("tabula_rasa", |k| k.targets([Target::Hlsl]))
+        .out_dir(&folder);
+    config.compile().unwrap_or_else(|errors| panic!("{errors}"));
+    for extension in ["wgsl", "hlsl"] {
+        let path = folder.join("tabula_rasa").with_extension(extension);
+        assert!(path.metadata().is_ok_and(|file| file.len() > 0), "{}", path.display());
     }
     std::fs::remove_dir_all(&folder).expect("a folder of ours");
 }
