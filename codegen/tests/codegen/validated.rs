@@ -71,6 +71,14 @@ fn constructs_that_naga_does_not_read_are_not_validated() {
             &compute,
         ),
         (
+            "a barrier",
+            "pub fn k(sums: &Shared<[f32; 4]>, group: &Workgroup<2, 2>) -> PerThread<Vec4> {
+                group.each(|thread| Vec4::splat(sums.load(3 - thread.index)))
+            }",
+            &plain,
+            &compute,
+        ),
+        (
             "a write",
             "pub fn k(color: &Frame<Vec4>, out: &StorageBuffer<f32>, pixel: IVec2) { out.store(0, color.load(pixel).x); }",
             &plain,

@@ -44,6 +44,8 @@ pub enum Unread {
     ComparedTexels,
     /// Writes to memory, of which it does not know the atomic ones.
     Effect,
+    /// `memoryBarrierShared` and its like.
+    Barrier,
 }
 
 /// A GLSL.
@@ -469,6 +471,7 @@ impl Language for Glsl<'_> {
     }
 
     fn barrier(&self, buffers: bool) -> &'static [&'static str] {
+        self.note(Unread::Barrier);
         match buffers {
             true => &["memoryBarrierBuffer();", "memoryBarrierShared();", "barrier();"],
             false => &["memoryBarrierShared();", "barrier();"],
