@@ -217,7 +217,8 @@ impl<'g> Places<'g> {
         if matches!(node.op, Op::Result(_)) {
             return self.place_of_owner(node.args[0]);
         }
-        if node.ty.is_array() || matches!(node.op, Op::ArrayGet) {
+        // A literal is a value as others are. Versions that follow from writes stay where they were made, as do reads of them.
+        if (node.ty.is_array() && node.op != Op::MakeArray) || matches!(node.op, Op::ArrayGet) {
             // Not before what it is made of: a branch that it was made after may have given that.
             let home = self.common(self.graph.homes[id.0 as usize], latest);
             let deeper = self.depth[early.0 as usize] > self.depth[home.0 as usize];

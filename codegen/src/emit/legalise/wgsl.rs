@@ -1,7 +1,7 @@
 //! WGSL: counts of shifts, conversions that saturate, constants that are not finite.
 
 use super::{below_32, by_component, guards::unequal, is_non_finite, to_integer};
-use crate::emit::ast::{Block, Expr, Module, Op, StmtKind, Ty, VarId};
+use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty, VarId, Variable};
 use crate::emit::print::wgsl_type;
 use std::collections::BTreeMap;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
@@ -23,6 +23,64 @@ pub fn legalise(module: &mut Module<'_>) {
     module.rewrite(&mut |module, expr| finite_rule(module, &mut specials, expr));
     let body = std::mem::take(&mut module.body);
     module.body = declared(module, specials, body);
+    copy_tables(module);
+}
+
+/// Lets tables that are read several times be read from a variable: naga copies a constant array to one for each read.
+fn copy_tables(module: &mut Module<'_>) {
+    let mut reads: BTreeMap<VarId, u32> = module.tables.iter().map(|(var, _)| (*var, 0)).collect();
+    module.body.iter().for_each(|stmt| count_reads(stmt, 1, &mut reads));
+    let copies: BTreeMap<VarId, VarId> = reads
+        .into_iter()
+        .filter(|(_, times)| *times > 1)
+        .map(|(table, _)| {
+            let Variable { name, ty, .. } = module.variables[table.0 as usize].clone();
+            (table, module.variable(format!("{name}_values"), ty))
+        })
+        .collect();
+    for stmt in &mut module.body {
+        stmt.rewrite(&mut |expr| match expr.op {
+            Op::Index { .. } => Expr {
+                args: expr.args.into_iter().map(|arg| renamed(arg, &copies)).collect(),
+                ..expr
+            },
+            _ => expr,
+        });
+    }
+    let declarations = copies.iter().flat_map(|(table, copy)| {
+        let comment = StmtKind::Comment("A variable, since a constant would be copied for each read.".to_owned());
+        [comment, StmtKind::Var(*copy, Some(module.read(*table)))]
+    });
+    let declarations: Block<'_> = declarations.map(Into::into).collect();
+    module.body.splice(0..0, declarations);
+}
+
+/// Counts reads of tables at indices that are no constants; in a loop each is several.
+fn count_reads(stmt: &Stmt<'_>, times: u32, reads: &mut BTreeMap<VarId, u32>) {
+    for expr in stmt.own() {
+        expr.visit(&mut |expr| {
+            if let (Op::Index { .. }, [array, index]) = (&expr.op, &expr.args[..])
+                && let Some(var) = array.as_var()
+                && index.as_constant().is_none()
+                && let Some(count) = reads.get_mut(&var)
+            {
+                *count += times;
+            }
+        });
+    }
+    let times = match stmt.kind {
+        StmtKind::For { .. } | StmtKind::Loop(_) => 2,
+        _ => times,
+    };
+    let inner = stmt.blocks().into_iter().flatten();
+    inner.for_each(|stmt| count_reads(stmt, times, reads));
+}
+
+fn renamed(expr: Expr, copies: &BTreeMap<VarId, VarId>) -> Expr {
+    match expr.as_var().and_then(|var| copies.get(&var)) {
+        Some(copy) => Expr::var(*copy, expr.ty),
+        None => expr,
+    }
 }
 
 /// The rule of WGSL, which has no literals of infinities and NaN.

@@ -1,6 +1,6 @@
 //! Arrays: elements read and written, and the variables that hold their versions.
 
-use super::{Lowering, Stale, facts};
+use super::{Lowering, facts};
 use crate::emit::ast::{Expr, Op, StmtKind, VarId};
 use straightline_evaluator::ir::{self, NodeId, Type};
 
@@ -8,24 +8,38 @@ impl Lowering<'_> {
     pub(super) fn array_get(&mut self, id: NodeId) {
         let graph = &self.compiled.graph;
         let (array, index) = (graph.node(id).args[0], graph.node(id).args[1]);
-        let mut base = self.expr(array);
-        if graph.node(array).op == ir::Op::MakeArray && self.exprs[array.0 as usize].is_none() {
-            let var = self.variable(array);
-            let literal = std::mem::replace(&mut base, self.module.read(var));
-            if facts::is_table(graph, &graph.node(array).args) {
-                self.module.tables.push((var, literal));
-                self.exprs[array.0 as usize] = Some(base.clone());
-            } else {
-                // It is made again in every scope that indexes it.
-                self.statement(id, StmtKind::Var(var, Some(literal)));
-            }
+        if graph.node(array).op == ir::Op::MakeArray && facts::is_table(graph, &graph.node(array).args) {
+            self.table(array);
         }
-        let read = self.indexed(array, base, index);
+        let base = self.expr(array);
+        let read = self.element(array, base, index);
         self.declare(id, read);
     }
 
+    /// Writes an array of constants, which is a table of the module.
+    fn table(&mut self, array: NodeId) {
+        if self.exprs[array.0 as usize].is_none() {
+            let literal = self.expr(array);
+            let var = self.variable(array);
+            self.module.tables.push((var, literal));
+            self.exprs[array.0 as usize] = Some(self.module.read(var));
+        }
+    }
+
+    /// Gives the elements of an array a variable, which is what can be indexed. One of constants is a table, and one that is copied alone
+    /// is written there.
+    pub(super) fn make_array(&mut self, id: NodeId) {
+        let graph = &self.compiled.graph;
+        if self.indexed[id.0 as usize] && !facts::is_table(graph, &graph.node(id).args) {
+            let literal = self.expr(id);
+            let var = self.variable(id);
+            self.statement(id, StmtKind::Var(var, Some(literal)));
+            self.exprs[id.0 as usize] = Some(self.module.read(var));
+        }
+    }
+
     /// An element of an array of the same type as `array`.
-    fn indexed(&mut self, array: NodeId, base: Expr, index: NodeId) -> Expr {
+    fn element(&mut self, array: NodeId, base: Expr, index: NodeId) -> Expr {
         let graph = &self.compiled.graph;
         let ty = graph.ty(array);
         let inside = match ty {
@@ -39,19 +53,19 @@ impl Lowering<'_> {
     pub(super) fn array_set(&mut self, id: NodeId) {
         let args = &self.compiled.graph.node(id).args;
         let var = self.enter_web(id, args[0]);
-        let place = self.indexed(id, self.module.read(var), args[1]);
+        let place = self.element(id, self.module.read(var), args[1]);
         let value = self.expr(args[2]);
         self.statement(id, StmtKind::Assign(place, None, value));
     }
 
-    /// Makes the web's variable hold `begin`, and takes it to be `version`.
+    /// Makes the variable of a version hold `begin`.
     pub(super) fn enter_web(&mut self, version: NodeId, begin: NodeId) -> VarId {
         let value = self.expr(begin);
-        let var = match self.coalescing.variable(version) {
+        match self.coalescing.variable(version) {
             None => {
                 let var = self.variable(version);
                 self.statement(version, StmtKind::Var(var, Some(value)));
-                self.coalescing.declare(version, var, begin);
+                self.coalescing.declare(version, var);
                 var
             }
             Some(var) => {
@@ -61,18 +75,11 @@ impl Lowering<'_> {
                 }
                 var
             }
-        };
-        self.coalescing.advance(version);
-        var
+        }
     }
 
-    /// The variable that holds just this version of an array.
-    pub(super) fn version(&mut self, id: NodeId) -> Expr {
-        let var = self.coalescing.holder(id).or_else(|| {
-            let since = self.coalescing.replacement(id).map_or(Stale::Unknown, Stale::Since);
-            self.stale.get_or_insert(since);
-            self.coalescing.variable(id)
-        });
-        self.module.read(var.unwrap_or(VarId::PIXEL))
+    /// The variable that holds a version of an array.
+    pub(super) fn version(&self, id: NodeId) -> Expr {
+        self.module.read(self.coalescing.variable(id).unwrap_or(VarId::PIXEL))
     }
 }

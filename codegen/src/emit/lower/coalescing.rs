@@ -1,183 +1,129 @@
 //! Arrays of structured loops: values in the graph, variables changed in place in the text.
 //!
-//! All versions of an array that follow from one another by writes, iterations and branches share one variable (a web).
-//! That is right as long as no version is read once the next has been written. Where one is, lowering begins again with
-//! the web cut before the version that came too early: that version then begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
-//! Where cuts do not help, every version is a variable of its own, which is always right: see [`ArrayCoalescing::apart`].
+//! Versions of an array that follow from one another by writes, iterations and branches share one variable (a web), but for those that
+//! are needed at the same time: where two webs interfere they stay apart, and the later one begins with a copy. Literals (`MakeArray`)
+//! belong to no web and are copied where one begins.
 
+use super::interference::{Interference, interference, version};
 use crate::emit::ast::VarId;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use straightline_evaluator::ir::{Graph, NodeId, Op};
+use straightline_evaluator::passes::Schedule;
 
-/// ArrayCoalescing of array versions.
+/// Which versions of arrays share a variable, and which variables are in scope.
 pub struct ArrayCoalescing {
     parent: Vec<u32>,
     /// Per web in scope: its variable.
-    vars: HashMap<u32, VarId>,
-    /// Per web in scope: the version that the variable holds.
-    current: HashMap<u32, NodeId>,
-    /// By version: the one that took its place in the variable.
-    replaced: HashMap<NodeId, NodeId>,
+    vars: Scope,
 }
 
-/// What was in scope and what variables held.
-pub type Snapshot = (HashMap<u32, VarId>, HashMap<u32, NodeId>);
+/// The variables in scope, by web.
+pub type Scope = HashMap<u32, VarId>;
 
 impl ArrayCoalescing {
-    /// Finds the coalescing of a graph. Versions in `cut` do not share the variable of what they were made from.
-    pub fn new(graph: &Graph, cut: &HashSet<NodeId>) -> ArrayCoalescing {
-        let mut coalescing = ArrayCoalescing::single(graph);
-        for id in graph.ids() {
+    /// Finds the webs of a scheduled graph.
+    pub fn new(graph: &Graph, schedule: &Schedule) -> ArrayCoalescing {
+        let mut webs = Webs {
+            graph,
+            parent: (0..graph.nodes.len() as u32).collect(),
+            apart: interference(graph, schedule),
+        };
+        let arrays = || graph.ids().filter(|id| schedule.has(*id));
+        for id in arrays() {
             let node = graph.node(id);
-            if node.op == Op::ArraySet && !cut.contains(&id) {
-                coalescing.union(graph, id, node.args[0]);
+            match &node.op {
+                Op::ArraySet => webs.unite(id, node.args[0]),
+                // The variable that was carried.
+                Op::Result(_) if node.ty.is_array() => {
+                    let carried = version(graph, id).unwrap_or(id);
+                    webs.parent[id.0 as usize] = webs.root(carried);
+                }
+                _ => {}
             }
         }
-        for id in graph.ids() {
+        for id in arrays() {
             let node = graph.node(id);
             match &node.op {
                 Op::Loop(body) => {
                     let region = graph.region(*body);
                     for (k, init) in node.args[2..].iter().enumerate() {
-                        let param = region.params[k + 1];
-                        if !cut.contains(&param) {
-                            coalescing.union(graph, param, *init);
-                        }
-                        coalescing.join(graph, param, region.results[k], cut);
+                        webs.unite(region.params[k + 1], *init);
+                        webs.unite(region.params[k + 1], region.results[k]);
                     }
                 }
-                Op::Result(k) if node.ty.is_array() => match graph.node(node.args[0]).op {
-                    // The variable that was carried.
-                    Op::Loop(body) => coalescing.union(graph, id, graph.region(body).params[*k as usize + 1]),
-                    _ if cut.contains(&id) => {}
-                    _ => {
-                        for region in graph.regions_of(node.args[0]) {
-                            coalescing.join(graph, id, graph.region(region).results[*k as usize], cut);
-                        }
+                Op::Result(k) if matches!(graph.node(node.args[0]).op, Op::If(..)) => {
+                    for region in graph.regions_of(node.args[0]) {
+                        webs.unite(id, graph.region(region).results[*k as usize]);
                     }
-                },
+                }
                 _ => {}
             }
         }
-        coalescing
-    }
-
-    /// ArrayCoalescing of one version each; only what a loop carries is, after the loop, where it was carried. No version is ever
-    /// read once another has taken its place, so that text can be written for every graph.
-    pub fn apart(graph: &Graph) -> ArrayCoalescing {
-        let mut coalescing = ArrayCoalescing::single(graph);
-        for id in graph.ids() {
-            let node = graph.node(id);
-            if let Op::Result(k) = node.op
-                && let Op::Loop(body) = graph.node(node.args[0]).op
-            {
-                coalescing.union(graph, id, graph.region(body).params[k as usize + 1]);
-            }
-        }
-        coalescing
-    }
-
-    fn single(graph: &Graph) -> ArrayCoalescing {
         ArrayCoalescing {
-            parent: (0..graph.nodes.len() as u32).collect(),
-            vars: HashMap::new(),
-            current: HashMap::new(),
-            replaced: HashMap::new(),
+            parent: webs.parent,
+            vars: Scope::new(),
         }
     }
 
-    /// Unites a version with what leaves a region for it, unless that would undo a cut.
-    fn join(&mut self, graph: &Graph, id: NodeId, result: NodeId, cut: &HashSet<NodeId>) {
-        let web = self.root(result);
-        if !cut.iter().any(|version| self.root(*version) == web) {
-            self.union(graph, id, result);
-        }
-    }
-
-    fn union(&mut self, graph: &Graph, a: NodeId, b: NodeId) {
-        let literal = |id: NodeId| graph.node(id).op == Op::MakeArray;
-        if graph.ty(a).is_array() && !literal(a) && !literal(b) {
-            let (a, b) = (self.root(a), self.root(b));
-            self.parent[a.max(b) as usize] = a.min(b);
-        }
-    }
-
-    fn root(&self, id: NodeId) -> u32 {
-        let mut at = id.0;
-        while self.parent[at as usize] != at {
-            at = self.parent[at as usize];
-        }
-        at
-    }
-
-    /// The variable of a version's web, if the web is in scope.
+    /// The variable of a version, if its web is in scope.
     pub fn variable(&self, id: NodeId) -> Option<VarId> {
-        self.vars.get(&self.root(id)).copied()
+        self.vars.get(&root(&self.parent, id)).copied()
     }
 
-    /// Brings a web into scope as a variable, holding `version`.
-    pub fn declare(&mut self, id: NodeId, var: VarId, version: NodeId) {
-        let web = self.root(id);
-        self.vars.insert(web, var);
-        self.current.insert(web, version);
+    /// Brings the web of a version into scope as a variable.
+    pub fn declare(&mut self, id: NodeId, var: VarId) {
+        self.vars.insert(root(&self.parent, id), var);
     }
 
-    /// The variable that holds just this version, if one does.
-    pub fn holder(&self, id: NodeId) -> Option<VarId> {
-        let web = self.root(id);
-        self.vars
-            .get(&web)
-            .filter(|_| self.current.get(&web) == Some(&id))
-            .copied()
-    }
-
-    /// The variable of `id`'s web holds this version from now on.
-    pub fn advance(&mut self, id: NodeId) {
-        let web = self.root(id);
-        if let Some(before) = self.current.insert(web, id)
-            && before != id
-        {
-            self.replaced.insert(before, id);
-        }
-    }
-
-    /// The version to cut the web before, so that `id` can still be read: the one that took its place.
-    pub fn replacement(&self, id: NodeId) -> Option<NodeId> {
-        self.replaced.get(&id).copied()
-    }
-
-    /// What every variable holds and which are in scope, to return to with [`ArrayCoalescing::restore`].
-    pub fn snapshot(&self) -> Snapshot {
-        (self.vars.clone(), self.current.clone())
+    /// The variables in scope, to return to with [`ArrayCoalescing::leave`].
+    pub fn scope(&self) -> Scope {
+        self.vars.clone()
     }
 
     /// Leaves a scope: variables made in it are gone.
-    pub fn leave(&mut self, (vars, _): &Snapshot) {
-        self.vars.clone_from(vars);
-        self.current.retain(|web, _| vars.contains_key(web));
+    pub fn leave(&mut self, outer: &Scope) {
+        self.vars.clone_from(outer);
+    }
+}
+
+fn root(parent: &[u32], id: NodeId) -> u32 {
+    let mut at = id.0;
+    while parent[at as usize] != at {
+        at = parent[at as usize];
+    }
+    at
+}
+
+struct Webs<'g> {
+    graph: &'g Graph,
+    parent: Vec<u32>,
+    /// By a web's root: versions that must not be in it.
+    apart: Interference,
+}
+
+impl Webs<'_> {
+    fn root(&self, id: NodeId) -> u32 {
+        root(&self.parent, id)
     }
 
-    /// Of what was in scope before a loop's body, a version that its variable no longer holds at the end: the next
-    /// iteration would find another.
-    pub fn lost(&self, (vars, current): &Snapshot) -> Option<NodeId> {
-        let mut lost: Vec<NodeId> = vars
-            .keys()
-            .filter(|web| self.current.get(web) != current.get(web))
-            .filter_map(|web| current.get(web).copied())
-            .collect();
-        lost.sort_unstable();
-        lost.first().copied()
-    }
-
-    /// Joins this state, that of the second side of a branch, with that of the first: where a variable may hold two
-    /// versions, it is not known to hold any.
-    pub fn join_sides(&mut self, (_, first): &Snapshot) {
-        self.current.retain(|web, version| first.get(web) == Some(version));
-    }
-
-    /// Returns to a state, as the other side of a branch does.
-    pub fn restore(&mut self, (vars, current): &Snapshot) {
-        self.vars.clone_from(vars);
-        self.current.clone_from(current);
+    /// Unites the webs of two versions, unless they are needed at the same time.
+    fn unite(&mut self, a: NodeId, b: NodeId) {
+        let (Some(a), Some(b)) = (version(self.graph, a), version(self.graph, b)) else {
+            return;
+        };
+        let (a, b) = (self.root(a), self.root(b));
+        if a == b {
+            return;
+        }
+        let parent = &self.parent;
+        let of = |web: u32| self.apart.get(&NodeId(web)).into_iter().flatten();
+        if of(a).any(|other| root(parent, *other) == b) || of(b).any(|other| root(parent, *other) == a) {
+            return;
+        }
+        let (kept, joined) = (a.min(b), a.max(b));
+        self.parent[joined as usize] = kept;
+        if let Some(others) = self.apart.remove(&NodeId(joined)) {
+            self.apart.entry(NodeId(kept)).or_default().extend(others);
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Loops and branches that are left in the shader.
 
-use super::{Lowering, Stale};
+use super::Lowering;
 use crate::emit::ast::{Expr, StmtKind, VarId};
 use straightline_evaluator::ir::{self, Bits, Graph, NodeId, Region};
 use straightline_evaluator::passes::Block;
@@ -26,18 +26,11 @@ impl<'g> Lowering<'g> {
         let counter = self.variable(region.params[0]);
         let (start, end) = (self.expr(args[0]), self.expr(args[1]));
         self.exprs[region.params[0].0 as usize] = Some(self.module.read(counter));
-        let scope = self.coalescing.snapshot();
+        let scope = self.coalescing.scope();
         let body = self.nested(|lowering| {
             lowering.steps(body);
             lowering.next_iteration(&region.params[1..], region);
         });
-        if let Some(version) = self.coalescing.lost(&scope) {
-            let since = self
-                .coalescing
-                .replacement(version)
-                .map_or(Stale::Unknown, Stale::Since);
-            self.stale.get_or_insert(since);
-        }
         let counted = self.compiled.schedule.uses[region.params[0].0 as usize] > 0
             || region.stop.is_none()
             || graph.constant(args[1]) != Some(ENDLESS);
@@ -100,9 +93,6 @@ impl<'g> Lowering<'g> {
             let place = self.module.read(var);
             self.statement(param, StmtKind::Assign(place, None, value));
         }
-        for param in params.iter().filter(|param| graph.ty(**param).is_array()) {
-            self.coalescing.advance(*param);
-        }
         if let Some((id, condition)) = stop {
             let leave = StmtKind::If {
                 condition,
@@ -116,9 +106,7 @@ impl<'g> Lowering<'g> {
     /// After a loop, results go by the variables that were carried.
     fn results(&mut self, owner: NodeId, variables: &[NodeId]) {
         for (id, k) in self.results_of(owner) {
-            if self.compiled.graph.ty(id).is_array() {
-                self.coalescing.advance(id);
-            } else {
+            if !self.compiled.graph.ty(id).is_array() {
                 self.exprs[id.0 as usize] = self.exprs[variables[k].0 as usize].clone();
             }
         }
@@ -159,10 +147,9 @@ impl<'g> Lowering<'g> {
             self.exprs[id.0 as usize] = Some(self.module.read(var));
         }
         let condition = self.expr(graph.node(node).args[0]);
-        let before = self.coalescing.snapshot();
+        let scope = self.coalescing.scope();
         let then = self.nested(|lowering| lowering.side(then, &results, &regions[0].results, &|_| false));
-        let first = self.coalescing.snapshot();
-        self.coalescing.restore(&before);
+        self.coalescing.leave(&scope);
         let otherwise = self.nested(|lowering| {
             if assigns || changes_array {
                 lowering.side(otherwise, &results, &regions[1].results, &begins);
@@ -180,8 +167,7 @@ impl<'g> Lowering<'g> {
             }
             .into(),
         );
-        self.coalescing.leave(&before);
-        self.coalescing.join_sides(&first);
+        self.coalescing.leave(&scope);
     }
 
     /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
@@ -191,9 +177,9 @@ impl<'g> Lowering<'g> {
             let var = self.variable(id);
             self.statement(id, StmtKind::Var(var, None));
             // Both sides write it before it is read.
-            self.coalescing.declare(id, var, id);
+            self.coalescing.declare(id, var);
         }
-        self.coalescing.holder(kept) != self.coalescing.variable(id)
+        self.coalescing.variable(kept) != self.coalescing.variable(id)
     }
 
     /// One side of a branch: its steps, and what it leaves in the branch's variables, but in those that hold it already.

@@ -8,6 +8,7 @@ mod control;
 mod entry;
 mod exactness;
 mod facts;
+mod interference;
 
 use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
@@ -16,14 +17,10 @@ use super::tidy::simplify;
 use crate::compiled::Compiled;
 use coalescing::ArrayCoalescing;
 use exactness::Exactness;
-use std::collections::HashSet;
 use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
 use straightline_evaluator::passes::{Block, Step};
 
 pub use entry::entry;
-
-/// Cuts after which every version of an array is given a variable of its own.
-const MAX_CUTS: usize = 16;
 
 /// Uses from which a constant vector is written once.
 const OFTEN: u32 = 6;
@@ -31,40 +28,17 @@ const OFTEN: u32 = 6;
 /// The statements of a kernel: one for each value, and at the end an output for each pixel of the invocation.
 pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     let graph = &compiled.graph;
-    let mut cut = HashSet::new();
-    while cut.len() < MAX_CUTS {
-        match attempt(compiled, half, ArrayCoalescing::new(graph, &cut)) {
-            (module, None) => return module,
-            (_, Some(Stale::Since(version))) if cut.insert(version) => {}
-            _ => break,
-        }
-    }
-    // No version takes another's place where each has a variable of its own.
-    attempt(compiled, half, ArrayCoalescing::apart(graph)).0
-}
-
-/// An array's version is needed that its variable no longer holds.
-#[derive(Clone, Copy)]
-enum Stale {
-    /// Cut its web before this version, which took its place.
-    Since(NodeId),
-    /// It is not known which version took its place.
-    Unknown,
-}
-
-fn attempt<'g>(compiled: &'g Compiled, half: bool, coalescing: ArrayCoalescing) -> (Module<'g>, Option<Stale>) {
-    let graph = &compiled.graph;
     let mut lowering = Lowering {
         compiled,
         origins: origins(compiled),
         exact: Exactness::of(compiled),
         wanted: Wanted::new(graph),
-        coalescing,
+        coalescing: ArrayCoalescing::new(graph, &compiled.schedule),
+        indexed: indexed(compiled),
         exprs: vec![None; graph.nodes.len()],
         half,
         module: entry::module(),
         block: Vec::new(),
-        stale: None,
     };
     lowering.constants();
     lowering.steps(&compiled.schedule.body);
@@ -73,7 +47,7 @@ fn attempt<'g>(compiled: &'g Compiled, half: bool, coalescing: ArrayCoalescing) 
         lowering.block.push(StmtKind::Output(values).into());
     }
     lowering.module.body = lowering.block;
-    (lowering.module, lowering.stale)
+    lowering.module
 }
 
 /// Where each node comes from. A tally is what it tallies, so that its name passes on, last to first so that chains do too.
@@ -89,6 +63,17 @@ fn origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
     origins
 }
 
+/// Arrays that are indexed, by node.
+fn indexed(compiled: &Compiled) -> Vec<bool> {
+    let graph = &compiled.graph;
+    let mut indexed = vec![false; graph.nodes.len()];
+    let reads = graph
+        .ids()
+        .filter(|id| graph.node(*id).op == ir::Op::ArrayGet && compiled.schedule.has(*id));
+    reads.for_each(|id| indexed[graph.node(id).args[0].0 as usize] = true);
+    indexed
+}
+
 struct Lowering<'g> {
     compiled: &'g Compiled,
     exact: Exactness,
@@ -96,6 +81,8 @@ struct Lowering<'g> {
     origins: Vec<Option<&'g Origin>>,
     wanted: Wanted,
     coalescing: ArrayCoalescing,
+    /// By node: whether it is an array that is indexed.
+    indexed: Vec<bool>,
     /// By node: how its value is written, once it has been evaluated.
     exprs: Vec<Option<Expr>>,
     /// Whether floats are those of half precision.
@@ -103,8 +90,6 @@ struct Lowering<'g> {
     module: Module<'g>,
     /// Statements of the block that is being lowered.
     block: Statements<'g>,
-    /// The first array version that was read too late.
-    stale: Option<Stale>,
 }
 
 impl<'g> Lowering<'g> {
@@ -145,8 +130,9 @@ impl<'g> Lowering<'g> {
     fn eval(&mut self, id: NodeId) {
         let node = self.compiled.graph.node(id);
         match &node.op {
-            // Written where it is used, first copied or indexed.
-            ir::Op::Const(_) | ir::Op::Unused | ir::Op::MakeArray | ir::Op::Result(_) => {}
+            // Written where it is used.
+            ir::Op::Const(_) | ir::Op::Unused | ir::Op::Result(_) => {}
+            ir::Op::MakeArray => self.make_array(id),
             // Written in the statement that rounds it.
             _ if self.exact.is_part(id) => {}
             ir::Op::Exact => {

@@ -1,0 +1,154 @@
+//! Which versions of arrays are needed at the same time, read off the schedule from its end to its beginning.
+//!
+//! A version is written where it is made, carried into a loop, or left by a branch. Whatever else is needed behind that must lie in
+//! another variable.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+use straightline_evaluator::ir::{Graph, NodeId, Op, RegionId};
+use straightline_evaluator::passes::{Block, Schedule, Step};
+
+/// Versions that are needed where another is written, by that one, both ways.
+pub type Interference = HashMap<NodeId, HashSet<NodeId>>;
+
+/// Versions that are needed behind a place.
+type Needed = BTreeSet<NodeId>;
+
+/// Finds the interference of the arrays of a scheduled graph.
+pub fn interference(graph: &Graph, schedule: &Schedule) -> Interference {
+    let mut walk = Walk {
+        graph,
+        found: Interference::new(),
+        results: results(graph),
+    };
+    walk.block(&schedule.body, &mut Needed::new());
+    walk.found
+}
+
+/// The version that a node stands for. Literals are no versions: they are copied where they are used. What a loop has carried is, behind
+/// it, what it carried.
+pub fn version(graph: &Graph, id: NodeId) -> Option<NodeId> {
+    let node = graph.node(id);
+    match node.op {
+        _ if !node.ty.is_array() => None,
+        Op::MakeArray | Op::Unused => None,
+        Op::Result(k) => match graph.node(node.args[0]).op {
+            Op::Loop(body) => Some(graph.region(body).params[k as usize + 1]),
+            _ => Some(id),
+        },
+        _ => Some(id),
+    }
+}
+
+/// The nodes that give results of loops and branches, by their owners, with their numbers.
+fn results(graph: &Graph) -> HashMap<NodeId, Vec<(NodeId, usize)>> {
+    let mut results: HashMap<NodeId, Vec<(NodeId, usize)>> = HashMap::new();
+    for id in graph.ids() {
+        if let Op::Result(k) = graph.node(id).op {
+            results
+                .entry(graph.node(id).args[0])
+                .or_default()
+                .push((id, k as usize));
+        }
+    }
+    results
+}
+
+struct Walk<'g> {
+    graph: &'g Graph,
+    found: Interference,
+    results: HashMap<NodeId, Vec<(NodeId, usize)>>,
+}
+
+impl Walk<'_> {
+    fn block(&mut self, block: &Block, needed: &mut Needed) {
+        for step in block.steps.iter().rev() {
+            match step {
+                Step::Eval(id) => {
+                    let node = self.graph.node(*id);
+                    if node.op == Op::ArraySet {
+                        self.write(*id, needed);
+                    }
+                    if !matches!(node.op, Op::Result(_)) {
+                        node.args.iter().for_each(|arg| self.read(*arg, needed));
+                    }
+                }
+                Step::Loop { node, body } => self.looped(*node, body, needed),
+                Step::If { node, then, otherwise } => self.branch(*node, then, otherwise, needed),
+            }
+        }
+    }
+
+    fn looped(&mut self, node: NodeId, body: &Block, needed: &mut Needed) {
+        let inside = self.graph.regions_of(node)[0];
+        let region = self.graph.region(inside);
+        // What the next iteration reads of outside is needed at the end of each.
+        let mut outside = Needed::new();
+        self.collect_read(inside, body, &mut outside);
+        needed.extend(outside.iter().copied());
+        let carried = |k: usize| region.params[k + 1];
+        (0..region.results.len()).for_each(|k| self.write(carried(k), needed));
+        region.leaving().for_each(|id| self.read(id, needed));
+        self.block(body, needed);
+        needed.extend(outside);
+        for (k, init) in self.graph.node(node).args[2..].iter().enumerate().rev() {
+            self.write(carried(k), needed);
+            self.read(*init, needed);
+        }
+    }
+
+    fn branch(&mut self, node: NodeId, then: &Block, otherwise: &Block, needed: &mut Needed) {
+        let behind = std::mem::take(needed);
+        let left = self.results.get(&node).cloned().unwrap_or_default();
+        for (region, block) in self.graph.regions_of(node).into_iter().zip([then, otherwise]) {
+            let mut side = behind.clone();
+            // One after the other: what is left first must not take the place of what is left next.
+            for (result, k) in left.iter().rev() {
+                self.write(*result, &mut side);
+                self.read(self.graph.region(region).results[*k], &mut side);
+            }
+            self.block(block, &mut side);
+            needed.append(&mut side);
+        }
+    }
+
+    /// A version is written: what else is needed behind it lies elsewhere.
+    fn write(&mut self, id: NodeId, needed: &mut Needed) {
+        let Some(version) = version(self.graph, id) else { return };
+        needed.remove(&version);
+        for other in needed.iter() {
+            self.found.entry(version).or_default().insert(*other);
+            self.found.entry(*other).or_default().insert(version);
+        }
+    }
+
+    fn read(&self, id: NodeId, needed: &mut Needed) {
+        needed.extend(version(self.graph, id));
+    }
+
+    /// Versions that the body of a loop reads and does not make itself.
+    fn collect_read(&self, region: RegionId, body: &Block, read: &mut Needed) {
+        let mut made: Needed = self.graph.region(region).params.iter().copied().collect();
+        self.collect(body, read, &mut made);
+        self.graph.region(region).leaving().for_each(|id| self.read(id, read));
+        read.retain(|version| !made.contains(version));
+    }
+
+    fn collect(&self, block: &Block, read: &mut Needed, made: &mut Needed) {
+        for step in &block.steps {
+            let (node, blocks): (_, &[&Block]) = match step {
+                Step::Eval(id) => (*id, &[]),
+                Step::Loop { node, body } => (*node, &[body]),
+                Step::If { node, then, otherwise } => (*node, &[then, otherwise]),
+            };
+            self.graph.node(node).args.iter().for_each(|arg| self.read(*arg, read));
+            made.extend(version(self.graph, node));
+            let results = self.results.get(&node).into_iter().flatten();
+            made.extend(results.filter_map(|(id, _)| version(self.graph, *id)));
+            for region in self.graph.regions_of(node) {
+                made.extend(&self.graph.region(region).params);
+                self.graph.region(region).leaving().for_each(|id| self.read(id, read));
+            }
+            blocks.iter().for_each(|block| self.collect(block, read, made));
+        }
+    }
+}
