@@ -134,7 +134,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     let mut used = [0.0; TAPS];
     let mut unseen = 0;
     let mut past = Searched::NOTHING;
-    for sample in 0..cfg.reconstructed() {
+    for sample in (0..cfg.reconstructed()).map(|k| cfg.visited(k)) {
         if cfg.share(sample) != 0.0 {
             let share = cfg.share(sample) / total;
             let place = cfg.place(sample);

@@ -196,6 +196,19 @@ impl Sraa {
         }
     }
 
+    /// The reconstructed sample that is visited as number `k`. Those of a quadrant of a pixel follow each other, and quadrants that
+    /// lie side by side: they look at the same taps, and others need not be known at once.
+    pub(super) fn visited(&self, k: usize) -> usize {
+        let (pixel, own) = (k / self.samples(), k % self.samples());
+        let sample = match self.pattern {
+            Pattern::Ordered4 | Pattern::Latin4 | Pattern::Listed => own,
+            Pattern::Standard8 => VISITED8[own],
+            Pattern::Ordered16 => VISITED_ORDERED16[own],
+            Pattern::Latin16 | Pattern::Standard16 => VISITED16[own],
+        };
+        pixel * self.samples() + sample
+    }
+
     /// Reconstructed sample `k`: one of the pixel's own, or of its neighbours'.
     pub(super) fn place(&self, k: usize) -> Place {
         match self.resolve {
@@ -337,6 +350,11 @@ const STANDARD8: [IVec2; 8] = [
     ivec2(3, 7),
     ivec2(7, -7),
 ];
+
+/// The samples quadrant by quadrant, clockwise from the upper left one.
+const VISITED8: [usize; 8] = [3, 5, 0, 7, 2, 6, 1, 4];
+const VISITED16: [usize; 16] = [1, 4, 10, 15, 3, 7, 9, 13, 0, 5, 6, 14, 2, 8, 11, 12];
+const VISITED_ORDERED16: [usize; 16] = [0, 1, 4, 5, 2, 3, 6, 7, 10, 11, 14, 15, 8, 9, 12, 13];
 
 /// In sixteenths of a pixel.
 const STANDARD16: [IVec2; 16] = [
