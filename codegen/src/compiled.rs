@@ -34,7 +34,7 @@ pub struct Compiled {
     /// In which order.
     pub schedule: Schedule,
     /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
-    /// the shader. `statements` is 0: they are counted in the text, by emission or by [`Compiled::statements`].
+    /// the shader. `statements` and `max_live` are 0: they are counted in the text, by emission or by [`Compiled::text_counts`].
     pub counts: Counts,
     /// How lanes of quads were asked to swap values.
     pub transport: Option<Transport>,

@@ -115,7 +115,7 @@ pub fn compile(
         }),
     };
     if emit::statements_at_most(&compiled.graph) > settings.budget {
-        stages.within_budget(compiled.statements())?;
+        stages.within_budget(compiled.text_counts().statements)?;
     }
     Ok(compiled)
 }

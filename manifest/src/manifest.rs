@@ -101,8 +101,8 @@ pub struct Varying {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
-    /// Basic blocks: labels of the SPIR-V that naga makes of the shader, those of functions that it calls among them. 1 means
-    /// straight-line code; a compute shader has two more, for pixels outside of the target.
+    /// Basic blocks of the shader's text. 1 means straight-line code; a compute shader has two more, for pixels outside of the target.
+    /// What a loop's test parts counts, and what a compiler adds to it does not.
     pub basic_blocks: u32,
     /// Loops that are left in the shader.
     pub loops: u32,
@@ -138,8 +138,12 @@ pub struct Counts {
     pub alu: u32,
     /// Statements of the emitted body.
     pub statements: u32,
-    /// Scalars alive at the widest point of the emitted order.
+    /// Scalars alive at once at most, in the order of the text: components of vectors, each element of an array; no booleans, no
+    /// constants, no uniforms. Compilers need about as many registers.
     pub max_live: u32,
+    /// Where that is in the source, with the counters of unrolled loops: `kernel.rs:12, tap 3`.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub max_live_at: String,
 }
 
 fn one_pixel() -> [u32; 2] {

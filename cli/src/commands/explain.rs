@@ -24,18 +24,22 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
             outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
         }
     })?;
-    let targets = args.isa.map(|_| Target::Spirv);
-    // Statements are those of the emitted text.
+    // Statements and live values are those of the text.
     let options = EmitOptions::new()
         .stage(super::natural_stage(&compiled))
         .precision(args.precision)
-        .accept_loss(true)
-        .targets(targets);
-    let emitted = compiled.emit(&options)?;
-    let machine = args.isa.map(|family| machine::ask(&emitted, family)).transpose()?;
-    let bound = bound(&emitted.manifest);
-    let features = emitted.manifest.features.join(", ");
-    let counts = emitted.manifest.counts;
+        .accept_loss(true);
+    let described = compiled.describe(&options)?;
+    let machine = match args.isa {
+        None => None,
+        Some(family) => Some(machine::ask(
+            &compiled.emit(&options.targets([Target::Spirv]))?,
+            family,
+        )?),
+    };
+    let bound = bound(&described);
+    let features = described.features.join(", ");
+    let counts = described.counts;
     let paper = compiled.paper();
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
@@ -237,6 +241,9 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
             rows.iter_mut().for_each(|row| row.truncate(2));
             out!("{}", table::render(&[&per, "here"], &rows));
         }
+    }
+    if !counts.max_live_at.is_empty() {
+        outln!("most scalars are alive at {}", counts.max_live_at);
     }
     if let Some(sharing) = &compiled.sharing {
         print_sharing(sharing);

@@ -15,6 +15,7 @@ mod host_reads;
 mod language_bindings;
 mod layout;
 mod legalise;
+mod liveness;
 mod lower;
 mod manifest;
 mod missing;
@@ -42,7 +43,7 @@ pub use crate::spec::{EmitOptions, Register, Target, Texels};
 use crate::compiled::Compiled;
 use refusal::Refusal;
 use shader::{Shader, Wgsl, kernel, tree};
-use statements::count;
+use statements::count_text;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use straightline_evaluator::diagnostic::{Code, Errors};
@@ -51,7 +52,7 @@ use straightline_evaluator::ir::Invocation;
 use straightline_evaluator::limits::{self, Meter};
 use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
-use straightline_manifest::{Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
+use straightline_manifest::{Counts, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
 pub use prose::comment;
@@ -115,9 +116,28 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Ref
 }
 
 impl Compiled {
-    /// Statements of the kernel's body, the same in every language and stage.
-    pub fn statements(&self) -> u32 {
-        count(&kernel(self, Precision::F32))
+    /// The counts, with those of the text of the kernel's body, which is the same in every language and stage.
+    pub fn text_counts(&self) -> Counts {
+        let mut counts = self.counts.clone();
+        count_text(&kernel(self, Precision::F32), &self.graph, &mut counts);
+        counts
+    }
+
+    /// The manifest of the shader that [`Compiled::emit`] would write, without texts, files and hashes. It takes a small part of
+    /// the time, since nothing is validated.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Compiled::emit`].
+    pub fn describe(&self, options: &EmitOptions) -> Result<Manifest, Errors> {
+        let described = || {
+            let _meter = Meter::resume(self.limits, self.time);
+            let (compiled, resources) = planned(self, options)?;
+            let (_, counts) = tree(&compiled, &resources);
+            within_limits(&compiled, counts.statements, limits::exceeded(0))?;
+            resources.manifest(&compiled, &counts)
+        };
+        described().map_err(|refusal: Refusal| refusal.located(self))
     }
 
     /// The kernel as a shader, in every language asked for.
@@ -149,9 +169,11 @@ fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Ex
     Err(Refusal::new(Code::Limit, what).help(excess.help()))
 }
 
-/// Emits a kernel. Nothing is given out that naga does not validate.
-fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> {
-    let _meter = Meter::resume(compiled.limits, compiled.time);
+/// The kernel as it is to be written, and what the shader binds.
+fn planned<'c>(
+    compiled: &'c Compiled,
+    options: &EmitOptions,
+) -> Result<(Cow<'c, Compiled>, resources::Resources), Refusal> {
     if let Some([x, y]) = options.workgroup
         && (x == 0 || y == 0 || x.saturating_mul(y) > 1024)
     {
@@ -195,14 +217,25 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
     if options.is_function() {
         options.stage = Stage::Fragment;
     }
-    let compiled = &*for_stage(compiled, options.stage)?;
-    let compiled = &*origin::turned(compiled, &options)?;
-    let resources = resources::Resources::of(compiled, &options)?;
+    let compiled = match for_stage(compiled, options.stage)? {
+        Cow::Borrowed(compiled) => origin::turned(compiled, &options)?,
+        Cow::Owned(compiled) => Cow::Owned(origin::turned(&compiled, &options)?.into_owned()),
+    };
+    let resources = resources::Resources::of(&compiled, &options)?;
     if options.is_function() {
-        function::check(compiled, &resources)?;
-        host_reads::check(compiled, &resources)?;
+        function::check(&compiled, &resources)?;
+        host_reads::check(&compiled, &resources)?;
     }
-    let (tree, statements) = tree(compiled, &resources);
+    Ok((compiled, resources))
+}
+
+/// Emits a kernel. Nothing is given out that naga does not validate.
+fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> {
+    let _meter = Meter::resume(compiled.limits, compiled.time);
+    let (compiled, resources) = planned(compiled, options)?;
+    let (compiled, options) = (&*compiled, &resources.options);
+    let (tree, counts) = tree(compiled, &resources);
+    let statements = counts.statements;
     within_limits(
         compiled,
         statements,
@@ -214,15 +247,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
         tree: &tree,
         wgsl: Wgsl::new(&tree, &resources, false)?,
     };
-    // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
-    let mut counts = compiled.counts.clone();
-    counts.statements = statements;
     let module = shader.validated(&counts, false)?;
-    let words = match tree.has_exact() {
-        true => shader.validated(&counts, true)?.spirv(&resources)?,
-        false => module.spirv(&resources)?,
-    };
-    counts.basic_blocks = spirv::basic_blocks(&words);
     let mut manifest = resources.manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
     for target in &options.targets {
@@ -238,7 +263,13 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
                 manifest.validated.extend(is_validated.then(|| target.to_string()));
                 text.into_bytes()
             }
-            Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
+            Target::Spirv => {
+                let words = match tree.has_exact() {
+                    true => shader.validated(&counts, true)?.spirv(&resources)?,
+                    false => module.spirv(&resources)?,
+                };
+                words.iter().flat_map(|word| word.to_le_bytes()).collect()
+            }
             Target::Hlsl => shader.hlsl(&counts)?.into_bytes(),
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 let what = format!(

@@ -2,7 +2,7 @@
 
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::statements::count;
+use super::statements::{basic_blocks, count_text};
 use super::{ast, comments, host_reads, legalise, lower, names, print, tidy, translate};
 use crate::compiled::Compiled;
 use crate::spec::Target;
@@ -19,17 +19,20 @@ pub fn kernel(compiled: &Compiled, precision: Precision) -> ast::Module<'_> {
     module
 }
 
-/// The tree of a shader, with comments, before a language's own rules, and how many statements the kernel has.
-pub fn tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::Module<'g>, u32) {
+/// The tree of a shader, with comments, before a language's own rules, and what is counted in it: of a kernel in half precision, what
+/// is counted in full.
+pub fn tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::Module<'g>, Counts) {
     let mut module = kernel(compiled, resources.options.precision);
-    let statements = match resources.options.precision {
-        Precision::F32 => count(&module),
-        Precision::F16 => compiled.statements(),
-    };
+    let mut counts = compiled.counts.clone();
+    match resources.options.precision {
+        Precision::F32 => count_text(&module, &compiled.graph, &mut counts),
+        Precision::F16 => count_text(&kernel(compiled, Precision::F32), &compiled.graph, &mut counts),
+    }
     let body = std::mem::take(&mut module.body);
     module.body = comments::comment_groups(body, &compiled.graph);
     lower::entry(&mut module, resources);
-    (module, statements)
+    counts.basic_blocks = basic_blocks(&module.body);
+    (module, counts)
 }
 
 /// A shader before it is written.

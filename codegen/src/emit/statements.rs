@@ -1,8 +1,44 @@
-//! Number of statements of a kernel: exactly, and bounds that are known before lowering.
+//! What is counted in a kernel's text: statements, basic blocks and live values; and bounds that are known before lowering.
 
-use super::ast;
-use straightline_evaluator::ir::{Graph, Op};
+use super::ast::{self, Stmt, StmtKind};
+use super::liveness::most_alive;
+use straightline_evaluator::ir::{Graph, Op, Origin};
 use straightline_evaluator::passes::Schedule;
+use straightline_manifest::Counts;
+
+/// Adds to a kernel's counts what its text says: statements, and the scalars that are alive at once.
+pub fn count_text(kernel: &ast::Module<'_>, graph: &Graph, counts: &mut Counts) {
+    counts.statements = count(kernel);
+    let (most, place) = most_alive(kernel);
+    counts.max_live = most;
+    counts.max_live_at = place.map(|origin| place_of(origin, graph)).unwrap_or_default();
+}
+
+/// A place in the source, with the counters of unrolled loops around it: `kernel.rs:12, sample 3, tap 5`.
+fn place_of(origin: &Origin, graph: &Graph) -> String {
+    let file = graph.files.get(origin.file as usize).map(String::as_str);
+    let place = match (file, origin.line) {
+        (None, _) | (_, Origin::NOWHERE) => origin.name.to_string(),
+        (Some(file), line) => format!("{file}:{line}"),
+    };
+    let counters = origin.counters.iter().map(|c| format!("{} {}", c.name, c.value));
+    let parts: Vec<String> = std::iter::once(place).chain(counters).collect();
+    parts.join(", ")
+}
+
+/// Basic blocks of statements: what a branch or a loop parts, and what follows it. A loop's test is a block of its own.
+pub fn basic_blocks(block: &[Stmt<'_>]) -> u32 {
+    let inner = block.iter().map(|stmt| match &stmt.kind {
+        StmtKind::If { then, otherwise, .. } => {
+            let sides = [then, otherwise].into_iter().filter(|side| !side.is_empty());
+            1 + sides.map(|side| basic_blocks(side)).sum::<u32>()
+        }
+        StmtKind::For { body, .. } => 2 + basic_blocks(body),
+        StmtKind::Loop(body) => 1 + basic_blocks(body),
+        _ => 0,
+    });
+    1 + inner.sum::<u32>()
+}
 
 /// Statements of a kernel's tree. Results are none: how they are written is the entry point's affair.
 pub fn count(kernel: &ast::Module<'_>) -> u32 {

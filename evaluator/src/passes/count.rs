@@ -2,7 +2,7 @@
 
 use super::ranges;
 use super::schedule::{Block, Schedule, Step};
-use crate::ir::{Graph, Memory, NodeId, Op, Scalar, Shared, Type};
+use crate::ir::{Graph, Memory, NodeId, Op, Shared, Type};
 use std::collections::BTreeMap;
 use straightline_manifest::Counts;
 
@@ -10,7 +10,7 @@ use straightline_manifest::Counts;
 const FILTERED: &str = "color";
 
 /// Counts what one invocation executes; a loop whose trip count is a runtime value counts as one iteration.
-/// `statements` is known only once text is emitted and is left 0.
+/// `statements` and `max_live` are known only once text is emitted and are left 0.
 pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
     let run = Counter { graph }.block(&schedule.body);
     let reads: BTreeMap<String, u32> = run.reads;
@@ -34,7 +34,8 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
         exact: run.exact,
         alu: run.alu,
         statements: 0,
-        max_live: max_live(graph, schedule),
+        max_live: 0,
+        max_live_at: String::new(),
     }
 }
 
@@ -225,104 +226,4 @@ fn loops(block: &Block) -> u32 {
         Step::If { then, otherwise, .. } => loops(then) + loops(otherwise),
     });
     inner.sum()
-}
-
-/// Scalars alive at the widest point, constants left out. What a loop's body uses from outside is alive
-/// throughout the loop.
-fn max_live(graph: &Graph, schedule: &Schedule) -> u32 {
-    let mut order = Vec::new();
-    flatten(graph, &schedule.body, &mut order);
-    let mut last_use: Vec<usize> = vec![0; graph.nodes.len()];
-    // Where each value is made: before the loop that it is used in, or in it.
-    let mut made: Vec<usize> = vec![0; graph.nodes.len()];
-    for (at, entry) in order.iter().enumerate() {
-        if let Some(id) = entry.makes {
-            made[id.0 as usize] = at;
-        }
-        for arg in &entry.reads {
-            // Of the loops around the use, those that the value comes from outside of: the outermost one's end.
-            let outside = entry.loops.iter().find(|(from, _)| made[arg.0 as usize] <= *from);
-            let until = outside.map_or(at, |(_, end)| *end);
-            last_use[arg.0 as usize] = last_use[arg.0 as usize].max(until);
-        }
-    }
-    for output in graph.outputs() {
-        last_use[output.0 as usize] = order.len();
-    }
-    let mut ends: Vec<u32> = vec![0; order.len() + 1];
-    let (mut live, mut widest) = (0u32, 0u32);
-    for (at, entry) in order.iter().enumerate() {
-        if let Some(id) = entry.makes {
-            let size = width(graph, id);
-            if last_use[id.0 as usize] > at {
-                live += size;
-                ends[last_use[id.0 as usize]] += size;
-            }
-        }
-        widest = widest.max(live);
-        live -= ends[at];
-    }
-    widest
-}
-
-struct Entry {
-    makes: Option<NodeId>,
-    reads: Vec<NodeId>,
-    /// Where the loops around it begin and end, outermost first.
-    loops: Vec<(usize, usize)>,
-}
-
-fn flatten(graph: &Graph, block: &Block, order: &mut Vec<Entry>) {
-    let entry = |makes: Option<NodeId>, reads: Vec<NodeId>| Entry {
-        makes,
-        reads,
-        loops: Vec::new(),
-    };
-    let results = |node: NodeId| {
-        let regions = graph.regions_of(node);
-        regions.iter().flat_map(|r| graph.region(*r).leaving()).collect()
-    };
-    for step in &block.steps {
-        match step {
-            Step::Eval(id) => order.push(entry(Some(*id), graph.node(*id).args.clone())),
-            Step::Loop { node, body } => {
-                let from = order.len();
-                order.push(entry(None, graph.node(*node).args.clone()));
-                // The counter and what is carried live from one iteration to the next.
-                for param in &graph.region(graph.regions_of(*node)[0]).params {
-                    order.push(entry(Some(*param), Vec::new()));
-                }
-                let inside = order.len();
-                flatten(graph, body, order);
-                let mut last: Vec<NodeId> = results(*node);
-                last.extend(&graph.region(graph.regions_of(*node)[0]).params);
-                order.push(entry(Some(*node), last));
-                let end = order.len() - 1;
-                for entry in &mut order[inside..end] {
-                    entry.loops.insert(0, (from, end));
-                }
-            }
-            Step::If { node, then, otherwise } => {
-                order.push(entry(None, graph.node(*node).args.clone()));
-                flatten(graph, then, order);
-                flatten(graph, otherwise, order);
-                order.push(entry(Some(*node), results(*node)));
-            }
-        }
-    }
-}
-
-fn width(graph: &Graph, id: NodeId) -> u32 {
-    let node = graph.node(id);
-    match (&node.op, node.ty) {
-        (Op::Const(_), _) => 0,
-        (
-            _,
-            crate::ir::Type::Array {
-                components: lanes, len, ..
-            },
-        ) => u32::from(lanes) * len,
-        (_, ty) if ty.kind() == Some(Scalar::Bool) => 1,
-        (_, ty) => u32::from(ty.components()),
-    }
 }

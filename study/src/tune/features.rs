@@ -53,7 +53,8 @@ impl Static {
         let always = count(&always_run);
         let [width, height] = compiled.graph.invocation.pixels();
         let pixels = f64::from(width * height);
-        let statements = f64::from(compiled.statements()) / pixels;
+        let text = compiled.text_counts();
+        let statements = f64::from(text.statements) / pixels;
         let [depth, normal, colour, light] = reads(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
         let behind = arithmetic(&straight) - arithmetic(&always);
@@ -73,7 +74,7 @@ impl Static {
             weights,
             calls,
             alu,
-            f64::from(all.max_live),
+            f64::from(text.max_live),
             behind.max(0.0),
             looped.max(0.0),
             0.0,

@@ -60,6 +60,7 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     if counts.shared_reads > 0 {
         figures.push(many(counts.shared_reads, "read of shared memory"));
     }
+    figures.push(format!("at most {} alive", many(counts.max_live, "scalar")));
     let per = match resources.block {
         [1, 1] => "pixel".to_owned(),
         [width, height] => format!("block of {width}x{height} pixels"),

@@ -1,4 +1,4 @@
-//! SPIR-V as words: basic blocks counted, straight functions replaced where they are called, blocks joined that are one, and exact
+//! SPIR-V as words: straight functions replaced where they are called, blocks joined that are one, and exact
 //! operations decorated.
 
 mod inline;
@@ -35,12 +35,6 @@ fn instructions(words: &[u32]) -> Vec<&[u32]> {
 
 fn opcode(instruction: &[u32]) -> u32 {
     instruction[0] & 0xffff
-}
-
-/// Basic blocks of a module: its labels.
-pub fn basic_blocks(words: &[u32]) -> u32 {
-    let labels = instructions(words).into_iter().filter(|i| opcode(i) == opcode::LABEL);
-    labels.count() as u32
 }
 
 /// The module with a block and the next in one where the first ends in a branch to the second, and nothing else names that:

@@ -1,6 +1,6 @@
 //! No statement for a value that nothing uses, and none that does nothing.
 
-use crate::emit::ast::{Block, Module, Op, Stmt, StmtKind, VarId};
+use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use straightline_evaluator::limits;
 
 /// How often each variable is read, by variable.
@@ -19,10 +19,14 @@ pub fn uses(module: &Module<'_>) -> Vec<u32> {
     uses
 }
 
-fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
-    // Writing is no use.
+/// Expressions that a statement reads itself: writing to a variable is no use of it.
+pub fn read_by<'s>(stmt: &'s Stmt<'_>) -> impl Iterator<Item = &'s Expr> {
     let written = matches!(&stmt.kind, StmtKind::Assign(place, None, _) if matches!(place.op, Op::Var(_)));
-    for expr in stmt.own().skip(usize::from(written)) {
+    stmt.own().skip(usize::from(written))
+}
+
+fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
+    for expr in read_by(stmt) {
         expr.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
                 uses[var.0 as usize] += 1;

@@ -3,21 +3,31 @@
 use super::columns::Columns;
 use super::{dead, simplify};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
+use crate::emit::liveness::width;
 use crate::emit::text::WIDEST;
 use rustc_hash::{FxHashMap, FxHashSet};
 use straightline_evaluator::ir::{Graph, Memory};
-use straightline_evaluator::policy::ReadOrder;
 
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
 
-/// Inlines values that are used once, but for reads whose order is not the source's; gives whether there were some.
-pub fn inline(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) -> bool {
+/// Which values stay where they are made.
+#[derive(Clone, Copy)]
+pub struct Stays {
+    /// Reads of textures and buffers, whose order is not the source's.
+    pub reads: bool,
+    /// Values for which more scalars would be alive if they were computed later.
+    pub crowding: bool,
+}
+
+/// Inlines values that are used once, but for those that stay; gives whether there were some.
+pub fn inline(module: &mut Module<'_>, graph: &Graph, stays: Stays) -> bool {
     let uses = dead::uses(module);
     let mut body = std::mem::take(&mut module.body);
     let mut inliner = Inliner {
+        left: uses.clone(),
         uses,
-        keeps_reads: reads == ReadOrder::Rows,
+        stays,
         columns: Columns { module, graph },
     };
     let inlined = inliner.block(&mut body, 1);
@@ -27,7 +37,9 @@ pub fn inline(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) -> bool 
 
 struct Inliner<'m> {
     uses: Vec<u32>,
-    keeps_reads: bool,
+    /// How often each variable is read in statements that have not been looked at.
+    left: Vec<u32>,
+    stays: Stays,
     columns: Columns<'m>,
 }
 
@@ -42,22 +54,44 @@ struct Candidate {
     operations: usize,
 }
 
+/// What is known of the statements of a block that have been looked at.
+#[derive(Default)]
+struct Seen {
+    /// Values that may be written where they are used.
+    defined: FxHashMap<VarId, Candidate>,
+    /// When each mutable variable was last assigned.
+    assigned: FxHashMap<VarId, usize>,
+    /// When each variable of the block was last read; its declaration counts.
+    read: FxHashMap<VarId, usize>,
+}
+
 impl Inliner<'_> {
     fn block(&mut self, block: &mut Block<'_>, depth: usize) -> bool {
         let mut inlined = false;
         let mut out: Vec<Option<Stmt<'_>>> = Vec::with_capacity(block.len());
-        // The candidates, and when each mutable variable was last assigned.
-        let mut defined: FxHashMap<VarId, Candidate> = FxHashMap::default();
-        let mut assigned: FxHashMap<VarId, usize> = FxHashMap::default();
+        let mut seen = Seen::default();
         for mut stmt in block.drain(..) {
-            self.absorb(&mut stmt, &mut out, &defined, &assigned, depth);
+            let at = out.len();
+            read(dead::read_by(&stmt), 1, &mut |var, times| {
+                self.left[var.0 as usize] -= times as u32
+            });
+            self.absorb(&mut stmt, &mut out, &seen, depth);
             for inner in stmt.blocks_mut() {
                 inlined |= self.block(inner, depth + 1);
             }
-            let at = out.len();
-            assignments(&stmt, &mut |var| _ = assigned.insert(var, at));
+            assignments(&stmt, &mut |var| _ = seen.assigned.insert(var, at));
+            stmt.visit(&mut |expr| {
+                if let Op::Var(var) = expr.op
+                    && let Some(last) = seen.read.get_mut(&var)
+                {
+                    *last = at;
+                }
+            });
+            if let StmtKind::Let(var, _) | StmtKind::Var(var, _) = &stmt.kind {
+                seen.read.insert(*var, at);
+            }
             if let StmtKind::Let(var, value) = &stmt.kind
-                && !(self.keeps_reads && reads_memory(value))
+                && !(self.stays.reads && reads_memory(value))
                 && !matches!(value.op, Op::Exact { .. })
             {
                 let candidate = Candidate {
@@ -65,7 +99,7 @@ impl Inliner<'_> {
                     columns: self.columns.of(value),
                     operations: value.operations(),
                 };
-                defined.insert(*var, candidate);
+                seen.defined.insert(*var, candidate);
             }
             out.push(Some(stmt));
         }
@@ -74,15 +108,30 @@ impl Inliner<'_> {
         inlined
     }
 
+    /// Whether more scalars would be alive for a value that is computed in a later statement: what it is made of lives on until there, in
+    /// place of itself.
+    fn crowds(&self, value: &Expr, at: usize, stmt: &Stmt<'_>, out: &[Option<Stmt<'_>>], seen: &Seen) -> bool {
+        let is_last = |at: usize| out[at + 1..].iter().all(Option::is_none);
+        if is_last(at) {
+            return false;
+        }
+        let mut longer: Vec<VarId> = Vec::new();
+        value.visit(&mut |expr| {
+            if let Op::Var(var) = expr.op
+                && self.left[var.0 as usize] == 0
+                && seen.read.get(&var).is_some_and(|last| !is_last(*last))
+                && !longer.contains(&var)
+                && !stmt.own().any(|own| own.mentions(|other| other == var))
+            {
+                longer.push(var);
+            }
+        });
+        let more: u32 = longer.iter().map(|var| width(self.columns.module.ty(*var).shape)).sum();
+        more > width(value.ty.shape)
+    }
+
     /// Writes values of earlier statements into a statement, short ones first.
-    fn absorb<'g>(
-        &mut self,
-        stmt: &mut Stmt<'g>,
-        out: &mut [Option<Stmt<'g>>],
-        defined: &FxHashMap<VarId, Candidate>,
-        assigned: &FxHashMap<VarId, usize>,
-        depth: usize,
-    ) {
+    fn absorb<'g>(&mut self, stmt: &mut Stmt<'g>, out: &mut [Option<Stmt<'g>>], seen: &Seen, depth: usize) {
         // The end of a loop is computed again for each iteration: what it reads must not change, and be quick to tell.
         let mut written = FxHashSet::default();
         let is_loop = matches!(stmt.kind, StmtKind::For { .. });
@@ -99,13 +148,14 @@ impl Inliner<'_> {
                 expr.visit(&mut |expr| {
                     if let Op::Var(var) = expr.op
                         && self.uses[var.0 as usize] == 1
-                        && let Some(candidate) = defined.get(&var)
+                        && let Some(candidate) = seen.defined.get(&var)
                         && let Some(Stmt {
                             kind: StmtKind::Let(_, value),
                             ..
                         }) = &out[candidate.at]
-                        && !changed_since(value, candidate.at, assigned)
+                        && !changed_since(value, candidate.at, &seen.assigned)
                         && suits(value, candidate.operations)
+                        && !(self.stays.crowding && self.crowds(value, candidate.at, stmt, out, seen))
                     {
                         candidates.push((candidate.columns, var, *candidate));
                     }
@@ -133,8 +183,9 @@ impl Inliner<'_> {
             if stmt.origin.is_none() && !matches!(stmt.kind, StmtKind::For { .. } | StmtKind::If { .. }) {
                 stmt.origin = origin;
             }
-            let mut reads = FxHashMap::default();
-            read(stmt.own().chain([&value]), 1, &mut reads);
+            let mut reads: FxHashMap<VarId, i32> = FxHashMap::default();
+            let mut note = |var, times| *reads.entry(var).or_default() += times;
+            read(stmt.own().chain([&value]), 1, &mut note);
             let mut value = Some(value);
             for own in stmt.own_mut() {
                 // What has become shorter has room for more.
@@ -143,7 +194,7 @@ impl Inliner<'_> {
                     _ => simplify(expr),
                 });
             }
-            read(stmt.own(), -1, &mut reads);
+            read(stmt.own(), -1, &mut note);
             for (read, lost) in reads {
                 let uses = &mut self.uses[read.0 as usize];
                 *uses = uses.saturating_add_signed(-lost);
@@ -152,12 +203,12 @@ impl Inliner<'_> {
     }
 }
 
-/// Adds `weight` for each time that expressions read a variable.
-fn read<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, reads: &mut FxHashMap<VarId, i32>) {
+/// Shows each variable that expressions read, with `weight` each time.
+fn read<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, see: &mut dyn FnMut(VarId, i32)) {
     for expr in exprs {
         expr.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
-                *reads.entry(var).or_default() += weight;
+                see(var, weight);
             }
         });
     }
