@@ -282,7 +282,7 @@ pub mod all {
         };
         Shader::generated(
             WGSL,
-            0x02b9_28d0_2b12_5444,
+            0x8727_2fc1_231d_4bad,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("all"),
@@ -743,7 +743,7 @@ pub mod tile {
         };
         Shader::generated(
             WGSL,
-            0x842b_8b69_92d7_dee9,
+            0x8f7e_15bf_6ad3_826c,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("all"),
@@ -1295,7 +1295,7 @@ pub mod graded {
         };
         Shader::generated(
             WGSL,
-            0xebce_daca_75f7_a924,
+            0x22c8_4a20_0dc2_ea1f,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("graded"),
@@ -1681,7 +1681,7 @@ pub mod drawn {
         };
         Shader::generated(
             WGSL,
-            0x53cf_f710_3ba9_03ee,
+            0x328a_3253_1706_0c12,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("drawn"),
@@ -1886,7 +1886,7 @@ pub mod several {
         };
         Shader::generated(
             WGSL,
-            0xd475_b2bc_2046_2795,
+            0x9145_a910_0c6b_26c5,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("several"),
@@ -2123,7 +2123,7 @@ pub mod waiting {
         };
         Shader::generated(
             WGSL,
-            0xfc16_4194_0766_071f,
+            0x5599_1732_3690_ca49,
             Loops::Unproven(Borrowed("`sum_2` does not count in `i32`")),
             Plan {
                 kernel: Borrowed("waiting"),
@@ -2400,7 +2400,7 @@ pub mod sraa {
         };
         Shader::generated(
             WGSL,
-            0x10f8_20b1_f784_9858,
+            0x68e1_8ea2_179f_c1bf,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("sraa"),
