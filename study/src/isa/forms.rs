@@ -16,6 +16,8 @@ pub struct Spirv {
     pub kind: IsaForm,
     pub path: SpirvPath,
     pub entry: String,
+    /// Scalars alive at once at most, where its text is ours.
+    pub alive: Option<u32>,
     /// The module, or why there is none.
     pub module: Result<Vec<u8>, String>,
 }
@@ -43,6 +45,7 @@ pub fn forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaS
         kind: IsaForm::Slang,
         path: SpirvPath::Naga,
         entry: subject.kernel.name().to_owned(),
+        alive: None,
         module: by_naga(wgsl),
     }));
     Ok(all)
@@ -66,6 +69,7 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
         .stage(stage)
         .unbounded_loops(path != SpirvPath::NagaBounded);
     let emitted = compiled.emit(&options.targets([Target::Spirv, Target::Glsl450]));
+    let alive = emitted.as_ref().ok().map(|emitted| emitted.manifest.counts.max_live);
     let (entry, module) = match (emitted, path, glslang) {
         (Err(errors), ..) => (String::new(), Err(errors.first_message().to_owned())),
         (Ok(emitted), SpirvPath::Glslang, Some(program)) => ("main".to_owned(), by_glslang(program, &emitted)),
@@ -78,6 +82,7 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
         kind,
         path,
         entry,
+        alive,
         module,
     }
 }

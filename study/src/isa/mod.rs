@@ -88,6 +88,7 @@ pub fn ask(
                 options: subject.options.clone(),
                 form: form.kind,
                 path: form.path,
+                alive: form.alive,
                 figures: Default::default(),
                 refused: None,
             };

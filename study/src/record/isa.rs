@@ -93,6 +93,9 @@ pub struct Asked {
     pub form: IsaForm,
     /// How it came to SPIR-V.
     pub path: SpirvPath,
+    /// Scalars alive at once at most, as its manifest says; of a text that is not ours, nothing.
+    #[serde(default)]
+    pub alive: Option<u32>,
     /// What each compiler says of it.
     pub figures: BTreeMap<Family, Figures>,
     /// Why one of them says nothing.
@@ -118,15 +121,17 @@ impl Record for IsaRecord {
     const STEM: &'static str = "isa";
 
     fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
-        let mut head = vec!["kernel", "options", "form", "SPIR-V by", "family"];
+        let mut head = vec!["kernel", "options", "form", "SPIR-V by", "alive", "family"];
         head.extend(Figures::default().named().map(|(name, _)| name));
         let row = |asked: &Asked, family: &Family, figures: &Figures| {
             let options: Vec<String> = asked.options.iter().map(|(k, v)| format!("{k}={v}")).collect();
+            let alive = asked.alive.map_or(String::new(), |alive| alive.to_string());
             let words = [
                 &*asked.kernel,
                 &options.join(" "),
                 asked.form.name(),
                 asked.path.name(),
+                &alive,
                 family.name(),
             ];
             let words = words.map(str::to_owned).into_iter();

@@ -3,6 +3,7 @@
 //! A table stands between `<!-- table NAME of FILE ... -->`, paths from `study/records/`, and `<!-- end -->`. What stands there
 //! must be what [`filled`] makes of the records.
 
+mod alive;
 mod budget;
 mod crates;
 mod encode;
@@ -109,6 +110,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         }
         "goals" => goals::table(files),
         "reached" => reached::table(files),
+        "alive" => alive::registers(&IsaRecord::read(first).map_err(why)?),
         "rank" => {
             let times: Result<Vec<_>, _> = files[1..].iter().map(|file| LoopsRecord::read(file)).collect();
             rank::correlations(&IsaRecord::read(first).map_err(why)?, &times.map_err(why)?)
@@ -125,7 +127,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

@@ -113,7 +113,7 @@ fn driver(record: &LoopsRecord) -> String {
 }
 
 /// The rank of each, from 1; of equal ones the mean of theirs.
-fn ranks(values: &[f64]) -> Vec<f64> {
+pub(super) fn ranks(values: &[f64]) -> Vec<f64> {
     let rank = |value: &f64| {
         let below = values.iter().filter(|other| *other < value).count();
         let equal = values.iter().filter(|other| *other == value).count();
@@ -123,7 +123,7 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 }
 
 /// The correlation coefficient, of ranks Spearman's.
-fn pearson(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn pearson(a: &[f64], b: &[f64]) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (mean_a, mean_b) = (mean(a), mean(b));
     let product = |x: &[f64], mean_x: f64, y: &[f64], mean_y: f64| -> f64 {
