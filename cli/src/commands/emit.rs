@@ -1,5 +1,6 @@
 //! `emit`: shaders for other engines.
 
+use super::notes::notes;
 use crate::args::EmitArgs;
 use crate::failure::Failure;
 use std::collections::BTreeMap;
@@ -11,8 +12,13 @@ use straightline_kernels::HalfPrecision;
 /// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing; prints the
 /// paths.
 pub fn run(args: &EmitArgs) -> Result<(), Failure> {
-    for file in write(args, &compile(args)?)? {
+    let ready = compile(args)?;
+    for file in write(args, &ready)? {
         outln!("{}", file.display());
+    }
+    let Ready { kernel, compiled } = &ready;
+    for note in notes(kernel, &args.spec().settings, compiled, &compiled.text_counts()) {
+        errln!("note: {note}");
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! `explain`: what a kernel does for each pixel.
 
 use super::machine;
+use super::notes::notes;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
@@ -41,15 +42,20 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     let features = described.features.join(", ");
     let counts = described.counts;
     let paper = compiled.paper();
+    let remarks = notes(&kernel, &args.kernel.options.settings(), &compiled, &counts);
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
+        if !remarks.is_empty() {
+            out.insert("notes".into(), json!(remarks));
+        }
         if let Some(machine) = &machine {
             out.insert("isa".into(), machine.to_json());
         }
         outln!("{:#}", Value::Object(out));
     } else {
         print(&compiled, &counts, &bound, paper);
+        remarks.iter().for_each(|note| outln!("{note}"));
         if args.precision != Precision::default() {
             outln!("\nin {}: the device needs {features}", args.precision);
         }
@@ -321,19 +327,7 @@ fn print_loops(compiled: &Compiled) {
             outln!("`{}` {became}: {reason}", report.path());
         }
     }
-    let most = compiled.loops.iter().max_by_key(|report| report.copies);
-    if let Some(report) = most.filter(|r| r.copies >= MANY_COPIES && matches!(r.unroll, Unroll::Partial(_))) {
-        let (path, unroll) = (report.path(), report.unroll);
-        outln!(
-            "`{path}` is written {} times: the factors of loops in loops multiply; give one to this loop alone: `--unroll none --unroll-loop {path}={}`",
-            report.copies,
-            unroll.to_string().trim_start_matches("partial(").trim_end_matches(')')
-        );
-    }
 }
-
-/// Copies of a loop's body after which a factor was meant for fewer loops.
-const MANY_COPIES: u64 = 64;
 
 fn row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
     vec![

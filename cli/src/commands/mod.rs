@@ -14,6 +14,7 @@ pub mod figures;
 pub mod list;
 #[cfg_attr(not(feature = "study"), path = "without_machine.rs")]
 mod machine;
+mod notes;
 pub mod page;
 #[cfg(feature = "study")]
 pub mod quads;

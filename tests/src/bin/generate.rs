@@ -3,14 +3,21 @@
 use cpu_time::ProcessTime;
 use std::process::ExitCode;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{EmitOptions, Kernel, Settings, Unroll};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Unroll};
 
-/// A kernel of so many taps that it has 10 000 statements.
-const LARGE: &str = "
-pub fn large(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+/// A kernel of taps in a square, each with an exponential, of so many statements as the option says.
+const SQUARE: &str = "
+options! {
+    pub struct Size {
+        /// Taps to each side.
+        pub radius: i32 [1..=100] = 1,
+    }
+}
+
+pub fn square(cfg: &Size, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = Vec4::ZERO;
-    for y in -29..=29 {
-        for x in -29..=29 {
+    for y in -cfg.radius..=cfg.radius {
+        for x in -cfg.radius..=cfg.radius {
             let tap = color.load(pixel + ivec2(x, y));
             let away = tap.distance_squared(Vec4::ONE);
             let weight = (-away).exp();
@@ -21,8 +28,14 @@ pub fn large(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
 }
 ";
 
+/// Radii of the square, for some hundred to some hundred thousand statements.
+const RADII: [u32; 7] = [2, 5, 9, 15, 28, 50, 91];
+
+/// Statements beyond which naga takes minutes to read a function.
+const MOST_EMITTED: u32 = 40_000;
+
 fn main() -> ExitCode {
-    match variants().and_then(|()| large()) {
+    match variants().and_then(|()| sizes()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -65,23 +78,60 @@ fn variants() -> Result<(), String> {
     Ok(())
 }
 
-fn large() -> Result<(), String> {
+/// Time and memory of one kernel by its size.
+fn sizes() -> Result<(), String> {
+    println!(
+        "\n| statements | compiled, s | described, s | a statement, ms | emitted as WGSL, s | of which naga reads, s | memory at most, MB |"
+    );
+    println!("| --: | --: | --: | --: | --: | --: | --: |");
+    let limits = |settings: Settings| {
+        let time = std::time::Duration::from_secs(600);
+        settings.budget(u32::MAX).time_limit(time).memory_limit(8 << 30)
+    };
+    for radius in RADII {
+        let begin = ProcessTime::now();
+        let compiled = Kernel::from_text("square.rs", SQUARE, "square")
+            .compile(&limits(Settings::new().set("radius", radius)))
+            .map_err(|e| e.to_string())?;
+        let compile = begin.elapsed().as_secs_f64();
+        let begin = ProcessTime::now();
+        let counts = compiled
+            .describe(&EmitOptions::new())
+            .map_err(|e| e.to_string())?
+            .counts;
+        let describe = begin.elapsed().as_secs_f64();
+        let each = 1e3 * (compile + describe) / f64::from(counts.statements);
+        let (emit, read) = match counts.statements {
+            ..=MOST_EMITTED => emission(&compiled)?,
+            _ => ("–".to_owned(), "–".to_owned()),
+        };
+        println!(
+            "| {} | {compile:.2} | {describe:.2} | {each:.3} | {emit} | {read} | {} |",
+            counts.statements,
+            peak_memory()
+        );
+    }
+    Ok(())
+}
+
+/// Seconds that emission takes, and of these what naga takes to read the WGSL.
+fn emission(compiled: &Compiled) -> Result<(String, String), String> {
     let begin = ProcessTime::now();
-    let compiled = Kernel::from_text("large.rs", LARGE, "large")
-        .compile(&Settings::default())
-        .map_err(|e| e.to_string())?;
-    let evaluated = begin.elapsed();
     let emitted = compiled.emit(&EmitOptions::new()).map_err(|e| e.to_string())?;
-    let emission = begin.elapsed() - evaluated;
+    let emission = begin.elapsed().as_secs_f64();
     let wgsl = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
     let begin = ProcessTime::now();
     naga::front::wgsl::parse_str(&wgsl).map_err(|e| e.emit_to_string(&wgsl))?;
-    println!(
-        "a kernel of {} statements: {:.2} s to evaluate, {:.2} s to emit and validate, of which naga reads the WGSL for {:.2} s",
-        emitted.manifest.counts.statements,
-        evaluated.as_secs_f64(),
-        emission.as_secs_f64(),
-        begin.elapsed().as_secs_f64()
-    );
-    Ok(())
+    Ok((
+        format!("{emission:.2}"),
+        format!("{:.2}", begin.elapsed().as_secs_f64()),
+    ))
+}
+
+/// Memory that the process has had at most, in MB, where the system says so.
+fn peak_memory() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes: Option<u64> = line.and_then(|line| line.trim_end_matches("kB").trim().parse().ok());
+    kilobytes.map_or_else(|| "–".to_owned(), |kb| (kb / 1000).to_string())
 }
