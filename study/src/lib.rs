@@ -6,6 +6,7 @@
 
 pub mod baselines;
 mod builtin;
+pub mod frame;
 pub mod hard;
 pub mod isa;
 pub mod loops;

@@ -35,7 +35,9 @@ pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 #[cfg(feature = "study")]
 pub use straightline_isa::Family;
 #[cfg(feature = "study")]
-pub use study::{CommonArgs, ErrorArgs, FilmArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs, Study, StudyArgs};
+pub use study::{
+    CommonArgs, ErrorArgs, FilmArgs, FrameArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs, Study, StudyArgs,
+};
 #[cfg(feature = "study")]
 pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
 #[cfg(feature = "study")]

@@ -56,6 +56,8 @@ pub enum Study {
     Loops(LoopsArgs),
     /// Compare methods of antialiasing on all scenes: time, and error against 256 samples a pixel
     Error(ErrorArgs),
+    /// Put frames together of the records of `budget` and `study error`: time of a whole frame against its error
+    Frame(FrameArgs),
     /// Film a slow pan by several methods side by side, and tell how wrong what changes from frame to frame is
     Film(FilmArgs),
     /// Compare SRAA with earlier frames and without, and supersampling, in a still, a pan and a turn, and where something moves
@@ -104,6 +106,25 @@ pub struct IsaArgs {
     /// A family of AMD GPUs: polaris10, vega10, navi10, navi21 or navi31; may be given several times. By default all of them
     #[arg(long, value_name = "NAME")]
     pub family: Vec<Family>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct FrameArgs {
+    /// Record of `budget --record`: the passes of a frame
+    #[arg(long, value_name = "RECORD")]
+    pub passes: PathBuf,
+    /// Record of `study error` of the same scene, in the same size and on the same adapter
+    #[arg(long, value_name = "RECORD")]
+    pub errors: PathBuf,
+    /// Milliseconds that shading one sample of every pixel takes, up to six: a panel each
+    #[arg(long, value_name = "MS,...", value_delimiter = ',', default_values_t = straightline_study::frame::SHADING_MS, value_parser = shading)]
+    pub shading: Vec<f64>,
+}
+
+/// A cost of shading.
+fn shading(text: &str) -> Result<f64, String> {
+    let cost = text.parse().ok().filter(|ms| (0.0..=1e6).contains(ms));
+    cost.ok_or_else(|| "use milliseconds from 0 to 1000000".to_owned())
 }
 
 #[derive(Clone, Debug, Default, Args)]

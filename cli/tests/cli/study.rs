@@ -3,6 +3,7 @@
 use crate::common;
 
 use common::{example, fails, finishes, here, is_empty, scratch, straightline, write};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 #[test]
@@ -363,4 +364,52 @@ fn uniforms_of_a_studied_kernel_are_said() {
     }
     fails(&[&words[..], &["--uniform", "gian=2"]].concat(), 2, &["uniform `gian`"]);
     fails(&[&words[..], &["--uniform", "gain=much"]].concat(), 2, &["gain"]);
+}
+
+/// Records of one small scene, and the frames that are put together of them: sums of their parts, with a panel for each cost of shading.
+#[test]
+fn frames_are_put_together_of_two_records() {
+    let folder = scratch("study-frame");
+    let path = |name: &str| folder.join(name).to_str().expect("a name").to_owned();
+    let (passes, out) = (path("budget.json"), path("frame"));
+    let small = ["--size", "48x32", "--rounds", "2"];
+    finishes(&[&["budget", "--scene", "floor", "--record", &passes][..], &small].concat());
+    let methods = ["1x", "SMAA", "SRAA 4", "4x"].map(|name| ["--only", name]).concat();
+    let error = ["study", "error", "--scene", "floor", "--out", &path("error")].map(str::to_owned);
+    let error: Vec<&str> = error.iter().map(String::as_str).collect();
+    finishes(&[&error[..], &methods, &small].concat());
+    let errors = path("error/error.json");
+    let frame = [
+        "study", "frame", "--passes", &passes, "--errors", &errors, "--out", &out,
+    ];
+    let printed = finishes(&[&frame[..], &["--shading", "1,20"]].concat());
+    assert!(
+        printed.contains("SRAA 4") && printed.contains("frame at 20 ms"),
+        "{printed}"
+    );
+
+    let read = |name: &str| std::fs::read_to_string(folder.join("frame").join(name)).expect("a file");
+    let record: Value = serde_json::from_str(&read("frame.json")).expect("JSON");
+    let methods = record["methods"].as_array().expect("methods");
+    let names: Vec<&str> = methods.iter().filter_map(|method| method["method"].as_str()).collect();
+    assert_eq!(names.len(), 4, "{names:?}");
+    for method in methods {
+        let number = |name: &str| method[name].as_f64().unwrap_or_else(|| panic!("{name} of {method}"));
+        for (frame, shading) in method["frames"].as_array().expect("frames").iter().zip([1.0, 20.0]) {
+            let sum = number("geometry_ms") + number("shaded") * shading + number("filter_ms");
+            assert!((frame["ms"].as_f64().expect("ms") - sum).abs() < 1e-9, "{method}");
+        }
+    }
+    for panel in ["frame-1ms.svg", "frame-20ms.svg"] {
+        assert!(read(panel).contains("<svg"), "{panel}");
+    }
+    assert!(read("report.html").contains("Time of a frame against error"));
+
+    // Another size is another frame.
+    let other = path("other.json");
+    finishes(&[
+        "budget", "--scene", "floor", "--record", &other, "--size", "32x32", "--rounds", "2",
+    ]);
+    let words = ["study", "frame", "--passes", &other, "--errors", &errors, "--out", &out];
+    fails(&words, 1, &["differ in their size: 32x32 and 48x32"]);
 }

@@ -1,6 +1,7 @@
 //! What a study found, as files: JSON with its circumstances, CSV beside it. `README.md` and the report cite these.
 
 mod film;
+mod frame;
 mod hard;
 mod isa;
 mod loops;
@@ -20,6 +21,7 @@ use straightline_bench::execute::Clock;
 use straightline_codegen::files;
 
 pub use film::{FilmRecord, FilmedMethod};
+pub use frame::{Frame, FrameMethod, FrameRecord, PassTimes, TimedPass};
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};

@@ -1,5 +1,6 @@
 //! One page of all records in a folder: plots, tables, pictures to compare. It needs nothing beside itself.
 
+mod frame;
 mod hard;
 mod isa;
 mod loops;
@@ -9,7 +10,7 @@ mod quality;
 mod tune;
 
 use crate::record::{
-    Circumstances, HardRecord, IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord,
+    Circumstances, FrameRecord, HardRecord, IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -17,6 +18,8 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::files;
 use straightline_kernels::OptionText;
 use tera::{Context, Tera};
+
+pub use frame::plot as frame_plot;
 
 /// Name of the page.
 pub const PAGE: &str = "report.html";
@@ -42,7 +45,7 @@ pub enum ReportError {
     Template(String),
 }
 
-/// Makes `report.html` in `folder` from every record that lies there: `loops*.json`, `error*.json`, `hard*.json`, `isa*.json` and
+/// Makes `report.html` in `folder` from every record that lies there: `frame*.json`, `loops*.json`, `error*.json`, `hard*.json`, `isa*.json` and
 /// `tune*.json`, with the pictures that they name. Returns its path.
 ///
 /// # Errors
@@ -61,6 +64,7 @@ pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
 /// [`ReportError`].
 pub fn page(folder: &Path) -> Result<String, ReportError> {
     let mut pictures = pictures::Pictures::default();
+    let frame = sections(folder, |record: FrameRecord| frame::section(&record))?;
     let loops = sections(folder, |record: LoopsRecord| loops::section(&record))?;
     let quality = sections(folder, |record: QualityRecord| {
         quality::section(&record, folder, &mut pictures)
@@ -68,10 +72,17 @@ pub fn page(folder: &Path) -> Result<String, ReportError> {
     let hard = sections(folder, |record: HardRecord| Ok(hard::section(&record)))?;
     let isa = sections(folder, |record: IsaRecord| Ok(isa::section(&record)))?;
     let tune = sections(folder, |record: TuneRecord| tune::section(&record))?;
-    if loops.is_empty() && quality.is_empty() && hard.is_empty() && isa.is_empty() && tune.is_empty() {
+    if frame.is_empty()
+        && loops.is_empty()
+        && quality.is_empty()
+        && hard.is_empty()
+        && isa.is_empty()
+        && tune.is_empty()
+    {
         return Err(ReportError::Empty(folder.to_owned()));
     }
     let mut context = Context::new();
+    context.insert("frame", &frame);
     context.insert("loops", &loops);
     context.insert("quality", &quality);
     context.insert("hard", &hard);
@@ -96,6 +107,7 @@ fn render(context: &Context) -> Result<String, ReportError> {
     let mut tera = Tera::default();
     tera.add_raw_templates([
         ("shared.html", include_str!("page/shared.html")),
+        ("frame.html", include_str!("page/frame.html")),
         ("loops.html", include_str!("page/loops.html")),
         ("error.html", include_str!("page/error.html")),
         ("hard.html", include_str!("page/hard.html")),

@@ -76,11 +76,19 @@ const FAMILIES: [(Family, &str, usize); 6] = [
     (Family::Own, "kernels of your own", 3),
 ];
 
-fn color(family: Family) -> usize {
+pub(super) fn color(family: Family) -> usize {
     FAMILIES
         .iter()
         .find(|(f, ..)| *f == family)
         .map_or(0, |(.., color)| *color)
+}
+
+/// Words and colours of the families that are shown.
+pub(super) fn legend(is_shown: impl Fn(Family) -> bool) -> Vec<(&'static str, &'static str)> {
+    let shown = FAMILIES.iter().filter(|(family, ..)| is_shown(*family));
+    shown
+        .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
+        .collect()
 }
 
 pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pictures) -> Result<Quality, ReportError> {
@@ -99,14 +107,10 @@ pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pict
         caption: caption(&record.circumstances),
         methods: names.iter().map(|name| method(record, name)).collect(),
         names: record.scenes.iter().map(|scene| scene.scene.clone()).collect(),
-        legend: FAMILIES
-            .iter()
-            .filter(|(family, ..)| {
-                let mut methods = record.scenes.iter().flat_map(|scene| &scene.methods);
-                methods.any(|method| method.family == *family)
-            })
-            .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
-            .collect(),
+        legend: legend(|family| {
+            let mut methods = record.scenes.iter().flat_map(|scene| &scene.methods);
+            methods.any(|method| method.family == family)
+        }),
         scenes: scenes?,
     })
 }

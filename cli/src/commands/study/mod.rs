@@ -2,6 +2,7 @@
 
 pub mod error;
 mod film;
+mod frame;
 mod hard;
 pub mod isa;
 mod loops;
@@ -39,6 +40,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     match &args.study {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
+        Some(Study::Frame(args)) => frame::run(common, args)?,
         Some(Study::Film(film)) => return film::run(common, film, &mut progress),
         Some(Study::Motion(args)) => return motion::run(common, args, &mut progress),
         Some(Study::Hard(args)) if args.list => return hard::list(args),

@@ -1,0 +1,69 @@
+//! `study frame`: time of a whole frame against its error, of two records.
+
+use super::command;
+use crate::args::{CommonArgs, FrameArgs};
+use crate::failure::Failure;
+use crate::table;
+use std::collections::BTreeMap;
+use straightline_codegen::files;
+use straightline_study::frame::frames;
+use straightline_study::record::{FrameMethod, FrameRecord, PassTimes, QualityRecord, Record, read_file};
+use straightline_study::report::frame_plot;
+
+/// Most costs of shading, each of which is a panel.
+const MOST_COSTS: usize = 6;
+
+/// Width and height of a panel that is written by itself.
+const PANEL: (u32, u32) = (820, 460);
+
+/// Puts frames together, prints the best, and writes record and panels.
+pub fn run(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failure> {
+    if args.shading.is_empty() || args.shading.len() > MOST_COSTS {
+        return Err(Failure::Usage(format!("--shading takes 1 to {MOST_COSTS} costs")));
+    }
+    let text = read_file(&args.passes).map_err(Failure::of)?;
+    let passes: PassTimes = serde_json::from_slice(&text).map_err(|why| {
+        let path = args.passes.display();
+        Failure::Failed(format!("`{path}` is not a record of `budget --record`: {why}"))
+    })?;
+    let errors = QualityRecord::read(&args.errors).map_err(Failure::of)?;
+    let record = frames(&passes, &errors, &args.shading, command()).map_err(Failure::of)?;
+    print(&record);
+    let mut panels = BTreeMap::new();
+    for (k, ms) in record.shading_ms.iter().enumerate() {
+        let svg = frame_plot(&record, k, PANEL).map_err(Failure::of)?;
+        panels.insert(format!("{}-{ms}ms.svg", FrameRecord::STEM), (svg + "\n").into_bytes());
+    }
+    panels.extend(record.files(FrameRecord::STEM).map_err(Failure::of)?);
+    files::write_all(&common.out, &panels).map_err(Failure::of)?;
+    Ok(())
+}
+
+/// Prints all methods, the best at each cost marked.
+fn print(record: &FrameRecord) {
+    let row = |m: &FrameMethod| {
+        let mut row = vec![
+            m.method.clone(),
+            format!("{:.4}", m.error),
+            format!("{:.2}", m.psnr),
+            format!("{:.1}", m.geometry_ms),
+            m.shaded.to_string(),
+            format!("{:.1}", m.filter_ms),
+        ];
+        let frames = m.frames.iter();
+        row.extend(frames.map(|f| format!("{:.1}{}", f.ms, if f.is_best { " *" } else { "  " })));
+        row
+    };
+    let costs = record.shading_ms.iter().map(|ms| format!("frame at {ms} ms  "));
+    let costs: Vec<String> = costs.collect();
+    let mut head = vec!["method", "error", "PSNR", "geometry ms", "shaded", "filter ms"];
+    head.extend(costs.iter().map(String::as_str));
+    let rows: Vec<Vec<String>> = record.methods.iter().map(row).collect();
+    out!("{}", table::render(&head, &rows));
+    outln!(
+        "\n* no other method takes as little time with a smaller error. Medians; shading costs are of one sample of every pixel."
+    );
+    for (method, why) in &record.absent {
+        outln!("{method} is left out: {why}");
+    }
+}

@@ -1,0 +1,123 @@
+//! Time of a whole frame against its error.
+
+use super::{Circumstances, Family, Record};
+use serde::{Deserialize, Serialize};
+use straightline_bench::execute::Quartiles;
+use straightline_kernels::OptionText;
+
+/// Passes of a frame of one scene, as `budget --record` writes them beside much else.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct PassTimes {
+    /// Circumstances of the timing.
+    #[serde(flatten)]
+    pub circumstances: Circumstances,
+    /// Name of the scene, or the path of a model.
+    pub scene: String,
+    /// Every pass that was timed.
+    pub passes: Vec<TimedPass>,
+}
+
+/// One pass of a frame.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct TimedPass {
+    /// Its purpose: `main G-buffer`, `depth and normals`, `deferred shading`, `box filter`.
+    pub name: String,
+    /// Samples of each pixel.
+    pub samples: u32,
+    /// Time in milliseconds.
+    pub ms: Quartiles,
+}
+
+/// A method with the parts of its frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameMethod {
+    /// Name, as in the record of errors.
+    pub method: String,
+    /// Kind of method.
+    pub family: Family,
+    /// Options of its kernel that are not the default.
+    pub options: Vec<OptionText>,
+    /// Milliseconds of drawing geometry, the G-buffer's further samples included: median.
+    pub geometry_ms: f64,
+    /// Shading samples a pixel.
+    pub shaded: u32,
+    /// Milliseconds of the filter or the box filter; 0 without one: median.
+    pub filter_ms: f64,
+    /// Peak signal-to-noise ratio to 256 samples a pixel, in dB.
+    pub psnr: f64,
+    /// The same as a root of the mean squared error, in colours of 0..=1.
+    pub error: f64,
+    /// Bytes of G-buffer, picture and target.
+    pub bytes: u64,
+    /// Frames at each of [`FrameRecord::shading_ms`].
+    pub frames: Vec<Frame>,
+}
+
+/// A frame at one cost of shading.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// Milliseconds in all: the sum of the parts' medians.
+    pub ms: f64,
+    /// On the front: no method takes as little time with a smaller error.
+    pub is_best: bool,
+}
+
+/// Time of a whole frame against its error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameRecord {
+    /// Command that made this record of two others.
+    pub command: String,
+    /// Circumstances of the passes.
+    pub passes: Circumstances,
+    /// Circumstances of filters and errors.
+    pub errors: Circumstances,
+    /// Scene of both.
+    pub scene: String,
+    /// Costs of shading one sample of every pixel, in milliseconds, for which frames are put together.
+    pub shading_ms: Vec<f64>,
+    /// Cost that the passes had themselves.
+    pub own_shading_ms: f64,
+    /// Methods, by error.
+    pub methods: Vec<FrameMethod>,
+    /// Methods that are left out, with the reasons.
+    pub absent: Vec<(String, String)>,
+}
+
+impl Record for FrameRecord {
+    const STEM: &'static str = "frame";
+
+    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
+        let head = vec![
+            "method",
+            "options",
+            "psnr_db",
+            "error",
+            "geometry_ms",
+            "shading_samples",
+            "filter_ms",
+            "bytes",
+            "shading_ms",
+            "frame_ms",
+            "best",
+        ];
+        let rows = self.methods.iter().flat_map(|m| {
+            let options: Vec<String> = m.options.iter().map(|(k, v)| format!("{k}={v}")).collect();
+            m.frames.iter().zip(&self.shading_ms).map(move |(frame, shading)| {
+                vec![
+                    m.method.clone(),
+                    options.join(" "),
+                    format!("{:.3}", m.psnr),
+                    format!("{:.6}", m.error),
+                    format!("{:.3}", m.geometry_ms),
+                    m.shaded.to_string(),
+                    format!("{:.3}", m.filter_ms),
+                    m.bytes.to_string(),
+                    shading.to_string(),
+                    format!("{:.3}", frame.ms),
+                    frame.is_best.to_string(),
+                ]
+            })
+        });
+        (head, rows.collect())
+    }
+}

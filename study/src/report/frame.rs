@@ -1,0 +1,115 @@
+//! Time of a whole frame against its error.
+
+use super::plot::{Dot, Line, Plot, Scale, number};
+use super::quality::{color, legend};
+use super::{ReportError, caption};
+use crate::record::{FrameMethod, FrameRecord};
+use serde::Serialize;
+
+#[derive(Debug, Serialize)]
+pub(super) struct Frames {
+    scene: String,
+    legend: Vec<(&'static str, &'static str)>,
+    panels: Vec<Panel>,
+    rows: Vec<Vec<String>>,
+    absent: Vec<(String, String)>,
+    passes: String,
+    errors: String,
+}
+
+/// The frames at one cost of shading.
+#[derive(Debug, Serialize)]
+struct Panel {
+    title: String,
+    plot: String,
+}
+
+pub(super) fn section(record: &FrameRecord) -> Result<Frames, ReportError> {
+    let panels = record.shading_ms.iter().enumerate().map(|(k, ms)| {
+        Ok(Panel {
+            title: format!("Shading one sample of every pixel takes {} ms", number(*ms)),
+            plot: plot(record, k, (980, 440))?,
+        })
+    });
+    Ok(Frames {
+        scene: record.scene.clone(),
+        legend: legend(|family| record.methods.iter().any(|method| method.family == family)),
+        panels: panels.collect::<Result<_, ReportError>>()?,
+        rows: record.methods.iter().map(row).collect(),
+        absent: record.absent.clone(),
+        passes: caption(&record.passes),
+        errors: caption(&record.errors),
+    })
+}
+
+/// The frames at the cost of shading number `cost`, as an SVG of so many pixels.
+///
+/// # Errors
+///
+/// [`ReportError::Plot`], if there are none.
+pub fn plot(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<String, ReportError> {
+    let shown: Vec<&FrameMethod> = record.methods.iter().filter(|m| m.psnr.is_finite()).collect();
+    let mut front: Vec<(f64, f64)> = shown
+        .iter()
+        .filter(|m| m.frames[cost].is_best)
+        .map(|m| (m.frames[cost].ms, m.error))
+        .collect();
+    front.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Those on the front and what people know have names; others say theirs when they are pointed at.
+    let is_named = |m: &FrameMethod| m.frames[cost].is_best || m.options.is_empty();
+    let dots = shown.iter().map(|m| Dot {
+        at: (m.frames[cost].ms, m.error),
+        spread: None,
+        color: color(m.family),
+        label: is_named(m).then(|| m.method.clone()),
+        title: title(m, cost),
+    });
+    let plot = Plot {
+        size,
+        axes: (
+            "time of the frame in ms".to_owned(),
+            "error: RMS difference to 256 samples a pixel".to_owned(),
+        ),
+        scales: (Scale::Log, Scale::Log),
+        across: true,
+        dots: dots.collect(),
+        lines: vec![Line {
+            points: front,
+            color: 5,
+            dashed: false,
+            label: None,
+        }],
+    };
+    plot.svg()
+}
+
+fn title(method: &FrameMethod, cost: usize) -> String {
+    format!(
+        "{}: {} ms a frame (geometry {}, {} shading samples, filter {}), error {:.4}, {:.2} dB, {:.0} MB",
+        method.method,
+        number(method.frames[cost].ms),
+        number(method.geometry_ms),
+        method.shaded,
+        number(method.filter_ms),
+        method.error,
+        method.psnr,
+        method.bytes as f64 / 1e6
+    )
+}
+
+fn row(method: &FrameMethod) -> Vec<String> {
+    let mut row = vec![
+        method.method.clone(),
+        format!("{:.4}", method.error),
+        format!("{:.2}", method.psnr),
+        number(method.geometry_ms),
+        method.shaded.to_string(),
+        number(method.filter_ms),
+    ];
+    row.extend(method.frames.iter().map(|frame| {
+        let best = if frame.is_best { " ●" } else { "" };
+        format!("{}{best}", number(frame.ms))
+    }));
+    row.push(format!("{:.0}", method.bytes as f64 / 1e6));
+    row
+}
