@@ -31,6 +31,12 @@ pub enum FrameError {
         /// Scenes of the other record.
         known: String,
     },
+    /// A method is not in the record of errors.
+    #[error("`{name}` is none of the methods of the errors")]
+    Method {
+        /// Its name.
+        name: String,
+    },
     /// A pass is missing.
     #[error("the record of passes has no `{name}` with {samples} samples: run `budget --record` again")]
     Pass {
@@ -39,6 +45,15 @@ pub enum FrameError {
         /// Its samples.
         samples: u32,
     },
+}
+
+/// The frames that are asked for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// Costs of shading one sample of every pixel, in milliseconds.
+    pub shading_ms: Vec<f64>,
+    /// Names of the methods; of all, if there are none.
+    pub only: Vec<String>,
 }
 
 /// Parts of a method's frame.
@@ -56,7 +71,7 @@ struct Parts {
 pub fn frames(
     passes: &PassTimes,
     errors: &QualityRecord,
-    shading_ms: &[f64],
+    asked: &Asked,
     command: String,
 ) -> Result<FrameRecord, FrameError> {
     compare(&passes.circumstances, &errors.circumstances)?;
@@ -72,7 +87,16 @@ pub fn frames(
     })?;
     let mut methods = Vec::new();
     let mut absent = Vec::new();
-    for method in &scene.methods {
+    let shading_ms = &asked.shading_ms;
+    if let Some(name) = asked
+        .only
+        .iter()
+        .find(|name| !scene.methods.iter().any(|m| m.method == **name))
+    {
+        return Err(FrameError::Method { name: name.clone() });
+    }
+    let is_asked = |m: &&MethodErrors| asked.only.is_empty() || asked.only.contains(&m.method);
+    for method in scene.methods.iter().filter(is_asked) {
         match parts(method, passes)? {
             Ok(parts) => methods.push(at_costs(method, &parts, shading_ms)),
             Err(why) => absent.push((method.method.clone(), why.to_owned())),
@@ -87,7 +111,7 @@ pub fn frames(
         passes: passes.circumstances.clone(),
         errors: errors.circumstances.clone(),
         scene: passes.scene.clone(),
-        shading_ms: shading_ms.to_vec(),
+        shading_ms: shading_ms.clone(),
         own_shading_ms: pass(passes, "deferred shading", 1)?,
         methods,
         absent,
@@ -145,7 +169,7 @@ fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'st
             (Err(why), _) => Err(why),
             (_, None) => Err("it was not timed"),
             (Ok(samples), Some(filter_ms)) => Ok(Parts {
-                geometry_ms: main(1)? + pass(passes, "depth and normals", samples)?,
+                geometry_ms: main(1)? + further_samples(method, samples, passes)?,
                 shaded: shaded(method),
                 filter_ms,
             }),
@@ -174,6 +198,17 @@ fn samples_beside(method: &MethodErrors) -> Result<u32, &'static str> {
         (Some("sample0"), 4) => Ok(3),
         _ => Ok(samples),
     }
+}
+
+/// Time of drawing samples beside the main G-buffer: in a pass for each, or in one multisampled pass where hardware has the pattern and
+/// that is faster.
+fn further_samples(method: &MethodErrors, samples: u32, passes: &PassTimes) -> Result<f64, FrameError> {
+    let one_by_one = pass(passes, "depth and normals", samples)?;
+    let is_hardwares = matches!(option(method, "pattern"), None | Some("latin4"));
+    let at_once = pass(passes, "depth and normals, multisampled", samples).ok();
+    Ok(at_once
+        .filter(|_| is_hardwares)
+        .map_or(one_by_one, |ms| ms.min(one_by_one)))
 }
 
 fn shaded(method: &MethodErrors) -> u32 {
@@ -260,6 +295,7 @@ mod tests {
             ("depth and normals", 3, 3.0),
             ("depth and normals", 4, 4.0),
             ("depth and normals", 16, 16.0),
+            ("depth and normals, multisampled", 4, 3.5),
             ("deferred shading", 1, 1.5),
             ("box filter", 4, 0.5),
             ("box filter", 16, 2.0),
@@ -307,18 +343,40 @@ mod tests {
         )
     }
 
+    fn at(shading_ms: &[f64]) -> Asked {
+        Asked {
+            shading_ms: shading_ms.to_vec(),
+            only: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn only_methods_that_are_asked_for_have_frames() {
+        let (passes, errors) = records();
+        let only = |name: &str| Asked {
+            only: vec![name.to_owned()],
+            ..at(&[1.0])
+        };
+        let record = frames(&passes, &errors, &only("4x"), String::new()).unwrap();
+        assert_eq!((record.methods.len(), record.absent.len()), (1, 0));
+        let error = frames(&passes, &errors, &only("5x"), String::new())
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("`5x`"), "{error}");
+    }
+
     #[test]
     fn frames_are_the_sums_of_their_parts() {
         let (passes, errors) = records();
-        let record = frames(&passes, &errors, &[1.0, 20.0], String::new()).unwrap();
+        let record = frames(&passes, &errors, &at(&[1.0, 20.0]), String::new()).unwrap();
         let ms = |name: &str| -> Vec<f64> {
             let method = record.methods.iter().find(|m| m.method == name).unwrap();
             method.frames.iter().map(|frame| frame.ms).collect()
         };
         assert_eq!(ms("1x"), [3.0, 22.0]);
         assert_eq!(ms("SMAA"), [6.0, 25.0]);
-        assert_eq!(ms("SRAA 4"), [2.0 + 4.0 + 1.0 + 2.0, 2.0 + 4.0 + 20.0 + 2.0]);
-        assert_eq!(ms("two"), [2.0 + 4.0 + 2.0 + 2.5, 2.0 + 4.0 + 40.0 + 2.5]);
+        assert_eq!(ms("SRAA 4"), [2.0 + 3.5 + 1.0 + 2.0, 2.0 + 3.5 + 20.0 + 2.0]);
+        assert_eq!(ms("two"), [2.0 + 3.5 + 2.0 + 2.5, 2.0 + 3.5 + 40.0 + 2.5]);
         assert_eq!(ms("first"), [2.0 + 3.0 + 1.0 + 1.5, 2.0 + 3.0 + 20.0 + 1.5]);
         assert_eq!(ms("4x"), [8.0 + 4.0 + 0.5, 8.0 + 80.0 + 0.5]);
         let absent: Vec<&str> = record.absent.iter().map(|(name, _)| name.as_str()).collect();
@@ -335,15 +393,21 @@ mod tests {
     fn records_of_different_things_are_refused() {
         let (mut passes, errors) = records();
         passes.circumstances = circumstances([32, 32]);
-        let error = frames(&passes, &errors, &[1.0], String::new()).unwrap_err().to_string();
+        let error = frames(&passes, &errors, &at(&[1.0]), String::new())
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("size: 32x32 and 64x64"), "{error}");
         passes.circumstances = circumstances([64, 64]);
         passes.scene = "stair".to_owned();
-        let error = frames(&passes, &errors, &[1.0], String::new()).unwrap_err().to_string();
+        let error = frames(&passes, &errors, &at(&[1.0]), String::new())
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("`stair`") && error.contains("roof"), "{error}");
         passes.scene = "roof".to_owned();
         passes.passes.clear();
-        let error = frames(&passes, &errors, &[1.0], String::new()).unwrap_err().to_string();
+        let error = frames(&passes, &errors, &at(&[1.0]), String::new())
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("main G-buffer"), "{error}");
     }
 }

@@ -119,6 +119,9 @@ pub struct FrameArgs {
     /// Milliseconds that shading one sample of every pixel takes, up to six: a panel each
     #[arg(long, value_name = "MS,...", value_delimiter = ',', default_values_t = straightline_study::frame::SHADING_MS, value_parser = shading)]
     pub shading: Vec<f64>,
+    /// Only this method, by its name; may be given several times
+    #[arg(long, value_name = "NAME")]
+    pub only: Vec<String>,
 }
 
 /// A cost of shading.

@@ -16,9 +16,11 @@ pub enum Pattern {
     Standard8,
     /// A regular 4×4 grid.
     Ordered16,
-    /// Sixteen distinct rows and columns of a 16×16 grid, in the middle of their cells: the mean of all is the pixel's centre.
+    /// Sixteen distinct rows and columns of a 16×16 grid, in the middle of their cells: the mean of all is the pixel's centre. Samples are
+    /// numbered quadrant by quadrant.
     Latin16,
-    /// What graphics hardware uses for 16× multisampling (D3D's standard pattern): the same, 1/32 pixel up and to the left.
+    /// What graphics hardware uses for 16× multisampling (D3D's standard pattern): the same, 1/32 pixel up and to the left, in the
+    /// hardware's order.
     Standard16,
     /// Where the option `offsets` says.
     Listed,
@@ -73,7 +75,7 @@ impl Sraa {
             Pattern::Latin4 => LATIN4[sample].as_vec2() / 16.0,
             Pattern::Standard8 => STANDARD8[sample].as_vec2() / 16.0,
             Pattern::Ordered16 => ordered(sample, 4),
-            Pattern::Latin16 => (STANDARD16[sample].as_vec2() + 0.5) / 16.0,
+            Pattern::Latin16 => (STANDARD16[VISITED16[sample]].as_vec2() + 0.5) / 16.0,
             Pattern::Standard16 => STANDARD16[sample].as_vec2() / 16.0,
             Pattern::Listed => vec2(self.offsets[2 * sample], self.offsets[2 * sample + 1]),
         }
@@ -196,15 +198,15 @@ impl Sraa {
         }
     }
 
-    /// The reconstructed sample that is visited as number `k`. Those of a quadrant of a pixel follow each other, and quadrants that
-    /// lie side by side: they look at the same taps, and others need not be known at once.
+    /// Number of the reconstructed sample that is visited in place `k`. Samples of a quadrant of a pixel follow each other, and quadrants
+    /// that lie side by side: they look at the same taps, and the others need not be known yet.
     pub(super) fn visited(&self, k: usize) -> usize {
         let (pixel, own) = (k / self.samples(), k % self.samples());
         let sample = match self.pattern {
-            Pattern::Ordered4 | Pattern::Latin4 | Pattern::Listed => own,
             Pattern::Standard8 => VISITED8[own],
-            Pattern::Ordered16 => VISITED_ORDERED16[own],
-            Pattern::Latin16 | Pattern::Standard16 => VISITED16[own],
+            Pattern::Standard16 => VISITED16[own],
+            // These are numbered so, have one sample a quadrant, or are read in the order of rows.
+            _ => own,
         };
         pixel * self.samples() + sample
     }
@@ -351,10 +353,9 @@ const STANDARD8: [IVec2; 8] = [
     ivec2(7, -7),
 ];
 
-/// The samples quadrant by quadrant, clockwise from the upper left one.
-const VISITED8: [usize; 8] = [3, 5, 0, 7, 2, 6, 1, 4];
-const VISITED16: [usize; 16] = [1, 4, 10, 15, 3, 7, 9, 13, 0, 5, 6, 14, 2, 8, 11, 12];
-const VISITED_ORDERED16: [usize; 16] = [0, 1, 4, 5, 2, 3, 6, 7, 10, 11, 14, 15, 8, 9, 12, 13];
+/// Samples of the hardware's patterns quadrant by quadrant, clockwise from that of the first.
+const VISITED8: [usize; 8] = [0, 7, 2, 6, 1, 4, 3, 5];
+const VISITED16: [usize; 16] = [0, 5, 6, 14, 2, 8, 11, 12, 1, 4, 10, 15, 3, 7, 9, 13];
 
 /// In sixteenths of a pixel.
 const STANDARD16: [IVec2; 16] = [

@@ -1,6 +1,6 @@
 //! Sample positions, typed from the documentation of Direct3D (`D3D11_STANDARD_MULTISAMPLE_QUALITY_LEVELS`) and
 //! checked in the tests against the table in Vulkan's specification (*Standard sample locations*). Those of
-//! [`Pattern::Latin16`] are these from their mean on, as they should be by definition.
+//! [`Pattern::Latin16`] are these from their mean on, as they should be by definition, numbered quadrant by quadrant.
 
 use super::params::Pattern;
 
@@ -22,7 +22,14 @@ fn sixteenths(pattern: Pattern) -> &'static [[i32; 2]] {
             [-6,  6], [-2,  6], [2,  6], [6,  6],
         ],
         #[rustfmt::skip]
-        Pattern::Latin16 | Pattern::Standard16 => &[
+        Pattern::Latin16 => &[
+            [ 1,  1], [ 2,  5], [ 5,  3], [ 6,  7],
+            [-3,  2], [-2,  6], [-6,  4], [-8,  0],
+            [-1, -3], [-5, -2], [-4, -6], [-7, -8],
+            [ 4, -1], [ 3, -5], [ 0, -7], [ 7, -4],
+        ],
+        #[rustfmt::skip]
+        Pattern::Standard16 => &[
             [ 1,  1], [-1, -3], [-3,  2], [ 4, -1],
             [-5, -2], [ 2,  5], [ 5,  3], [ 3, -5],
             [-2,  6], [ 0, -7], [-4, -6], [-6,  4],
@@ -83,8 +90,12 @@ mod tests {
         ];
         assert_eq!(from_corner(Pattern::Standard16), sixteen);
         // 1/32 further down and to the right: in the middle of sixteen rows and columns.
+        let sorted = |mut of: Vec<[f64; 2]>| {
+            of.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            of
+        };
         let centred = sixteen.map(|at| at.map(|axis| axis + 0.03125));
-        assert_eq!(from_corner(Pattern::Latin16), centred);
+        assert_eq!(sorted(from_corner(Pattern::Latin16)), sorted(centred.to_vec()));
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod budget;
 mod crates;
 mod encode;
 mod fast;
+mod frame;
 mod gathers;
 mod goals;
 mod hard;
@@ -25,7 +26,8 @@ mod tune;
 
 use std::path::Path;
 use straightline_study::record::{
-    IsaRecord, LoopsRecord, MotionRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord,
+    FrameRecord, IsaRecord, LoopsRecord, MotionRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord,
+    TuneRecord,
 };
 
 pub use quality::GEOMETRIC;
@@ -66,6 +68,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
     };
     let why = |error: RecordError| error.to_string();
     match name {
+        "frame" => Ok(frame::methods(&FrameRecord::read(first).map_err(why)?)),
         "speed" => Ok(loops::in_short(&LoopsRecord::read(first).map_err(why)?)),
         "loops" => Ok(loops::in_full(&LoopsRecord::read(first).map_err(why)?)),
         "agreement" => {
@@ -127,7 +130,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }
