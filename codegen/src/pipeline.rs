@@ -146,7 +146,7 @@ impl Stages<'_, '_> {
             let error = Diagnostic::at(Code::Limit, self.evaluated.span, what)
                 .label(format!("in the stage `{stage}`, with {} operations", graph.nodes.len()))
                 .help(excess.help());
-            return Err(self.blamed(error));
+            return Err(self.with_loops(error));
         }
         verify::verify(&graph).map_err(|why| internal(stage, &why))?;
         (self.observer)(stage, &graph);
@@ -292,12 +292,12 @@ impl Stages<'_, '_> {
         let error = Diagnostic::at(Code::Budget, self.evaluated.span, what)
             .label("this kernel")
             .help(eval::BUDGET_HELP);
-        Err(self.blamed(error))
+        Err(self.with_loops(error))
     }
 
-    /// An error of which the loops with the most work are to blame.
-    fn blamed(&self, error: Diagnostic) -> Errors {
-        let error = eval::blame(&self.evaluated.loops, error);
+    /// An error about size, which names the loops with the most work.
+    fn with_loops(&self, error: Diagnostic) -> Errors {
+        let error = eval::name_largest_loops(&self.evaluated.loops, error);
         Errors::new(vec![error], &self.kernel.files)
     }
 

@@ -55,8 +55,6 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// The help.
     pub help: Option<String>,
-    /// Loops that are left in the shader, without which there would be no error.
-    pub(crate) loops: Vec<Span>,
     /// Error of the system that this one comes from.
     cause: Option<Cause>,
 }
@@ -104,7 +102,6 @@ impl Diagnostic {
             others: Vec::new(),
             notes: Vec::new(),
             help: None,
-            loops: Vec::new(),
             cause: None,
         }
     }

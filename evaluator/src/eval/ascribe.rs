@@ -28,14 +28,14 @@ impl Evaluator<'_> {
             (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
                 let len = self.expr(len)?;
                 let Some(len @ 1..=65536) = self.known_int(&len) else {
-                    return Err(Diagnostic::at(
+                    let error = Diagnostic::at(
                         Code::RuntimeValue,
                         span,
                         "the length of this array is no compile-time constant above 0",
                     )
                     .label("made here")
-                    .help("use a constant, an option, or a loop counter")
-                    .into());
+                    .help("use a constant, an option, or a loop counter");
+                    return Err(self.demand_of(&[&len], error));
                 };
                 let mut elements = Vec::new();
                 for k in 0..len {

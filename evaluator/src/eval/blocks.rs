@@ -2,6 +2,7 @@
 
 use super::Evaluator;
 use super::departures::{Tail, has_exits};
+use super::points::Points;
 use super::value::{Eval, Exit, Value, Way};
 use crate::diagnostic::Span;
 use crate::front::tree::{Block, Expr, ExprKind, Pattern, Statement};
@@ -23,11 +24,31 @@ impl Evaluator<'_> {
         result
     }
 
-    /// A block from a statement on.
-    fn statements(&mut self, block: &Block, from: usize, tail: Tail<'_>) -> Eval {
+    /// A block from a statement on. Where what follows a loop of it needs a constant that the loop assigns, evaluation goes back to
+    /// the statement with the loop.
+    fn statements(&mut self, block: &Block, mut from: usize, tail: Tail<'_>) -> Eval {
         let noted = self.errors.len();
+        let mut points = Points::default();
+        loop {
+            let outcome = self.statements_from(block, from, tail, noted, &mut points);
+            match self.with_put_off(outcome, &mut points) {
+                Err(Exit::Demand(needs)) => from = self.go_back(needs, &mut points)?,
+                outcome => return outcome,
+            }
+        }
+    }
+
+    fn statements_from(
+        &mut self,
+        block: &Block,
+        from: usize,
+        tail: Tail<'_>,
+        noted: usize,
+        points: &mut Points,
+    ) -> Eval {
         for (k, statement) in block.statements.iter().enumerate().skip(from) {
             let since = self.departed.len();
+            self.point(points, k, span_of(statement));
             match statement {
                 Statement::Expr(Expr {
                     kind: ExprKind::If(condition, then, otherwise, attribute),
@@ -47,6 +68,10 @@ impl Evaluator<'_> {
                                 self.note(exit);
                                 Value::Poison
                             }
+                            Err(Exit::Demand(needs)) => {
+                                self.put_off(needs, statement, points)?;
+                                Value::Poison
+                            }
                             Err(leave) => return Err(leave),
                         },
                         // What a `break` gives: it has a value wherever it is looked at.
@@ -60,6 +85,7 @@ impl Evaluator<'_> {
                     Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
                         self.note(exit);
                     }
+                    Err(Exit::Demand(needs)) => self.put_off(needs, statement, points)?,
                     Err(leave) => return Err(leave),
                 },
                 Statement::Const(constant) => {
@@ -69,21 +95,17 @@ impl Evaluator<'_> {
                 }
             }
             if self.departed.len() > since && self.keeps_exits(None) {
-                let span = match statement {
-                    Statement::Let(.., span) => *span,
-                    Statement::Expr(e) => e.span,
-                    Statement::Const(constant) => constant.value.span,
-                };
-                return self.unless_departed(since, tail, span, |e| e.statements(block, k + 1, tail));
+                return self.unless_departed(since, tail, span_of(statement), |e| e.statements(block, k + 1, tail));
             }
         }
         if self.errors.len() > noted {
             return Err(Exit::Noted);
         }
-        block
-            .value
-            .as_ref()
-            .map_or(Ok(Value::unit()), |e| self.expr_in(e, tail))
+        let Some(value) = &block.value else {
+            return Ok(Value::unit());
+        };
+        self.point(points, block.statements.len(), value.span);
+        self.expr_in(value, tail)
     }
 
     /// A block that a `break` of its label leaves.
@@ -109,5 +131,14 @@ impl Evaluator<'_> {
             }
             _ => self.expr(expr),
         }
+    }
+}
+
+/// Place that a statement is known by.
+fn span_of(statement: &Statement) -> Span {
+    match statement {
+        Statement::Let(.., span) => *span,
+        Statement::Expr(e) => e.span,
+        Statement::Const(constant) => constant.value.span,
     }
 }

@@ -1,6 +1,7 @@
 //! What each loop contributes to the size of a kernel.
 
 use super::Evaluator;
+use super::demand::Why;
 use super::value::Eval;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::limits;
@@ -44,7 +45,7 @@ pub struct Loops {
     /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
     open: Vec<(usize, usize, usize)>,
     /// How often each loop was tried to be left in the shader in vain, and why not the last time.
-    refused: HashMap<Span, (u32, Diagnostic)>,
+    refused: HashMap<Span, (u32, Why)>,
     /// Attempts to unroll each loop that were given up, as its end turned out to be a runtime value.
     guessed: HashMap<Span, u32>,
     /// Errors to give if there are no others: what follows a loop needs it unrolled, but it was asked for by name.
@@ -95,13 +96,13 @@ impl Loops {
     }
 
     /// An attempt to leave a loop in the shader has failed.
-    pub fn refuse(&mut self, span: Span, why: &Diagnostic) {
+    pub fn refuse(&mut self, span: Span, why: &Why) {
         let entry = self.refused.entry(span).or_insert_with(|| (0, why.clone()));
         *entry = (entry.0 + 1, why.clone());
     }
 
     /// Why a loop is not tried to be left in the shader any more.
-    pub fn given_up(&self, span: Span) -> Option<Diagnostic> {
+    pub fn given_up(&self, span: Span) -> Option<Why> {
         let (times, why) = self.refused.get(&span)?;
         (*times >= MAX_REFUSALS).then(|| why.clone())
     }
@@ -160,13 +161,13 @@ impl Loops {
     }
 
     /// The error with what each loop contributed, the largest five.
-    pub fn blame(&self, error: Diagnostic) -> Diagnostic {
-        blame(&self.reports, error)
+    pub fn name_largest(&self, error: Diagnostic) -> Diagnostic {
+        name_largest_loops(&self.reports, error)
     }
 }
 
 /// An error about size with what each loop contributed, the largest five.
-pub fn blame(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
+pub fn name_largest_loops(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
     let mut largest: Vec<&LoopReport> = reports.iter().filter(|r| r.copies > 0).collect();
     largest.sort_by_key(|r| std::cmp::Reverse(r.operations));
     for report in largest.into_iter().take(5) {

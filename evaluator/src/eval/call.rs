@@ -1,7 +1,7 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
 use super::departures::Tail;
-use super::value::{Eval, Exit, Value, Way};
+use super::value::{Eval, Exit, Need, Value, Way};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
@@ -221,7 +221,7 @@ impl<'a> Evaluator<'a> {
             .into());
         }
         if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(
+            let error = Diagnostic::at(
                 Code::Recursion,
                 span,
                 format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
@@ -229,8 +229,8 @@ impl<'a> Evaluator<'a> {
             .label("recursion that does not end?")
             .help(
                 "let it end by a condition that is a compile-time constant; where runtime values decide, write a loop",
-            )
-            .into());
+            );
+            return Err(self.demand(&self.decides_within(name), error));
         }
         let mut bound = self.constants_of(function, constants, &args, span)?;
         bound.extend(self.types_of(function, constants, &args, span)?);
@@ -284,6 +284,7 @@ impl<'a> Evaluator<'a> {
         match result {
             // What is wrong is how it was called.
             Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
+            Err(Exit::Demand(needs)) if of_library => Err(Exit::Demand(called_at(needs, span, name))),
             Err(Exit::Left(_)) => {
                 Err(Diagnostic::at(Code::Leaving, function.span, "`break` or `continue` outside of a loop").into())
             }
@@ -438,6 +439,15 @@ impl<'a> Evaluator<'a> {
         let ty = self.ty(id);
         Ok(Value::Node(self.builder.add(Op::Tally(index as u32), [id], ty)))
     }
+}
+
+/// Needs of a function of the library, whose text nobody sees.
+fn called_at(needs: Vec<Need>, span: Span, name: &str) -> Vec<Need> {
+    let each = needs.into_iter().map(|need| Need {
+        error: need.error.called_at(span, name),
+        ..need
+    });
+    each.collect()
 }
 
 /// `vec3`, `Vec3::new`, ...

@@ -66,13 +66,13 @@ impl Evaluator<'_> {
             Some(false) => Err(Diagnostic::at(Code::Assertion, condition.span, message)
                 .label("does not hold")
                 .into()),
-            None => Err(
-                Diagnostic::at(Code::Assertion, condition.span, "an assertion about a runtime value")
+            None => {
+                let error = Diagnostic::at(Code::Assertion, condition.span, "an assertion about a runtime value")
                     .label("not a compile-time constant")
                     .note("a shader has no way to fail")
-                    .help("assert what follows from options and counters, and let run-time values choose with `if`")
-                    .into(),
-            ),
+                    .help("assert what follows from options and counters, and let run-time values choose with `if`");
+                Err(self.demand(&[id], error))
+            }
         }
     }
 
@@ -90,11 +90,13 @@ impl Evaluator<'_> {
         let before = self.scope.clone();
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
         let keep = keep && self.may_nest();
+        self.deciding.push((self.calls.len(), condition));
         let joined = self.narrowed(&gone, |e| match keep {
             true => e.kept_branch(tail, condition, span, then, otherwise),
             false => e.selected(tail, condition, span, then, otherwise),
         });
-        if matches!(joined, Err(Exit::Error(_) | Exit::Noted)) {
+        self.deciding.pop();
+        if matches!(&joined, Err(exit) if exit.is_failure()) {
             // Values made inside belong to no place outside.
             self.scope = before;
             self.departed.clear();
@@ -113,6 +115,9 @@ impl Evaluator<'_> {
     ) -> Eval {
         let before = self.scope.clone();
         let left = self.narrowed(&[(condition, true)], |e| e.side(tail, span, then));
+        if matches!(left, Err(Exit::Demand(_))) {
+            return left;
+        }
         let after_left = std::mem::replace(&mut self.scope, before);
         let departed_left = std::mem::take(&mut self.departed);
         let right = self.narrowed(&[(condition, false)], |e| e.side(tail, span, otherwise));
@@ -140,7 +145,7 @@ impl Evaluator<'_> {
                 self.departed.push(Departure::of(condition, left, after_left));
                 Err(Exit::Left(right))
             }
-            (Err(error @ (Exit::Error(_) | Exit::Noted)), _) | (_, Err(error)) => Err(error),
+            (Err(error), _) | (_, Err(error)) => Err(error),
         }
     }
 
@@ -157,6 +162,9 @@ impl Evaluator<'_> {
         let first = self.builder.open_region(&[]);
         let left = self.flat_side(tail, span, then);
         self.builder.close_region(Vec::new());
+        if let Err(demand @ Exit::Demand(_)) = left {
+            return Err(demand);
+        }
         let after_left = std::mem::replace(&mut self.scope, before);
         let second = self.builder.open_region(&[]);
         let right = self.flat_side(tail, span, otherwise);
@@ -181,8 +189,8 @@ impl Evaluator<'_> {
         outcome
     }
 
-    /// The right side of `&&` or `||`, which nobody leaves.
-    pub fn lazy_side(&mut self, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
+    /// The right side of `&&` or `||` after `condition`, which nobody leaves.
+    pub fn lazy_side(&mut self, condition: NodeId, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
         let (mark, since) = (self.scope.enter(), self.departed.len());
         let outcome = right(self);
         self.scope.leave(mark);
@@ -190,14 +198,16 @@ impl Evaluator<'_> {
         self.departed.truncate(since);
         match outcome {
             Ok(value) if !left => Ok(value),
-            Ok(_) | Err(Exit::Left(_)) => Err(Diagnostic::at(
-                Code::Leaving,
-                span,
-                "`break`, `continue` or `return` on the right side of `&&` or `||`",
-            )
-            .label("whether it is reached is a runtime value")
-            .help("write an `if`")
-            .into()),
+            Ok(_) | Err(Exit::Left(_)) => {
+                let error = Diagnostic::at(
+                    Code::Leaving,
+                    span,
+                    "`break`, `continue` or `return` on the right side of `&&` or `||`",
+                )
+                .label("whether it is reached is a runtime value")
+                .help("write an `if`");
+                Err(self.demand(&[condition], error))
+            }
             error => error,
         }
     }
@@ -250,7 +260,8 @@ impl Evaluator<'_> {
         let mut joined = Vec::new();
         let (mut lefts, mut rights) = (Vec::new(), Vec::new());
         for (slot, a, b) in pairs {
-            let (a, b) = self.unify(&a, &b, span)?;
+            let unified = self.unify(&a, &b, span);
+            let (a, b) = self.demanding(&[condition], unified)?;
             a.flatten(&mut lefts);
             b.flatten(&mut rights);
             joined.push((slot, a));

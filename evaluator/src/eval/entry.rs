@@ -66,9 +66,11 @@ impl Evaluator<'_> {
         if !self.errors.is_empty() {
             return Err(Exit::Noted);
         }
-        let value = self.inline(entry, &[], args, function.span)?;
-        let value = self.loaded(value, function.span)?;
-        let outputs = self.results(&value, function)?;
+        let outputs = self.meeting_demands(|e| {
+            let value = e.inline(entry, &[], args.clone(), function.span)?;
+            let value = e.loaded(value, function.span)?;
+            e.results(&value, function)
+        })?;
         Ok((outputs, options, function.docs.clone()))
     }
 

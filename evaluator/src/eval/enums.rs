@@ -300,14 +300,20 @@ impl Evaluator<'_> {
                     .help("give what is to be there instead: `unwrap_or(..)`")
                     .into(),
             ),
-            (None, _) => Err(Diagnostic::at(
-                Code::Unwrap,
-                span,
-                format!("`{name}` of what may be `{empty}` at run time"),
-            )
-            .label("Rust would panic for some pixels, and a shader has no way to fail")
-            .help("give what is to be there instead with `unwrap_or(..)`, or take it apart with `if let`")
-            .into()),
+            (None, _) => {
+                let error = Diagnostic::at(
+                    Code::Unwrap,
+                    span,
+                    format!("`{name}` of what may be `{empty}` at run time"),
+                )
+                .label("Rust would panic for some pixels, and a shader has no way to fail")
+                .help("give what is to be there instead with `unwrap_or(..)`, or take it apart with `if let`");
+                let tag = match choice.tag {
+                    Tag::Node(tag) => vec![tag],
+                    Tag::Known(_) => Vec::new(),
+                };
+                Err(self.demand(&tag, error))
+            }
         }
     }
 

@@ -24,14 +24,10 @@ impl Evaluator<'_> {
             return Err(error.help("the command line goes deeper than a browser can").into());
         }
         self.depth += 1;
-        let before = self.kept.len();
-        let mut value = self.evaluated(expr);
+        let value = self.evaluated(expr);
         self.depth -= 1;
         if expr.span.file != Span::LIBRARY {
             self.places.resize(self.builder.graph().nodes.len(), expr.span);
-        }
-        if let Err(Exit::Error(error)) = &mut value {
-            self.blame(error, expr, before);
         }
         value
     }
@@ -153,14 +149,16 @@ impl Evaluator<'_> {
                     .help("use 1 to 65536")
                     .into(),
             ),
-            None => Err(Diagnostic::at(
-                Code::RuntimeValue,
-                len.span,
-                "the length of an array must be a compile-time constant",
-            )
-            .label("a runtime value")
-            .help("use a constant, an option, or a loop counter")
-            .into()),
+            None => {
+                let error = Diagnostic::at(
+                    Code::RuntimeValue,
+                    len.span,
+                    "the length of an array must be a compile-time constant",
+                )
+                .label("a runtime value")
+                .help("use a constant, an option, or a loop counter");
+                Err(self.demand_of(&[&count], error))
+            }
         }
     }
 
@@ -244,7 +242,7 @@ impl Evaluator<'_> {
             Some(_) => right(self),
             None => {
                 let before = self.scope.clone();
-                let value = self.narrowed(&[(left, and)], |e| e.lazy_side(right, span))?;
+                let value = self.narrowed(&[(left, and)], |e| e.lazy_side(left, right, span))?;
                 if self.scope == before {
                     let op = if and { BinaryOp::And } else { BinaryOp::Or };
                     return self.binary(op, &Value::Node(left), &value, span);
@@ -355,10 +353,12 @@ impl Evaluator<'_> {
             return self.element(&Value::array(lanes), index, span);
         }
         let index = self.index_node(index, span)?;
-        if let Some(element) = self.element_of_many(base, index, span)? {
+        let element = self.element_of_many(base, index, span);
+        if let Some(element) = self.demanding(&[index], element)? {
             return Ok(element);
         }
-        let array = self.array_node(base, span)?;
+        let array = self.array_node(base, span);
+        let array = self.demanding(&[index], array)?;
         let ty = self.ty(array);
         if let (Type::Array { len, .. }, Some(bits)) = (ty, self.builder.graph().constant(index))
             && bits[0] >= len

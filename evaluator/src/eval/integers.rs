@@ -43,14 +43,16 @@ impl Evaluator<'_> {
                         let times = |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), [power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
-                    _ => Err(Diagnostic::at(
-                        Code::RuntimeValue,
-                        span,
-                        "the power of `pow` must be a compile-time constant from 0 to 31",
-                    )
-                    .label("a runtime value, or another number")
-                    .help("multiply in a loop")
-                    .into()),
+                    _ => {
+                        let error = Diagnostic::at(
+                            Code::RuntimeValue,
+                            span,
+                            "the power of `pow` must be a compile-time constant from 0 to 31",
+                        )
+                        .label("a runtime value, or another number")
+                        .help("multiply in a loop");
+                        Err(self.demand_of(&[a], error))
+                    }
                 };
             }
             _ => return self.euclid(receiver, x, name, a, span).map(Some),

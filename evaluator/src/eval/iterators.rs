@@ -36,14 +36,16 @@ impl Evaluator<'_> {
             Value::Array(elements) => Ok(elements.to_vec()),
             Value::Range(range) => match self.range_values(range, span)? {
                 Some(values) => Ok(values),
-                None => Err(Diagnostic::at(
-                    Code::RuntimeValue,
-                    span,
-                    "an iterator over a range whose bounds are runtime values",
-                )
-                .label("a runtime value")
-                .help("write a `for` loop over the range")
-                .into()),
+                None => {
+                    let error = Diagnostic::at(
+                        Code::RuntimeValue,
+                        span,
+                        "an iterator over a range whose bounds are runtime values",
+                    )
+                    .label("a runtime value")
+                    .help("write a `for` loop over the range");
+                    Err(self.demand_of(&[value], error))
+                }
             },
             Value::Node(id) if self.ty(*id).is_array() => {
                 let Type::Array { len, .. } = self.ty(*id) else {
@@ -82,14 +84,14 @@ impl Evaluator<'_> {
             }
             ("skip" | "take" | "step_by", [count]) => {
                 let Some(n) = self.known_int(count).and_then(|n| usize::try_from(n).ok()) else {
-                    return Err(Diagnostic::at(
+                    let error = Diagnostic::at(
                         Code::RuntimeValue,
                         span,
                         format!("`{name}` needs a compile-time constant"),
                     )
                     .label("a runtime value")
-                    .help("use a constant, an option, or a loop counter")
-                    .into());
+                    .help("use a constant, an option, or a loop counter");
+                    return Err(self.demand_of(&[count], error));
                 };
                 let items: Vec<Value> = match name {
                     "skip" => items.into_iter().skip(n).collect(),
@@ -160,14 +162,14 @@ impl Evaluator<'_> {
                     .and_then(|n| usize::try_from(n).ok())
                     .filter(|n| *n > 0)
                 else {
-                    return Err(Diagnostic::at(
+                    let error = Diagnostic::at(
                         Code::RuntimeValue,
                         span,
                         format!("`{name}` needs a compile-time constant above 0"),
                     )
                     .label("a runtime value, or 0")
-                    .help("use a constant, an option, or a loop counter")
-                    .into());
+                    .help("use a constant, an option, or a loop counter");
+                    return Err(self.demand_of(&[count], error));
                 };
                 let parts: Vec<&[Value]> = match name {
                     "windows" => items.windows(n).collect(),

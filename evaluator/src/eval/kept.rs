@@ -93,7 +93,7 @@ impl Evaluator<'_> {
         let settled = self.scope.clone();
 
         let region = self.builder.open_region(&types);
-        self.kept.region(region, span);
+        self.kept.enter(region, span, [&[start, end], &initial[..]].concat());
         let params = self.builder.graph().region(region).params.clone();
         let mut inner = params[1..].iter().copied();
         for slot in &carried {

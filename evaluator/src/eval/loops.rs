@@ -1,6 +1,7 @@
 //! `for`, and what all loops have in common: a loop is left in the shader where that is asked for and can be done.
 
 use super::Evaluator;
+use super::demand::Why;
 use super::departures::Tail;
 use super::partial::Count;
 use super::value::{Eval, Exit, Place, Step, Value};
@@ -83,18 +84,20 @@ impl Evaluator<'_> {
                     values
                 }
                 None if asked.by_name && asked.unroll == Unroll::Full => {
-                    return Err(Diagnostic::at(
+                    let error = Diagnostic::at(
                         Code::CannotUnroll,
                         f.over.span,
                         "a loop whose bounds are runtime values cannot be unrolled",
                     )
                     .label("a runtime value")
-                    .help("give the loop fixed bounds, or leave out that it is to be unrolled")
-                    .into());
+                    .help("give the loop fixed bounds, or leave out that it is to be unrolled");
+                    return Err(self.demand_of(&[&Value::Range(items)], error));
                 }
                 None => {
                     let course = self.course(&items, f.over.span)?;
-                    return self.keep(&body, &Count::Range(course), asked.unroll, span);
+                    let bounds = course.bounds();
+                    let outcome = self.keep(&body, &Count::Range(course), asked.unroll, span);
+                    return self.demanding(&bounds, outcome);
                 }
             },
             Value::Array(elements) => elements.to_vec(),
@@ -171,13 +174,9 @@ impl Evaluator<'_> {
         }
         if let Some(needed) = self.unrolled.get(&span) {
             let why = needed.clone();
-            let reason = format!(
-                "what follows it needs a compile-time constant that it assigns: {}",
-                told(&why)
-            );
-            self.loops.because(span, reason);
+            self.loops.because(span, why.reason);
             if asked.by_name {
-                let error = refusal(wish, &why).note("what the loop assigns would be a runtime value after it");
+                let error = refusal(wish, &why.error).note("what the loop assigns would be a runtime value after it");
                 self.loops.defer(error);
             }
             return Ok(Granted::Unrolled(None));
@@ -188,30 +187,33 @@ impl Evaluator<'_> {
             let before = self.checkpoint();
             self.kept.avoidable(span);
             match count(self).and_then(|count| self.keep(body, &count, asked.unroll, span)) {
-                // What cannot be a loop in the shader is unrolled; if that fails too, it says why.
                 Err(exit) if self.exhausted => return Err(exit),
-                Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
+                // All have left for good, or loops around or before this one are to be unrolled.
+                Err(exit @ Exit::Left(_)) => return Err(exit),
+                Err(Exit::Demand(needs)) if needs.iter().all(|need| !need.loops.contains(&span)) => {
+                    return Err(Exit::Demand(needs));
+                }
+                // What cannot be a loop in the shader is unrolled; if that fails too, it says why.
+                Err(exit) => {
                     let noted = self.return_to(before);
                     let why = match exit {
-                        Exit::Error(error) => Some(*error),
-                        _ => noted,
+                        Exit::Demand(needs) => {
+                            let own = needs.into_iter().find(|need| need.loops.contains(&span));
+                            own.map(|need| self.why(need.error))
+                        }
+                        Exit::Error(error) => Some(told(*error)),
+                        _ => noted.map(told),
                     };
-                    let why =
-                        why.unwrap_or_else(|| Diagnostic::at(Code::CannotStay, wish.head, "its body has an error"));
-                    if !why.loops.is_empty() && !why.loops.contains(&span) {
-                        // It comes from loops around or before this one.
-                        return Err(why.into());
-                    }
+                    let body = || told(Diagnostic::at(Code::CannotStay, wish.head, "its body has an error"));
+                    let why = why.unwrap_or_else(body);
                     self.loops.refuse(span, &why);
                     why
                 }
-                // All have left, for good.
-                Err(other) => return Err(other),
                 Ok(unroll) => return Ok(Granted::Kept(unroll)),
             }
         };
-        self.loops.because(span, told(&why));
-        Ok(Granted::Unrolled(asked.by_name.then(|| refusal(wish, &why))))
+        self.loops.because(span, why.reason);
+        Ok(Granted::Unrolled(asked.by_name.then(|| refusal(wish, &why.error))))
     }
 
     fn unrolled(&mut self, body: &Body<'_>, items: Vec<Value>, span: Span) -> Eval<()> {
@@ -285,12 +287,13 @@ fn counter_of(f: &ForLoop) -> String {
     }
 }
 
-/// Why a loop was unrolled, in one line.
-fn told(why: &Diagnostic) -> String {
-    match why.span {
-        Some(span) => format!("{} (line {})", why.message, span.line),
-        None => why.message.clone(),
-    }
+/// An error that is itself the reason why a loop cannot be left in the shader.
+fn told(error: Diagnostic) -> Why {
+    let reason = match error.span {
+        Some(span) => format!("{} (line {})", error.message, span.line),
+        None => error.message.clone(),
+    };
+    Why { error, reason }
 }
 
 /// The error that a loop cannot be left in the shader as it was asked by name.

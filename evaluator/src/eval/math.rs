@@ -219,14 +219,14 @@ impl Evaluator<'_> {
             "powi" if ty.is_float() => match self.known_int(a) {
                 Some(n) => Some(self.power(x, n)),
                 None => {
-                    return Err(Diagnostic::at(
+                    let error = Diagnostic::at(
                         Code::RuntimeValue,
                         span,
                         "the power of `powi` must be a compile-time constant",
                     )
                     .label("a runtime value")
-                    .help("write `powf`, which takes runtime powers: `x.powf(n as f32)`")
-                    .into());
+                    .help("write `powf`, which takes runtime powers: `x.powf(n as f32)`");
+                    return Err(self.demand_of(&[a], error));
                 }
             },
             "dot" if float_vector => {

@@ -113,14 +113,16 @@ impl Evaluator<'_> {
                 .and_then(|k| columns.get(usize::try_from(k).ok()?))
             {
                 Some(column) => Ok(Value::Node(*column)),
-                None => Err(Diagnostic::at(
-                    Code::RuntimeIndex,
-                    span,
-                    "the column of a matrix must be a compile-time constant, and one of its columns",
-                )
-                .label("a runtime value, or out of range")
-                .help(format!("columns are 0 to {}", columns.len() - 1))
-                .into()),
+                None => {
+                    let error = Diagnostic::at(
+                        Code::RuntimeIndex,
+                        span,
+                        "the column of a matrix must be a compile-time constant, and one of its columns",
+                    )
+                    .label("a runtime value, or out of range")
+                    .help(format!("columns are 0 to {}", columns.len() - 1));
+                    Err(self.demand_of(&[index], error))
+                }
             },
             ("mul_vec2" | "mul_vec3" | "mul_vec4", [vector]) => self.matrix_product(value, vector, span),
             ("mul_mat2" | "mul_mat3" | "mul_mat4", [other]) => self.matrix_product(value, other, span),

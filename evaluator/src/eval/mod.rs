@@ -6,7 +6,6 @@
 mod ascribe;
 mod assign;
 mod binding;
-mod blame;
 mod blocks;
 mod budget;
 mod buffers;
@@ -14,6 +13,7 @@ mod call;
 mod closures;
 mod consts;
 mod control;
+mod demand;
 mod departures;
 mod effects;
 mod entry;
@@ -34,6 +34,7 @@ mod options;
 mod partial;
 mod paths;
 mod place;
+mod points;
 mod quad;
 mod ranges;
 mod resources;
@@ -56,15 +57,16 @@ use crate::limits;
 use crate::passes::Exact;
 use crate::passes::narrow::{Facts, Refusal, narrow};
 use crate::policy::{Math, Policy};
+use rustc_hash::FxHashSet;
 use scope::Scope;
 use std::borrow::Cow;
-use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet, VecDeque};
 use std::rc::Rc;
 use std::sync::Arc;
 use straightline_kernels::{OptionText, OptionValues};
 use value::{Eval, Exit, Value};
 
-pub use budget::{BUDGET_HELP, LoopReport, blame};
+pub use budget::{BUDGET_HELP, LoopReport, name_largest_loops};
 pub use options::{Numeric, OptionInfo, OptionKind, describe, parse_settings};
 
 /// A kernel with its options decided.
@@ -92,8 +94,9 @@ pub fn parameter_errors(library: &Library, files: &Arc<Vec<File>>, entry: &str) 
 ///
 /// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.
 ///
-/// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs that known, the loops that it
-/// comes from are unrolled after all.
+/// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs a constant of them, evaluation
+/// goes back to the loop and unrolls it. Only at the end is it known which values a `usize` may have: for their sake the whole is
+/// evaluated again, each time with at least one more loop unrolled.
 pub fn evaluate(
     library: &Library,
     files: &Arc<Vec<File>>,
@@ -102,94 +105,37 @@ pub fn evaluate(
     policy: &Policy,
     invocation: Invocation,
 ) -> Result<Evaluated, Errors> {
-    let mut unrolled: HashMap<Span, Diagnostic> = HashMap::new();
-    let mut steps = 0;
     let entry = &*crate::front::raw(entry);
+    let looping = crate::front::looping(library, entry, policy);
+    let mut unrolled = HashMap::new();
+    let mut steps = 0;
     loop {
         let mut evaluator = Evaluator::new(library, files, policy);
-        // After some attempts all at once, so that a wrong kernel is told so in time.
-        evaluator.unrolls_all = unrolled.len() > MAX_ATTEMPTS;
+        evaluator.looping.clone_from(&looping);
         evaluator.unrolled.clone_from(&unrolled);
-        evaluator.steps = steps;
-        evaluator.checked = steps;
+        (evaluator.steps, evaluator.checked) = (steps, steps);
         evaluator.builder.graph_mut().invocation = invocation;
-        let result = evaluator.kernel(entry, settings);
-        steps = evaluator.steps;
-        let failed = result.is_err() || !evaluator.errors.is_empty();
-        let last = match &result {
-            Err(Exit::Error(last)) => Some(&**last),
-            _ => None,
+        let refused = match evaluator.whole_kernel(entry, settings)? {
+            Narrowed::Fits(evaluated) => return Ok(*evaluated),
+            Narrowed::Refused(refused) => refused,
         };
-        let before = unrolled.len();
-        for error in evaluator.errors.iter().chain(last) {
-            for span in &error.loops {
-                unrolled.entry(*span).or_insert_with(|| error.clone());
-            }
+        if refused.iter().all(|(loops, _)| loops.is_empty()) {
+            let errors = refused.into_iter().map(|(_, error)| error);
+            return Err(Errors::new(errors.collect(), files));
         }
-        if unrolled.len() > before {
-            continue;
+        for (loops, error) in refused {
+            evaluator.unroll_for(loops, error);
         }
-        if !failed {
-            evaluator.check_loop_paths();
-            let deferred = evaluator.loops.deferred();
-            evaluator.errors.extend(deferred);
-        }
-        return match result {
-            Ok((outputs, options, docs)) if evaluator.errors.is_empty() => {
-                let span = library.functions[entry].span;
-                let facts = Facts {
-                    counters: std::mem::take(&mut evaluator.counters_of_usize),
-                    wrapping: std::mem::take(&mut evaluator.wrapping),
-                    places: std::mem::take(&mut evaluator.places),
-                };
-                let inputs = std::mem::take(&mut evaluator.inputs);
-                let (loops, kept) = (evaluator.loops.reports(), std::mem::take(&mut evaluator.kept));
-                let whole = evaluator.builder.finish(outputs);
-                match narrow(&whole, &facts) {
-                    Ok(narrowed) => Ok(Evaluated {
-                        loops,
-                        span,
-                        inputs,
-                        graph: narrowed.unwrap_or(whole),
-                        options,
-                        docs,
-                    }),
-                    Err(refused) => {
-                        let before = unrolled.len();
-                        for Refusal { node, error } in &refused {
-                            for span in blame::loops_of(&whole, &kept, *node) {
-                                unrolled.entry(span).or_insert_with(|| error.clone());
-                            }
-                        }
-                        if unrolled.len() > before {
-                            continue;
-                        }
-                        let place = |mut error: Diagnostic| {
-                            if error.span == Some(Span::default()) {
-                                error.span = Some(span);
-                            }
-                            error
-                        };
-                        let errors = refused.into_iter().map(|refusal| place(refusal.error));
-                        Err(Errors::new(errors.collect(), files))
-                    }
-                }
-            }
-            Ok(_) | Err(Exit::Noted) => Err(Errors::new(evaluator.errors, files)),
-            Err(Exit::Error(last)) => {
-                evaluator.errors.push(*last);
-                Err(Errors::new(evaluator.errors, files))
-            }
-            Err(_) => Err(Errors::of(Diagnostic::new(
-                Code::KernelResult,
-                format!("`{}` does not end with a value", crate::front::unraw(entry)),
-            ))),
-        };
+        (unrolled, steps) = (evaluator.unrolled, evaluator.steps);
     }
 }
 
-/// Loops that are unrolled for the sake of what follows them before all are.
-const MAX_ATTEMPTS: usize = 24;
+/// A kernel without a `usize`, if its values fit into 32 bits.
+enum Narrowed {
+    Fits(Box<Evaluated>),
+    /// Errors of operations that may differ from the native ones, with the loops left in the shader that each depends on.
+    Refused(Vec<(BTreeSet<Span>, Diagnostic)>),
+}
 
 /// Operations after which a kernel is taken not to end.
 const MAX_STEPS: u64 = 20_000_000;
@@ -221,13 +167,18 @@ struct Evaluator<'a> {
     builder: Builder<'a>,
     /// What becomes of loops and branches, in the function that is being evaluated.
     policy: Policy,
-    /// Loops that what follows them needs unrolled, whatever the policy says,
-    /// with the error that what follows gave.
-    unrolled: HashMap<Span, Diagnostic>,
+    /// The kernel's files, for excerpts.
+    files: Arc<Vec<File>>,
+    /// Loops that are unrolled whatever the policy says, since a constant is needed that they assign.
+    unrolled: HashMap<Span, demand::Why>,
+    /// Times that evaluation has gone back to a loop.
+    turns: usize,
+    /// Statements that may leave a loop in the shader that could be unrolled.
+    looping: FxHashSet<Span>,
     /// Whether all loops that can be unrolled are.
     unrolls_all: bool,
     loops: budget::Loops,
-    kept: blame::Kept,
+    kept: demand::Kept,
     scope: Scope,
     /// Counters of the unrolled loops around, outermost first.
     counters: Arc<[Counter]>,
@@ -265,6 +216,8 @@ struct Evaluator<'a> {
     /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
     /// selected, and of those who left before the branches and loops around.
     reach: Vec<(NodeId, bool)>,
+    /// Runtime conditions of the branches around, with the number of calls around each.
+    deciding: Vec<(usize, NodeId)>,
     /// Counters of type `usize` that are computed, with the start and the end of their ranges.
     counters_of_usize: HashMap<NodeId, (NodeId, NodeId)>,
     /// Differences of `usize` that wrap by intention.
@@ -292,10 +245,14 @@ impl<'a> Evaluator<'a> {
             library,
             builder,
             policy: policy.clone(),
+            files: Arc::clone(files),
             unrolled: HashMap::new(),
+            turns: 0,
+            looping: FxHashSet::default(),
+            deciding: Vec::new(),
             unrolls_all: false,
             loops: budget::Loops::default(),
-            kept: blame::Kept::default(),
+            kept: demand::Kept::default(),
             scope: Scope::default(),
             counters: Arc::default(),
             calls: Vec::new(),
@@ -324,6 +281,61 @@ impl<'a> Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
+    /// Evaluates a kernel, and narrows its `usize`s.
+    fn whole_kernel(&mut self, entry: &str, settings: &[OptionText]) -> Result<Narrowed, Errors> {
+        let result = self.kernel(entry, settings);
+        if result.is_ok() && self.errors.is_empty() {
+            self.check_loop_paths();
+            let deferred = self.loops.deferred();
+            self.errors.extend(deferred);
+        }
+        let (outputs, options, docs) = match result {
+            Ok(parts) if self.errors.is_empty() => parts,
+            Ok(_) => return Err(self.all_errors()),
+            Err(Exit::Left(_)) => {
+                return Err(Errors::of(Diagnostic::new(
+                    Code::KernelResult,
+                    format!("`{}` does not end with a value", crate::front::unraw(entry)),
+                )));
+            }
+            Err(exit) => {
+                self.note(exit);
+                return Err(self.all_errors());
+            }
+        };
+        let span = self.library.functions[entry].span;
+        let facts = Facts {
+            counters: std::mem::take(&mut self.counters_of_usize),
+            wrapping: std::mem::take(&mut self.wrapping),
+            places: std::mem::take(&mut self.places),
+        };
+        let whole = std::mem::replace(&mut self.builder, Builder::new(&Exact)).finish(outputs);
+        let narrowed = match narrow(&whole, &facts) {
+            Ok(narrowed) => narrowed,
+            Err(refused) => {
+                let each = refused.into_iter().map(|Refusal { node, mut error }| {
+                    if error.span == Some(Span::default()) {
+                        error.span = Some(span);
+                    }
+                    (self.kept.behind(&whole, &[node]), error)
+                });
+                return Ok(Narrowed::Refused(each.collect()));
+            }
+        };
+        Ok(Narrowed::Fits(Box::new(Evaluated {
+            loops: self.loops.reports(),
+            span,
+            inputs: std::mem::take(&mut self.inputs),
+            graph: narrowed.unwrap_or(whole),
+            options,
+            docs,
+        })))
+    }
+
+    fn all_errors(&mut self) -> Errors {
+        Errors::new(std::mem::take(&mut self.errors), &self.files)
+    }
+
     /// Counts a step of work, so that nothing runs for ever.
     fn step(&mut self, span: Span) -> Eval<()> {
         self.steps += 1;
@@ -348,20 +360,29 @@ impl Evaluator<'_> {
         let error = Diagnostic::at(code, span, what)
             .label(format!("reached here, in `{function}`"))
             .help(help);
-        Err(self.loops.blame(error).into())
+        Err(self.loops.name_largest(error).into())
     }
 
     /// Notes an error; one that is noted already is not noted again.
     fn note(&mut self, exit: Exit) -> Exit {
-        match exit {
-            Exit::Error(diagnostic) => {
-                if !self.errors.contains(&diagnostic) {
-                    self.errors.push(*diagnostic);
-                }
-                Exit::Noted
+        let errors = match exit {
+            Exit::Error(error) => vec![*error],
+            Exit::Demand(needs) => needs.into_iter().map(|need| need.error).collect(),
+            other => return other,
+        };
+        for error in errors {
+            if !self.errors.contains(&error) {
+                self.errors.push(error);
             }
-            other => other,
         }
+        Exit::Noted
+    }
+
+    /// Runtime conditions that decide what is evaluated inside the outermost call of a function.
+    fn decides_within(&self, function: &str) -> Vec<NodeId> {
+        let outermost = self.calls.iter().position(|name| *name == function).unwrap_or(0);
+        let inside = self.deciding.iter().filter(|(calls, _)| *calls > outermost);
+        inside.map(|(_, condition)| *condition).collect()
     }
 
     /// Whether the parts of a structure were named after a parameter not long ago, after which naming them again would change nothing.

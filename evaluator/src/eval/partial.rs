@@ -25,10 +25,17 @@ pub struct Checkpoint {
     kept_loops: u32,
     /// Loops that are left in the shader.
     kept: usize,
+    /// Reads made.
+    sites: u32,
     made: Mark,
 }
 
 impl Checkpoint {
+    /// How many loops had been left in the shader.
+    pub fn kept(&self) -> usize {
+        self.kept
+    }
+
     /// How many errors had been noted.
     pub fn errors(&self) -> usize {
         self.errors
@@ -60,6 +67,7 @@ impl Evaluator<'_> {
             departed: self.departed.clone(),
             kept_loops: self.kept_loops,
             kept: self.kept.len(),
+            sites: self.sites,
             made: self.builder.mark(),
         }
     }
@@ -72,11 +80,21 @@ impl Evaluator<'_> {
         self.kept_loops = before.kept_loops;
         self.kept.truncate(before.kept);
         self.builder.return_to(&before.made);
+        let is_kept = |id: &NodeId| (id.0 as usize) < before.made.nodes;
         self.consts.retain(|_, (made, _)| *made <= before.made.nodes);
+        self.counters_of_usize.retain(|id, _| is_kept(id));
+        self.wrapping.retain(is_kept);
+        self.places.truncate(before.made.nodes);
         self.loops.return_to(before.loops);
         let noted = self.errors.get(before.errors).cloned();
         self.errors.truncate(before.errors);
         noted
+    }
+
+    /// Goes back as if nothing had been evaluated since: reads are numbered as before too.
+    pub fn undo(&mut self, before: Checkpoint) {
+        self.sites = before.sites;
+        self.return_to(before);
     }
 
     /// Goes back, but keeps values that consist of constants and of values from before.

@@ -158,14 +158,14 @@ impl Evaluator<'_> {
         self.needs_lanes(name, span)?;
         let ty = self.ty(x);
         if ty.is_array() {
-            return Err(Diagnostic::at(
+            let error = Diagnostic::at(
                 Code::QuadMessage,
                 span,
                 "a message carries a number or a vector, no array",
             )
             .label("an array of a structured loop")
-            .help("send its elements one by one")
-            .into());
+            .help("send its elements one by one");
+            return Err(self.demand(&[x], error));
         }
         Ok(Value::Node(self.builder.add(Op::Message(direction), [x], ty)))
     }

@@ -36,6 +36,13 @@ pub struct Course {
     index: bool,
 }
 
+impl Course {
+    /// Nodes of the smallest value and the end.
+    pub fn bounds(&self) -> [NodeId; 2] {
+        [self.start, self.end]
+    }
+}
+
 impl Evaluator<'_> {
     /// `start..end`, `start..=end`.
     pub fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool) -> Eval {
@@ -70,13 +77,13 @@ impl Evaluator<'_> {
                     .into());
                 }
                 _ => {
-                    return Err(Diagnostic::at(
+                    let error = Diagnostic::at(
                         Code::RuntimeValue,
                         span,
                         "`step_by` needs a step that is a constant of at least 1",
                     )
-                    .label("of this step")
-                    .into());
+                    .label("of this step");
+                    return Err(self.demand_of(&[step], error));
                 }
             },
             ("contains", [x]) if plain => {

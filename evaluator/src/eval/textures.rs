@@ -226,14 +226,16 @@ impl Evaluator<'_> {
     fn component(&mut self, texture: &Texture, component: &Value, span: Span) -> Eval<u8> {
         match self.known_int(component) {
             Some(k) if (0..i64::from(texture.components)).contains(&k) => Ok(k as u8),
-            _ => Err(Diagnostic::at(
-                Code::RuntimeIndex,
-                span,
-                "the component to gather must be a compile-time constant, and one of the texture's",
-            )
-            .label("a runtime value, or out of range")
-            .help(format!("use 0 to {}", texture.components - 1))
-            .into()),
+            _ => {
+                let error = Diagnostic::at(
+                    Code::RuntimeIndex,
+                    span,
+                    "the component to gather must be a compile-time constant, and one of the texture's",
+                )
+                .label("a runtime value, or out of range")
+                .help(format!("use 0 to {}", texture.components - 1));
+                Err(self.demand_of(&[component], error))
+            }
         }
     }
 

@@ -1,11 +1,12 @@
 //! What a variable holds while a kernel is evaluated.
 
 use super::enums::Choice;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::Closure;
 use crate::ir::NodeId;
 use crate::limits::Held;
+use std::collections::BTreeSet;
 use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -266,6 +267,15 @@ impl Value {
     }
 }
 
+/// A value that had to be a compile-time constant, and is none because of loops left in the shader.
+#[derive(Debug)]
+pub struct Need {
+    /// Loops that the value depends on and that can be unrolled.
+    pub loops: BTreeSet<Span>,
+    /// The error if they could not be: names the place and the need.
+    pub error: Diagnostic,
+}
+
 /// How evaluation of an expression ends other than by its value.
 #[derive(Debug)]
 pub enum Exit {
@@ -273,8 +283,17 @@ pub enum Exit {
     Error(Box<Diagnostic>),
     /// With an error that has been noted.
     Noted,
+    /// With values that had to be compile-time constants, and may be if loops before them are unrolled.
+    Demand(Vec<Need>),
     /// By leaving the blocks around it.
     Left(Way),
+}
+
+impl Exit {
+    /// Whether there is nothing that evaluation could go on with.
+    pub fn is_failure(&self) -> bool {
+        !matches!(self, Exit::Left(_))
+    }
 }
 
 /// How the blocks around are left.

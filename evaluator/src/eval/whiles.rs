@@ -9,10 +9,20 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::front::{assigned, breaks, children, guarded};
+use crate::ir::NodeId;
 use crate::policy::{Asked, Unroll};
+use std::collections::BTreeSet;
 
 /// Iterations of a `while`, if they are known, and by slot the constants that variables are after them.
 type Counted = (Option<u64>, Vec<(usize, Value)>);
+
+/// How far a `while` can be unrolled.
+enum Rounds {
+    /// To its end, or to where it is left for good.
+    Ended(Eval),
+    /// Its end is a runtime value, which depends on these loops that are left in the shader.
+    Open(BTreeSet<Span>),
+}
 
 impl Evaluator<'_> {
     pub fn while_(
@@ -91,25 +101,33 @@ impl Evaluator<'_> {
             };
         }
         let before = self.checkpoint();
-        if let Some(outcome) = self.rounds(condition, &body, &mut 0, span)? {
-            return match refused {
-                Some(error) => Err(error.into()),
-                None => Ok((Unroll::Full, outcome.map(|_| Value::unit()))),
-            };
-        }
+        let loops = match self.rounds(condition, &body, &mut 0, span)? {
+            Rounds::Ended(outcome) => {
+                return match refused {
+                    Some(error) => Err(error.into()),
+                    None => Ok((Unroll::Full, outcome.map(|_| Value::unit()))),
+                };
+            }
+            Rounds::Open(loops) => loops,
+        };
         self.return_to(before);
         let reason = "its end is a runtime value";
         if asked.by_name && asked.unroll == Unroll::Full {
-            return Err(Diagnostic::at(
+            let error = Diagnostic::at(
                 Code::CannotUnroll,
                 condition.span,
                 format!("this loop cannot be unrolled: {reason}"),
             )
             .label("its trip count is a runtime value")
-            .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`")
-            .into());
+            .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`");
+            return Err(self.demanded(loops, error));
         }
-        self.keep(&until, &Count::Unknown, Unroll::None, span)?;
+        self.kept.ends(span, loops.clone());
+        self.keep(&until, &Count::Unknown, Unroll::None, span)
+            .map_err(|exit| match exit {
+                Exit::Error(error) => self.demanded(loops, *error),
+                other => other,
+            })?;
         self.loops.because(span, reason.to_owned());
         Ok((Unroll::None, self.behind(condition, block, label)))
     }
@@ -159,7 +177,7 @@ impl Evaluator<'_> {
             return Ok((None, Vec::new()));
         }
         let noted = self.errors.len() > before.errors();
-        let ended = counted?.is_some();
+        let ended = matches!(counted?, Rounds::Ended(_));
         if noted {
             return Err(Exit::Noted);
         }
@@ -181,8 +199,8 @@ impl Evaluator<'_> {
         value.is_plain() && leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
     }
 
-    /// Unrolls a `while`; gives how it ends, or `None` if it goes on at run time. Counts its iterations.
-    fn rounds(&mut self, condition: &Expr, body: &Body<'_>, rounds: &mut u64, span: Span) -> Eval<Option<Eval>> {
+    /// Unrolls a `while`, as far as its end is a compile-time constant. Counts its iterations.
+    fn rounds(&mut self, condition: &Expr, body: &Body<'_>, rounds: &mut u64, span: Span) -> Eval<Rounds> {
         let (mark, since) = (self.scope.enter(), self.departed.len());
         let noted = self.errors.len();
         let mut outcome = Ok(Value::unit());
@@ -194,7 +212,7 @@ impl Evaluator<'_> {
             match self.known_bool(id) {
                 Some(true) => {}
                 Some(false) => break,
-                None => return Ok(None),
+                None => return Ok(self.open_end(&[id])),
             }
             if self.departed.len() > since {
                 // With nothing new known the next iteration is decided as the last one was, and so are all that follow.
@@ -203,7 +221,8 @@ impl Evaluator<'_> {
                     if !repeats {
                         self.loops.guessed(span);
                     }
-                    return Ok(None);
+                    let conditions: Vec<NodeId> = self.departed[since..].iter().map(|d| d.condition).collect();
+                    return Ok(self.open_end(&conditions));
                 }
                 before = Some(self.scope.clone());
             }
@@ -221,9 +240,14 @@ impl Evaluator<'_> {
         }
         let arrived = self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span);
         match arrived {
-            Err(error @ (Exit::Error(_) | Exit::Noted)) => Err(error),
-            other => Ok(Some(other)),
+            Err(exit) if exit.is_failure() => Err(exit),
+            other => Ok(Rounds::Ended(other)),
         }
+    }
+
+    /// The end of a `while` that conditions decide at run time.
+    fn open_end(&self, conditions: &[NodeId]) -> Rounds {
+        Rounds::Open(self.kept.behind(self.builder.graph(), conditions))
     }
 }
 

@@ -45,8 +45,8 @@ const KERNELS: &[(&str, Native, &[&str])] = &[
     ("old_versions", kernels::old_versions, &["none"]),
 ];
 
-/// Part of the reason why a loop is unrolled for the sake of what follows it.
-const CULPRIT: &str = "what follows it needs";
+/// Part of the reason why a loop is unrolled for the sake of a constant.
+const CULPRIT: &str = "and this loop assigns it";
 
 const FORMS: [(Unroll, Branches); 6] = [
     (Unroll::Full, Branches::Select),

@@ -1,0 +1,241 @@
+//! Values that had to be compile-time constants, and the loops left in the shader that they depend on.
+//!
+//! A loop that is left in the shader makes what it assigns runtime values. Where a constant is needed of one of them, the graph
+//! says which loops it depends on, and evaluation goes back to them (`points.rs`).
+
+use super::Evaluator;
+use super::value::{Captured, Eval, Exit, Need, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{Graph, NodeId, Op, RegionId};
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// Why a loop is unrolled although it was asked to be left in the shader.
+#[derive(Clone, Debug)]
+pub struct Why {
+    /// The error of the kernel with the loop in the shader.
+    pub error: Diagnostic,
+    /// The same in one line, for reports.
+    pub reason: String,
+}
+
+/// A loop that is left in the shader.
+struct KeptLoop {
+    region: RegionId,
+    /// Place of the loop in the source.
+    span: Span,
+    /// Start and end of its counter, and initial values of what it carries.
+    args: Vec<NodeId>,
+}
+
+/// Loops that are left in the shader.
+#[derive(Default)]
+pub struct Kept {
+    /// In order of their regions.
+    loops: Vec<KeptLoop>,
+    /// Loops that could be unrolled, by their places.
+    avoidable: HashSet<Span>,
+    /// Loops that the trip count of a `while` depends on, by the place of the `while`.
+    ends: HashMap<Span, BTreeSet<Span>>,
+}
+
+impl Kept {
+    /// Notes that a loop has become a region, with its bounds and initial values.
+    pub fn enter(&mut self, region: RegionId, span: Span, args: Vec<NodeId>) {
+        self.loops.push(KeptLoop { region, span, args });
+    }
+
+    /// Number of loops that are left in the shader.
+    pub fn len(&self) -> usize {
+        self.loops.len()
+    }
+
+    /// Forgets loops that came later.
+    pub fn truncate(&mut self, len: usize) {
+        self.loops.truncate(len);
+    }
+
+    /// Notes that a loop is left in the shader only because that is asked for.
+    pub fn avoidable(&mut self, span: Span) {
+        self.avoidable.insert(span);
+    }
+
+    /// Notes the loops because of which the end of a `while` is a runtime value.
+    pub fn ends(&mut self, span: Span, loops: BTreeSet<Span>) {
+        self.ends.insert(span, loops);
+    }
+
+    /// Whether a loop that could be unrolled came later than there were `len`.
+    pub fn avoids_since(&self, len: usize) -> bool {
+        let later = self.loops.get(len..).unwrap_or_default();
+        later.iter().any(|kept| self.avoidable.contains(&kept.span))
+    }
+
+    /// Position of the first loop of a place.
+    pub fn first(&self, span: Span) -> Option<usize> {
+        self.loops.iter().position(|kept| kept.span == span)
+    }
+
+    fn of(&self, region: RegionId) -> Option<&KeptLoop> {
+        let found = self.loops.binary_search_by_key(&region.0, |kept| kept.region.0);
+        found.ok().map(|k| &self.loops[k])
+    }
+
+    /// Loops that could be unrolled, of those that nodes depend on.
+    pub fn behind(&self, graph: &Graph, nodes: &[NodeId]) -> BTreeSet<Span> {
+        if self.avoidable.is_empty() {
+            return BTreeSet::new();
+        }
+        let walk = Walk {
+            graph,
+            kept: self,
+            seen: HashSet::new(),
+            pending: nodes.to_vec(),
+            found: BTreeSet::new(),
+        };
+        walk.run()
+    }
+}
+
+impl Evaluator<'_> {
+    /// How evaluation ends where nodes had to be compile-time constants and are not: with a demand if loops left in the shader are
+    /// the cause, else with the error.
+    pub fn demand(&self, nodes: &[NodeId], error: impl Into<Box<Diagnostic>>) -> Exit {
+        let (loops, error) = (self.kept.behind(self.builder.graph(), nodes), error.into());
+        self.demanded(loops, *error)
+    }
+
+    /// As [`Evaluator::demand`], of loops that are known to be the cause.
+    pub fn demanded(&self, loops: BTreeSet<Span>, error: Diagnostic) -> Exit {
+        match loops.is_empty() {
+            true => error.into(),
+            false => Exit::Demand(vec![Need { loops, error }]),
+        }
+    }
+
+    /// As [`Evaluator::demand`], of all numbers that values are made of.
+    pub fn demand_of(&self, values: &[&Value], error: Diagnostic) -> Exit {
+        let mut nodes = Vec::new();
+        values.iter().for_each(|value| read(value, &mut nodes));
+        self.demand(&nodes, error)
+    }
+
+    /// An outcome of which an error is a demand for nodes to be compile-time constants.
+    pub fn demanding<T>(&self, nodes: &[NodeId], outcome: Eval<T>) -> Eval<T> {
+        outcome.map_err(|exit| match exit {
+            Exit::Error(error) => self.demand(nodes, error),
+            other => other,
+        })
+    }
+
+    /// Unrolls loops wherever they are reached from now on.
+    pub fn unroll_for(&mut self, loops: BTreeSet<Span>, error: Diagnostic) {
+        let why = self.why(error);
+        for span in loops {
+            self.kept.avoidable.remove(&span);
+            self.unrolled.entry(span).or_insert_with(|| why.clone());
+        }
+    }
+
+    /// An error with the reason that it is for unrolling a loop: the value, its place, and the need.
+    pub fn why(&self, error: Diagnostic) -> Why {
+        let place = error.span.and_then(|span| {
+            let file = self.files.get(span.file as usize)?;
+            let text = file.text.get(span.start as usize..span.end as usize)?;
+            Some((excerpt(text), format!("{}:{}", file.path, span.line)))
+        });
+        let reason = match place {
+            Some((value, place)) => format!(
+                "`{value}` needs a compile-time constant at {place}, and this loop assigns it: {}",
+                error.message
+            ),
+            None => format!(
+                "a compile-time constant is needed, and this loop assigns it: {}",
+                error.message
+            ),
+        };
+        Why { error, reason }
+    }
+}
+
+/// Longest excerpt of the source in a reason, in characters.
+const MAX_EXCERPT: usize = 60;
+
+/// The first line of an expression's text, without what opens a block.
+fn excerpt(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    let line = line.trim_end().trim_end_matches('{').trim_end();
+    match line.chars().count() > MAX_EXCERPT {
+        true => line.chars().take(MAX_EXCERPT).chain("...".chars()).collect(),
+        false => line.to_owned(),
+    }
+}
+
+/// All numbers that a value is made of, with those that a closure captures and the ends of ranges.
+fn read(value: &Value, out: &mut Vec<NodeId>) {
+    match value {
+        Value::Closure(closed) => {
+            for (_, captured) in &closed.captured {
+                if let Captured::Value(value) = captured {
+                    read(value, out);
+                }
+            }
+        }
+        Value::Range(range) => [&range.start, &range.end].into_iter().for_each(|end| read(end, out)),
+        other => other.flatten(out),
+    }
+}
+
+/// Goes from numbers to what they are computed from.
+struct Walk<'w> {
+    graph: &'w Graph,
+    kept: &'w Kept,
+    seen: HashSet<NodeId>,
+    pending: Vec<NodeId>,
+    found: BTreeSet<Span>,
+}
+
+impl Walk<'_> {
+    fn run(mut self) -> BTreeSet<Span> {
+        let graph = self.graph;
+        while let Some(id) = self.pending.pop() {
+            if !self.seen.insert(id) {
+                continue;
+            }
+            let node = graph.node(id);
+            match (&node.op, node.args.first().map(|owner| graph.node(*owner))) {
+                (Op::Result(k), Some(owner)) => match owner.op {
+                    Op::Loop(region) => self.carried(region, Some(*k as usize)),
+                    Op::If(then, otherwise) => {
+                        self.pending.extend(&owner.args);
+                        for side in [then, otherwise] {
+                            self.pending.extend(graph.region(side).results.get(*k as usize));
+                        }
+                    }
+                    _ => self.pending.extend(&node.args),
+                },
+                // The first is the counter.
+                (Op::Param(region, k), _) => self.carried(*region, (*k as usize).checked_sub(1)),
+                _ => self.pending.extend(&node.args),
+            }
+        }
+        self.found
+    }
+
+    /// What a loop carries at a position, or its counter: both depend on how often it runs.
+    fn carried(&mut self, region: RegionId, position: Option<usize>) {
+        let Some(kept) = self.kept.of(region) else { return };
+        if self.kept.avoidable.contains(&kept.span) {
+            self.found.insert(kept.span);
+        }
+        let ends = self.kept.ends.get(&kept.span).into_iter().flatten();
+        self.found
+            .extend(ends.filter(|span| self.kept.avoidable.contains(span)));
+        self.pending.extend(kept.args.iter().take(2));
+        if let Some(k) = position {
+            let region = self.graph.region(region);
+            self.pending.extend(kept.args.get(k + 2));
+            self.pending
+                .extend(region.results.get(k).copied().into_iter().chain(region.stop));
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Going back to a loop that is left in the shader, to unroll it.
+//!
+//! A demand for a constant leaves the blocks around up to the one with the statement that holds the loops in question. That block goes
+//! back to its state before the statement, and goes on from there with the loops unrolled. A loop that was unrolled for the sake of
+//! a constant is never left in the shader again: evaluation goes back at most once for each.
+//!
+//! A kernel with many demands would be evaluated from its first loops on for each of them. After some, a block is evaluated to its
+//! end, so that all its demands are met at once.
+
+use super::Evaluator;
+use super::partial::Checkpoint;
+use super::value::{Eval, Exit, Need};
+use crate::diagnostic::Span;
+use crate::front::assigned;
+use crate::front::tree::{Block, Statement};
+use std::collections::BTreeSet;
+
+/// Times that evaluation goes back as soon as a constant is needed.
+const AT_ONCE: usize = 4;
+
+/// Statements of a block that evaluation may go back to, and demands that were put off to the end of the block.
+#[derive(Default)]
+pub struct Points {
+    points: Vec<Point>,
+    put_off: Vec<Need>,
+}
+
+/// A statement that evaluation may go back to.
+struct Point {
+    /// Position of the statement in its block; of the block's value, the number of statements.
+    statement: usize,
+    /// State before it.
+    before: Checkpoint,
+}
+
+impl Evaluator<'_> {
+    /// Notes that evaluation may go back to a statement, if it may leave a loop in the shader.
+    pub fn point(&mut self, points: &mut Points, statement: usize, span: Span) {
+        let points = &mut points.points;
+        if points
+            .last()
+            .is_some_and(|last| !self.kept.avoids_since(last.before.kept()))
+        {
+            points.pop();
+        }
+        if self.looping.contains(&span) && !self.unrolls_all {
+            let before = self.checkpoint();
+            points.push(Point { statement, before });
+        }
+    }
+
+    /// Puts the demands of a statement off to the end of the block, so that those of later statements are found too.
+    ///
+    /// # Errors
+    ///
+    /// The demands themselves, if evaluation goes back for them at once.
+    pub fn put_off(&mut self, needs: Vec<Need>, statement: &Statement, points: &mut Points) -> Eval<()> {
+        if self.turns < AT_ONCE {
+            return Err(Exit::Demand(needs));
+        }
+        points.put_off.extend(needs);
+        let alone = Block {
+            statements: vec![statement.clone()],
+            value: None,
+            exact: false,
+        };
+        // No later demand is to be one because of values that the statement would have replaced.
+        for name in assigned(&alone, &self.library.mutating).assigned {
+            if let Some(slot) = self.scope.slot(&name) {
+                let value = self.scope.at(slot).1.clone();
+                let blank = self.blank(&value);
+                self.scope.set(slot, blank);
+            }
+        }
+        Ok(())
+    }
+
+    /// The outcome of a block, with the demands that were put off.
+    pub fn with_put_off(&self, outcome: Eval, points: &mut Points) -> Eval {
+        let mut needs = std::mem::take(&mut points.put_off);
+        match outcome {
+            Err(Exit::Demand(last)) => {
+                needs.extend(last);
+                Err(Exit::Demand(needs))
+            }
+            _ if !needs.is_empty() && !self.exhausted => Err(Exit::Demand(needs)),
+            outcome => outcome,
+        }
+    }
+
+    /// Goes back to the last statement before all demanded loops that are first left in the shader behind the first of `points`. These
+    /// loops are unrolled from there on. Returns the position of the statement.
+    ///
+    /// # Errors
+    ///
+    /// The demands, if there is no such loop.
+    pub fn go_back(&mut self, needs: Vec<Need>, points: &mut Points) -> Eval<usize> {
+        let points = &mut points.points;
+        let begin = points.first().map_or(usize::MAX, |point| point.before.kept());
+        let first = |span: &Span| self.kept.first(*span).filter(|first| *first >= begin);
+        let here: BTreeSet<Span> = needs.iter().flat_map(|need| &need.loops).copied().collect();
+        let here: BTreeSet<Span> = here.into_iter().filter(|span| first(span).is_some()).collect();
+        let Some(earliest) = here.iter().filter_map(first).min() else {
+            return Err(Exit::Demand(needs));
+        };
+        points.truncate(points.partition_point(|point| point.before.kept() <= earliest));
+        let Some(point) = points.pop() else {
+            return Err(Exit::Demand(needs));
+        };
+        self.undo(point.before);
+        for need in needs {
+            let loops = need.loops.intersection(&here);
+            self.unroll_for(loops.copied().collect(), need.error);
+        }
+        self.turns += 1;
+        Ok(point.statement)
+    }
+
+    /// Evaluates, and once more from the beginning for demands that none of the blocks inside has met.
+    pub fn meeting_demands<T>(&mut self, mut evaluate: impl FnMut(&mut Self) -> Eval<T>) -> Eval<T> {
+        loop {
+            let before = self.checkpoint();
+            match evaluate(self) {
+                Err(Exit::Demand(needs)) => {
+                    self.undo(before);
+                    for need in needs {
+                        self.unroll_for(need.loops, need.error);
+                    }
+                    self.turns += 1;
+                }
+                outcome => return outcome,
+            }
+        }
+    }
+}

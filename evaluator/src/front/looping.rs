@@ -1,0 +1,265 @@
+//! Statements that may run a loop which is asked to be left in the shader: evaluation may have to go back to them.
+//!
+//! A name stands for every function and constant of which it is the last word, as types are not looked at: statements may be found
+//! that run no such loop, and none is missed but in types.
+
+use super::scan::children;
+use super::tree::{Block, Expr, ExprKind, Function, Library, Statement};
+use crate::diagnostic::Span;
+use crate::policy::{Policy, Unroll};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Methods that operators call.
+const OPERATORS: [&str; 28] = [
+    "add",
+    "sub",
+    "mul",
+    "div",
+    "rem",
+    "neg",
+    "not",
+    "bitand",
+    "bitor",
+    "bitxor",
+    "shl",
+    "shr",
+    "index",
+    "index_mut",
+    "add_assign",
+    "sub_assign",
+    "mul_assign",
+    "div_assign",
+    "rem_assign",
+    "bitand_assign",
+    "bitor_assign",
+    "bitxor_assign",
+    "shl_assign",
+    "shr_assign",
+    "eq",
+    "ne",
+    "partial_cmp",
+    "cmp",
+];
+
+/// Places of the statements, and of values of blocks, that `entry` reaches and that may run a loop which is asked to be left in
+/// the shader.
+pub fn looping(library: &Library, entry: &str, policy: &Policy) -> FxHashSet<Span> {
+    let mut items: FxHashMap<&str, Vec<Item<'_>>> = FxHashMap::default();
+    for (name, function) in &library.functions {
+        items.entry(last(name)).or_default().push(Item::Function(function));
+    }
+    for (name, constant) in &library.consts {
+        items.entry(last(name)).or_default().push(Item::Const(&constant.value));
+    }
+    let asked = |unroll: Option<Unroll>| unroll.is_some_and(|unroll| unroll != Unroll::Full);
+    let by_function = library.functions.values().any(|function| asked(function.unroll));
+    let by_policy = policy.unroll != Unroll::Full || !policy.loops.is_empty();
+    let mut scan = Scan {
+        every: by_function || by_policy,
+        words: FxHashSet::default(),
+        values: false,
+        operators: false,
+        found: FxHashSet::default(),
+    };
+    let reached = reach(&items, last(entry));
+    let parts: Vec<(&str, Parts<'_>)> = reached.iter().map(|(word, item)| (*word, Parts::of(*item))).collect();
+    // A loop makes those that call its function run a loop, and so on.
+    loop {
+        let before = (scan.words.len(), scan.values);
+        for (word, parts) in &parts {
+            if scan.runs(parts) {
+                scan.words.insert(word);
+            }
+            scan.values |= parts.closures.iter().any(|closure| scan.runs(closure));
+            scan.values |= parts.paths.iter().any(|path| scan.words.contains(path));
+        }
+        scan.operators = OPERATORS.iter().any(|name| scan.words.contains(name));
+        if before == (scan.words.len(), scan.values) {
+            break;
+        }
+    }
+    for (_, item) in &reached {
+        match item {
+            Item::Function(function) => drop(scan.block(&function.body)),
+            Item::Const(value) => drop(scan.expr(value)),
+        }
+    }
+    scan.found
+}
+
+/// The last word of a path.
+fn last(name: &str) -> &str {
+    name.rsplit("::").next().unwrap_or(name)
+}
+
+/// What a name may stand for.
+#[derive(Clone, Copy)]
+enum Item<'l> {
+    Function(&'l Function),
+    Const(&'l Expr),
+}
+
+/// Items that `entry` reaches, with the words that they go by.
+fn reach<'l>(items: &FxHashMap<&'l str, Vec<Item<'l>>>, entry: &'l str) -> Vec<(&'l str, Item<'l>)> {
+    let mut seen = FxHashSet::default();
+    let mut pending: Vec<&str> = OPERATORS.into_iter().chain([entry]).collect();
+    let mut reached = Vec::new();
+    while let Some(word) = pending.pop() {
+        if !seen.insert(word) {
+            continue;
+        }
+        for item in items.get(word).into_iter().flatten() {
+            pending.extend(Parts::of(*item).all_words());
+            reached.push((word, *item));
+        }
+    }
+    reached
+}
+
+/// What matters of an item's or a closure's text.
+#[derive(Default)]
+struct Parts<'l> {
+    /// Attributes of its loops.
+    loops: Vec<Option<Unroll>>,
+    /// Last words of what it calls.
+    calls: FxHashSet<&'l str>,
+    /// Last words of what it mentions otherwise: constants, functions as values.
+    paths: FxHashSet<&'l str>,
+    /// Closures in it, which it may call or give away.
+    closures: Vec<Parts<'l>>,
+    /// Whether it calls anything.
+    is_caller: bool,
+    /// Whether it has operators that may be of traits.
+    operators: bool,
+}
+
+impl<'l> Parts<'l> {
+    fn of(item: Item<'l>) -> Parts<'l> {
+        let mut parts = Parts::default();
+        match item {
+            Item::Function(function) => parts.block(&function.body),
+            Item::Const(value) => parts.expr(value),
+        }
+        parts
+    }
+
+    fn all_words(&self) -> Vec<&'l str> {
+        let inside = self.closures.iter().flat_map(Parts::all_words);
+        self.calls.iter().chain(&self.paths).copied().chain(inside).collect()
+    }
+
+    fn block(&mut self, block: &'l Block) {
+        for statement in &block.statements {
+            parts_of(statement).into_iter().for_each(|(part, _)| self.expr(part));
+        }
+        block.value.iter().for_each(|value| self.expr(value));
+    }
+
+    fn expr(&mut self, e: &'l Expr) {
+        match &e.kind {
+            ExprKind::For(f) => self.loops.push(f.unroll),
+            ExprKind::While(.., unroll) => self.loops.push(*unroll),
+            ExprKind::Call(path, ..) => self.calls.extend(path.last().map(String::as_str)),
+            ExprKind::Method(_, name, _) => drop(self.calls.insert(last(name))),
+            ExprKind::Path(path) => self.paths.extend(path.last().map(String::as_str)),
+            ExprKind::Closure(closure) => {
+                let mut inside = Parts::default();
+                inside.expr(&closure.body);
+                self.closures.push(inside);
+                return;
+            }
+            _ => {}
+        }
+        self.operators |= is_operator(e);
+        self.is_caller |= matches!(e.kind, ExprKind::Call(..) | ExprKind::Method(..) | ExprKind::Invoke(..));
+        children(e).into_iter().for_each(|child| self.expr(child));
+        blocks(e).into_iter().for_each(|block| self.block(block));
+    }
+}
+
+fn is_operator(e: &Expr) -> bool {
+    matches!(
+        e.kind,
+        ExprKind::Unary(..) | ExprKind::Binary(..) | ExprKind::Assign(..) | ExprKind::Index(..)
+    )
+}
+
+/// Blocks directly in an expression.
+fn blocks(e: &Expr) -> Vec<&Block> {
+    match &e.kind {
+        ExprKind::If(_, block, ..) | ExprKind::While(_, block, ..) => vec![block],
+        ExprKind::Block(block) | ExprKind::Labelled(_, block) => vec![block],
+        ExprKind::For(f) => vec![&f.body],
+        _ => Vec::new(),
+    }
+}
+
+/// The expression of a statement, with the place that the statement is known by.
+fn parts_of(statement: &Statement) -> Option<(&Expr, Span)> {
+    match statement {
+        Statement::Let(_, _, init, span) => init.as_ref().map(|init| (init, *span)),
+        Statement::Expr(e) => Some((e, e.span)),
+        Statement::Const(constant) => Some((&constant.value, constant.value.span)),
+    }
+}
+
+struct Scan<'l> {
+    /// Whether every loop is asked to be left in the shader, and not only those with an attribute.
+    every: bool,
+    /// Last words of functions and constants that may run such a loop.
+    words: FxHashSet<&'l str>,
+    /// Whether a value that can be called may run one.
+    values: bool,
+    /// Whether an operator may run one.
+    operators: bool,
+    found: FxHashSet<Span>,
+}
+
+impl Scan<'_> {
+    fn stays(&self, unroll: Option<Unroll>) -> bool {
+        self.every || unroll.is_some_and(|unroll| unroll != Unroll::Full)
+    }
+
+    fn runs(&self, parts: &Parts<'_>) -> bool {
+        let called = &parts.calls;
+        parts.loops.iter().any(|unroll| self.stays(*unroll))
+            || (self.values && parts.is_caller)
+            || (self.operators && parts.operators)
+            || called.iter().chain(&parts.paths).any(|word| self.words.contains(word))
+            || parts.closures.iter().any(|closure| self.runs(closure))
+    }
+
+    fn block(&mut self, block: &Block) -> bool {
+        let mut any = false;
+        let statements = block.statements.iter().filter_map(parts_of);
+        let value = block.value.as_deref().map(|value| (value, value.span));
+        for (part, span) in statements.chain(value) {
+            if self.expr(part) {
+                self.found.insert(span);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Whether an expression may run such a loop. Notes the statements in it that do.
+    fn expr(&mut self, e: &Expr) -> bool {
+        let is_named = |path: &[String]| path.last().is_some_and(|word| self.words.contains(word.as_str()));
+        let mut runs = match &e.kind {
+            ExprKind::For(f) => self.stays(f.unroll),
+            ExprKind::While(.., unroll) => self.stays(*unroll),
+            ExprKind::Call(path, ..) => self.values || is_named(path),
+            ExprKind::Method(_, name, _) => self.values || self.words.contains(last(name)),
+            ExprKind::Invoke(..) => self.values,
+            ExprKind::Path(path) => is_named(path),
+            _ => self.operators && is_operator(e),
+        };
+        for child in children(e) {
+            runs |= self.expr(child);
+        }
+        for block in blocks(e) {
+            runs |= self.block(block);
+        }
+        runs
+    }
+}
