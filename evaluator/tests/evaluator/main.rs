@@ -1,5 +1,6 @@
-//! The evaluator alone: graphs as text, and the rules that every graph keeps.
+//! The evaluator alone: graphs as text, the rules that every graph keeps, and what becomes of loops.
 
 mod cases;
 mod filetests;
+mod loops;
 mod verify;
