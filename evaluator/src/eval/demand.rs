@@ -204,7 +204,10 @@ impl Walk<'_> {
             let node = graph.node(id);
             match (&node.op, node.args.first().map(|owner| graph.node(*owner))) {
                 (Op::Result(k), Some(owner)) => match owner.op {
-                    Op::Loop(region) => self.carried(region, Some(*k as usize)),
+                    Op::Loop(region) => {
+                        self.initial(region, Some(*k as usize));
+                        self.carried(region, Some(*k as usize));
+                    }
                     Op::If(then, otherwise) => {
                         self.pending.extend(&owner.args);
                         for side in [then, otherwise] {
@@ -214,28 +217,41 @@ impl Walk<'_> {
                     _ => self.pending.extend(&node.args),
                 },
                 // The first is the counter.
-                (Op::Param(region, k), _) => self.carried(*region, (*k as usize).checked_sub(1)),
+                (Op::Param(region, k), _) => {
+                    let position = (*k as usize).checked_sub(1);
+                    // Unrolled, its first iteration shows whether the initial values matter.
+                    if !self.carried(*region, position) {
+                        self.initial(*region, position);
+                    }
+                }
                 _ => self.pending.extend(&node.args),
             }
         }
         self.found
     }
 
-    /// What a loop carries at a position, or its counter: both depend on how often it runs.
-    fn carried(&mut self, region: RegionId, position: Option<usize>) {
+    /// The bounds of a loop, and the initial value of what it carries at a position.
+    fn initial(&mut self, region: RegionId, position: Option<usize>) {
         let Some(kept) = self.kept.of(region) else { return };
-        if self.kept.avoidable.contains(&kept.span) {
+        self.pending.extend(kept.args.iter().take(2));
+        self.pending.extend(position.and_then(|k| kept.args.get(k + 2)));
+    }
+
+    /// What a loop carries at a position, or its counter: both depend on how often it runs. Returns whether the loop can be unrolled.
+    fn carried(&mut self, region: RegionId, position: Option<usize>) -> bool {
+        let Some(kept) = self.kept.of(region) else { return false };
+        let is_avoidable = self.kept.avoidable.contains(&kept.span);
+        if is_avoidable {
             self.found.insert(kept.span);
         }
         let ends = self.kept.ends.get(&kept.span).into_iter().flatten();
         self.found
             .extend(ends.filter(|span| self.kept.avoidable.contains(span)));
-        self.pending.extend(kept.args.iter().take(2));
         if let Some(k) = position {
             let region = self.graph.region(region);
-            self.pending.extend(kept.args.get(k + 2));
-            self.pending
-                .extend(region.results.get(k).copied().into_iter().chain(region.stop));
+            let result = region.results.get(k).copied();
+            self.pending.extend(result.into_iter().chain(region.stop));
         }
+        is_avoidable
     }
 }
