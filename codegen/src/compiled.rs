@@ -19,42 +19,42 @@ pub struct Compiled {
     pub kernel: String,
     /// The entry of a built-in kernel.
     pub builtin: Option<&'static Entry>,
-    /// What it does, in a line.
+    /// One-line description of the kernel.
     pub summary: String,
     /// Value of every option.
     pub options: OptionValues,
     /// Names of the options that are not at their defaults.
     pub changed: Vec<String>,
-    /// What was asked to become of loops and branches.
+    /// Policy requested for loops and branches.
     pub policy: Policy,
-    /// What became of each loop.
+    /// Outcome for each loop.
     pub loops: Vec<LoopReport>,
-    /// What is left to compute.
+    /// Graph of the remaining operations.
     pub graph: Graph,
-    /// In which order.
+    /// Order in which the graph's values are computed.
     pub schedule: Schedule,
-    /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
-    /// the shader. `statements` and `max_live` are 0: they are counted in the text, by emission or by [`Compiled::text_counts`].
+    /// Operations that one invocation executes. `basic_blocks` counts the blocks of the kernel's own loops and branches; emission counts
+    /// those of the shader. `statements` and `max_live` are 0: they are counted in the text, by emission or by [`Compiled::text_counts`].
     pub counts: Counts,
-    /// How lanes of quads were asked to swap values.
+    /// Transport requested for quad swaps between lanes.
     pub transport: Option<Transport>,
-    /// What has become of reads whose texels a workgroup was asked to share.
+    /// Outcome of texel sharing for the reads for which it was requested.
     pub sharing: Option<Arc<Sharing>>,
     /// Reads that became gathers, where that was asked for.
     pub gathered: Arc<[Gathered]>,
     /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,
-    /// What compiling and emitting may take.
+    /// Limits on compiling and emitting.
     pub limits: Limits,
     /// Work of compiling it: expressions evaluated and operations visited by passes. The same on every machine.
     pub work: u64,
     /// Time that compiling it took; 0 in WebAssembly, which has no clock.
     pub time: Duration,
-    /// Where the kernel and its inputs stand in the source.
+    /// Source locations of the kernel and its inputs.
     pub places: Arc<Places>,
 }
 
-/// Where a kernel and its inputs stand in the source.
+/// Source locations of a kernel and its inputs.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     /// The kernel's files.
@@ -98,7 +98,8 @@ impl Compiled {
         Ok(floor)
     }
 
-    /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
+    /// Returns the counts for a pixel that the publication of a built-in kernel states with these options; `None` also where one invocation
+    /// computes several pixels.
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
         (entry.paper)(&self.options)
@@ -117,7 +118,7 @@ impl Compiled {
             .collect()
     }
 
-    /// What half precision does to the picture of a built-in kernel with these options; an option that a host sets is judged at
+    /// Returns the effect of half precision on the picture of a built-in kernel with these options; an option that a host sets is judged at
     /// its default.
     pub fn half_precision(&self) -> HalfPrecision {
         let half = self.builtin.map(|entry| (entry.half)(&self.options));

@@ -31,9 +31,8 @@ pub use crate::spec::KernelConfig;
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
 
-/// Compiles kernels of one's own: of each file the public function that has the file's name, or else the only public one that
-/// takes and gives what a kernel does, with its
-/// options at their defaults. For anything else see [`Config`].
+/// Compiles kernels of the caller's crate: from each file the public function that has the file's name, or else the only public one with
+/// parameters and a result that a kernel can have. Options are at their defaults. For anything else see [`Config`].
 ///
 /// # Errors
 ///
@@ -42,7 +41,7 @@ pub fn compile<P: AsRef<Path>>(files: impl IntoIterator<Item = P>) -> Result<(),
     files.into_iter().fold(Config::new(), Config::file).compile()
 }
 
-/// Which shaders a crate wants.
+/// The shaders that a crate builds.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
     kernels: Vec<KernelConfig>,
@@ -117,21 +116,20 @@ impl Config {
         self
     }
 
-    /// A kernel of one's own: the public function that has the file's name, or else the only public one that takes and gives
-    /// what a kernel does, with its options at their
-    /// defaults.
+    /// Adds a kernel of the caller's crate: the public function that has the file's name, or else the only public one with parameters and a
+    /// result that a kernel can have, with its options at their defaults.
     pub fn file(self, path: impl AsRef<Path>) -> Self {
         self.file_with(path, |k| k)
     }
 
-    /// A kernel of one's own with options.
+    /// Adds a kernel of the caller's crate with options.
     pub fn file_with(mut self, path: impl AsRef<Path>, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
         let source = Source::File(path.as_ref().to_owned());
         self.kernels.push(options(KernelConfig::new(source)));
         self
     }
 
-    /// Where to write; by default cargo's `OUT_DIR`.
+    /// Output folder; cargo's `OUT_DIR` by default.
     pub fn out_dir(mut self, folder: impl AsRef<Path>) -> Self {
         self.out_dir = Some(folder.as_ref().to_owned());
         self
@@ -202,7 +200,7 @@ pub struct Error {
     problems: Vec<Problem>,
 }
 
-/// One thing that is wrong.
+/// A problem with one shader or with the output.
 #[derive(Debug, thiserror::Error)]
 enum Problem {
     #[error(transparent)]
@@ -249,7 +247,7 @@ impl fmt::Debug for Error {
 }
 
 impl std::error::Error for Error {
-    /// What the system says about the first file that could not be read or written, if one is the problem.
+    /// Returns the system's error for the first file that could not be read or written, if there is one.
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         self.problems.iter().find_map(std::error::Error::source)
     }

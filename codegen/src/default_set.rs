@@ -10,7 +10,7 @@ use straightline_evaluator::diagnostic::{Code, Errors};
 use straightline_evaluator::policy::{Transport, Unroll};
 use straightline_manifest::Stage;
 
-/// One shader of the set.
+/// A shader of the set.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// Name of its files, without extension.
@@ -19,9 +19,9 @@ pub struct Entry {
     pub kernel: &'static str,
     /// Options that are not at their defaults.
     pub options: &'static [(&'static str, &'static str)],
-    /// What becomes of loops.
+    /// Unroll policy for its loops.
     pub unroll: Unroll,
-    /// How lanes of quads communicate.
+    /// Transport of quad swaps between lanes.
     pub transport: Option<Transport>,
     /// Pipeline stage.
     pub stage: Stage,

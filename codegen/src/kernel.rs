@@ -57,7 +57,7 @@ impl Kernel {
         }))
     }
 
-    /// A kernel of one's own, from its text. `path` is only shown.
+    /// Makes a kernel from the caller's text. `path` is only shown.
     pub fn from_text(path: &str, text: &str, function: &str) -> Kernel {
         let file = File {
             path: path.to_owned(),
@@ -70,8 +70,8 @@ impl Kernel {
         })
     }
 
-    /// A kernel of one's own, from a file. Without `function` it is the public function that has the file's name, or else the only
-    /// public one that takes and gives what a kernel does.
+    /// Reads a kernel from a file of the caller's. Without `function` it is the public function that has the file's name, or else the only
+    /// public one with parameters and a result that a kernel can have.
     pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
         let shown = path.display().to_string();
         let text = read(path)?;

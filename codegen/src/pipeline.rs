@@ -14,7 +14,7 @@ use straightline_evaluator::passes::{self, Gathered, Sharing};
 use straightline_evaluator::policy::{Math, ReadOrder, Share, Transport};
 use straightline_kernels::Entry;
 
-/// A graph after a stage, for whoever looks on.
+/// Callback that receives the graph after each stage, with the stage's name.
 pub type Observer<'a> = dyn FnMut(&str, &Graph) + Send + 'a;
 
 /// Threads that every device has in a workgroup.

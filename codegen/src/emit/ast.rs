@@ -11,17 +11,17 @@ use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Bits, Memory, Origin,
 pub struct Ty {
     /// Scalar, vector or array.
     pub shape: Type,
-    /// Whether its floats have 16 bits.
+    /// `true` if floats have 16 bits.
     pub half: bool,
 }
 
 impl Ty {
-    /// The same shape with components of another kind, in full precision.
+    /// Returns the same shape with components of another kind, in full precision.
     pub fn of(self, scalar: Scalar) -> Ty {
         self.shape.with_scalar(scalar).into()
     }
 
-    /// So many of the same components.
+    /// Returns a scalar or vector of `lanes` such components.
     pub fn shape_of(self, lanes: usize) -> Ty {
         let scalar = self.kind().unwrap_or(Scalar::F32);
         Ty {
@@ -30,7 +30,7 @@ impl Ty {
         }
     }
 
-    /// One component.
+    /// Returns the type of a component, in full precision.
     pub fn element_of(self) -> Type {
         Type::scalar(self.kind().unwrap_or(Scalar::F32))
     }
@@ -43,7 +43,7 @@ impl Ty {
         }
     }
 
-    /// The same type in full precision.
+    /// Returns this type in full precision.
     pub fn full(self) -> Ty {
         self.shape.into()
     }
@@ -78,26 +78,26 @@ impl VarId {
     pub const PLACE: VarId = VarId(3);
     /// The pixel of the workgroup's first invocation.
     pub const ORIGIN: VarId = VarId(4);
-    /// Whether the pixel is one that is computed.
+    /// Boolean that holds if the invocation's pixel is one to compute.
     pub const INSIDE: VarId = VarId(5);
-    /// Where the invocation lies in its workgroup.
+    /// Position of the invocation in its workgroup.
     pub const LOCAL: VarId = VarId(6);
-    /// What stands for the memory of a workgroup where statements are asked which variables they change.
+    /// Stands for the memory of a workgroup in queries of the variables that a statement changes.
     pub const MEMORY: VarId = VarId(u32::MAX);
 }
 
 /// A variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// What it is to be called; [`super::names`] makes names differ.
+    /// Preferred name; [`super::names`] makes names differ.
     pub name: String,
-    /// Its type.
+    /// Type of the value.
     pub ty: Ty,
-    /// Whether a compiler must round what it is given as it is written.
+    /// `true` if compilers must round its values as written.
     pub precise: bool,
 }
 
-/// What the entry point is told by the host.
+/// A built-in value that the host or the driver provides to the entry point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
     /// Position of the invocation in the dispatch, `vec2<i32>`.
@@ -120,7 +120,7 @@ pub enum Builtin {
     RegionPlace,
 }
 
-/// What is known of the operands of an integer division.
+/// Facts about the operands of an integer division.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Division {
     /// No component of the divisor can be 0, and no quotient can overflow.
@@ -129,7 +129,7 @@ pub struct Division {
     pub positive: bool,
 }
 
-/// What is known of the arguments of a function of floats whose edges a shader may have to keep by itself.
+/// Facts about the arguments of a function of floats whose edge cases a shader may have to handle itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Domain {
     /// No component of the first argument is a NaN or below 0; it may be -0.
@@ -140,7 +140,7 @@ pub struct Domain {
     pub bounded: bool,
 }
 
-/// What an expression does with its arguments.
+/// Operation of an expression on its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Op {
     /// An operation of the graph that is none of the others here.
@@ -152,7 +152,7 @@ pub enum Op {
     /// A conversion. `fits` says of integers that every precision has finite numbers as large, of floats that the target type has
     /// an integer for each of them.
     Convert {
-        /// Whether every value can be converted.
+        /// `true` if every value can be converted.
         fits: bool,
     },
     /// A vector from scalars, one scalar for all components; an array from its elements.
@@ -162,21 +162,21 @@ pub enum Op {
     /// The argument, as the operation that computes it rounds it. The value of a `let`, a `var` or an assignment, never part of
     /// another expression.
     Exact {
-        /// Whether arithmetic goes on from it, which a compiler could merge it with.
+        /// `true` if further arithmetic uses the result, which a compiler could merge with it.
         goes_on: bool,
     },
     /// An element of an array: array, index. An index outside is that of the last element.
     Index {
-        /// Whether the index cannot lie outside.
+        /// `true` if the index cannot lie outside.
         inside: bool,
     },
     /// A variable.
     Var(VarId),
-    /// What the host tells.
+    /// A built-in value of the entry point.
     Builtin(Builtin),
-    /// Whether some component holds.
+    /// True if any component is.
     Any,
-    /// Whether all components hold.
+    /// True if all components are.
     All,
     /// By component: condition, value if it holds, value if not.
     Choose,
@@ -191,11 +191,11 @@ pub enum Op {
 /// An expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expr {
-    /// What it does.
+    /// Operation.
     pub op: Op,
-    /// With what.
+    /// Operands.
     pub args: Vec<Expr>,
-    /// What comes out.
+    /// Type of the result.
     pub ty: Ty,
 }
 
@@ -241,7 +241,7 @@ impl Expr {
         Expr::new(Op::Convert { fits: true }, vec![self], ty)
     }
 
-    /// The same bits as another type.
+    /// Reinterprets the bits as another type.
     pub fn bits_as(self, ty: impl Into<Ty>) -> Expr {
         Expr::new(Op::Ir(ir::Op::Bitcast), vec![self], ty)
     }
@@ -294,7 +294,7 @@ impl Expr {
 /// A statement, and where its value comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stmt<'g> {
-    /// What it does.
+    /// Kind of statement, with its operands.
     pub kind: StmtKind<'g>,
     /// The place in the kernel's source.
     pub origin: Option<&'g Origin>,
@@ -303,7 +303,7 @@ pub struct Stmt<'g> {
 /// A sequence of statements.
 pub type Block<'g> = Vec<Stmt<'g>>;
 
-/// What a statement does.
+/// Kind of a statement, with its operands.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StmtKind<'g> {
     /// An immutable variable.
@@ -318,16 +318,16 @@ pub enum StmtKind<'g> {
         counter: VarId,
         /// First value.
         start: Expr,
-        /// One past the last.
+        /// Exclusive upper bound.
         end: Expr,
-        /// What is repeated.
+        /// Statements of an iteration.
         body: Block<'g>,
     },
     /// Repeats until a [`StmtKind::Break`].
     Loop(Block<'g>),
     /// Leaves the innermost loop.
     Break,
-    /// One of two sides.
+    /// A branch with two sides.
     If {
         /// A scalar boolean.
         condition: Expr,
@@ -338,13 +338,13 @@ pub enum StmtKind<'g> {
     },
     /// Writes a texel of an output: which one, place, value.
     Store(usize, Expr, Expr),
-    /// What is given for a pixel: a value for each output.
+    /// Values of a pixel, one for each output.
     Output(Vec<Expr>),
     /// Writes to memory.
     Effect(Effect),
     /// Waits for the other invocations of the workgroup, whose writes are seen behind it.
     Barrier {
-        /// Those to buffers, too.
+        /// `true` if the barrier also orders writes to buffers.
         buffers: bool,
     },
     /// Leaves the function, with its value if it has one.
@@ -356,7 +356,7 @@ pub enum StmtKind<'g> {
 /// A write to memory, whose index is inside of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
-    /// Where.
+    /// The memory written.
     pub memory: Memory,
     /// The atomic operation; a plain store has none.
     pub op: Option<AtomicOp>,
@@ -367,7 +367,7 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// Whether a language has no way to do it without a variable for what was there before.
+    /// Returns whether some language can only express the operation with a variable for the old value.
     pub fn needs_variable(&self) -> bool {
         matches!(self.op, Some(AtomicOp::Exchange | AtomicOp::Load))
     }
@@ -463,15 +463,15 @@ pub fn count(block: &[Stmt<'_>]) -> u32 {
 /// A function beside the entry point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function<'g> {
-    /// What it is for.
+    /// Purpose, printed above the function.
     pub comment: String,
-    /// Its name.
+    /// Name in the text.
     pub name: String,
     /// Parameters.
     pub params: Vec<VarId>,
-    /// What it gives.
+    /// Type of the result.
     pub result: Ty,
-    /// What it does.
+    /// Statements.
     pub body: Block<'g>,
 }
 
@@ -500,7 +500,7 @@ impl<'g> Module<'g> {
         VarId(self.variables.len() as u32 - 1)
     }
 
-    /// Whether something is exact.
+    /// Returns whether the entry point contains an exact operation.
     pub fn has_exact(&self) -> bool {
         let mut found = false;
         let mut see = |expr: &Expr| found |= matches!(expr.op, Op::Exact { .. });

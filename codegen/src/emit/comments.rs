@@ -61,7 +61,7 @@ impl<'g> Groups<'g> {
                     self.flush(&mut out);
                     *body = self.block(std::mem::take(body));
                     out.push(stmt);
-                    // What comes behind it is not of the group before it, nor of its body's.
+                    // Statements after the loop belong neither to the group before it nor to that of its body.
                     self.commented = None;
                 }
                 StmtKind::If { then, otherwise, .. } => {
@@ -116,7 +116,7 @@ impl<'g> Groups<'g> {
             && self.commented.as_ref() != Some(&(file, outer.clone()))
         {
             let before = self.commented.take().map(|(_, outer)| outer);
-            // What a place is for is said once, and after that only which round of the loops around comes next.
+            // Prints a place's purpose once; later groups print only the next iteration of the surrounding loops.
             if self.places.insert((file, line)) {
                 out.push(StmtKind::Comment(self.said(&counters, file, line)).into());
             } else if before.is_none_or(|before| !before.starts_with(&outer)) && !outer.is_empty() {
@@ -134,7 +134,7 @@ impl<'g> Groups<'g> {
         let purpose = functions.find(|function| function.file == file && function.line <= line);
         let purpose = purpose.map_or("", |purpose| purpose.words.as_str());
         let path = self.graph.files.get(file as usize).map_or("", String::as_str);
-        // Where a kernel lies on somebody's machine is nobody's business.
+        // An absolute path says more about the author's machine than the shader should.
         let shown = match std::path::Path::new(path).is_absolute() {
             true => path.rsplit(['/', '\\']).next().unwrap_or(path),
             false => path,

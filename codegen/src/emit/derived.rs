@@ -74,7 +74,7 @@ impl HostFunction {
         format!("{}{texture}", self.what.prefix())
     }
 
-    /// Its parameters and its result in WGSL.
+    /// Returns parameters and result in WGSL.
     pub fn signature(self) -> (&'static str, &'static str) {
         match self.what {
             What::Load => ("pixel: vec2i", "vec4f"),

@@ -1,4 +1,4 @@
-//! What the entry point is called.
+//! Name of the entry point.
 
 use super::own_words::is_own;
 use super::refusal::Refusal;

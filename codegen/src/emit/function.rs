@@ -1,15 +1,15 @@
-//! What cannot be a function of a shader of the host's.
+//! Limits of shaders that are emitted as functions for a shader of the host's.
 
 use super::refusal::Refusal;
 use super::resources::Resources;
 use crate::compiled::Compiled;
 use crate::spec::{EmitOptions, Target};
 
-/// Whether a kernel can be a function in every language that is written.
+/// Checks that a kernel can be a function in every requested language.
 ///
 /// # Errors
 ///
-/// The first thing that cannot be, and what to do.
+/// The first obstacle, with its remedy.
 pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
     let EmitOptions {
         targets,

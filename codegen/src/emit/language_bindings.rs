@@ -1,4 +1,4 @@
-//! What each language binds, by its own numbers, registers and names; of functions, what they take.
+//! Bindings of each language, by its own numbers, registers and names; for functions, their parameters.
 
 use super::Target;
 use super::derived::Derived;
@@ -141,7 +141,7 @@ impl Resources {
         }
     }
 
-    /// What a function takes, in order.
+    /// Lists the parameters of a function, in order.
     fn parameters(&self, original: &Resources, target: Target, list: &mut List) {
         if self.options.calls_host() {
             for function in &self.host {
@@ -207,7 +207,7 @@ impl Resources {
     }
 }
 
-/// What one language binds.
+/// Bindings of one language.
 struct List {
     language: String,
     bindings: Vec<LanguageBinding>,

@@ -1,4 +1,4 @@
-//! How many values a compiler must hold at once: scalars alive at each statement of a tree.
+//! Register pressure: scalars alive at each statement of a tree.
 //!
 //! Compilers of GPUs split vectors into scalars, and so does this analysis. A component that only renames another
 //! (`vec2(left, pixel.y)`, `a.yx`) is that one, and constants and uniforms are held elsewhere. Booleans are bits of masks.
@@ -40,7 +40,7 @@ struct Walk<'g> {
     most: (u32, Option<&'g Origin>),
 }
 
-/// What a component is that is computed by nothing.
+/// Value of a component that no operation computes.
 #[derive(Clone, Copy)]
 enum Renamed {
     Constant,
@@ -96,7 +96,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// What component `k` of an expression renames, if nothing has to be computed for it.
+    /// Returns the component that component `k` of an expression renames, if nothing has to be computed for it.
     fn component(&self, value: &Expr, k: u32, changes: &[bool]) -> Option<Renamed> {
         match &value.op {
             Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_)) => Some(Renamed::Constant),
@@ -129,7 +129,7 @@ impl<'g> Walk<'g> {
         self.note(self.sum, stmt.origin);
         match &stmt.kind {
             StmtKind::Let(var, value) => {
-                // What nobody reads is written somewhere, too.
+                // An unread value needs a register when it is written, too.
                 self.note(self.written(*var), stmt.origin);
                 self.kill(*var);
                 if self.is_computed(*var) {
@@ -162,7 +162,7 @@ impl<'g> Walk<'g> {
                 self.read(condition);
             }
             StmtKind::For { body, .. } | StmtKind::Loop(body) => {
-                // What the next iteration may read is alive throughout.
+                // Values that the next iteration may read are alive throughout.
                 let outside = mentioned_of_outside(stmt);
                 outside.iter().for_each(|var| self.wake_all(*var));
                 self.block(body);
@@ -187,13 +187,13 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Whether a component of a variable is more than another name.
+    /// Returns whether some component of a variable is more than another name.
     fn is_computed(&self, var: VarId) -> bool {
         let (first, count) = self.slots[var.0 as usize];
         (first..first + count).any(|slot| self.renames[slot as usize].is_none())
     }
 
-    /// What is alive once a variable is written, of which some may never be read.
+    /// Returns the number of registers in use once a variable is written, including its components that are never read.
     fn written(&self, var: VarId) -> u32 {
         let (first, count) = self.slots[var.0 as usize];
         let is_new = |slot: &Slot| !self.alive[*slot as usize] && self.renames[*slot as usize].is_none();
@@ -232,7 +232,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// What an expression reads is alive before it.
+    /// Marks the variables that an expression reads as alive before it.
     fn read(&mut self, value: &Expr) {
         match &value.op {
             Op::Var(var) => self.wake_all(*var),

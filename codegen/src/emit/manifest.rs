@@ -1,4 +1,4 @@
-//! What a host is told of a shader: the manifest.
+//! The manifest: description of a shader for the host.
 
 use super::layout::value_type;
 use super::print::GENERATOR;
@@ -12,7 +12,7 @@ use straightline_manifest::{
 };
 
 impl Resources {
-    /// What not every device can do.
+    /// Optional device features that the shader needs.
     fn features(&self) -> Vec<String> {
         let half = self.options.precision == Precision::F16;
         let features = [(self.subgroups, "subgroup"), (half, "shader-f16")];
@@ -132,7 +132,7 @@ impl Resources {
     }
 }
 
-/// A field of a structure, as a host is told.
+/// A field of a structure, as the manifest describes it.
 fn field(field: &Field) -> UniformField {
     UniformField {
         name: field.name.clone(),

@@ -1,4 +1,4 @@
-//! What a GLSL does not have, found before anything is written.
+//! Features that a version of GLSL lacks, found before anything is written.
 
 use super::refusal::Refusal;
 use super::resources::Resources;
@@ -8,11 +8,11 @@ use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{Op, TextureKind, UnaryOp};
 use straightline_manifest::{Precision, Stage};
 
-/// Whether a language has all that a shader needs.
+/// Checks that a language has every feature that a shader needs.
 ///
 /// # Errors
 ///
-/// The first thing that it does not have, and the languages that do.
+/// The first missing feature, and the languages that have it.
 pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), Refusal> {
     let (name, old, combined) = match target {
         Target::Glsl430 => ("glsl430", false, true),

@@ -59,11 +59,11 @@ pub use prose::comment;
 pub use statements::{statements_at_least, statements_at_most};
 pub use words::is_among;
 
-/// One shader in the languages asked for.
+/// A shader in the requested languages.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Emitted {
-    /// What a host must know; the file names in it are set by [`Emitted::named`].
+    /// Description for the host; the file names in it are set by [`Emitted::named`].
     pub manifest: Manifest,
     /// Contents by language.
     pub files: BTreeMap<Target, Vec<u8>>,

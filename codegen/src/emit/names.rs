@@ -9,7 +9,7 @@ use crate::spec::Target;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 
-/// What values are to be called: by the variables of the kernel's source and the counters of the loops that they were made in.
+/// Preferred names of values: from the variables of the kernel's source and the counters of the loops that they were made in.
 pub struct Wanted {
     /// Short forms of counters' names.
     short: HashMap<String, String>,
@@ -33,7 +33,7 @@ impl Wanted {
         }
     }
 
-    /// What a node is to be called.
+    /// Returns the preferred name of a node.
     pub fn of(&self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
         match origin {
             Some(origin) if !origin.name.is_empty() => {
@@ -204,7 +204,7 @@ impl Scopes<'_> {
     }
 }
 
-/// What a value without a variable is called.
+/// Returns the name of a value without a variable.
 fn plain(graph: &Graph, id: NodeId) -> String {
     let node = graph.node(id);
     match &node.op {
@@ -254,7 +254,7 @@ fn plain(graph: &Graph, id: NodeId) -> String {
     }
 }
 
-/// What an operation gives.
+/// Returns a name for the result of an operation.
 fn unary(op: UnaryOp) -> &'static str {
     use UnaryOp::*;
     match op {
@@ -279,7 +279,7 @@ fn unary(op: UnaryOp) -> &'static str {
     }
 }
 
-/// What an operation gives.
+/// Returns a name for the result of an operation.
 fn binary(op: BinaryOp, ty: Type) -> &'static str {
     use BinaryOp::*;
     match op {

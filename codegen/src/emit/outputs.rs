@@ -1,4 +1,4 @@
-//! What a shader gives: a value for each target of a pixel.
+//! Outputs of a shader: a value for each target of a pixel.
 
 use super::ast::{Expr, Op, Ty};
 use straightline_evaluator::ir::{Scalar, Target, Type};
@@ -7,9 +7,9 @@ use straightline_manifest::{Component, Format};
 /// A value that a shader gives for each pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoundOutput {
-    /// Its name.
+    /// Name of the target.
     pub name: String,
-    /// Its type in the kernel.
+    /// Type in the kernel.
     pub ty: Type,
     /// Texel format of the storage texture, or of the colour target.
     pub format: Format,
@@ -28,7 +28,7 @@ impl BoundOutput {
         }
     }
 
-    /// Its type as an entry point gives it: with all components of the texel.
+    /// Type of the entry point's result: with all components of the texel.
     pub fn texel(&self) -> Type {
         widened(self.ty)
     }

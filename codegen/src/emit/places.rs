@@ -1,4 +1,4 @@
-//! Which numbers and registers everything bound has: those that the user gives, and the lowest free ones.
+//! Binding numbers and registers: those that the user sets, and the lowest free ones for the rest.
 
 use super::refusal::Refusal;
 use crate::spec::EmitOptions;
@@ -12,13 +12,13 @@ use straightline_manifest::Stage;
 /// Something that a shader binds.
 #[derive(Clone, Debug)]
 pub struct Named {
-    /// Its name.
+    /// Name in the shader.
     pub name: String,
     /// The class of its registers in HLSL.
     pub class: char,
 }
 
-/// Where everything is bound.
+/// Binding number of each resource, and the registers set by the user.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     group: u32,

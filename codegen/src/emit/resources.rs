@@ -1,4 +1,4 @@
-//! What a shader binds: only what it reads.
+//! Bindings of a shader: only resources that it reads or writes.
 
 use super::EmitOptions;
 use super::derived::{self, Combined, Derived, HostFunction};
@@ -28,9 +28,9 @@ pub struct BoundTexture {
     pub binding: u32,
     /// Layers, or samples of a texel, that reads can reach.
     pub layers: u32,
-    /// Whether a sampler filters it.
+    /// `true` if a sampler filters it.
     pub filtered: bool,
-    /// Whether a sampler compares it.
+    /// `true` if a sampler compares it.
     pub compared: bool,
 }
 
@@ -52,15 +52,15 @@ pub struct Resources {
     pub(super) kernel: String,
     /// Name of the entry point or function.
     pub entry: String,
-    /// What hosts call that which no kernel names.
+    /// Host-facing names of resources that the kernel does not name.
     pub own_names: OwnNames,
     /// In one language: names that are made of others.
     pub(super) derived: BTreeMap<Derived, String>,
-    /// What it gives for each pixel.
+    /// Values of each pixel.
     pub outputs: Vec<BoundOutput>,
-    /// Where everything is bound.
+    /// Binding numbers and registers.
     pub places: Places,
-    /// How it is emitted.
+    /// Options of the emission.
     pub options: EmitOptions,
     /// Every texture of the kernel, read or not, by index.
     pub(super) textures: Vec<Texture>,
@@ -85,9 +85,9 @@ pub struct Resources {
     pub fields: Vec<UniformField>,
     /// Size of the uniform buffer in bytes.
     pub uniform_size: u32,
-    /// Whether the shader asks for the frame's size.
+    /// `true` if the shader needs the frame's size.
     pub needs_frame: bool,
-    /// Whether lanes of quads send messages by quad operations.
+    /// `true` if lanes of quads swap values by quad operations.
     pub subgroups: bool,
     /// Interpolated values that are used, by their locations.
     pub varyings: Vec<Varying>,
@@ -95,22 +95,22 @@ pub struct Resources {
     pub block: [u32; 2],
     /// Invocations of a workgroup, across and down, where the kernel says it.
     pub group: Option<[u32; 2]>,
-    /// Whether the shader asks where an invocation lies in its workgroup.
+    /// `true` if the shader reads the invocation's position in its workgroup.
     pub asks_local: bool,
-    /// Whether it asks which workgroup it is.
+    /// `true` if the shader reads its workgroup's position in the dispatch.
     pub asks_group: bool,
-    /// What workgroups share, used or not, by index.
+    /// Workgroup memory, used or not, by index.
     pub(super) shared: Vec<Shared>,
     /// Pictures that are written at any place, by index: the last of `outputs`.
     pub(super) images: Vec<Picture>,
     /// Index of each that is used.
     pub used_shared: Vec<u32>,
-    /// Whether all that is indexed by runtime values are tiles of texels, of which no pixel reads what is not there.
+    /// `true` if only tiles of texels are indexed by runtime values, and no pixel reads outside of them.
     pub indexes_tiles_alone: bool,
 }
 
 impl Resources {
-    /// What the scheduled graph reads.
+    /// Collects the bindings of a scheduled graph.
     pub fn of(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, Refusal> {
         let graph = &compiled.graph;
         let live = |id: &NodeId| compiled.schedule.has(*id);
@@ -386,7 +386,7 @@ impl Resources {
         class(self.buffer(index))
     }
 
-    /// Whether a buffer is written, by its index in the graph.
+    /// Returns whether a buffer is written, by its index in the graph.
     pub fn is_written(&self, index: u32) -> bool {
         self.buffer(index).access != Access::Read
     }
@@ -400,12 +400,12 @@ impl Resources {
         }
     }
 
-    /// What workgroups share that is used.
+    /// Workgroup memory that is used.
     pub fn shared(&self) -> impl Iterator<Item = &Shared> {
         self.used_shared.iter().map(|k| &self.shared[*k as usize])
     }
 
-    /// Whether something that workgroups share has to be 0 at first: not all of it is written before it is read.
+    /// Returns whether some workgroup memory has to be 0 at first: not all of it is written before it is read.
     pub fn is_zeroed(&self) -> bool {
         self.shared().any(|shared| !shared.filled)
     }
@@ -467,7 +467,7 @@ impl Resources {
         }
     }
 
-    /// Interpolated values that are used, as a host is told.
+    /// Interpolated values that are used, as the manifest describes them.
     pub fn varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
         self.varyings
             .iter()
@@ -494,7 +494,7 @@ impl Resources {
         self.places.number(&self.own_names.sampler)
     }
 
-    /// What the fields of a region are.
+    /// Comment that explains the fields of a region.
     pub fn region_comment(&self) -> String {
         let corner = match self.options.counts_from_below() {
             true => "lower left",
@@ -519,7 +519,7 @@ impl Resources {
             .collect()
     }
 
-    /// Index of the buffer in which MSL is told how long others are: the lowest number that nothing has.
+    /// Index of the buffer with which MSL receives the lengths of other buffers: the lowest free number.
     pub fn sizes_binding(&self) -> u32 {
         let taken = self.binding_numbers();
         (0..).find(|n| !taken.contains(n)).unwrap_or_default()

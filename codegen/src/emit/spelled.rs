@@ -88,7 +88,7 @@ impl Resources {
         all
     }
 
-    /// Whether uniforms are names of their own in a text, not members of a structure.
+    /// Returns whether uniforms are separate names in a text, not members of a structure.
     fn has_loose_uniforms(&self, target: Target) -> bool {
         self.options.is_function() || Target::OPENGL.contains(&target)
     }

@@ -1,4 +1,4 @@
-//! What is counted in a kernel's text: statements, basic blocks and live values; and bounds that are known before lowering.
+//! Counts of a kernel's text: statements, basic blocks and live values; and bounds that are known before lowering.
 
 use super::ast::{self, Stmt, StmtKind};
 use super::liveness::most_alive;

@@ -1,6 +1,6 @@
 //! Expressions as text, with what is needed to put them into larger ones.
 
-/// How tightly an expression's outermost operator binds; larger binds tighter.
+/// Precedence of an expression's outermost operator; larger binds tighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binds {
     /// `&&`, `||`, `&`, `|`, `^`, `<<`, `>>`: WGSL and readers want parentheses around and inside.
@@ -20,7 +20,7 @@ pub enum Binds {
 /// Columns that a line may have.
 pub const WIDEST: usize = 100;
 
-/// Where an expression may be broken into lines.
+/// Positions at which an expression may be broken into lines.
 #[derive(Clone, Debug, PartialEq)]
 enum Breaks {
     /// Nowhere.
@@ -36,7 +36,7 @@ enum Breaks {
 pub struct Text {
     /// The text.
     pub code: String,
-    /// How tightly it binds.
+    /// Precedence of its outermost operator.
     pub binds: Binds,
     breaks: Breaks,
 }
@@ -202,7 +202,7 @@ pub fn wrapped_comment(text: &str, indent: usize) -> String {
     for word in text.split(' ') {
         if !line.is_empty() && indent + 3 + line.chars().count() + 1 + word.chars().count() > WIDEST {
             lines.push(format!("{margin}// {line}"));
-            // What goes on is set apart from what follows.
+            // An extra space of indentation sets continuation lines apart from the comment that follows.
             line = String::from(" ");
         }
         if !line.is_empty() {

@@ -1,9 +1,9 @@
-//! Which variables expressions and statements read and write.
+//! Variables that expressions and statements read and write.
 
 use super::ast::{Expr, Op, Stmt, StmtKind, VarId};
 
 impl Expr {
-    /// The variable that this is.
+    /// The variable, if the expression is one.
     pub fn as_var(&self) -> Option<VarId> {
         match self.op {
             Op::Var(var) => Some(var),
@@ -19,7 +19,7 @@ impl Expr {
         }
     }
 
-    /// Whether a variable that `of` holds for stands in it.
+    /// Returns whether the expression mentions a variable for which `of` holds.
     pub fn mentions(&self, of: impl Fn(VarId) -> bool) -> bool {
         let mut found = false;
         self.visit(&mut |expr| found |= expr.as_var().is_some_and(&of));
@@ -28,20 +28,20 @@ impl Expr {
 }
 
 impl Stmt<'_> {
-    /// Whether a variable stands in it or in its blocks.
+    /// Returns whether the statement or its blocks mention a variable.
     pub fn mentions(&self, var: VarId) -> bool {
         let mut found = false;
         self.visit(&mut |expr| found |= expr.as_var() == Some(var));
         found || self.gives(var)
     }
 
-    /// Whether what is there before an effect in it, or in its blocks, goes to a variable.
+    /// Returns whether an effect in the statement or its blocks puts the old value into a variable.
     fn gives(&self, var: VarId) -> bool {
         matches!(&self.kind, StmtKind::Effect(effect) if effect.before == Some(var))
             || self.blocks().into_iter().flatten().any(|stmt| stmt.gives(var))
     }
 
-    /// Whether it, or a statement of its blocks, assigns to a variable or a part of it.
+    /// Returns whether the statement or one of its blocks assigns to a variable or a part of it.
     pub fn assigns(&self, var: VarId) -> bool {
         matches!(&self.kind, StmtKind::Assign(place, ..) if place.root() == Some(var))
             || self.gives(var)

@@ -4,8 +4,8 @@ use super::{ShaderSpec, Target};
 use std::path::{Path, PathBuf};
 use straightline_kernels::KernelOptions;
 
-/// One shader: a kernel and how it is to be computed and written. WGSL is always written, which the bindings include. Made by [`Config::kernel`](crate::Config::kernel) and
-/// [`Config::file_with`](crate::Config::file_with).
+/// A shader: a kernel and the settings by which it is computed and written. WGSL is always written, which the bindings include. Made by
+/// [`Config::kernel`](crate::Config::kernel) and [`Config::file_with`](crate::Config::file_with).
 #[derive(Clone, Debug)]
 pub struct KernelConfig {
     pub(crate) source: Source,

@@ -59,7 +59,7 @@ pub enum Part {
     EmitOptions,
 }
 
-/// One field of a [`ShaderSpec`], as text.
+/// A field of a [`ShaderSpec`], as text.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Knob {

@@ -8,9 +8,9 @@ use std::str::FromStr;
 pub struct Register {
     /// `t` of textures and read-only buffers, `s` of samplers, `b` of uniform buffers, `u` of what is written.
     pub class: char,
-    /// Its number, 0 to 999.
+    /// Number, 0 to 999.
     pub number: u32,
-    /// Its space, 0 to 31; without one, that of the bind group.
+    /// Register space, 0 to 31; without one, that of the bind group.
     pub space: Option<u32>,
 }
 

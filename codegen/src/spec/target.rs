@@ -48,7 +48,7 @@ impl Target {
     /// Languages of OpenGL and OpenGL ES: a texture and its sampler are one there, and uniforms lie in no block.
     pub const OPENGL: [Target; 4] = [Target::Glsl430, Target::Glsl330, Target::Essl310, Target::Essl300];
 
-    /// What files of it end in.
+    /// Extension of the language's files.
     pub fn extension(self, stage: Stage, form: Form) -> &'static str {
         if form == Form::Function {
             // Not to be taken for whole shaders.
@@ -77,7 +77,7 @@ impl Target {
         }
     }
 
-    /// Whether it is a GLSL.
+    /// Returns whether the language is a GLSL.
     pub fn is_glsl(self) -> bool {
         self == Target::Glsl450 || Target::OPENGL.contains(&self)
     }

@@ -13,7 +13,7 @@ use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 pub enum Arity {
     /// No value: the knob is set or not. As text `true` or `false`.
     Flag,
-    /// One value.
+    /// A single value.
     One,
     /// Any number of values, each a text of its own.
     Many,

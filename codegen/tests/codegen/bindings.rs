@@ -147,7 +147,7 @@ fn runtime(folder: &Path) {
 fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
     let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
     let compiled = compiled.map_err(|e| e.to_string())?;
-    // What is interpolated is so in a fragment shader.
+    // A kernel with interpolated values is a fragment shader.
     let stage = match compiled.graph.varyings.is_empty() {
         true => Stage::Compute,
         false => Stage::Fragment,

@@ -1,4 +1,4 @@
-//! What is emitted, read by several compilers, and what it says.
+//! Emitted shaders: checked by several compilers, and compared with expected text.
 
 use crate::compilers;
 
@@ -285,7 +285,8 @@ fn kernels() -> Vec<Kernel> {
     kernels
 }
 
-/// What OpenGL and OpenGL ES have of every kernel, as glslang reads each version; what they have not is refused by name.
+/// Checks the OpenGL and OpenGL ES shaders of every kernel with glslang, in each version; a feature that a version lacks is refused by
+/// name.
 #[test]
 fn every_kernel_is_read_in_the_languages_of_opengl() {
     let (mut read, mut missing) = (0, 0);
@@ -575,7 +576,7 @@ fn statements_are_counted_once() {
     }
 }
 
-/// Statements are counted only where there may be too many, which is told by the graph's size: it must not say too few.
+/// Statements are counted only where there may be too many, estimated by the graph's size: the estimate must not be too low.
 #[test]
 fn no_kernel_goes_over_its_budget_unseen() {
     for entry in straightline_kernels::CATALOGUE {
@@ -589,8 +590,8 @@ fn no_kernel_goes_over_its_budget_unseen() {
     }
 }
 
-/// An index beyond an array is that of the last element on every way to a GPU: clamped in GLSL and SPIR-V, and by whoever
-/// reads WGSL.
+/// An index beyond an array is that of the last element on every way to a GPU: clamped in GLSL and SPIR-V, and by the compilers that read
+/// WGSL.
 #[test]
 fn indices_outside_of_arrays_are_clamped() {
     let kernel = "pub fn k(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
@@ -643,7 +644,7 @@ fn hosts_read_their_textures() {
     read(&glsl, "k(gl_FragCoord.xy, gain)");
     let hlsl = text(&emitted, Target::Hlsl);
     assert!(hlsl.contains("float4 k(float2 position, float gain) {"), "{hlsl}");
-    // What it calls is declared before it, and not in it.
+    // Called functions are declared before the kernel's function, not in it.
     assert!(!hlsl.contains("GetDimensions"), "{hlsl}");
     let host = emitted
         .manifest

@@ -20,7 +20,7 @@ fn cases() -> Vec<PathBuf> {
     paths
 }
 
-/// What a case is refused with.
+/// Returns the message that refuses a case.
 fn message(path: &Path) -> Result<String, String> {
     let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

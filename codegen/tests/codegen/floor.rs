@@ -22,7 +22,7 @@ fn reads(graph: &Graph) -> Vec<Op> {
         .collect()
 }
 
-/// What these values are computed of, themselves among it.
+/// Returns the nodes that these values depend on, including the values.
 fn needed(graph: &Graph, values: &[NodeId]) -> HashSet<NodeId> {
     let mut found = HashSet::new();
     let mut left = values.to_vec();

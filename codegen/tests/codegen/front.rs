@@ -1,10 +1,10 @@
-//! What the front end makes of text that is legal Rust and easily misread: the value that a kernel computes, or its refusal.
+//! Legal Rust that is easily misread by a front end: each case checks the value that a kernel computes, or its refusal.
 
 use std::path::Path;
 use straightline_codegen::ir::Graph;
 use straightline_codegen::{Kernel, Settings};
 
-/// What a kernel of constants comes to; or its first error.
+/// Returns the value of a kernel of constants, or its first error.
 fn value(items: &str, body: &str) -> Result<f32, String> {
     let text = format!("{items}\npub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{\n{body}\n}}\n");
     match Kernel::from_text("k.rs", &text, "k").compile(&Settings::default()) {
@@ -132,7 +132,7 @@ fn fields_are_named_by_numbers() {
     );
 }
 
-/// What the kernel does not reach may hold anything, an item or a function of a trait too.
+/// Items and trait functions that the kernel does not reach may hold anything.
 #[test]
 fn what_is_not_reached_may_hold_anything() {
     let items = "use other::thing as x; type T = f64; static mut S: f64 = 1.0; union U { a: f32, b: f64 } struct V { a: f64 } \

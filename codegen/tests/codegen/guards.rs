@@ -37,7 +37,7 @@ pub fn k(one: f32, pixel: IVec2) -> Vec4 {
     assert_eq!(functions(&fast), 2, "the entry point and the product:\n{fast}");
 }
 
-/// What a kernel bounds by itself is not guarded again.
+/// Arguments that a kernel bounds itself are not guarded again.
 #[test]
 fn bounded_arguments_need_no_guard() {
     let source = "use straightline_kernels::prelude::*;

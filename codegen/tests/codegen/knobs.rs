@@ -1,4 +1,4 @@
-//! Knobs: each has one text, one example and one place in `docs/settings.md`, whichever way it is set.
+//! Knobs: each has one text, one example and one place in `docs/settings.md`, however it is set.
 //!
 //! `STRAIGHTLINE_BLESS=1` writes the page.
 
@@ -169,7 +169,7 @@ fn structures_of_options_are_texts() {
     assert!(ShaderSpec::new().options(&Sraa::default()).settings.options.is_empty());
 }
 
-/// One description of several shaders, in a `build.rs` and without one, writes the same files.
+/// A description of several shaders writes the same files in a `build.rs` and without one.
 #[test]
 fn configurations_write_what_a_description_says() {
     let spec = ShaderSpec::new()
@@ -190,7 +190,7 @@ fn configurations_write_what_a_description_says() {
     std::fs::remove_dir_all(&folder).expect("a folder of ours");
 }
 
-/// Bindings include the WGSL, whichever languages are asked for.
+/// Bindings include the WGSL, whatever languages are requested.
 #[test]
 fn configurations_always_write_wgsl() {
     let folder = std::env::temp_dir().join(format!("straightline-targets-{}", std::process::id()));

@@ -1,4 +1,4 @@
-//! One mistake in a kernel is one error: nothing else is said of what uses the item that has it.
+//! A mistake in a kernel is reported once: uses of the item that has it add no errors.
 
 use proc_macro2::Span;
 use std::path::{Path, PathBuf};
@@ -95,7 +95,7 @@ fn one_mistake_is_one_error() {
             for (mistaken, code) in mistaken(&text, &place) {
                 tried += 1;
                 let compiled = Kernel::from_text(&format!("{name}.rs"), &mistaken, &name).compile(&Settings::new());
-                // What the kernel does not reach may hold anything.
+                // Items that the kernel does not reach may hold anything.
                 let Err(errors) = compiled else { continue };
                 found += 1;
                 let codes: Vec<_> = errors.diagnostics.iter().map(|error| error.code()).collect();

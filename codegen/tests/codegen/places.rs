@@ -8,12 +8,12 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Manifest, Origin, Precision, Settings, Stage};
 use straightline_manifest::{LanguageKind, hash_of_text};
 
-/// One of each kind of resource.
+/// A kernel with each kind of resource.
 const ALL: &str = "pub fn all(color: &Frame<Vec4>, image: &Texture<Vec4>, linear: &Sampler, weights: &Buffer<f32>, tau: f32, \
                    pixel: IVec2) -> Vec4 {\n    let uv = (pixel.as_vec2() + 0.5) / image.size().as_vec2();\n    \
                    color.load(pixel + ivec2(1, 2)) * tau + image.sample(linear, uv) * weights.load((pixel.x % 3) as usize)\n}\n";
 
-/// What functions can be in every language that has them.
+/// A kernel that can be a function in every language that has functions with its inputs.
 const TAKES: &str = "pub fn takes(color: &Frame<Vec4>, image: &Texture<Vec4>, linear: &Sampler, tau: f32, frame: Vec2, pixel: \
                      IVec2) -> Vec4 {\n    let uv = (pixel.as_vec2() + 0.5) / image.size().as_vec2();\n    let table = [0.1, 0.7, \
                      0.2];\n    color.load(pixel + ivec2(1, 2)) * tau + image.sample(linear, uv) * table[(pixel.x % 3) as usize] \
@@ -158,7 +158,7 @@ fn every_language_has_the_numbers() {
     assert_eq!(names, [("essl310", "main"), ("glsl430", "main"), ("glsl450", "main")]);
 }
 
-/// What the manifest says of each language is what stands in its text, and nothing is missing.
+/// The bindings that the manifest lists for each language are those in its text, without omissions.
 #[test]
 fn the_manifest_lists_what_every_language_binds() {
     let compiled = kernel(ALL, "all");
@@ -304,7 +304,7 @@ fn numbers_and_registers_that_cannot_be_are_refused() {
     refused(&compiled, &msl, &["16", "sampler", "0 to 15", "msl"]);
     let buffer = new().targets([Target::Msl]).binding("weights", 31);
     refused(&compiled, &buffer, &["31", "buffer", "0 to 30"]);
-    // What it reads at defaults stays where it was.
+    // Default numbers may be set explicitly.
     assert!(
         compiled
             .emit(&new().binding("color", 0).binding("destination", 4))

@@ -203,10 +203,10 @@ const OPEN: &[(&str, &[&str])] = &[
     ("WherePredicate", &["Lifetime", "Type"]),
 ];
 
-/// What no text of a file is read as.
+/// Variants that no file's text is parsed as.
 const NEVER: [&str; 3] = ["Expr::Group", "Type::Group", "Lit::Verbatim"];
 
-/// Whether the text, read by syn, has the variant in it.
+/// Returns whether the text, parsed by syn, contains the variant.
 fn holds(debug: &str, variant: &str) -> bool {
     debug.match_indices(variant).any(|(at, _)| {
         let after = debug[at + variant.len()..].chars().next();

@@ -1,4 +1,4 @@
-//! What a shader reads, as fields of a structure.
+//! Inputs of a shader, as fields of a structure.
 
 use super::{identifier, parameters};
 use quote::format_ident;

@@ -16,19 +16,19 @@ use quote::{format_ident, quote};
 use straightline_evaluator::diagnostic::Errors;
 use straightline_manifest::{Form, Manifest};
 
-/// One shader's part of the bindings file.
+/// Input of one shader's module in the bindings file.
 pub struct Module<'a> {
     /// Name of the module, and of the shader's files.
     pub name: &'a str,
-    /// What the shader was made from.
+    /// The compiled kernel.
     pub compiled: &'a Compiled,
-    /// What it binds.
+    /// The shader's manifest.
     pub manifest: &'a Manifest,
-    /// Its text.
+    /// The shader's text.
     pub wgsl: &'a str,
 }
 
-/// The text of a Rust file with a module for each shader. It stands beside the shaders' files, needs the crate
+/// Returns the text of a Rust file with a module for each shader. The file belongs in the folder of the shaders' files, needs the crate
 /// `straightline-runtime`, and is meant to be included.
 ///
 /// # Errors
@@ -129,7 +129,7 @@ pub fn spaced(line: &str) -> String {
     }
 }
 
-/// What the shader is and was made from, a line each.
+/// Returns the documentation of a shader's module, line by line: description and origin.
 fn documentation(module: &Module<'_>) -> Vec<String> {
     let summary = if module.compiled.summary.is_empty() {
         format!("The kernel `{}`.", module.compiled.kernel)

@@ -157,7 +157,7 @@ fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenS
             false => quote! { #name: #argument },
         });
     let new = match fields.len() {
-        // More would only be told apart by their order.
+        // With more arguments, only their order would distinguish them.
         0..=7 => quote! {
             impl #of {
                 /// All values, in order.

@@ -1,4 +1,4 @@
-//! What binds a shader and runs it: a pass over a picture, or triangles that are drawn.
+//! Generated methods that bind a shader and run it: a pass over a picture, or triangles that are drawn.
 
 use super::inputs::Input;
 use super::{identifier, spaced};
@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use straightline_manifest::{Binding, Manifest};
 
-/// How inputs and uniforms are taken and passed on.
+/// Parameters for a pass's inputs and uniforms, and the code that passes them on.
 pub struct Given {
     /// The parameter of inputs.
     used: TokenStream,
@@ -14,7 +14,7 @@ pub struct Given {
     parameters: TokenStream,
     /// The statement that gives inputs their names.
     pairs: TokenStream,
-    /// What is needed beside inputs and target.
+    /// Arguments beside inputs and target.
     options: TokenStream,
     /// Methods that set such values later.
     setters: TokenStream,
@@ -218,11 +218,11 @@ pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
     }
 }
 
-/// How a pass is given what it writes.
+/// Parameters for a pass's outputs, and the code that passes them on.
 pub struct Targets {
     /// The parameter, with the comma behind it; nothing for a kernel that writes to buffers alone.
     ty: TokenStream,
-    /// What is passed on.
+    /// Argument that passes the targets on.
     given: TokenStream,
     /// The structure of several.
     pub structure: TokenStream,

@@ -22,7 +22,7 @@ pub fn half(module: &mut Module<'_>) {
     }
 }
 
-/// What is written to buffers is in full precision too.
+/// Converts values that are stored in buffers to full precision, too.
 fn stored(stmt: &mut Stmt<'_>) {
     if let StmtKind::Effect(effect) = &mut stmt.kind {
         for arg in &mut effect.args {
@@ -98,7 +98,7 @@ fn rule(mut expr: Expr) -> Expr {
             }
             halved(expr)
         }
-        // What is taken of a texel is converted, not the texel.
+        // Converts the components that are used, not the whole texel.
         Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) && expr.args[0].ty.half => {
             let converted = expr.args.pop().expect("a vector");
             expr.args = converted.args;

@@ -52,7 +52,7 @@ fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
     out
 }
 
-/// Whether an expression computes nothing.
+/// Returns whether an expression computes nothing.
 fn is_plain(expr: &Expr) -> bool {
     match &expr.op {
         Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,

@@ -79,7 +79,7 @@ fn choose(condition: Expr, yes: Expr, no: Expr) -> Expr {
     Expr::new(Op::Choose, vec![condition, yes, no], ty)
 }
 
-/// Whether an expression is a name or a number.
+/// Returns whether an expression is a name or a number.
 fn is_leaf(expr: &Expr) -> bool {
     match &expr.op {
         Op::Var(_) | Op::Ir(ir::Op::Varying(_)) => true,
@@ -88,7 +88,7 @@ fn is_leaf(expr: &Expr) -> bool {
     }
 }
 
-/// Whether a component of a constant is an infinity or a NaN.
+/// Returns whether a component of a constant is an infinity or a NaN.
 fn is_non_finite(expr: &Expr) -> bool {
     let float = |bits: &u32| !f32::from_bits(*bits).is_finite();
     let lanes = expr.ty.components() as usize;

@@ -1,4 +1,4 @@
-//! What a workgroup shares is 0 at first in WGSL, and anything in GLSL and HLSL: they write it.
+//! Initialises workgroup memory: it is 0 at first in WGSL and undefined in GLSL and HLSL, whose shaders write the zeros.
 
 use crate::emit::ast::{Block, Builtin, Effect, Expr, Module, Op, Stmt, StmtKind};
 use crate::emit::resources::Resources;

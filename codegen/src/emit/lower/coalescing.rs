@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use straightline_evaluator::ir::{Graph, NodeId, Op};
 use straightline_evaluator::passes::Schedule;
 
-/// Which versions of arrays share a variable, and which variables are in scope.
+/// The web of each version of an array, and the variables in scope.
 pub struct ArrayCoalescing {
     parent: Vec<u32>,
     /// Per web in scope: its variable.

@@ -48,7 +48,7 @@ impl<'g> Lowering<'g> {
         self.results(node, &region.params[1..]);
     }
 
-    /// Whether it matters which value this is.
+    /// Returns whether a value is defined: an undefined one need not be assigned.
     fn looked_at(&self, id: NodeId) -> bool {
         self.compiled.graph.node(id).op != ir::Op::Unused
     }
@@ -182,7 +182,7 @@ impl<'g> Lowering<'g> {
         self.coalescing.variable(kept) != self.coalescing.variable(id)
     }
 
-    /// One side of a branch: its steps, and what it leaves in the branch's variables, but in those that hold it already.
+    /// Lowers one side of a branch: its steps, and the assignments to the branch's variables, except to those that hold the value already.
     fn side(
         &mut self,
         block: &'g Block,

@@ -8,7 +8,7 @@ use straightline_manifest::Stage;
 
 const IVEC2: Type = Type::value(Scalar::I32, 2);
 
-/// What the first statements of a shader are for whose workgroups share texels.
+/// Purpose of the first statements of a shader whose workgroups share texels.
 const TILES: &str = "Texels of the workgroup's pixels and of those around: each thread reads some of them.";
 
 /// A module with the variables that entry points declare.
@@ -223,7 +223,7 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
     body
 }
 
-/// What a kernel stores at any place, in rows that count from below.
+/// Flips the rows of a kernel's stores at any place, where rows count from below.
 fn stored_from_below(block: &mut Block<'_>) {
     for stmt in block {
         if let StmtKind::Store(_, place, _) = &mut stmt.kind {

@@ -15,7 +15,7 @@ impl Exactness {
         let (graph, schedule) = (&compiled.graph, &compiled.schedule);
         let mut parts = vec![false; graph.nodes.len()];
         let mut goes_on = vec![false; graph.nodes.len()];
-        // What a loop carries is used by its next iteration, and what a branch gives by what follows.
+        // The next iteration uses the values that a loop carries, and the statements after a branch use its results.
         for region in graph.regions.iter().skip(1) {
             region.leaving().for_each(|id| goes_on[id.0 as usize] = true);
         }

@@ -1,11 +1,11 @@
-//! What is known of operands, so that the text need not guard what cannot happen.
+//! Facts about operands, by which the text can omit guards against values that cannot occur.
 
 use crate::emit::ast::{Division, Domain};
 use straightline_evaluator::ir::{BinaryOp, Graph, NodeId, Op, Scalar, Type, UnaryOp};
 use straightline_evaluator::passes::{bounds, component_bounds, float_bounds};
 use straightline_evaluator::policy::Math;
 
-/// What is known of the operands of an integer division.
+/// Returns the facts known about the operands of an integer division.
 pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     let ty = graph.ty(x);
     let signed = ty.kind() == Some(Scalar::I32);
@@ -23,8 +23,8 @@ pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     }
 }
 
-/// What is known of the arguments of a function of floats, if they may lie where drivers depart from it; with fast mathematics
-/// none is taken to lie there. A power that is a product always is one.
+/// Returns the facts known about the arguments of a function of floats, if they may lie where drivers deviate from it; fast mathematics
+/// assumes that none do. A power that is a product always needs them.
 pub fn domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
     let node = graph.node(id);
     if !node.ty.is_float() || node.ty.is_array() {
@@ -106,8 +106,8 @@ fn remainder(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
     })
 }
 
-/// Whether every value of a node has its like in the type `to`: for a float an integer where it is cut off, for an integer a
-/// finite number of every precision, or the same integer.
+/// Returns whether every value of a node is representable in the type `to`: for a float the truncated integer, for an integer a finite
+/// number of every precision, or the same integer.
 pub fn converts(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     match (graph.ty(id).is_float(), to.is_integer()) {
         (true, true) => has_integer(graph, id, to, half),
@@ -116,14 +116,14 @@ pub fn converts(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     }
 }
 
-/// Whether no component of an integer is negative, or over the largest signed one.
+/// Returns whether every component of an integer is known to lie between 0 and the largest signed integer.
 fn has_no_sign(graph: &Graph, id: NodeId) -> bool {
     let fits = |k| component_bounds(graph, id, k).is_some_and(|(low, high)| low >= 0 && high <= i64::from(i32::MAX));
     (0..graph.ty(id).components()).all(fits)
 }
 
-/// Whether every float that a value can be has an integer of the type `to` where it is cut off. In half precision the largest
-/// numbers may have become infinities.
+/// Returns whether every possible value of a float truncates to an integer of the type `to`. In half precision the largest numbers may have
+/// become infinities.
 fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     // A driver may round a little differently: stay clear of the edges.
     let (smallest, largest) = match (half, to.kind()) {
@@ -136,7 +136,7 @@ fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     (0..to.components()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
 }
 
-/// Whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
+/// Returns whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
 fn fits_half(graph: &Graph, id: NodeId) -> bool {
     let node = graph.node(id);
     match node.op {
@@ -147,12 +147,12 @@ fn fits_half(graph: &Graph, id: NodeId) -> bool {
     }
 }
 
-/// Whether an index is known to lie inside an array of so many elements.
+/// Returns whether an index is known to lie inside an array of `len` elements.
 pub fn is_inside(graph: &Graph, index: NodeId, len: u32) -> bool {
     component_bounds(graph, index, 0).is_some_and(|(low, high)| low >= 0 && high < i64::from(len))
 }
 
-/// Whether all elements of an array literal are constants that a literal can say.
+/// Returns whether all elements of an array literal are finite constants, which a literal can spell.
 pub fn is_table(graph: &Graph, elements: &[NodeId]) -> bool {
     elements.iter().all(|id| {
         let ty = graph.ty(*id);

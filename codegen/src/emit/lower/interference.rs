@@ -1,4 +1,4 @@
-//! Which versions of arrays are needed at the same time, read off the schedule from its end to its beginning.
+//! Interference of array versions: which are needed at the same time, computed from the end of the schedule to its beginning.
 //!
 //! A version is written where it is made, carried into a loop, or left by a branch. Whatever else is needed behind that must lie in
 //! another variable.
@@ -81,7 +81,7 @@ impl Walk<'_> {
     fn looped(&mut self, node: NodeId, body: &Block, needed: &mut Needed) {
         let inside = self.graph.regions_of(node)[0];
         let region = self.graph.region(inside);
-        // What the next iteration reads of outside is needed at the end of each.
+        // Values of outside that the next iteration reads are needed at the end of each.
         let mut outside = Needed::new();
         self.collect_read(inside, body, &mut outside);
         needed.extend(outside.iter().copied());
@@ -101,7 +101,7 @@ impl Walk<'_> {
         let left = self.results.get(&node).cloned().unwrap_or_default();
         for (region, block) in self.graph.regions_of(node).into_iter().zip([then, otherwise]) {
             let mut side = behind.clone();
-            // One after the other: what is left first must not take the place of what is left next.
+            // In sequence: the assignment of one result must not overwrite the source of the next.
             for (result, k) in left.iter().rev() {
                 self.write(*result, &mut side);
                 self.read(self.graph.region(region).results[*k], &mut side);

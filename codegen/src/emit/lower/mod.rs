@@ -50,7 +50,7 @@ pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     lowering.module
 }
 
-/// Where each node comes from. A tally is what it tallies, so that its name passes on, last to first so that chains do too.
+/// Origin of each node. A tally passes its name on to the node that it tallies; last to first, so that chains do too.
 fn origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
     let graph = &compiled.graph;
     let mut origins: Vec<Option<&Origin>> = graph.ids().map(|id| graph.origin(id)).collect();
@@ -85,7 +85,7 @@ struct Lowering<'g> {
     indexed: Vec<bool>,
     /// By node: how its value is written, once it has been evaluated.
     exprs: Vec<Option<Expr>>,
-    /// Whether floats are those of half precision.
+    /// `true` if floats are in half precision.
     half: bool,
     module: Module<'g>,
     /// Statements of the block that is being lowered.
@@ -149,7 +149,7 @@ impl<'g> Lowering<'g> {
             ir::Op::ArrayGet => self.array_get(id),
             ir::Op::SharedLoad(_) => {
                 let mut expr = self.expression(id);
-                // What is read where the condition does not hold nobody uses.
+                // The condition is dropped: the value read where it does not hold is unused.
                 expr.args.remove(0);
                 self.declare(id, simplify(expr));
             }
@@ -199,7 +199,7 @@ impl<'g> Lowering<'g> {
         self.under(id, condition, StmtKind::Effect(effect));
     }
 
-    /// A statement for those for whom a condition holds.
+    /// Emits a statement under a condition.
     fn under(&mut self, id: NodeId, condition: Expr, stmt: StmtKind<'g>) {
         match condition.as_constant() {
             Some([0, ..]) => {}
@@ -297,7 +297,7 @@ impl<'g> Lowering<'g> {
     }
 }
 
-/// Whether an expression is so short that it is written wherever it is used.
+/// Returns whether an expression is so short that it is written wherever it is used.
 fn is_atom(expr: &Expr) -> bool {
     match &expr.op {
         Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,
@@ -307,7 +307,7 @@ fn is_atom(expr: &Expr) -> bool {
     }
 }
 
-/// Whether a constant is a vector of three or four finite floats that are not all the same.
+/// Returns whether a constant is a vector of three or four finite floats that are not all equal.
 fn is_long(ty: Type, bits: &ir::Bits) -> bool {
     let lanes = &bits[..usize::from(ty.components())];
     let finite = |lane: &u32| f32::from_bits(*lane).is_finite();

@@ -23,7 +23,7 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
         }
         Op::Index { .. } => Text::index(&args[0], &args[1]),
         Op::Builtin(builtin) => l.builtin(*builtin),
-        // What makes it so is the variable that it is given to.
+        // The variable that the value is assigned to carries the qualifier.
         Op::Exact { .. } => args[0].clone(),
         Op::Any => Text::call("any", &all),
         Op::All => Text::call("all", &all),
@@ -65,7 +65,7 @@ fn infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> Text {
     Text::infix(&args[0], spelled, &args[1], binds)
 }
 
-/// How an operator on a kind of operands is written, and how tightly it binds.
+/// Spelling of an operator on a kind of operands, and its precedence.
 pub fn operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, Binds) {
     use BinaryOp::{Add, And, Atan2, Div, Eq, Ge, Gt, Le, Lt, Max, Min, Mul, Ne, Or, Pow, Rem, Shl, Shr, Sub, Xor};
     match op {

@@ -10,7 +10,7 @@ impl Wgsl<'_> {
     /// The head of a function that takes all that it reads.
     pub(super) fn taking(&self) -> String {
         let r = self.resources;
-        // Where the host's functions read its textures, it takes none of them.
+        // A function that reads textures through the host's functions takes no textures.
         let calls_host = r.options.calls_host();
         let textures = r.read.iter().filter(|_| !calls_host).map(|bound| {
             let texture = r.texture(bound.index);
@@ -74,7 +74,7 @@ impl Hlsl<'_> {
         let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
         let uniforms = uniforms.map(|u| hlsl::declared(&u.name, u.ty.into()));
         let bound = textures.chain(buffers).chain(samplers);
-        // Where the host's functions read textures, none is given.
+        // A function that reads textures through the host's functions takes no textures.
         let bound = bound.filter(|_| !r.options.calls_host());
         let all = bound
             .chain(["float2 position".to_owned()])

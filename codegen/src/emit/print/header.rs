@@ -11,7 +11,7 @@ use straightline_manifest::{Counts, Form, Origin, Precision};
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
 
-/// What a reader should know, a line each. The same for the same input: no date, no path of the machine.
+/// Lines of the header. Deterministic for the same input: no date, no path of the machine.
 pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Vec<String> {
     let mut lines = vec![
         match compiled.summary.as_str() {
@@ -99,7 +99,7 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     lines.iter().take(kept).map(|line| comment(line)).collect()
 }
 
-/// What is written, in which formats.
+/// Describes the outputs with their formats.
 fn outputs(resources: &Resources) -> String {
     match &resources.outputs[..] {
         [] => "no output".to_owned(),
@@ -113,7 +113,7 @@ fn outputs(resources: &Resources) -> String {
     }
 }
 
-/// What a function gives.
+/// Describes the results of a function.
 fn results(resources: &Resources) -> String {
     match &resources.outputs[..] {
         [one] if one.ty == Type::value(Scalar::F32, 4) => "result a colour".to_owned(),
@@ -136,7 +136,7 @@ fn shortened(value: &str) -> String {
     }
 }
 
-/// How lanes of quads swap values, where there are some.
+/// Describes the transport of quad swaps, if the kernel has any.
 fn messages(compiled: &Compiled) -> &'static str {
     match compiled.graph.invocation {
         Invocation::Lane if compiled.transport == Some(Transport::Derivatives) => "messages by fine derivatives, ",
@@ -145,7 +145,7 @@ fn messages(compiled: &Compiled) -> &'static str {
     }
 }
 
-/// What the shader computes in, where that is not what all do.
+/// Describes the precision, unless it is the default.
 fn precision(precision: Precision) -> &'static str {
     match precision {
         Precision::F32 => "",
@@ -153,7 +153,7 @@ fn precision(precision: Precision) -> &'static str {
     }
 }
 
-/// Where row 0 is, where that is not where most have it.
+/// Describes the position of row 0, unless it is the default.
 fn origin(origin: Origin) -> &'static str {
     match origin {
         Origin::UpperLeft => "",

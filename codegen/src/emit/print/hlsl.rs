@@ -22,7 +22,7 @@ pub struct Hlsl<'a> {
     sizes: Vec<Size>,
 }
 
-/// What a shader asks for the size of.
+/// A size that a shader queries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Size {
     Texture(u32),
@@ -64,7 +64,7 @@ impl<'a> Hlsl<'a> {
         self.resources.options.is_function()
     }
 
-    /// What tells the size of something.
+    /// The call that queries a size.
     fn ask(&self, size: Size) -> Text {
         let name = match size {
             Size::Texture(texture) | Size::Levels(texture) | Size::Layers(texture) => {
@@ -133,7 +133,7 @@ impl<'a> Hlsl<'a> {
             variables.push("levels");
         }
         let ty = result.split('(').next().unwrap_or_default();
-        // A variable would stand before what is asked where both have one name.
+        // Renames a local variable that would shadow the resource of the same name.
         let apart = |text: &str| match variables.contains(&what) {
             true => text.replace(what, &format!("{what}_of_it")),
             false => text.to_owned(),
@@ -267,7 +267,7 @@ impl Language for Hlsl<'_> {
                 let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
                 let part = super::part(&element, &buffer.element, *field, args.get(1));
                 match (buffer.element.field(*field), args.len()) {
-                    // Its elements take the room of four.
+                    // An array element of three components occupies the space of four.
                     (Some(ty), 2) if ty.components() == 3 => Text::member(&part, "xyz"),
                     _ => part,
                 }
@@ -299,7 +299,7 @@ impl Language for Hlsl<'_> {
 
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
         match parts {
-            // One number for all components is a cast.
+            // A cast broadcasts one scalar to all components.
             [one] if ty.components() > 1 && !ty.is_array() => Text::prefix(&format!("({})", type_name(ty)), one),
             _ => Text::call(&type_name(ty), parts),
         }

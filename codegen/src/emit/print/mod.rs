@@ -66,7 +66,7 @@ pub trait Language {
     fn hex(&self, bits: u32) -> String {
         format!("{bits:#x}u")
     }
-    /// What the host tells.
+    /// A built-in value of the entry point.
     fn builtin(&self, builtin: Builtin) -> Text;
     /// The function that stands for an operation of the graph on numbers; WGSL's name unless the language has another.
     fn function(&self, op: &ir::Op) -> &'static str {
@@ -78,7 +78,7 @@ pub trait Language {
     fn select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text;
     /// Selection by component.
     fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text;
-    /// The same bits as another type.
+    /// Reinterprets the bits as another type.
     fn bitcast(&self, to: Ty, x: &Text) -> Text {
         Text::call(&self.ty(to), &[x])
     }
@@ -93,11 +93,11 @@ pub trait Language {
     /// The spelling of `&` and `|` of booleans, or of numbers.
     fn logical(&self, op: ir::BinaryOp, kind: Scalar) -> &'static str;
 
-    /// What declares an immutable local, before ` = value;`.
+    /// Declaration of an immutable local, up to ` = value;`.
     fn immutable(&self, name: &str, ty: Ty) -> String;
-    /// What declares a mutable local, before its value if it `has_value`, or else `;`.
+    /// Declaration of a mutable local, up to its value if it `has_value`, or else up to `;`.
     fn mutable(&self, name: &str, ty: Ty, has_value: bool) -> String;
-    /// What declares a constant array at module scope, before its value.
+    /// Declaration of a constant array at module scope, up to its value.
     fn table(&self, name: &str, ty: Ty) -> String;
     /// The value of a constant array.
     fn elements(&self, ty: Ty, parts: &[&Text]) -> Text {
@@ -109,7 +109,7 @@ pub trait Language {
     fn endless_head(&self) -> &'static str {
         "while (true) {"
     }
-    /// What stands around the condition of a branch.
+    /// Text before and after the condition of a branch.
     fn if_head(&self) -> [&'static str; 2];
     /// The head of a function, up to the opening brace.
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
@@ -119,23 +119,23 @@ pub trait Language {
     fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
     /// Number of elements of a buffer, unsigned.
     fn unsigned_length(&self, buffer: u32) -> Text;
-    /// Whether what was there before an atomic operation is the value of a call.
+    /// Returns whether the call of an atomic operation evaluates to the old value.
     fn gives_before(&self) -> bool {
         true
     }
     /// Waits for the other invocations of the workgroup: statements, each a line.
     fn barrier(&self, buffers: bool) -> &'static [&'static str];
-    /// What gives the fragment's values, one for each output: statements without their semicolons.
+    /// Assigns the fragment's outputs, one value each: statements without their semicolons.
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)>;
     /// Everything before the first function: header, directives, bindings.
     fn preamble(&self, header: &[String]) -> String;
     /// The head of the entry point or function, up to the opening brace.
     fn entry_head(&self) -> String;
-    /// What stands behind a function that leads.
+    /// Text after a function that leads.
     fn behind(&self) -> Option<String> {
         None
     }
-    /// Whether the entry point is a function before which nothing may stand: the header stands in it, and all else behind it.
+    /// Returns whether the entry point is a function before which nothing may stand: the header stands in it, and everything else after it.
     fn leads(&self) -> bool {
         false
     }
@@ -242,7 +242,7 @@ impl Printer<'_> {
         let mut rest = block;
         while let [stmt, behind @ ..] = rest {
             rest = behind;
-            // What takes what an atomic operation gives is declared there.
+            // Declares the variable for the old value in the statement of the atomic operation.
             if let (StmtKind::Var(var, None), [next, after @ ..]) = (&stmt.kind, behind)
                 && let StmtKind::Effect(effect) = &next.kind
                 && effect.before == Some(*var)

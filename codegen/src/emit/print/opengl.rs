@@ -1,4 +1,4 @@
-//! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
+//! Declarations in the GLSL of OpenGL and OpenGL ES: combined samplers, loose uniforms, precisions.
 
 use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, sampler_of};
 use crate::emit::Target;
@@ -29,7 +29,7 @@ impl Glsl<'_> {
         sampler_of(r.texture(one.texture), compares)
     }
 
-    /// What is bound in OpenGL.
+    /// Declares the bindings of OpenGL.
     pub(super) fn opengl(&self) -> String {
         let r = self.resources;
         let mut out = String::new();

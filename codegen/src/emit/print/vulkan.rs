@@ -1,11 +1,11 @@
-//! What Vulkan's GLSL declares: separate textures and samplers in descriptor sets.
+//! Declarations in Vulkan's GLSL: separate textures and samplers in descriptor sets.
 
 use super::glsl::{Glsl, declared, sampler_type, texture_type};
 use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use straightline_manifest::REGION;
 
 impl Glsl<'_> {
-    /// What is bound in Vulkan.
+    /// Declares the bindings of Vulkan.
     pub(super) fn of_vulkan(&self) -> String {
         let r = self.resources;
         let mut out = String::new();

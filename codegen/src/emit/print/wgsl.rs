@@ -26,7 +26,7 @@ impl Wgsl<'_> {
         [texture, sampler].map(Text::name)
     }
 
-    /// How many levels or layers a texture has.
+    /// Number of levels or layers of a texture, as `i32`.
     fn count(&self, function: &str, texture: u32) -> Text {
         let name = Text::name(self.resources.texture(texture).name.as_str());
         Text::call("i32", &[&Text::call(function, &[&name])])

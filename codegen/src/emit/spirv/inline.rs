@@ -43,7 +43,7 @@ pub fn inlined(words: &[u32]) -> Vec<u32> {
 
 /// A function that can replace its calls.
 struct Straight<'w> {
-    /// Its id, parameters, and the instructions between its label and its return.
+    /// Id of the function.
     id: u32,
     params: Vec<u32>,
     body: Vec<&'w [u32]>,
@@ -77,8 +77,8 @@ impl<'w> Straight<'w> {
     }
 }
 
-/// Where the operands of a computation that are no ids begin, counted from its first word; `None` for every other instruction. The second
-/// word is the type, the third the result.
+/// Index of the first operand of a computation that is a literal, not an id, counted in words from the instruction's first, or the
+/// instruction's length if all are ids; `None` for every other instruction. The second word is the type, the third the result.
 fn first_literal(instruction: &[u32]) -> Option<usize> {
     match opcode(instruction) {
         // The set of instructions is an id, the number in it is none, and ids follow.
@@ -135,7 +135,7 @@ fn without_one(words: &[u32]) -> Option<Vec<u32>> {
     for instruction in &all[..declared] {
         match opcode(instruction) {
             op::NAME if straight.defines(instruction[1]) => {}
-            // What is said of a result is said of each of its copies.
+            // Decorations of a result apply to each of its copies.
             op::DECORATE if straight.defines(instruction[1]) => {
                 for copy in copies.get(&instruction[1]).into_iter().flatten() {
                     out.extend([instruction[0], *copy]);

@@ -29,16 +29,16 @@ pub fn early(block: &mut Block<'_>) {
     }
 }
 
-/// What a branch knows of the condition on which the loop is left.
+/// Value of a loop's exit condition at the end of one side of a branch.
 enum Known {
-    /// Whether it holds.
+    /// The constant value.
     Is(bool),
-    /// What is left of the condition tells; and whether a branch at the end knows more.
+    /// The simplified condition; `true` if a branch at the end of the side decides more.
     Left(Expr, bool),
 }
 
 impl Known {
-    /// Whether something is decided, here or in a branch at the end.
+    /// Returns whether the condition is decided, here or in a branch at the end.
     fn decides(&self) -> bool {
         match self {
             Known::Is(_) => true,
@@ -93,7 +93,7 @@ fn sink(block: &mut Block<'_>) {
             }
         }
     }
-    // What follows a side that leaves needs no side of its own.
+    // Statements after a side that ends in a `break` need no side of their own.
     let mut rest = Vec::new();
     if leaves_first {
         rest = std::mem::take(&mut otherwise);
@@ -125,7 +125,7 @@ fn leaves<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
     }
 }
 
-/// What a side of a branch, taken where `condition` is `holds`, knows of `leaves` at its end.
+/// Evaluates the exit condition `leaves` at the end of a side of a branch that is taken where `condition` is `holds`.
 fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Known {
     let unchanged = !condition.mentions(|var| side.iter().any(|stmt| stmt.assigns(var)));
     let left = leaves.clone().rewrite(&mut |expr| {
@@ -154,7 +154,7 @@ fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Kn
     Known::Left(left, within)
 }
 
-/// What a block leaves in a variable, if that can be told behind it.
+/// Returns the value that a block leaves in a variable, if the same expression has that value after the block.
 fn last_value<'b>(block: &'b Block<'_>, var: VarId) -> Option<&'b Expr> {
     let at = block.iter().rposition(|stmt| stmt.assigns(var))?;
     match &block[at].kind {
@@ -166,8 +166,8 @@ fn last_value<'b>(block: &'b Block<'_>, var: VarId) -> Option<&'b Expr> {
     }
 }
 
-/// Moves assignments behind a branch that do not depend on it before it, and into its sides where they repeat its condition,
-/// so that the branch stands beside the `break` that it decides on.
+/// Moves assignments after a branch that do not depend on it to before it, so that the branch immediately precedes the `break` that it
+/// decides on.
 fn branch_last(block: &mut Block<'_>) {
     let Some(end) = block
         .len()
@@ -222,8 +222,8 @@ fn reduced(expr: Expr) -> Expr {
     args.swap_remove(keep)
 }
 
-/// Whether a variable that begins as `value` still is that wherever a loop's body assigns it again: each other assignment
-/// leads out of the loop.
+/// Returns whether a variable that begins as `value` still holds it wherever a loop's body assigns that value again: each assignment of
+/// another value leads out of the loop.
 fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
     let leaves = matches!(body.last().map(|stmt| &stmt.kind), Some(StmtKind::Break));
     body.iter().all(|stmt| match &stmt.kind {
@@ -238,7 +238,7 @@ fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
 /// Removes the assignments of what a variable is already.
 fn drop_assignments(block: &mut Block<'_>, var: VarId, value: &Expr) {
     if matches!(block.last().map(|stmt| &stmt.kind), Some(StmtKind::Break)) {
-        // What is assigned where it leaves is read behind the loop.
+        // The value assigned before a `break` is read after the loop.
         let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if place.root() == Some(var) && to != value);
         if block.iter().any(others) {
             return;

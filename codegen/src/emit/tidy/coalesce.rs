@@ -14,7 +14,7 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
     for stmt in &mut *block {
         stmt.blocks_mut().into_iter().for_each(|inner| merge(inner, variables));
     }
-    // What is given to a variable whole: few values of a long block are.
+    // Variables whose whole value is assigned to another one: few of a long block.
     let passed_on: BTreeSet<VarId> = block
         .iter()
         .filter_map(|stmt| match &stmt.kind {
@@ -68,8 +68,8 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
     }
 }
 
-/// If statement `k` makes a variable of a value of the same name that nobody looks at once the variable is changed: the variable,
-/// the value and the statement that made it.
+/// Finds in statement `k` a variable that is initialised with a value of the same name that is not read after the variable is changed:
+/// returns the variable, the value and the statement that made it.
 fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarId, VarId, usize)> {
     let StmtKind::Var(copy, Some(value)) = &block[k].kind else {
         return None;
@@ -88,8 +88,8 @@ fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarI
     kept.then_some((copy, original, declared))
 }
 
-/// If statement `k` makes the value that a later one of the block gives to a variable of which nobody reads the old one between:
-/// the value's name, the variable and the later statement.
+/// Finds in statement `k` the value that a later one of the block assigns to a variable whose old value is not read between: returns the
+/// value's name, the variable and the later statement.
 fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let (StmtKind::Let(copy, _) | StmtKind::Var(copy, _)) = block[k].kind else {
         return None;
@@ -105,7 +105,7 @@ fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     (unread && (unused || same)).then_some((copy, original, last))
 }
 
-/// Whether a statement may leave the block that it stands in.
+/// Returns whether a statement may leave its block.
 fn leaves(stmt: &Stmt<'_>) -> bool {
     match &stmt.kind {
         StmtKind::Break | StmtKind::Return(_) => true,
@@ -172,7 +172,7 @@ fn read_first(stmt: &mut Stmt<'_>, copy: VarId, original: VarId) {
     }
 }
 
-/// Whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
+/// Returns whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
 fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> bool {
     let reads = |expr: &Expr| expr.mentions(|var| var == original);
     match &stmt.kind {
@@ -200,7 +200,7 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
             sides
         }
         StmtKind::Effect(effect) if effect.before.is_some_and(|var| var == copy || var == original) => false,
-        // Who leaves the loop here does not come to where it is copied back.
+        // An exit from the loop skips the copy back.
         StmtKind::Break | StmtKind::Return(_) => false,
         // Iterations see what those before have changed.
         StmtKind::For { .. } | StmtKind::Loop(_) => {
@@ -221,7 +221,7 @@ fn rename(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
     rename_before(stmt, from, to);
 }
 
-/// What was there before an effect goes to a variable too.
+/// Renames the variable that takes the old value of an effect, too.
 fn rename_before(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
     if let StmtKind::Effect(effect) = &mut stmt.kind
         && effect.before == Some(from)

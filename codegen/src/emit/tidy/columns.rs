@@ -5,7 +5,7 @@ use crate::emit::legalise::AS_WRITTEN;
 use crate::emit::print::{columns_of_number, wgsl_type};
 use straightline_evaluator::ir::{self, BinaryOp, Graph};
 
-/// What widths depend on: names.
+/// Context that widths depend on: names.
 pub struct Columns<'m> {
     pub module: &'m Module<'m>,
     pub graph: &'m Graph,

@@ -3,7 +3,7 @@
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use straightline_evaluator::limits;
 
-/// How often each variable is read, by variable.
+/// Counts the reads of each variable, by variable.
 pub fn uses(module: &Module<'_>) -> Vec<u32> {
     let mut uses = vec![0; module.variables.len()];
     for stmt in &module.body {
@@ -44,7 +44,7 @@ pub fn remove(module: &mut Module<'_>) {
     for _ in 0..=crate::emit::ast::count(&module.body) + 1 {
         limits::spend(u64::from(crate::emit::ast::count(&module.body)));
         if limits::exceeded(0).is_some() {
-            // What is left over is dead, but not wrong; who asked for the text is refused it.
+            // The remaining statements are dead but correct; the caller that requested the text reports the exceeded limit.
             return;
         }
         let uses = uses(module);
@@ -79,7 +79,7 @@ fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut b
         _ => true,
     });
     for stmt in block.iter_mut() {
-        // What happens goes on happening.
+        // Effects stay.
         if let StmtKind::Effect(effect) = &mut stmt.kind {
             effect.before = effect.before.filter(|var| is_used(*var) || effect.needs_variable());
         }

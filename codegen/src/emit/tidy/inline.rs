@@ -11,7 +11,7 @@ use straightline_evaluator::ir::{Graph, Memory};
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
 
-/// Which values stay where they are made.
+/// Values that are not inlined.
 #[derive(Clone, Copy)]
 pub struct Stays {
     /// Reads of textures and buffers, whose order is not the source's.
@@ -37,7 +37,7 @@ pub fn inline(module: &mut Module<'_>, graph: &Graph, stays: Stays) -> bool {
 
 struct Inliner<'m> {
     uses: Vec<u32>,
-    /// How often each variable is read in statements that have not been looked at.
+    /// Number of reads of each variable in the statements not yet visited.
     left: Vec<u32>,
     stays: Stays,
     columns: Columns<'m>,
@@ -46,22 +46,22 @@ struct Inliner<'m> {
 /// A value that may be written where it is used.
 #[derive(Clone, Copy)]
 struct Candidate {
-    /// Which statement makes it.
+    /// Index of the statement that makes it.
     at: usize,
-    /// How wide it is.
+    /// Width in columns.
     columns: usize,
     /// Operators and calls in it.
     operations: usize,
 }
 
-/// What is known of the statements of a block that have been looked at.
+/// Facts about the visited statements of a block.
 #[derive(Default)]
 struct Seen {
     /// Values that may be written where they are used.
     defined: FxHashMap<VarId, Candidate>,
-    /// When each mutable variable was last assigned.
+    /// Index of the statement that last assigned each mutable variable.
     assigned: FxHashMap<VarId, usize>,
-    /// When each variable of the block was last read; its declaration counts.
+    /// Index of the statement that last read each variable of the block; its declaration counts.
     read: FxHashMap<VarId, usize>,
 }
 
@@ -108,8 +108,8 @@ impl Inliner<'_> {
         inlined
     }
 
-    /// Whether more scalars would be alive for a value that is computed in a later statement: what it is made of lives on until there, in
-    /// place of itself.
+    /// Returns whether computing a value in a later statement would keep more scalars alive: its operands then live until there, in place
+    /// of the value.
     fn crowds(&self, value: &Expr, at: usize, stmt: &Stmt<'_>, out: &[Option<Stmt<'_>>], seen: &Seen) -> bool {
         let is_last = |at: usize| out[at + 1..].iter().all(Option::is_none);
         if is_last(at) {
@@ -188,7 +188,7 @@ impl Inliner<'_> {
             read(stmt.own().chain([&value]), 1, &mut note);
             let mut value = Some(value);
             for own in stmt.own_mut() {
-                // What has become shorter has room for more.
+                // A shorter expression has room for more values.
                 own.rewrite_in_place(&mut |expr| match expr.op {
                     Op::Var(found) if found == var => value.take().unwrap_or(expr),
                     _ => simplify(expr),
@@ -214,14 +214,14 @@ fn read<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, see: &mut dyn Fn
     }
 }
 
-/// Whether an expression reads what a workgroup shares.
+/// Returns whether an expression reads workgroup memory.
 fn reads_shared(expr: &Expr) -> bool {
     let mut reads = false;
     expr.visit(&mut |expr| reads |= matches!(expr.op, Op::Ir(straightline_evaluator::ir::Op::SharedLoad(_))));
     reads
 }
 
-/// Whether an expression reads an array or what the host binds.
+/// Returns whether an expression reads an array or a resource.
 fn reads_memory(expr: &Expr) -> bool {
     let mut reads = false;
     expr.visit(&mut |expr| {
@@ -234,7 +234,7 @@ fn reads_memory(expr: &Expr) -> bool {
     reads
 }
 
-/// Whether a variable that a value reads was assigned after a statement.
+/// Returns whether a variable that a value reads was assigned after a statement.
 fn changed_since(value: &Expr, at: usize, assigned: &FxHashMap<VarId, usize>) -> bool {
     let changed = |var: VarId| assigned.get(&var).is_some_and(|when| *when > at);
     value.mentions(changed) || (reads_shared(value) && changed(VarId::MEMORY))

@@ -47,9 +47,9 @@ pub fn tidy<'g>(module: &mut Module<'g>, graph: &Graph, reads: ReadOrder) {
 fn shorten(module: &mut Module<'_>, graph: &Graph, stays: Stays) {
     inline(module, graph, stays);
     breaks::early(&mut module.body);
-    // What a loop's early end stood between is one variable now.
+    // Variables that were separated by a loop's early exit can be merged now.
     coalesce::coalesce(module);
-    // What was inlined has new neighbours, and what is shorter now may be inlined. Each turn but the last takes a statement away.
+    // Inlined values have new neighbours, and shorter ones may be inlined now. Each turn but the last removes a statement.
     for _ in 0..=count(&module.body) {
         module.rewrite(&mut |_, expr| simplify(expr));
         dead::remove(module);

@@ -37,7 +37,7 @@ impl Words {
         }
     }
 
-    /// Whether a word has a meaning of its own in the language.
+    /// Returns whether a word has a meaning of its own in the language.
     pub fn reserve(self, word: &str) -> bool {
         word.starts_with("__")
             || match self {
@@ -82,13 +82,13 @@ impl Reserved {
         }
     }
 
-    /// Whether no name may be this word.
+    /// Returns whether a word is reserved.
     pub fn has(&self, word: &str) -> bool {
         is_among(&self.words, word) || self.languages.iter().any(|language| language.reserve(word))
     }
 }
 
-/// Whether a word is one of a list, in which `gl_*` is every word that begins so and `*Sampler` every one that ends so.
+/// Returns whether a word matches an entry of a list, in which `gl_*` is every word that begins so and `*Sampler` every one that ends so.
 pub fn is_among(words: &BTreeSet<String>, word: &str) -> bool {
     let begins = |pattern: &String| pattern.strip_suffix('*').is_some_and(|start| word.starts_with(start));
     let ends = |pattern: &String| pattern.strip_prefix('*').is_some_and(|end| word.ends_with(end));
@@ -177,7 +177,7 @@ fn is_hlsl_type(word: &str) -> bool {
     SCALARS.iter().any(is_numeric) || opaque.iter().any(is_opaque)
 }
 
-/// Whether a text is what follows a scalar's name in that of a vector or a matrix: `3`, `4x2`, or nothing.
+/// Returns whether a text is a size suffix, as it follows the scalar's name in that of a vector or a matrix: `3`, `4x2`, or nothing.
 fn is_size(text: &str) -> bool {
     let side = |c: u8| (b'1'..=b'4').contains(&c);
     match text.as_bytes() {
@@ -206,7 +206,7 @@ fn is_glsl_type(word: &str) -> bool {
     is_type(word) || word.strip_prefix(['i', 'u', 'b', 'd', 'f', 'h']).is_some_and(is_type)
 }
 
-/// Whether a text is made of what GLSL calls shapes of textures, and of what follows these: `2DArrayShadow`, `CubeLod`.
+/// Returns whether a text consists of GLSL's shapes of textures and their suffixes: `2DArrayShadow`, `CubeLod`.
 fn is_shape(text: &str) -> bool {
     const PARTS: [&str; 11] = [
         "1D", "2D", "3D", "Cube", "Buffer", "Rect", "Array", "Shadow", "MS", "Lod", "Proj",
@@ -244,7 +244,7 @@ pub fn identifier(name: &str) -> String {
     }
 }
 
-/// Whether a name is an identifier of every language as it is.
+/// Returns whether a name is an identifier of every language as it is.
 pub fn is_plain(name: &str) -> bool {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.len() <= LONGEST

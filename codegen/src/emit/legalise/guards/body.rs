@@ -86,12 +86,12 @@ impl<'m, 'g> Body<'m, 'g> {
         self.bits(x).binary(BinaryOp::And, self.word(0x7fff_ffff))
     }
 
-    /// Whether a float is a NaN. By bits: a compiler may take for granted that there is none.
+    /// Tests whether a float is a NaN, by its bits: a compiler may assume that there are no NaNs.
     pub fn is_nan(&self, x: &Expr) -> Expr {
         self.size_bits(x).binary(BinaryOp::Gt, self.word(0x7f80_0000))
     }
 
-    /// Whether a float's sign bit is set.
+    /// Tests whether a float's sign bit is set.
     pub fn has_sign(&self, x: &Expr) -> Expr {
         self.bits(x).binary(BinaryOp::Ge, self.word(0x8000_0000))
     }
@@ -118,7 +118,7 @@ pub fn and(x: Expr, y: Expr) -> Expr {
     x.binary(BinaryOp::And, y)
 }
 
-/// One of two conditions.
+/// The disjunction of two conditions.
 pub fn or(x: Expr, y: Expr) -> Expr {
     x.binary(BinaryOp::Or, y)
 }

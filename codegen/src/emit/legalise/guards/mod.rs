@@ -18,10 +18,10 @@ use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
 
 pub use simple::unequal;
 
-/// How a language calls one function for several types.
+/// Overloading of functions in a language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overloads {
-    /// One name is that of one function: those of vectors have their type in it.
+    /// No overloading: the name of a vector function contains its type.
     None,
     /// Functions of several types share a name, and choices are made component by component.
     Vectors,

@@ -45,7 +45,7 @@ fn remainder(b: &mut Body<'_, '_>, x: &Expr, y: &Expr, bounded: bool) -> Expr {
     choose(undefined, b.number(f32::NAN), defined)
 }
 
-/// What a divisor leaves of a number that is less than 2048 times as large, without a rounding.
+/// Remainder of a number less than 2048 times as large as the divisor, computed without rounding.
 fn less(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
     let rest = b.declare("rest", rest);
     let quotient = b.declare(
@@ -70,8 +70,8 @@ fn less(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
     choose(above, binary(&left, BinaryOp::Sub, &divisor), left)
 }
 
-/// What a divisor leaves of a scalar: of divisors 2^n times as large first, so that each quotient is small. The number of steps is
-/// a runtime value: drivers unroll a loop whose number they know.
+/// Remainder of a scalar: first by the divisor times 2^n, so that each quotient is small. The number of steps is a runtime value: drivers
+/// unroll loops with a constant trip count.
 fn by_steps(b: &mut Body<'_, '_>, x: &Expr, size: &Expr) -> Expr {
     let (whole, words) = (b.ty.of(Scalar::I32), b.ty.of(Scalar::U32));
     let integer = |n: u32| Expr::splat(whole, n);
@@ -79,7 +79,7 @@ fn by_steps(b: &mut Body<'_, '_>, x: &Expr, size: &Expr) -> Expr {
     let rest = b.variable("rest", unary(UnaryOp::Abs, x));
     let own = b.bits(size);
     let own = b.declare("size_bits", own);
-    // How many doublings the divisor is from the largest one that is less than 2^STEP times as small.
+    // Doublings after which the divisor is the largest one less than 2^STEP times as small as the rest.
     let doublings = |b: &Body<'_, '_>| {
         let exponent = |bits: Expr| bits.binary(BinaryOp::Shr, mantissa()).to(whole);
         let apart = exponent(b.bits(&b.read(rest))).binary(BinaryOp::Sub, exponent(own.clone()));

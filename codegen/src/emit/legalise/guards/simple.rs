@@ -31,7 +31,7 @@ pub fn inline(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr
     }
 }
 
-/// Whether an expression is a name, a number, or components of one.
+/// Returns whether an expression is a name, a number, or components of one.
 fn is_name(expr: &Expr) -> bool {
     match expr.op {
         Op::Swizzle(_) => is_name(&expr.args[0]),
@@ -39,7 +39,8 @@ fn is_name(expr: &Expr) -> bool {
     }
 }
 
-/// Whether an expression is as short as its own name would be: two operators on names at most, which a compiler finds again.
+/// Returns whether an expression is as short as its own name would be: at most two operators on names, which compilers merge as a common
+/// subexpression.
 fn is_short(expr: &Expr) -> bool {
     let mut operators = 0;
     expr.visit(&mut |expr| {
@@ -134,7 +135,8 @@ pub fn angle() -> Guard {
     }
 }
 
-/// Whether floats differ, which a NaN does from everything: `!=` is false of a NaN on some drivers, and `==` on none.
+/// Compares floats by `!(a == b)`: a NaN is unequal to everything, but some drivers evaluate `!=` to false for it, and none evaluates `==`
+/// to true.
 pub fn unequal(mut expr: Expr) -> Expr {
     let is_ne = expr.op == Op::Ir(ir::Op::Binary(BinaryOp::Ne));
     if !is_ne || !expr.args[0].ty.is_float() {

@@ -1,4 +1,4 @@
-//! How GLSL calls types.
+//! Names of types in GLSL.
 
 use crate::emit::ast::Ty;
 use crate::emit::outputs::BoundOutput;
@@ -13,7 +13,7 @@ pub fn image_type(output: &BoundOutput) -> &'static str {
     }
 }
 
-/// What a kind of texture is called behind `sampler` and `texture`.
+/// Suffix of `sampler` and `texture` for a kind of texture.
 pub fn shape(kind: TextureKind) -> &'static str {
     match kind {
         TextureKind::Flat | TextureKind::Depth => "2D",
@@ -24,7 +24,7 @@ pub fn shape(kind: TextureKind) -> &'static str {
     }
 }
 
-/// What types of integers begin with.
+/// Prefix of the types of a scalar kind.
 fn prefix(scalar: Scalar) -> &'static str {
     match scalar {
         Scalar::I32 => "i",

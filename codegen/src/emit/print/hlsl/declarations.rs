@@ -1,4 +1,4 @@
-//! How HLSL declares variables, resources and structures.
+//! Declarations of variables, resources and structures in HLSL.
 
 use crate::emit::ast::Ty;
 use crate::emit::resources::Resources;
