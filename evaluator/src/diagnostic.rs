@@ -1,4 +1,4 @@
-//! What is wrong with a kernel, where, and what to do about it.
+//! Diagnostics of a kernel: message, place and help.
 
 mod code;
 mod view;
@@ -16,7 +16,7 @@ pub struct Span {
     pub file: u32,
     /// First byte.
     pub start: u32,
-    /// One past the last byte.
+    /// Byte after the last one.
     pub end: u32,
     /// Line of the first byte, from 1.
     pub line: u32,
@@ -38,14 +38,14 @@ pub struct File {
     pub text: String,
 }
 
-/// One error, or a remark on a kernel without errors.
+/// An error, or a remark on a kernel without errors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Kind of the error; a remark has none.
     code: Option<Code>,
-    /// What is wrong, naming the thing.
+    /// Statement of the problem, which names the item concerned.
     pub message: String,
-    /// Where, if it is in a file.
+    /// Place, if it is in a file.
     pub span: Option<Span>,
     /// A few words at the place.
     pub label: String,
@@ -111,7 +111,7 @@ impl Diagnostic {
         self.code
     }
 
-    /// The error at the place where a function of the library was called, whose text nobody sees.
+    /// Moves an error in a library function to the place of the call: users do not see the library's text.
     pub fn called_at(self, span: Span, function: &str) -> Self {
         if self.span.is_some_and(|at| at.file != Span::LIBRARY) {
             return self;
@@ -180,7 +180,7 @@ impl Errors {
         self.diagnostics.first().map_or("refused", |first| &first.message)
     }
 
-    /// One error that is in no file.
+    /// A single error that is in no file.
     pub fn of(diagnostic: Diagnostic) -> Self {
         Errors {
             diagnostics: vec![diagnostic],

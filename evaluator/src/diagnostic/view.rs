@@ -20,7 +20,7 @@ pub struct Views(Vec<View>);
 struct View {
     path: String,
     text: String,
-    /// Where each line begins in `text`.
+    /// Byte in `text` at which each line begins.
     lines: Vec<usize>,
     /// Lines that are shown otherwise than they are.
     changed: Vec<Changed>,
@@ -29,7 +29,7 @@ struct View {
 /// A line that is shown otherwise than it is.
 struct Changed {
     line: usize,
-    /// Where each of its bytes is in `View::text`.
+    /// Byte in `View::text` for each byte of the original line.
     bytes: Vec<usize>,
     original: String,
 }
@@ -46,7 +46,7 @@ impl Views {
         Views(views.collect())
     }
 
-    /// Where the bytes of a place are in what is shown.
+    /// Range of bytes in the shown text that a place covers.
     pub fn range(&self, place: Span) -> Option<Range<usize>> {
         let view = self.0.get(place.file as usize)?;
         let (start, end) = (view.shown(place.start as usize), view.shown(place.end as usize));
@@ -135,7 +135,7 @@ impl View {
         });
     }
 
-    /// Where a byte of the file is in what is shown.
+    /// Byte of the shown text for a byte of the file.
     fn shown(&self, byte: usize) -> usize {
         // Lines are as long as they were, but for those that are changed.
         let mut moved: isize = 0;
@@ -194,8 +194,8 @@ impl<'a> Files<'a> for Views {
     }
 }
 
-/// Whether a terminal or an editor acts on a character instead of showing it: controls, line ends that are no line feed, what turns
-/// the direction of writing, and what has no width.
+/// Returns whether a terminal or an editor acts on a character instead of showing it: controls, line ends other than a line feed, marks
+/// that change the direction of writing, and characters without a width.
 fn acts(c: char) -> bool {
     (c.is_control() && c != '\t')
         || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')

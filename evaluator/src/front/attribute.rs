@@ -1,4 +1,4 @@
-//! What the source says to the generator alone: `#[cfg_attr(false, unroll(4))]`, which rustc never sees.
+//! Attributes for the generator alone: `#[cfg_attr(false, unroll(4))]`, which rustc never sees.
 
 use super::cfg::as_written;
 use super::expr::Lower;
@@ -8,16 +8,16 @@ use quote::ToTokens;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
-/// What may stand before loops.
+/// Help that lists the attributes of loops.
 const UNROLL: &str = "write `unroll(full)`, `unroll(none)` or `unroll(4)`";
 
 /// Iterations that a bound may state.
 const LARGEST_BOUND: u32 = 1 << 16;
 
-/// What the attributes of a loop say.
+/// Attributes of a loop.
 #[derive(Default)]
 pub struct OfLoop {
-    /// Whether it is to be unrolled.
+    /// Unroll policy, if an attribute sets one.
     pub unroll: Option<Unroll>,
     /// Iterations after which it has ended, with the place.
     pub bound: Option<(u32, proc_macro2::Span)>,
@@ -37,7 +37,7 @@ impl Lower {
         said.unroll
     }
 
-    /// The same, and `bound(64)`, before a `while` or a `loop`.
+    /// `unroll` as before a `for`, and `bound(64)`, before a `while` or a `loop`.
     pub fn loop_attributes(&mut self, attrs: &[syn::Attribute]) -> OfLoop {
         let mut said = OfLoop::default();
         for meta in self.attributes(attrs) {
@@ -73,7 +73,7 @@ impl Lower {
         }
     }
 
-    /// The same before a function, where other attributes are not looked at here.
+    /// `unroll` before a function, whose other attributes are checked elsewhere.
     pub fn unroll_of_function(&mut self, attrs: &[syn::Attribute]) -> Option<Unroll> {
         let all = self.attributes(attrs);
         let lists = all.iter().filter_map(|meta| meta.require_list().ok());
@@ -113,7 +113,7 @@ impl Lower {
 
     /// `exact` before a function, a `let`, a block, a condition or a loop: every operation on floats in it is rounded by itself.
     pub fn exact_attribute(&mut self, attrs: &[syn::Attribute]) -> bool {
-        // What else is said there is looked at by others, and refused once.
+        // Errors in other attributes are reported where those are read, once.
         let noted = self.errors.len();
         let exact = self.attributes(attrs).iter().any(is_exact);
         self.errors.truncate(noted);

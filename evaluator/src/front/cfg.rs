@@ -9,7 +9,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::spanned::Spanned;
 
-/// What stands after attributes, and so which of the generator's own it takes.
+/// Syntax that attributes stand before, which determines the generator's own attributes that it accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// `for`, `while` or `loop`: `unroll(..)`, `bound(..)`, `exact`.
@@ -25,8 +25,8 @@ pub enum Carrier {
 }
 
 impl Carrier {
-    /// Whether one of the generator's own attributes may stand before it. Those that loops and conditions take from each other are
-    /// looked at where they are lowered.
+    /// Returns whether one of the generator's own attributes may stand before this syntax. Attributes that only loops or only conditions
+    /// accept are checked when these are lowered.
     fn takes(self, attribute: &str) -> bool {
         match self {
             Carrier::Loop | Carrier::Branch => true,
@@ -73,8 +73,8 @@ const INERT: [&str; 26] = [
 ];
 
 impl Lower {
-    /// Whether text with these attributes is there at all. Attributes that are true are taken off; those that cannot be
-    /// decided, or that change what follows in ways of their own, are errors.
+    /// Returns whether `cfg` keeps text with these attributes. Attributes that are true are removed; those that cannot be decided, or that
+    /// change the text after them in other ways, are errors.
     pub fn keeps(&mut self, attrs: &mut Vec<syn::Attribute>, carrier: Carrier) -> bool {
         let mut kept = true;
         attrs.retain(|attr| {
@@ -226,14 +226,14 @@ impl Lower {
     }
 }
 
-/// Whether a function is a test, which no kernel is.
+/// Returns whether a function is a test, which no kernel is.
 pub fn is_test(attrs: &[syn::Attribute]) -> bool {
     attrs
         .iter()
         .any(|a| ["test", "bench"].iter().any(|name| a.path().is_ident(name)))
 }
 
-/// What a `cfg` comes to when a kernel is read, if the text alone tells: `test` is false.
+/// Evaluates a `cfg` predicate as it is when a kernel is read, if the text alone decides it: `test` is false.
 fn predicate(tokens: TokenStream) -> Option<bool> {
     let mut parts = split(tokens);
     let trees: Vec<TokenTree> = match parts.len() {

@@ -8,13 +8,13 @@ use crate::diagnostic::Span;
 use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 
-/// What stands in `matches!(value, pattern if guard)`.
+/// Arguments of `matches!(value, pattern if guard)`.
 pub struct MatchesSyntax {
     /// The value.
     pub value: syn::Expr,
-    /// What it is compared with.
+    /// Pattern that the value is compared with.
     pub pattern: syn::Pat,
-    /// What must hold besides.
+    /// Additional condition.
     pub guard: Option<syn::Expr>,
 }
 
@@ -32,7 +32,7 @@ impl Parse for MatchesSyntax {
     }
 }
 
-/// Whether a condition has a `let` that is not in brackets.
+/// Returns whether a condition has a `let` that is not in parentheses.
 pub fn has_let(condition: &syn::Expr) -> bool {
     match condition {
         syn::Expr::Let(_) => true,

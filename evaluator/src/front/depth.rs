@@ -1,6 +1,6 @@
-//! Whether a text is nested too deep to be read. A parser goes down with every bracket, but also with prefixes, closures, types
-//! of functions, generic arguments and words such as `return`; and what it makes of a long chain of operators is deep too.
-//! All of these are counted on the tokens, before anything recursive sees them.
+//! Refuses texts that are nested too deep to be parsed. A parser recurses at every bracket, but also at prefixes, closures, types of
+//! functions, generic arguments and words such as `return`; and the tree of a long chain of operators is deep too. All of these are counted
+//! on the tokens, before anything recursive sees them.
 
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Delimiter, Spacing, Span, TokenStream, TokenTree};
@@ -97,7 +97,7 @@ pub fn check(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
     Ok(())
 }
 
-/// What stands between two brackets, as far as it is read.
+/// Tokens between two brackets, as far as they are read.
 struct Level {
     tokens: proc_macro2::token_stream::IntoIter,
     before: Before,
@@ -111,9 +111,9 @@ struct Level {
     chained: usize,
     /// Prefix operators of the operand that is being read, which the parser has gone down with: a binary operator ends it.
     prefixed: usize,
-    /// Whether the last character of an operator followed an operand.
+    /// `true` if the last character of an operator followed an operand.
     between: bool,
-    /// Whether this is a `use`, whose path the parser goes down with.
+    /// `true` in a `use`, at whose path the parser recurses.
     import: bool,
 }
 
@@ -184,7 +184,7 @@ impl Level {
         self.import |= word == "use";
         self.before = match word {
             "else" => {
-                // One more in a chain, which the parser reads in a loop.
+                // Links of an `else if` chain are read in a loop.
                 self.chained += 1;
                 Before::Else
             }
@@ -196,7 +196,7 @@ impl Level {
             _ if NESTING.contains(&word) => {
                 self.nested += 1;
                 self.prefixed = 0;
-                // A loop of prefixes such as `return return` is told as one.
+                // A loop of prefixes such as `return return` is reported as one.
                 self.prefixes += 1;
                 Before::Word
             }
@@ -256,7 +256,7 @@ impl Level {
                 match before {
                     // `->` leads to a type.
                     Before::Punct('-', true) => self.nested += 1,
-                    // What stands before `=>` is read to its end.
+                    // A pattern before `=>` is read to its end.
                     Before::Punct('=', true) => return self.restart(),
                     _ => {
                         self.angles.pop();

@@ -1,8 +1,8 @@
-//! What `#[derive(..)]` writes.
+//! Implementations that `#[derive(..)]` writes.
 
 use proc_macro2::TokenStream;
 
-/// What `#[derive(Default)]` writes for a structure, or for an enum whose variant is marked; `None` of others.
+/// The implementation that `#[derive(Default)]` writes for a structure, or for an enum with a marked variant; `None` for other items.
 pub fn derived_default(item: &syn::Item) -> Option<syn::ItemImpl> {
     let (name, generics, value) = match item {
         syn::Item::Struct(s) => {

@@ -14,17 +14,17 @@ use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
-/// How deep expressions may be nested.
+/// Deepest nesting of expressions.
 pub const DEPTH: u32 = 128;
 
-/// Whether the links of a chain (`a + b + c`, `a.b().c()`, `else if`) count as nested. They do only where the stack is the host's;
-/// elsewhere `depth.rs` limits their number.
+/// `true` if the links of a chain (`a + b + c`, `a.b().c()`, `else if`) count as nested. They do only where the host determines the stack's
+/// size; elsewhere `depth.rs` limits their number.
 pub const COUNTS_LINKS: bool = cfg!(target_arch = "wasm32");
 
 /// Lowers one item of one file, gathering errors.
 pub struct Lower {
     file: u32,
-    /// What `Self` stands for.
+    /// Type that `Self` stands for.
     self_type: Option<Type>,
     names: Rc<Names>,
     /// Names of types that were followed to come here.
@@ -35,10 +35,10 @@ pub struct Lower {
     pub anonymous: Vec<(String, Vec<String>)>,
     /// Type parameters around.
     pub parameters: Vec<String>,
-    /// Whether types are those of a function's parameters.
+    /// `true` while the types of a function's parameters are lowered.
     pub in_parameters: bool,
     depth: u32,
-    /// What a `break` may lead out of, outermost first.
+    /// Loops and labelled blocks that a `break` may leave, outermost first.
     pub targets: Vec<Target>,
     /// Type parameters that are called, with their types.
     pub functions: HashMap<String, Type>,
@@ -65,7 +65,7 @@ impl Lower {
         }
     }
 
-    /// What names stand for.
+    /// Names that stand for other names.
     pub fn names(&self) -> Rc<Names> {
         Rc::clone(&self.names)
     }
@@ -102,7 +102,7 @@ impl Lower {
         }
     }
 
-    /// What `Self` stands for, with its arguments.
+    /// Type that `Self` stands for, with its arguments.
     pub fn self_type(&self) -> Option<&Type> {
         self.self_type.as_ref()
     }
@@ -417,7 +417,7 @@ impl Lower {
         }
     }
 
-    /// What stands in `::<>`, one for each; a type counts as `()`.
+    /// Generic arguments in `::<>`, in order; a type counts as `()`.
     fn generic_arguments(&mut self, path: &syn::Path) -> Vec<Expr> {
         let Some(syn::PathArguments::AngleBracketed(list)) = path.segments.last().map(|s| &s.arguments) else {
             return Vec::new();
@@ -480,7 +480,7 @@ impl Lower {
     }
 }
 
-/// What stands for a generic argument that is `_`.
+/// Placeholder for a generic argument that is `_`.
 pub const INFERRED: &str = "_";
 
 /// The type in `None::<T>` and `Option::<T>::None`.
@@ -512,7 +512,7 @@ pub fn label(label: Option<&syn::Lifetime>) -> Option<String> {
     label.map(|l| l.ident.to_string())
 }
 
-/// Whether an operator assigns its result to its left side.
+/// Returns whether an operator assigns its result to its left side.
 fn assigns(op: &syn::BinOp) -> bool {
     use syn::BinOp as B;
     matches!(

@@ -14,7 +14,7 @@ pub struct Import {
     root: String,
     /// The segment before the name: an enum, of one of its variants.
     of: String,
-    /// Whether it comes out of a module `prelude`.
+    /// `true` if it comes from a module `prelude`.
     prelude: bool,
     /// The name there, and the name here.
     name: (String, String),
@@ -46,13 +46,13 @@ impl Import {
     }
 }
 
-/// Whether `name` is a method of the type `of`.
+/// Returns whether `name` is a method of the type `of`.
 fn method_of(name: &str, of: &str) -> bool {
     name.split_once("::").is_some_and(|(ty, _)| ty == of)
 }
 
-/// Whether a path may be that of a function by its last segment alone: of one in a module, which functions are found without. What
-/// stands behind a type, or in a module of the standard library, is none.
+/// Returns whether a path may name a function by its last segment alone: that of a function in a module, since functions are found without
+/// their module. Paths of a type's functions and of those in a module of the standard library are not.
 pub fn is_by_last(path: &[String]) -> bool {
     let [.., of, name] = path else {
         return path.len() == 1;

@@ -3,7 +3,7 @@
 use crate::diagnostic::File;
 use std::sync::Arc;
 
-/// What is repeated, and what stands before and after.
+/// Text before, text to repeat, and text after.
 const NESTED: &[(&str, &str, &str)] = &[
     ("fn k() { ", "become ", "x }"),
     ("fn k() { ", "return ", "x }"),

@@ -1,6 +1,6 @@
-//! Items inside of functions: functions, types, implementations and imports are taken out and stand beside the function, as
-//! items of the file do. Constants stay, since a block may have one of a name that the file has too; a function that is taken out
-//! has those of the blocks around it that it mentions as its own.
+//! Items inside of functions: functions, types, implementations and imports are hoisted to the level of the function, like other items of
+//! the file. Constants stay, since a block may have one with the name of a constant of the file; a function that is hoisted gets copies of
+//! those constants of the enclosing blocks that it mentions.
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
@@ -51,7 +51,7 @@ fn of_item(item: &mut syn::Item, out: &mut Vec<syn::Item>) {
     }
 }
 
-/// Whether nothing takes a function away: what stands in one that is not there is not there either.
+/// Returns whether a function is certainly there: the items of a function that `cfg` removes, or of a test, are not hoisted.
 fn is_plain(attrs: &[syn::Attribute]) -> bool {
     attrs
         .iter()
@@ -64,7 +64,7 @@ fn of_block(block: &mut syn::Block, around: &[syn::ItemConst], out: &mut Vec<syn
         _ => None,
     });
     let mut constants: Vec<syn::ItemConst> = own.collect();
-    // Where one hides another, what is made of the hidden one cannot be said inside: no function is given any.
+    // If one constant hides another, those computed from the hidden one cannot be copied: no function gets any.
     let hides = |c: &syn::ItemConst| around.iter().any(|other| other.ident == c.ident);
     match constants.iter().any(hides) {
         true => constants.clear(),
@@ -185,7 +185,7 @@ fn names(text: TokenStream, out: &mut HashSet<String>) {
 /// The segments of a path but the last, and the name there and here; no names of `*`.
 pub type Brought = (Vec<syn::Ident>, Option<(syn::Ident, syn::Ident)>);
 
-/// What a path of a `use` brings in: the segments before, and each name with what it goes by here; `None` of `*`.
+/// Lists the imports of a path of a `use`: the segments before, and each name with the name by which it is known here; `None` for `*`.
 pub fn imports(tree: &syn::UseTree) -> Vec<Brought> {
     let mut found = Vec::new();
     walk(tree, &mut Vec::new(), &mut found);

@@ -471,7 +471,7 @@ impl Items {
         self.blame(name, vec![error]);
     }
 
-    /// What `entry` needs, with the errors in it.
+    /// Lowers the items that `entry` needs, and collects the errors in them.
     ///
     /// # Errors
     ///

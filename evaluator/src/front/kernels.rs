@@ -1,19 +1,19 @@
-//! Which function of a file is its kernel, where nobody names it.
+//! Choice of the kernel among a file's functions, if the caller names none.
 
 use super::foreign::is_resource;
 use super::raw::unraw;
 use crate::diagnostic::{Code, Diagnostic};
 use std::collections::BTreeSet;
 
-/// The kernel of a text where nobody names it: the public function called `wanted` that takes and gives what a kernel does, or else
-/// the only such function. Functions that read a resource or take a pixel come before those of numbers alone.
+/// Returns the kernel of a text if the caller names none: the public function called `wanted` with parameters and a result that a kernel
+/// can have, or else the only such function. Functions that read a resource or take a pixel take precedence over those with numbers alone.
 ///
 /// # Errors
 ///
 /// If several functions could be meant, or none. `path` is that of the file, for the help.
 pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Diagnostic>> {
     let text = super::without_head(text);
-    // What is no Rust is told with its place, when the kernel is read.
+    // Text that is no Rust is reported with its place when the kernel is read.
     if super::depth::check(0, &text).is_err() {
         return Ok(wanted.to_owned());
     }
@@ -84,13 +84,13 @@ fn is_public(function: &syn::ItemFn) -> bool {
     matches!(function.vis, syn::Visibility::Public(_))
 }
 
-/// What a function takes.
+/// Class of a function by its parameters.
 enum Takes {
-    /// What lies at a pixel: resources, a pixel, a workgroup.
+    /// Values of a pixel: resources, a pixel, a workgroup.
     Pixel,
     /// Numbers alone.
     Numbers,
-    /// What no kernel takes or gives.
+    /// Parameters or a result that no kernel has.
     Other,
 }
 
@@ -129,7 +129,7 @@ fn type_name(ty: &syn::Type) -> Option<String> {
     }
 }
 
-/// Whether a kernel may give a value of a type: numbers, or a structure or tuple of them.
+/// Returns whether a kernel may return a value of a type: numbers, or a structure or tuple of them.
 fn is_result(ty: &syn::Type) -> bool {
     match ty {
         syn::Type::Tuple(tuple) => tuple.elems.iter().all(is_result),

@@ -91,7 +91,7 @@ fn lists(ty: Type) -> &'static [&'static [&'static str]] {
     }
 }
 
-/// What helps where there is no such method.
+/// Help for a method that does not exist.
 pub fn known_methods(name: &str, ty: Type) -> String {
     let known: Vec<&str> = lists(ty).concat();
     let close = crate::suggest::suggest(name, &known, "");
@@ -101,12 +101,12 @@ pub fn known_methods(name: &str, ty: Type) -> String {
     format!("{} has {}", ty.in_rust(), known.join(", "))
 }
 
-/// Whether numbers or vectors of a type have a method here.
+/// Returns whether numbers or vectors of a type have a method here.
 pub fn has(ty: Type, name: &str) -> bool {
     lists(ty).iter().any(|list| list.contains(&name))
 }
 
-/// Whether numbers or vectors have a method themselves, which goes before one of a trait.
+/// Returns whether numbers or vectors have an inherent method of a name, which takes precedence over one of a trait.
 pub fn is_inherent(ty: &str, name: &str) -> bool {
     let ty = match (ty, crate::front::tree::vector_named(ty)) {
         (_, Some((kind, lanes))) => Type::value(kind, lanes),

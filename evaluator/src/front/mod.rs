@@ -57,12 +57,12 @@ pub use whiles::guarded;
 /// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
 pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];
 
-/// What the files of a kernel define.
+/// Definitions in the files of a kernel.
 #[derive(Debug)]
 pub struct Parsed {
     /// All of it.
     pub library: Library,
-    /// What the kernel reaches: the rest may hold anything.
+    /// Items that the kernel reaches: the others may hold anything.
     pub reached: BTreeSet<String>,
     /// Functions of the files that it does not reach and that are of the kernel language.
     pub others: BTreeSet<String>,

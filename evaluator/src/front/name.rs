@@ -24,7 +24,7 @@ impl Hash for Name {
 }
 
 impl Name {
-    /// Its text.
+    /// Text of the name.
     pub fn as_str(&self) -> &str {
         self
     }

@@ -16,10 +16,10 @@ use syn::spanned::Spanned;
 /// Aliases of aliases after which they are taken for a cycle.
 const MAX_ALIASES: u32 = 32;
 
-/// What is wrong with names.
+/// Errors in names, by name.
 pub type Wrong = Vec<(String, Diagnostic)>;
 
-/// What names stand for.
+/// Names that stand for other names.
 pub struct Names {
     paths: HashMap<String, Vec<String>>,
     /// Types by other names, with the files that they are written in.
@@ -148,7 +148,7 @@ impl Names {
         self.paths.get(name).map(Vec::as_slice)
     }
 
-    /// Whether a name stands for anything.
+    /// Returns whether a name stands for another.
     pub fn has(&self, name: &str) -> bool {
         self.paths.contains_key(name) || self.types.contains_key(name)
     }
@@ -189,7 +189,7 @@ impl Lower {
     }
 }
 
-/// Whether a name is that of what is called wherever it stands: a variable may have the name of a function too.
+/// Returns whether a name is only used for calls, wherever it occurs: a variable may have the name of a function too.
 fn only_called(item: &syn::Item, name: &str) -> bool {
     match item {
         syn::Item::Use(_) => true,
@@ -236,7 +236,7 @@ fn text_of(ty: &syn::Type) -> String {
     ty.to_token_stream().to_string()
 }
 
-/// Whether `cfg` leaves an item there.
+/// Returns whether `cfg` keeps an item.
 fn is_there(file: u32, item: &syn::Item) -> bool {
     let attrs = match item {
         syn::Item::Mod(m) => &m.attrs,
@@ -244,7 +244,7 @@ fn is_there(file: u32, item: &syn::Item) -> bool {
         syn::Item::Use(u) => &u.attrs,
         _ => return true,
     };
-    // What is wrong with them is said where the item is taken.
+    // Errors in attributes are reported when the item is lowered.
     Lower::new(file, None, Rc::default()).keeps(&mut attrs.clone(), Carrier::Function)
 }
 

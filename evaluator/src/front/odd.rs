@@ -2,8 +2,8 @@
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 
-/// What is wrong with a text that could not be read up to a place: a character there that Rust does not take, or one that editors hide,
-/// from there on. `None` if the text holds none.
+/// Error for a text that could not be read beyond a place: names a character there that Rust does not accept, or a character that editors
+/// hide, from the place on. `None` if the text has neither.
 pub fn character(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
     let from = reached.start as usize;
     let rest = text.get(from..)?;

@@ -6,14 +6,14 @@ use super::tree::{Expr, ExprKind, OptionField, Struct};
 use crate::diagnostic::{Code, Diagnostic};
 use syn::parse::{Parse, ParseStream};
 
-/// What stands in `options!`.
+/// Contents of `options!`.
 pub struct OptionsSyntax {
     pub attrs: Vec<syn::Attribute>,
     pub name: syn::Ident,
     pub fields: Vec<OptionSyntax>,
 }
 
-/// One line of it.
+/// A line of `options!`.
 pub struct OptionSyntax {
     pub attrs: Vec<syn::Attribute>,
     pub name: syn::Ident,

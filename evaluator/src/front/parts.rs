@@ -5,7 +5,7 @@ use super::tree::{Block, Expr, ExprKind, Param, Pattern, Statement, Type};
 use crate::diagnostic::Span;
 use syn::spanned::Spanned;
 
-/// Whether the left side of an assignment is no place but a pattern of places.
+/// Returns whether the left side of an assignment is a pattern of places, not a place.
 pub fn takes_apart(left: &syn::Expr) -> bool {
     match left {
         syn::Expr::Tuple(_) | syn::Expr::Array(_) | syn::Expr::Infer(_) | syn::Expr::Struct(_) => true,
@@ -85,7 +85,7 @@ impl Lower {
         }
     }
 
-    /// A parameter that is a pattern: one with a name that nobody writes, and the `let` that takes it apart.
+    /// Lowers a parameter that is a pattern: a parameter with a hidden name, and the `let` that destructures it.
     pub fn pattern_parameter(&mut self, pattern: &syn::Pat, ty: Type, position: usize) -> (Param, Statement) {
         let span = self.span(pattern.span());
         let name = hidden(position);
@@ -104,7 +104,7 @@ impl Lower {
     }
 }
 
-/// A variable's name that nobody can write.
+/// Name of a variable that no source text can contain.
 fn hidden(k: usize) -> String {
     format!("#{k}")
 }

@@ -71,7 +71,7 @@ impl Lower {
             }
             // Fields of a structure without names are named by their numbers.
             syn::Pat::TupleStruct(p) if p.qself.is_none() => {
-                // Those that `..` leaves out may be anything.
+                // Fields that `..` leaves out may be anything.
                 let rest = p.elems.last().is_some_and(|last| matches!(last, syn::Pat::Rest(_)));
                 let fields = p
                     .elems
@@ -143,7 +143,7 @@ impl Lower {
                 self.functions[&name].clone()
             }
             syn::Type::Path(t) if self.stand_in(t).is_some() => self.stand_in(t).unwrap_or(Type::Tuple(Vec::new())),
-            // What belongs to a type parameter is found by inference.
+            // Inference finds associated types of a type parameter.
             syn::Type::Path(t) if self.belongs_to_a_parameter(t) => Type::Name("_".to_owned(), Vec::new()),
             syn::Type::Path(t) if t.qself.is_none() && !belongs_to_a_type(t) => {
                 let last = t.path.segments.last().expect("a path has a segment");
@@ -187,7 +187,7 @@ impl Lower {
                 };
                 Type::Fn(params, Box::new(result))
             }
-            // What a function gives, and what is of one type or another: the values tell.
+            // Values determine the type of an `impl Trait` result and of a trait object.
             syn::Type::ImplTrait(_) => Type::Name("_".to_owned(), Vec::new()),
             syn::Type::TraitObject(t) => {
                 let traits: Vec<String> = t.bounds.iter().filter_map(super::traits::trait_name).collect();
@@ -207,7 +207,7 @@ impl Lower {
 }
 
 impl Lower {
-    /// What a name of a type stands for: `Self::Output`, or a type parameter of a trait that is implemented.
+    /// The type that a type's name stands for: `Self::Output`, or a type parameter of a trait that is implemented.
     fn stand_in(&self, ty: &syn::TypePath) -> Option<Type> {
         let names: Vec<String> = ty.path.segments.iter().map(|s| s.ident.to_string()).collect();
         match names.as_slice() {
@@ -219,7 +219,7 @@ impl Lower {
         }
     }
 
-    /// Whether a path is of what belongs to a type parameter: `S::Scalar`, `<S as Trait>::Scalar`.
+    /// Returns whether a path names an associated type of a type parameter: `S::Scalar`, `<S as Trait>::Scalar`.
     fn belongs_to_a_parameter(&self, ty: &syn::TypePath) -> bool {
         let first = match &ty.qself {
             Some(own) => match &*own.ty {
@@ -269,7 +269,7 @@ impl Lower {
     }
 }
 
-/// Whether a pattern is `..` or `name @ ..`.
+/// Returns whether a pattern is `..` or `name @ ..`.
 fn is_rest(pattern: &syn::Pat) -> bool {
     match pattern {
         syn::Pat::Rest(_) => true,
@@ -281,7 +281,7 @@ fn is_rest(pattern: &syn::Pat) -> bool {
     }
 }
 
-/// Whether a path of two names is of what belongs to a type.
+/// Returns whether a path of two names is an associated type.
 fn belongs_to_a_type(ty: &syn::TypePath) -> bool {
     let first = ty
         .path
@@ -293,7 +293,7 @@ fn belongs_to_a_type(ty: &syn::TypePath) -> bool {
     ty.qself.is_some() || (ty.path.segments.len() > 1 && first.starts_with(char::is_uppercase))
 }
 
-/// Whether one of some bounds is of what is called.
+/// Returns whether some bound is `Fn`, `FnMut` or `FnOnce`.
 fn is_called<'b>(bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>) -> bool {
     bounds.into_iter().any(|bound| match bound {
         syn::TypeParamBound::Trait(bound) => bound.path.segments.last().is_some_and(|last| {

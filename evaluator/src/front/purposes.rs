@@ -1,10 +1,10 @@
-//! What functions are for, by their documentation: the emitted text says so in comments.
+//! Purposes of functions, from their documentation: printed as comments in the emitted text.
 
 use super::Library;
 use crate::ir::Purpose;
 use std::sync::Arc;
 
-/// What the functions of a library are for, in order of their places.
+/// Purposes of a library's functions, in order of their places.
 pub fn of(library: &Library) -> Arc<[Purpose]> {
     let each = library.functions.values().filter(|f| f.span.file != super::std::FILE);
     let each = each.map(|function| Purpose {

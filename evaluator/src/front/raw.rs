@@ -3,7 +3,7 @@
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use std::borrow::Cow;
 
-/// What stands before a raw identifier.
+/// Prefix of a raw identifier.
 const MARK: &str = "r#";
 
 /// The syntax of a file, in which only keywords are raw identifiers.
@@ -39,7 +39,7 @@ fn plain(tokens: TokenStream) -> TokenStream {
     each.collect()
 }
 
-/// Whether a name is one only as a raw identifier.
+/// Returns whether a name is an identifier only in raw form.
 fn is_keyword(name: &str) -> bool {
     syn::parse_str::<Ident>(name).is_err()
 }

@@ -1,4 +1,4 @@
-//! Which items a kernel reaches. Errors elsewhere do not concern it.
+//! Items that a kernel reaches. Errors elsewhere do not concern it.
 
 use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -12,7 +12,7 @@ enum Mention {
     Qualified(String),
     /// `.name(..)`: a method of some type.
     Method(String),
-    /// What goes by this whole name, which no text mentions.
+    /// An item by its whole name, which no text mentions.
     Whole(String),
 }
 
@@ -50,7 +50,7 @@ impl Mentions {
         reached
     }
 
-    /// Whether the text of `item` mentions one of `others`. Coarse, never missing one.
+    /// Returns whether the text of `item` mentions one of `others`. Conservative: may return true for an item that is not mentioned.
     pub fn mentions_any(&self, item: &str, others: &[&String]) -> bool {
         let others = ByWord::new(others.iter().copied());
         let mut mentions = self.words.get(item).into_iter().flatten();

@@ -22,7 +22,7 @@ pub fn check(library: &Library) -> Vec<Diagnostic> {
     found.collect()
 }
 
-/// Where a type holds a type of the name `wanted`: the place of its own field.
+/// Finds the field through which a type holds a type of the name `wanted`: the place of the type's own field.
 fn holds(library: &Library, name: &str, wanted: &str, seen: &mut Vec<String>) -> Option<Span> {
     if seen.iter().any(|other| other == name) {
         return None;

@@ -1,22 +1,22 @@
-//! What a piece of the tree may change or leave.
+//! Effects of a piece of the tree: variables that it may change, and loops that it may leave.
 
 use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
-/// What a loop's body does to what is around it.
+/// Effects of a loop's body on its surroundings.
 #[derive(Debug, Default)]
 pub struct Effects {
     /// Variables around it that it assigns to or borrows mutably.
     pub assigned: BTreeSet<String>,
     /// Every name that it mentions.
     pub mentioned: BTreeSet<String>,
-    /// Whether it may leave the loop other than by its end: `break`, `continue`, `return`.
+    /// `true` if it may leave the loop other than by its end: `break`, `continue`, `return`.
     pub leaves: bool,
 }
 
-/// Scans a loop's body. `mutating` names the methods that take `&mut self`: of whichever type the receiver is, it counts
-/// as borrowed by a method of such a name.
+/// Scans a loop's body. `mutating` names the methods that take `&mut self`: a receiver counts as borrowed by a method of such a name,
+/// whatever its type.
 pub fn assigned(body: &Block, mutating: &FxHashSet<String>) -> Effects {
     let mut effects = Effects::default();
     let mut around = Around {
@@ -28,7 +28,7 @@ pub fn assigned(body: &Block, mutating: &FxHashSet<String>) -> Effects {
     effects
 }
 
-/// Whether a loop's body has a `break` of its own loop, which goes by `label`.
+/// Returns whether a loop's body has a `break` of its own loop, whose label is `label`.
 pub fn breaks(body: &Block, label: Option<&str>) -> bool {
     fn in_block(body: &Block, label: Option<&str>, innermost: bool) -> bool {
         let of = |e: &Expr| in_expr(e, label, innermost);
@@ -53,7 +53,7 @@ pub fn breaks(body: &Block, label: Option<&str>) -> bool {
     in_block(body, label, true)
 }
 
-/// What has been entered on the way to a place.
+/// Labels and variables in scope at a place.
 #[derive(Default)]
 struct Around<'b> {
     /// Labels of loops.

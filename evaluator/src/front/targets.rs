@@ -6,11 +6,11 @@ use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use syn::spanned::Spanned;
 
-/// What a `break` may lead out of.
+/// A loop or labelled block that a `break` may leave.
 pub struct Target {
     label: Option<String>,
     kind: Kind,
-    /// Whether a `break` of it has a value.
+    /// `true` if a `break` out of it has a value.
     valued: bool,
 }
 
@@ -87,7 +87,7 @@ impl Lower {
         }
     }
 
-    /// What is left with a value: the variable that has it then.
+    /// Wraps a loop or block that is left with a value: the result is the variable that the `break` assigns.
     fn given(&self, left: Expr) -> ExprKind {
         let (span, name) = (left.span, self.name_within(self.targets.len()));
         let value = Expr {

@@ -5,13 +5,13 @@ use crate::ir::{Scalar, Texture, TextureKind};
 /// A type of the prelude that is bound as a texture.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TextureType {
-    /// Its name.
+    /// Name in the prelude.
     pub name: &'static str,
-    /// What it is to a shader.
+    /// Kind of texture in the shader.
     pub kind: TextureKind,
-    /// Whether it has the output's size.
+    /// `true` if it has the output's size.
     pub framed: bool,
-    /// Whether its texels may be integers.
+    /// `true` if its texels may be integers.
     pub integers: bool,
     methods: &'static [TextureMethod],
 }
@@ -19,15 +19,15 @@ pub struct TextureType {
 /// A method of a texture.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TextureMethod {
-    /// Its name.
+    /// Name of the method.
     pub name: &'static str,
-    /// What it takes.
+    /// Parameters in order.
     pub params: &'static [Param],
-    /// What it gives.
+    /// Kind of result.
     pub gives: Gives,
 }
 
-/// What a method of a texture takes.
+/// Parameter of a texture's method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Param {
     /// A texel's coordinate, in integers.
@@ -42,7 +42,7 @@ pub enum Param {
     Level,
     /// A level, or what is between two of them.
     Detail,
-    /// How far the place is from that of the next pixel.
+    /// Difference of the place from that of the next pixel.
     Step(&'static str),
     /// A sampler that filters.
     Filtering,
@@ -50,7 +50,7 @@ pub enum Param {
     Comparing,
     /// The number of a component, a compile-time constant.
     Component,
-    /// What is compared.
+    /// Reference value of a comparison.
     Reference,
 }
 
@@ -70,7 +70,7 @@ impl Param {
     }
 }
 
-/// What a method of a texture gives.
+/// Result of a texture's method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gives {
     /// A texel.
@@ -81,7 +81,7 @@ pub enum Gives {
     Share,
     /// Width and height, and depth where there is one.
     Size,
-    /// How many there are.
+    /// Number of levels or layers.
     Count,
 }
 
@@ -255,7 +255,7 @@ impl TextureType {
 }
 
 impl TextureMethod {
-    /// Whether a sampler weighs texels.
+    /// Returns whether a sampler filters the texels.
     pub fn filters(&self) -> bool {
         self.params.contains(&Param::Filtering)
     }

@@ -50,7 +50,7 @@ const OPERATORS: [&str; 30] = [
 /// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
 const OWN: [&str; 6] = ["Drop", "PartialOrd", "Ord", "Deref", "DerefMut", "Iterator"];
 
-/// Whether a trait is one of Rust's that functions of kernels are bounded by.
+/// Returns whether a trait is one of Rust's that may bound the functions of kernels.
 pub fn is_of_rust(name: &str) -> bool {
     OPERATORS.contains(&name)
         || OWN.contains(&name)
@@ -92,7 +92,7 @@ impl Items {
                     if !check.keeps_function(&mut f.attrs) {
                         continue;
                     }
-                    // What a default function holds is looked at for each type that takes it.
+                    // The body of a default function is checked for each type that takes it.
                     let mut of_signature = check.beside();
                     of_signature.function(
                         &mut f.sig,
@@ -294,7 +294,7 @@ impl Items {
         self.note(&key, mentioned, check);
     }
 
-    /// What a function of an implementation goes by: its type and its name where that is free.
+    /// Key of a function of an implementation: its type and its name if those are free.
     fn key(&self, plain: &str, owner: &Owner, named: &Named<'_>) -> String {
         let name = plain.rsplit("::").next().unwrap_or(plain);
         // A method of the type itself goes before one of a trait.
@@ -305,7 +305,7 @@ impl Items {
         }
     }
 
-    /// Whether there is an implementation of the trait for the type already, but for references.
+    /// Returns whether there is an implementation of the trait for the type already, ignoring references.
     fn implemented_twice(&self, plain: &str, named: &Named<'_>) -> bool {
         let alike = |a: &[Type], b: &[Type]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bare(a) == bare(b));
         let known = self.library.implemented.get(plain);
@@ -479,7 +479,7 @@ fn bare(ty: &Type) -> String {
     }
 }
 
-/// What a trait gives a type that does not write it.
+/// The default of a trait's item, for a type that does not write it.
 fn default_of(item: &syn::TraitItem) -> Option<syn::ImplItem> {
     match item {
         syn::TraitItem::Fn(f) => {

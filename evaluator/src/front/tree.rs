@@ -12,9 +12,9 @@ use std::sync::Arc;
 /// An expression.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// What it is.
+    /// Kind of expression, with its parts.
     pub kind: ExprKind,
-    /// Where it stands.
+    /// Source location.
     pub span: Span,
 }
 
@@ -94,11 +94,11 @@ pub enum ExprKind {
 /// A closure.
 #[derive(Clone, Debug)]
 pub struct Closure {
-    /// What takes its arguments, with types where they are stated.
+    /// Patterns of the arguments, with types where they are stated.
     pub params: Vec<(Pattern, Option<Type>)>,
-    /// What it gives, where that is stated.
+    /// Type of the result, if it is stated.
     pub result: Option<Type>,
-    /// What it computes.
+    /// Value of the closure.
     pub body: Expr,
     /// `move`: it has the values that its variables have where it is made.
     pub moves: bool,
@@ -107,17 +107,17 @@ pub struct Closure {
 /// A `for`.
 #[derive(Clone, Debug)]
 pub struct ForLoop {
-    /// Its label.
+    /// Label without its quote.
     pub label: Option<String>,
-    /// What its attribute says.
+    /// Policy that its attribute requests.
     pub unroll: Option<Unroll>,
-    /// What takes each value.
+    /// Pattern of each value.
     pub pattern: Pattern,
-    /// What it runs over.
+    /// Range, array or iterator to iterate over.
     pub over: Expr,
-    /// What it does.
+    /// Statements of an iteration.
     pub body: Block,
-    /// Whether it is a `while` that its attribute bounds.
+    /// `true` for a `while` that its attribute bounds.
     pub bounded: bool,
 }
 
@@ -139,7 +139,7 @@ pub struct Block {
     pub statements: Vec<Statement>,
     /// The value, if the last expression has no semicolon.
     pub value: Option<Box<Expr>>,
-    /// Whether its operations on floats are exact, those of the functions that it calls too.
+    /// `true` if its operations on floats are exact, including those of the functions that it calls.
     pub exact: bool,
 }
 
@@ -154,14 +154,14 @@ pub enum Statement {
     Const(Const),
 }
 
-/// One arm of a `match`.
+/// An arm of a `match`.
 #[derive(Clone, Debug)]
 pub struct Arm {
-    /// What it takes.
+    /// Pattern of the values that the arm handles.
     pub pattern: Pattern,
-    /// What must hold besides: `if condition`.
+    /// Additional condition: `if condition`.
     pub guard: Option<Expr>,
-    /// What it gives.
+    /// Value of the arm.
     pub body: Expr,
 }
 
@@ -193,7 +193,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// Whether it takes the parts that the others of a tuple or an array leave: `..`, `name @ ..`.
+    /// Returns whether the pattern matches the remaining parts of a tuple or an array: `..`, `name @ ..`.
     pub fn is_rest(&self) -> bool {
         match self {
             Pattern::Rest => true,
@@ -241,7 +241,7 @@ pub enum Type {
     Tuple(Vec<Type>),
     /// `&T`, `&mut T` (true).
     Ref(bool, Box<Type>),
-    /// What is called: `impl Fn(A) -> B`, `fn(A) -> B`.
+    /// A function or closure: `impl Fn(A) -> B`, `fn(A) -> B`.
     Fn(Vec<Type>, Box<Type>),
     /// A constant where an argument stands: the 3 of `Window<3>`.
     Const(Box<Expr>),
@@ -256,7 +256,7 @@ impl Type {
         }
     }
 
-    /// Whether it is `&mut T`.
+    /// Returns whether the type is `&mut T`.
     pub fn is_mutable_reference(&self) -> bool {
         matches!(self, Type::Ref(true, _))
     }
@@ -272,7 +272,7 @@ pub enum Generic {
 }
 
 impl Generic {
-    /// Its name.
+    /// Name of the parameter.
     pub fn name(&self) -> &str {
         match self {
             Generic::Type(name) | Generic::Const(name, _) => name,
@@ -283,13 +283,13 @@ impl Generic {
 /// A parameter of a function.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// Its name; a method's first is `self`.
+    /// Name; a method's first parameter is `self`.
     pub name: Name,
-    /// Its type, with `Self` resolved.
+    /// Type, with `Self` resolved.
     pub ty: Type,
-    /// Whether the function may assign to it: `mut name`.
+    /// `true` if the function may assign to it: `mut name`.
     pub mutable: bool,
-    /// Where it stands.
+    /// Source location.
     pub span: Span,
 }
 
@@ -298,7 +298,7 @@ pub struct Param {
 pub struct Function {
     /// Documentation.
     pub docs: String,
-    /// What becomes of its loops and of those of the functions that it calls, of which nothing else is said.
+    /// Policy for its loops and those of the functions that it calls, unless they have their own.
     pub unroll: Option<Unroll>,
     /// Generic parameters in order, those of its `impl` last.
     pub generics: Vec<Generic>,
@@ -306,11 +306,11 @@ pub struct Function {
     pub bounds: HashMap<String, Vec<String>>,
     /// Parameters in order.
     pub params: Vec<Param>,
-    /// What it gives; `()` is an empty tuple.
+    /// Type of the result; `()` is an empty tuple.
     pub result: Type,
     /// The body.
     pub body: Block,
-    /// Where its name stands.
+    /// Source location of its name.
     pub span: Span,
 }
 
@@ -319,9 +319,9 @@ pub struct Function {
 pub struct Const {
     /// Name, or `Type::NAME`.
     pub name: String,
-    /// Its value.
+    /// Value.
     pub value: Expr,
-    /// Its type.
+    /// Type.
     pub ty: Type,
 }
 
@@ -333,7 +333,7 @@ pub type Fields = Vec<(Name, Type, Span)>;
 pub struct Struct {
     /// Generic parameters in order.
     pub generics: Vec<Generic>,
-    /// Its fields in order.
+    /// Fields in order.
     pub fields: Fields,
     /// The traits that it derives.
     pub derives: Vec<String>,
@@ -344,7 +344,7 @@ pub struct Struct {
 pub struct Enum {
     /// Generic parameters in order.
     pub generics: Vec<Generic>,
-    /// Its variants in order.
+    /// Variants in order.
     pub variants: Vec<Variant>,
     /// The traits that it derives.
     pub derives: Vec<String>,
@@ -353,11 +353,11 @@ pub struct Enum {
 /// A variant of an enum.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    /// Its name.
+    /// Name of the variant.
     pub name: String,
     /// Documentation.
     pub docs: String,
-    /// What it holds.
+    /// Fields in order.
     pub fields: Fields,
 }
 
@@ -371,7 +371,7 @@ impl Enum {
 /// A trait of the kernel's files: what its functions take and give, with `Self` as a type parameter.
 #[derive(Clone, Debug)]
 pub struct Trait {
-    /// Its functions, without bodies.
+    /// Functions by name, without bodies.
     pub functions: HashMap<String, Function>,
     /// Types of its constants.
     pub consts: HashMap<String, Type>,
@@ -386,11 +386,11 @@ pub struct Implemented {
     pub of: String,
     /// The trait's type arguments.
     pub args: Vec<Type>,
-    /// What the function goes by.
+    /// Key of the function in [`Library::functions`].
     pub key: String,
 }
 
-/// One line of `options!`.
+/// A line of `options!`.
 #[derive(Clone, Debug)]
 pub struct OptionField {
     /// Name of the field.
@@ -403,9 +403,9 @@ pub struct OptionField {
     pub range: Option<Expr>,
     /// The default.
     pub default: Expr,
-    /// Whether it is set at run time unless a setting says otherwise: `= uniform(default)`.
+    /// `true` if it is set at run time unless a setting says otherwise: `= uniform(default)`.
     pub uniform: bool,
-    /// Where its name stands.
+    /// Source location of its name.
     pub span: Span,
 }
 
@@ -430,19 +430,19 @@ pub struct Library {
     pub implemented: FxHashMap<String, Vec<Implemented>>,
     /// Types and traits that they implement.
     pub implements: FxHashSet<(String, String)>,
-    /// What functions of the kernel's files are for, in order of their places.
+    /// Purposes of the functions of the kernel's files, in order of their places.
     pub purposes: Arc<[Purpose]>,
     /// Functions and constants in which an error was found: inference says nothing of their uses.
     pub broken: FxHashSet<String>,
 }
 
 impl Library {
-    /// Whether a structure or an enum goes by this name.
+    /// Returns whether a structure or an enum has this name.
     pub fn has_type(&self, name: &str) -> bool {
         self.structs.contains_key(name) || self.enums.contains_key(name)
     }
 
-    /// What `Type::name` may be: a function of the type itself alone, or functions of traits.
+    /// Keys of the functions that `Type::name` may mean: a function of the type itself alone, or functions of traits.
     pub fn methods(&self, ty: &str, name: &str) -> Vec<&str> {
         let plain = format!("{ty}::{name}");
         let of_traits = self.implemented.get(&plain).map_or(&[][..], Vec::as_slice);

@@ -13,7 +13,7 @@ use syn::spanned::Spanned;
 impl Check {
     /// An expression where nothing can be left out.
     pub fn expr(&mut self, expr: &mut syn::Expr) {
-        // What is deeper is refused by the lowering.
+        // The lowering refuses deeper nesting.
         if self.depth >= DEPTH {
             return;
         }
@@ -81,7 +81,7 @@ impl Check {
                 }
             }
             E::Field(e) => self.link(&mut e.base),
-            // Where it is no condition, the lowering refuses it.
+            // The lowering refuses a `let` that is no condition.
             E::Let(e) => {
                 self.pattern(&mut e.pat);
                 self.expr(&mut e.expr);
@@ -210,7 +210,7 @@ impl Check {
         }
     }
 
-    /// What stands in an `assert!` or a `matches!`; other macros are refused by the lowering.
+    /// Checks the arguments of `assert!` and `matches!`; the lowering refuses other macros.
     fn macro_call(&mut self, call: &mut syn::Macro) {
         if call.path.is_ident("matches") {
             if let Ok(mut body) = call.parse_body::<MatchesSyntax>() {
@@ -378,7 +378,7 @@ impl Check {
     }
 }
 
-/// Whether text assigns to a variable by `name = ...`.
+/// Returns whether text assigns to a variable by `name = ...`.
 fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
     let tokens: Vec<TokenTree> = text.into_iter().collect();
     let is = |at: usize, wanted: char| matches!(tokens.get(at), Some(TokenTree::Punct(p)) if p.as_char() == wanted);
@@ -392,7 +392,7 @@ fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
     })
 }
 
-/// Whether a text has a name anywhere.
+/// Returns whether a text contains a name.
 fn mentions(text: TokenStream, name: &syn::Ident) -> bool {
     text.into_iter().any(|token| match token {
         TokenTree::Group(group) => mentions(group.stream(), name),
@@ -401,7 +401,7 @@ fn mentions(text: TokenStream, name: &syn::Ident) -> bool {
     })
 }
 
-/// Which attributes of the generator's own an expression takes.
+/// Class of an expression by the generator's own attributes that it accepts.
 fn carrier(expr: &syn::Expr) -> Carrier {
     match expr {
         syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Loop(_) => Carrier::Loop,

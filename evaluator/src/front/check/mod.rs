@@ -45,7 +45,7 @@ impl Check {
         self.lower.span(span)
     }
 
-    /// What was found wrong.
+    /// Errors found so far.
     pub fn errors(self) -> Vec<Diagnostic> {
         self.lower.errors
     }
@@ -55,12 +55,12 @@ impl Check {
         self.lower.unsupported(span, what, instead);
     }
 
-    /// Whether text with these attributes is there.
+    /// Returns whether `cfg` keeps text with these attributes.
     pub fn keeps(&mut self, attrs: &mut Vec<syn::Attribute>) -> bool {
         self.lower.keeps(attrs, Carrier::Other)
     }
 
-    /// Whether a function with these attributes is there.
+    /// Returns whether `cfg` keeps a function with these attributes.
     pub fn keeps_function(&mut self, attrs: &mut Vec<syn::Attribute>) -> bool {
         self.lower.keeps(attrs, Carrier::Function)
     }

@@ -17,14 +17,14 @@ const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
 /// A function of these texts, a structure, or an enum.
 struct Piece {
-    /// What stands between `impl` and the braces around it; empty of what is in none.
+    /// Text between `impl` and its braces; empty for items outside of an `impl`.
     of: String,
     /// Words that ask for it: its name, of an enum the names of its variants too.
     names: Vec<String>,
     text: String,
 }
 
-/// What `files` may call, as one text.
+/// The functions that `files` may call, as one text.
 pub fn text(files: &[File]) -> String {
     let mut mentioned: HashSet<&str> = files.iter().flat_map(|file| words(&file.text)).collect();
     let mut taken = BTreeSet::new();
@@ -40,7 +40,7 @@ pub fn text(files: &[File]) -> String {
             let own = words(&piece.of).find(|word| structures.contains(word));
             let there = own.is_none_or(|name| mentioned.contains(name));
             let asked = there && piece.names.iter().any(|name| mentioned.contains(name.as_str()));
-            // What a type has to begin with has no mention by its name where it is derived.
+            // A derived `Default` calls `default` of the fields' types without mentioning its name.
             let derived = piece.names == ["default"] && mentioned.contains("Default");
             if (asked || derived) && taken.insert(k) {
                 mentioned.extend(words(&piece.text));
@@ -130,7 +130,7 @@ fn split(text: &str) -> Vec<Piece> {
     found
 }
 
-/// What is written out component by component.
+/// Methods that are written out component by component.
 fn by_lane(text: &mut String, lanes: usize) {
     let vector = format!("Vec{lanes}");
     let each = |part: &dyn Fn(&str) -> String| LANES[..lanes].iter().map(|l| part(l)).collect::<Vec<_>>().join(", ");
@@ -203,7 +203,7 @@ mod tests {
     use std::fmt::Write;
     use std::sync::Arc;
 
-    /// What no kernel reaches is looked at by nothing else.
+    /// Compiles every function of the texts: nothing else checks those that no kernel reaches.
     #[test]
     fn every_function_has_its_types() {
         assert!(pieces().len() > 100, "{} functions", pieces().len());
