@@ -2,8 +2,8 @@
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 
-/// Error for a text that could not be read beyond a place: names a character there that Rust does not accept, or a character that editors
-/// hide, from the place on. `None` if the text has neither.
+/// Error for a text that could not be read beyond a place: names a character there that Rust does not accept, or else the first character
+/// of the text that editors hide. `None` if the text has neither.
 pub fn character(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
     let from = reached.start as usize;
     let rest = text.get(from..)?;

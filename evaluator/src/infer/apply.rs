@@ -98,7 +98,7 @@ fn expr(e: &mut Expr, known: &Known) {
             if let Some((key, types)) = known.instances.get(&e.span) {
                 let constants = arguments(Vec::new(), types, e.span);
                 let mut receiver = (**receiver).clone();
-                // What takes its receiver by `&mut` borrows it, as a method does.
+                // A function with a `&mut` receiver borrows it, as a method does.
                 if changes_array(key) {
                     receiver = Expr {
                         span: receiver.span,
@@ -202,7 +202,7 @@ fn ty(t: &mut Type, known: &Known) {
     }
 }
 
-/// Whether a method of arrays in the library changes its receiver.
+/// Returns whether a method of arrays in the library changes its receiver.
 fn changes_array(key: &str) -> bool {
     matches!(key, "Array::swap" | "Array::reverse" | "Array::fill")
 }

@@ -7,7 +7,7 @@ use crate::front::tree::{Expr, ExprKind, Function};
 use crate::ir::Scalar;
 use std::collections::HashMap;
 
-/// What shading languages call differences between the pixels of a quad.
+/// Shading languages' names for differences between the pixels of a quad.
 const DERIVATIVES: [&str; 16] = [
     "dpdx",
     "dpdy",
@@ -143,7 +143,7 @@ impl<'l> Checker<'l> {
         span: Span,
     ) -> Ty {
         if let (Some(found), Some(own)) = (receiver, function.params.first()) {
-            // What the receiver is tells the type parameters of its `impl`.
+            // The receiver's type determines the type parameters of its `impl`.
             let own = self.substituted(&own.ty, &given, span);
             let (own, found) = (self.peeled(&own).0, self.peeled(found).0);
             if matches!(own, Ty::Enum(..) | Ty::Struct(..) | Ty::Array(_)) {

@@ -158,7 +158,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// What a value gives that is run over; `None` if it is no iterator, no array and no range.
+    /// Returns the type of the items that a value iterates over; `None` if it is no iterator, no array and no range.
     fn items(&self, ty: &Ty) -> Option<Ty> {
         match self.table.shallow(ty) {
             Ty::Range(t) | Ty::Iter(t) | Ty::Array(t) => Some(*t),
@@ -206,7 +206,7 @@ impl<'l> Checker<'l> {
         })
     }
 
-    /// What a closure makes of items.
+    /// Returns the type of a closure's result for items.
     pub fn mapped(&mut self, item: &Ty, f: &'l Expr) -> Ty {
         let result = self.table.fresh(Kind::Any);
         self.against(f, &Ty::Fn(vec![item.clone()], Box::new(result.clone())));

@@ -1,4 +1,4 @@
-//! Whether implementations are what their traits declare.
+//! Checks that implementations match the declarations of their traits.
 
 use super::types::Ty;
 use super::{Checker, Known, one};

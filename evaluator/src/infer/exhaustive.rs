@@ -1,4 +1,4 @@
-//! Whether the arms of a `match` take every value, as rustc demands.
+//! Checks that the arms of a `match` cover every value, as rustc demands.
 
 use super::Checker;
 use super::operators::literal;
@@ -44,13 +44,13 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// Whether the rows together take all values of some types.
+    /// Returns whether the rows together cover all values of some types.
     fn covers(&mut self, rows: Vec<Vec<Cell<'_>>>, types: &[Ty]) -> bool {
         let Some((first, rest)) = types.split_first() else {
             return !rows.is_empty();
         };
         let rows = alternatives(rows);
-        // Nothing to tell apart: a type that holds itself, which rustc refuses, has no end.
+        // No pattern looks at this value. Taking it apart would not end for a type that holds itself, which rustc refuses.
         if rows.iter().all(|row| takes_all(row[0])) {
             return self.covers(with(&rows, |_| false), rest);
         }
@@ -118,7 +118,7 @@ impl<'l> Checker<'l> {
                     Some(Pattern::Array(parts, _)) if !parts.iter().any(Pattern::is_rest) => Some(parts.len()),
                     _ => None,
                 });
-                // Where all have `..`, no part of the longest one is left out.
+                // If every pattern has `..`, the length is large enough that no part of the longest one is left out.
                 let named = rows.iter().filter_map(|row| match row[0].map(bare) {
                     Some(Pattern::Array(parts, _)) => Some(parts.len()),
                     _ => None,
@@ -159,7 +159,7 @@ impl<'l> Checker<'l> {
     }
 }
 
-/// What the patterns of a tuple or an array take of each of its parts; `None` if they are not of so many.
+/// Distributes the patterns of a tuple or an array over its `count` parts; `None` if they do not fit that number.
 fn cells(patterns: &[Pattern], count: usize) -> Option<Vec<Cell<'_>>> {
     let mut cells = vec![None; count];
     for (pattern, taken) in Pattern::shared(patterns, count)? {
@@ -185,7 +185,7 @@ fn alternatives(rows: Vec<Vec<Cell<'_>>>) -> Vec<Vec<Cell<'_>>> {
     out
 }
 
-/// What is left of the rows that take a value in their first cell.
+/// Returns the remaining cells of the rows whose first cell matches.
 fn with<'p>(rows: &[Vec<Cell<'p>>], takes: impl Fn(&Pattern) -> bool) -> Vec<Vec<Cell<'p>>> {
     let taken = rows
         .iter()
@@ -193,7 +193,7 @@ fn with<'p>(rows: &[Vec<Cell<'p>>], takes: impl Fn(&Pattern) -> bool) -> Vec<Vec
     taken.map(|row| row[1..].to_vec()).collect()
 }
 
-/// Whether an expression is a path that ends with a name.
+/// Returns whether an expression is a path that ends with a name.
 fn is_path_to(e: &Expr, name: &String) -> bool {
     matches!(&e.kind, ExprKind::Path(path) if path.last() == Some(name))
 }
@@ -223,7 +223,7 @@ fn range(pattern: &Pattern) -> Option<(i64, i64)> {
     }
 }
 
-/// Whether a pattern compares with a value anywhere.
+/// Returns whether a pattern compares any part with a value.
 fn compares(pattern: &Pattern) -> bool {
     match bare(pattern) {
         Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Ref(..) | Pattern::At(..) => false,

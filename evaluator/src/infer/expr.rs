@@ -59,7 +59,7 @@ impl<'l> Checker<'l> {
         self.errors.push(error);
     }
 
-    /// What to write to make one type of another.
+    /// Help that converts one type to another.
     fn conversion(&self, wanted: &Ty, found: &Ty) -> Option<String> {
         let number = |ty: &Ty| matches!(ty, Ty::Float | Ty::Int(_));
         Some(match (wanted, found) {
@@ -231,7 +231,7 @@ impl<'l> Checker<'l> {
                 self.loops.push(Around { label, block: true });
                 let found = self.block(block, wanted);
                 self.loops.pop();
-                // Who leaves it comes to what follows.
+                // A `break` out of the block continues after it.
                 match self.table.shallow(&found) {
                     Ty::Never if breaks(block, label) => Ty::UNIT,
                     _ => found,
@@ -289,7 +289,7 @@ impl<'l> Checker<'l> {
                 self.loops.pop();
                 let at = body.value.as_ref().map_or(span, |value| value.span);
                 self.coerce(&Ty::UNIT, &found, at);
-                // What only `return` ends, or a loop around it, has no end of its own.
+                // A `while true` without a `break` of its own only ends by a `return` or by a `break` of a loop around it.
                 if matches!(condition.kind, ExprKind::Bool(true)) && !breaks(body, label.as_deref()) {
                     Ty::Never
                 } else {
@@ -423,7 +423,7 @@ impl<'l> Checker<'l> {
         target
     }
 
-    /// Whether an expression is a literal, with signs before it or in brackets, which takes its type from the cast around it.
+    /// Returns whether an expression is a literal, with signs before it or in parentheses, which takes its type from the cast around it.
     fn is_literal(&self, expr: &Expr) -> bool {
         match &expr.kind {
             ExprKind::Int(_, None) | ExprKind::Float(_, false) => true,

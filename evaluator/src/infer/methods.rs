@@ -283,7 +283,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// One argument of the type that comes out.
+    /// A method with one argument of the type of its result.
     fn takes_own(&mut self, args: &'l [Expr], own: Ty) -> Ty {
         self.takes(args, std::slice::from_ref(&own), own.clone())
     }

@@ -28,20 +28,19 @@ use types::{Kind, Table, Ty};
 
 pub use traits::trait_of;
 
-/// What the evaluator is told of expressions of an item, by their places.
+/// Results of inference for the expressions of an item, by their places.
 #[derive(Default)]
 struct Known {
     /// Types of integer literals.
     literals: HashMap<Span, IntType>,
-    /// Functions of the library that methods of numbers, vectors and the like stand for, and calls that are told apart by
-    /// their types.
+    /// Library functions behind methods of numbers, vectors and the like, and behind calls that their types distinguish.
     methods: HashMap<Span, String>,
-    /// Calls of functions with type parameters: what the function goes by, and the names of the types.
+    /// Calls of functions with type parameters: the function's key, and the names of the types.
     instances: HashMap<Span, (String, Vec<Option<String>>)>,
 }
 
-/// What is known of each item, by its name; of what is no item that the kernel reaches, by no name. Functions that traits
-/// give several types stand at one place.
+/// Results of inference by the name of the item; those of expressions outside of items that the kernel reaches, by the empty name.
+/// Places alone would not do: the functions that a trait provides for several types share theirs.
 type KnownItems = HashMap<String, Known>;
 
 /// Gives every literal of the functions, constants and options that are `reached` its type.
@@ -75,7 +74,7 @@ pub fn mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagno
     errors
 }
 
-/// What is known, and everything that is wrong.
+/// Infers all reached items: the results, and every error.
 fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diagnostic>) {
     let (mut items, mut errors) = (KnownItems::new(), Vec::new());
     for name in reached {
@@ -136,16 +135,16 @@ struct Local {
     name: String,
     ty: Ty,
     mutable: bool,
-    /// Whether it was declared without a value, which then may be assigned once.
+    /// `true` if it was declared without a value, so that it may be assigned once.
     deferred: bool,
     span: Span,
 }
 
-/// What a `break` may lead out of.
+/// A loop or labelled block that a `break` may leave.
 #[derive(Clone, Copy)]
 struct Around<'l> {
     label: Option<&'l str>,
-    /// Whether it is a block, which `break` without a label and `continue` do not know.
+    /// `true` for a block, which only a `break` with its label can leave.
     block: bool,
 }
 
@@ -158,7 +157,7 @@ struct Deferred<'l> {
     expr: &'l Expr,
 }
 
-/// What is known while one function is looked at.
+/// State of the inference of one function.
 struct Checker<'l> {
     library: &'l Library,
     table: Table,
@@ -173,7 +172,7 @@ struct Checker<'l> {
     bounded: Vec<traits::Bound>,
     /// Calls of functions with type parameters.
     instances: Vec<traits::Instance>,
-    /// What the function gives.
+    /// Type of the function's result.
     result: Ty,
     /// The loops around, and blocks with labels, outermost first.
     loops: Vec<Around<'l>>,
@@ -181,9 +180,9 @@ struct Checker<'l> {
     integers: Vec<(Span, Ty, i64)>,
     /// Float literals and their types.
     floats: Vec<(Span, Ty)>,
-    /// What is compared or cast: where a number that is an `f64` natively can be told from an `f32`.
+    /// Types of values that are compared or cast, which shows whether a number is natively an `f64` or an `f32`.
     observed: Vec<Ty>,
-    /// What a minus sign stands before, and where the sign and its operand stand.
+    /// Operands of a minus sign: the place of the sign, the type, and the place of the operand.
     negated: Vec<(Span, Ty, Span)>,
     /// Operators between two literals: where, which, and the literals with the type of the result.
     computed: Vec<(Span, crate::ir::BinaryOp, [i64; 2], Ty)>,
@@ -352,7 +351,7 @@ impl<'l> Checker<'l> {
         let observed: Vec<Ty> = self.observed.iter().map(|ty| self.table.shallow(ty)).collect();
         let mut named = Vec::new();
         for (span, ty) in std::mem::take(&mut self.floats) {
-            // One error for all the literals that would be of the same type.
+            // Reports a single error for all literals of the same type.
             let ty = self.table.shallow(&ty);
             if self.table.kind(&ty) == Some(Kind::Float) && observed.contains(&ty) && !named.contains(&ty) {
                 named.push(ty);

@@ -71,7 +71,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// What an operator gives; `None` if it does not take these.
+    /// Returns the type of an operator's result; `None` if it does not accept these operands.
     fn combined(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> Option<Ty> {
         if op.is_comparison() {
             return self.compared(op, left, right).then_some(Ty::Bool);
@@ -292,7 +292,7 @@ pub fn literal(expr: &Expr) -> Option<i64> {
     }
 }
 
-/// Whether an operation on literals leaves the range of its type or divides by zero, which rustc refuses.
+/// Returns whether an operation on literals leaves the range of its type or divides by zero, which rustc refuses.
 pub fn overflows(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
     let result = match op {
         BinaryOp::Div | BinaryOp::Rem => return b == 0,

@@ -7,10 +7,10 @@ use crate::front::tree::{Expr, ExprKind, Type};
 use crate::ir::{BinaryOp, Scalar};
 use std::collections::HashMap;
 
-/// Whether a place may be written.
+/// Permission to write a place.
 #[derive(Clone, Debug)]
 pub enum Access {
-    /// It may.
+    /// Can be written.
     Writable,
     /// A variable that is not `mut`: its name, where it is declared, and whether it was declared without a value.
     Immutable(String, Span, bool),
@@ -70,7 +70,7 @@ impl<'l> Checker<'l> {
         (ty, mutable)
     }
 
-    /// What a field or an element is a part of: references are followed.
+    /// Returns the type of the value that a field or an element belongs to, behind any references.
     fn inside(&mut self, base: &Ty, access: Access) -> (Ty, Access) {
         if self.table.kind(base) == Some(Kind::Any) {
             self.solve();

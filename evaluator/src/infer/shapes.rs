@@ -158,7 +158,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// What `?` gives back where there is no value.
+    /// Checks the type that `?` returns from the function if there is no value.
     fn ends_with(&mut self, result: &Ty, wanted: Ty, span: Span) {
         if self.table.unify(result, &wanted) {
             return;

@@ -189,7 +189,7 @@ impl<'l> Checker<'l> {
     }
 }
 
-/// Whether a generic argument is `_`.
+/// Returns whether a generic argument is `_`.
 fn is_inferred(stated: &Expr) -> bool {
     matches!(&stated.kind, ExprKind::Path(path) if path == &[crate::front::INFERRED])
 }

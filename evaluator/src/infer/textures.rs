@@ -36,7 +36,7 @@ impl<'l> Checker<'l> {
         result
     }
 
-    /// What comes of a coordinate, or in each lane of one in each lane.
+    /// Returns the type of a read at a coordinate, or in each lane for a coordinate in each lane.
     fn per_lane(&mut self, coord: &'l Expr, wanted: &Ty, result: &Ty) -> Ty {
         let found = self.expr(coord, Some(wanted));
         match self.table.shallow(&found) {

@@ -1,5 +1,4 @@
-//! What traits give types: methods of type parameters, operators on structures, functions that several implementations
-//! give under one name.
+//! Trait functions: methods of type parameters, operators on structures, functions that several implementations provide under one name.
 
 use super::Checker;
 use super::types::{Kind, Ty};
@@ -8,12 +7,12 @@ use crate::front::tree::{Expr, Function, Generic};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 
-/// A call of which the function follows from what it has to give.
+/// A call whose function depends on the type of its result.
 pub struct Pending {
     span: Span,
-    /// What it has to give.
+    /// Type of the result.
     wanted: Ty,
-    /// What it is given; nothing of `Default::default()`.
+    /// Type of the argument; `None` for `Default::default()`.
     from: Option<Ty>,
 }
 
@@ -27,7 +26,7 @@ pub struct Bound {
 /// A call of a function with type parameters, and what they are.
 pub struct Instance {
     span: Span,
-    /// What the function goes by.
+    /// Key of the function.
     key: String,
     /// The types in the order of the parameters; nothing of constants.
     types: Vec<Option<Ty>>,
@@ -51,7 +50,7 @@ pub fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
 }
 
 impl<'l> Checker<'l> {
-    /// What functions of a type go by; `None` of a type that has no name, or is not known yet.
+    /// Returns the name under which a type's functions are listed; `None` for a type that has no name, or is not known yet.
     pub fn type_name(&self, ty: &Ty) -> Option<String> {
         match self.table.shallow(ty) {
             Ty::Struct(name, _) | Ty::Enum(name, _) => Some(name),
@@ -87,7 +86,7 @@ impl<'l> Checker<'l> {
         None
     }
 
-    /// Whether a value of a type does for a parameter. What is not known does for anything.
+    /// Returns whether a value of a type can be passed for a parameter. An unknown type fits everything.
     fn fits(&mut self, wanted: &Ty, found: &Ty) -> bool {
         match (self.table.shallow(wanted), self.table.shallow(found)) {
             (Ty::Ref(..), found @ (Ty::Struct(..) | Ty::Enum(..) | Ty::Float | Ty::Int(_) | Ty::Vector(..))) => {
@@ -128,7 +127,7 @@ impl<'l> Checker<'l> {
         self.called_with(function, key, found, span)
     }
 
-    /// What a function gives for arguments of some types.
+    /// Returns the type of a function's result for arguments of some types.
     fn called_with(&mut self, function: &'l Function, key: &str, found: &[Ty], span: Span) -> Ty {
         let given = self.instantiate(function, &[]);
         for (param, found) in function.params.iter().zip(found) {
@@ -152,10 +151,10 @@ impl<'l> Checker<'l> {
         }
         let own = function.params.first();
         if own.is_some_and(|own| own.name == "self" && own.ty.is_mutable_reference()) {
-            // Its receiver is a place, which a call does not take.
+            // The receiver is a place, which a call does not take.
             return;
         }
-        // What an iterator has is given the list of its values.
+        // Methods of iterators are called with the list of the values.
         if key.starts_with("Iterator::") {
             return;
         }
@@ -269,7 +268,7 @@ impl<'l> Checker<'l> {
         self.with_given(function, given, receiver, args, span)
     }
 
-    /// What an operator's trait gives for two types; `None` if neither is a structure or an enum with that trait.
+    /// Returns the type of the result of an operator's trait for two types; `None` if neither is a structure or an enum with that trait.
     pub fn operator_of(&mut self, (of, name): (&str, &str), left: &Ty, right: &Ty) -> Option<Ty> {
         let own = |ty: Ty| matches!(ty, Ty::Struct(..) | Ty::Enum(..));
         if !own(self.peeled(left).0) && !own(self.peeled(right).0) {
@@ -301,7 +300,7 @@ impl<'l> Checker<'l> {
         None
     }
 
-    /// What `-` or `!` before a structure or an enum gives.
+    /// Returns the type of `-` or `!` before a structure or an enum.
     pub fn unary_of(&mut self, op: UnaryOp, operand: &Ty) -> Option<Ty> {
         let (of, name) = match op {
             UnaryOp::Neg => ("Neg", "neg"),
@@ -318,7 +317,7 @@ impl<'l> Checker<'l> {
         Some(self.substituted(&function.result, &given, function.span))
     }
 
-    /// What an index of a structure gives.
+    /// Returns the type of an indexed structure.
     pub fn indexed(&mut self, base: &Ty, index: &Ty) -> Option<Ty> {
         let Ty::Struct(ty, _) = base else { return None };
         let library = self.library;
@@ -433,7 +432,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// Whether a trait is another, or needs it.
+    /// Returns whether a trait is another, or has it as a supertrait.
     fn has_trait(&self, known: &str, of: &str) -> bool {
         let supers = self.library.traits.get(known).map_or(&[][..], |known| &known.supers);
         known == of || supers.iter().any(|known| self.has_trait(known, of))

@@ -28,7 +28,7 @@ pub enum Ty {
     Array(Box<Ty>),
     /// `a..b`.
     Range(Box<Ty>),
-    /// What `.iter()` and its like give.
+    /// Iterator, as `.iter()` and the like return it.
     Iter(Box<Ty>),
     /// A structure of the kernel's files, with its type arguments.
     Struct(String, Vec<Ty>),
@@ -48,7 +48,7 @@ pub enum Ty {
     Storage(&'static str, Box<Ty>),
     /// `&T`, `&mut T` (true).
     Ref(bool, Box<Ty>),
-    /// What is called: its parameters and its result.
+    /// A function or closure: its parameters and its result.
     Fn(Vec<Ty>, Box<Ty>),
     /// A type parameter of the function that is looked at.
     Param(String),
@@ -84,7 +84,7 @@ impl Ty {
         Ty::Ref(false, Box::new(self))
     }
 
-    /// Its parts, to be looked at one by one.
+    /// Component types, for traversals.
     fn parts(&self) -> Vec<&Ty> {
         match self {
             Ty::Tuple(parts) | Ty::Struct(_, parts) | Ty::Enum(_, parts) => parts.iter().collect(),
@@ -97,7 +97,7 @@ impl Ty {
     }
 }
 
-/// What a variable may become.
+/// Types that a variable may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Anything.
@@ -133,7 +133,7 @@ impl Table {
         ty.clone()
     }
 
-    /// What an unknown variable may become; `None` for a type that is known.
+    /// Returns the types that an unknown variable may take; `None` for a type that is known.
     pub fn kind(&self, ty: &Ty) -> Option<Kind> {
         match self.shallow(ty) {
             Ty::Var(v) => self.variables[v as usize].as_ref().err().copied(),
@@ -193,7 +193,7 @@ impl Table {
                     _ => !self.occurs(*v, ty),
                 };
                 match ty {
-                    // What never gives a value says nothing of the other.
+                    // An expression that never returns determines no other type.
                     Ty::Never => fits,
                     _ => fits && self.bind(*v, ty.clone()),
                 }
@@ -234,7 +234,7 @@ impl Table {
         }
     }
 
-    /// What meets something unknown is unknown itself: its literals take their types from the values that they meet.
+    /// Marks a type that is unified with an unknown one as unknown: its literals take their types from the values that they meet.
     fn taint(&mut self, ty: &Ty) {
         match self.shallow(ty) {
             Ty::Var(v) => {

@@ -1,4 +1,4 @@
-//! What a graph is run on.
+//! Inputs of a graph's execution.
 
 use crate::ir::{Bits, Graph, Scalar, Texture, TextureKind, Type};
 use crate::passes::{Schedule, layers_read};
@@ -6,7 +6,7 @@ use std::fmt;
 
 /// An image that a graph can read.
 pub trait Texels: Sync {
-    /// What a component of a texel is: a float, or an integer.
+    /// Kind of a texel's components: floats or integers.
     fn scalar(&self) -> Scalar {
         Scalar::F32
     }
@@ -89,7 +89,7 @@ impl Texels for Image {
     }
 }
 
-/// What lies beyond a texture's border.
+/// Texels beyond a texture's border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Address {
     /// The border's texels.
@@ -112,14 +112,14 @@ pub enum Comparison {
     GreaterEqual,
 }
 
-/// How a sampler reads.
+/// State of a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerState {
-    /// Whether the four texels around a place are weighed; else the nearest counts alone.
+    /// `true` if the four texels around a place are interpolated, `false` if only the nearest is read.
     pub linear: bool,
-    /// What lies beyond the border.
+    /// Texels beyond the border.
     pub address: Address,
-    /// Whether the two levels between which one falls are weighed; else the nearest counts alone.
+    /// `true` if the two levels around the level of detail are interpolated, `false` if only the nearest is read.
     pub linear_mip: bool,
     /// For a comparison sampler, when a texel passes.
     pub comparison: Comparison,
@@ -236,7 +236,7 @@ pub(super) fn check(
         if let Some(needed) = misshapen(texture, *image) {
             return Err(InputError::Shape { name, needed });
         }
-        // Where nothing bounds the index it is clamped to what there is.
+        // An index without a known bound is clamped to the layers that exist.
         let needed = layers_read(graph, index as u32).unwrap_or(1);
         if found < needed {
             return Err(InputError::Layers { name, found, needed });
@@ -261,7 +261,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// What an image is to be for a texture that it does not fit, or whose levels do not.
+/// Returns the shape that a texture requires, if the image or its levels have another one.
 fn misshapen(texture: &Texture, image: &dyn Texels) -> Option<&'static str> {
     let half = |side: u32, level: u32| side.checked_shr(level).unwrap_or(0).max(1);
     let [width, height, depth] = image.extent(0);
@@ -292,7 +292,7 @@ pub enum InputError {
         name: String,
         /// Numbers and vectors that there are.
         found: usize,
-        /// Those of one structure.
+        /// Numbers and vectors of one structure.
         each: usize,
     },
     /// The image has fewer layers, or samples a texel, than the graph reads.
@@ -308,9 +308,9 @@ pub enum InputError {
     Scalar {
         /// The texture.
         name: String,
-        /// What its components are.
+        /// Kind of the image's components.
         found: Scalar,
-        /// What components are read.
+        /// Kind of components that is read.
         needed: Scalar,
     },
     /// The image has another shape.

@@ -24,7 +24,7 @@ impl<R: Real> Interpreter<'_, R> {
         }
     }
 
-    /// Whether the condition of a branch holds.
+    /// Returns whether the condition of a branch holds.
     pub(super) fn holds(&self, node: NodeId, s: &Scratch) -> bool {
         s.values[self.graph.node(node).args[0].0 as usize][0] != 0
     }
@@ -51,7 +51,7 @@ impl<R: Real> Interpreter<'_, R> {
         start..end
     }
 
-    /// What a loop carries into its first iteration.
+    /// Returns the values that a loop carries into its first iteration.
     pub(super) fn entering(&self, node: NodeId, s: &Scratch) -> Vec<Vec<Cells>> {
         let args = &self.graph.node(node).args;
         args[2..].iter().map(|a| whole(self.graph, s, *a)).collect()
@@ -66,7 +66,7 @@ impl<R: Real> Interpreter<'_, R> {
         }
     }
 
-    /// What a loop carries on, and whether this iteration was the last one.
+    /// Returns the values that a loop carries into its next iteration, and whether this iteration was the last one.
     pub(super) fn end_iteration(&self, region: &Region, s: &mut Scratch) -> (Vec<Vec<Cells>>, bool) {
         s.loops.pop();
         let stops = region.stop.is_some_and(|stop| s.values[stop.0 as usize][0] != 0);
@@ -90,13 +90,13 @@ impl<R: Real> Interpreter<'_, R> {
         s.arrays[node.0 as usize] = carried.concat();
     }
 
-    /// Whether nothing uses a value but `user`, which is evaluated once each time that the value is.
+    /// Returns whether a value's only user is `user`, which is evaluated once each time that the value is.
     pub(super) fn is_last_use(&self, id: NodeId, user: NodeId) -> bool {
         let Schedule { uses, place, .. } = self.schedule;
         uses[id.0 as usize] == 1 && place[id.0 as usize] == place[user.0 as usize]
     }
 
-    /// What leaves a loop's body. An array that is made in each iteration, and leaves once, is moved.
+    /// Returns the values that leave a loop's body. An array that is made in each iteration, and leaves once, is moved.
     fn leaving(&self, region: &Region, s: &mut Scratch) -> Vec<Vec<Cells>> {
         let here = self.schedule.place[region.params[0].0 as usize];
         let mut values = Vec::new();

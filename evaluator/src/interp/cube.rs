@@ -3,9 +3,8 @@
 use super::sampling::{between, floor, footprint, unary};
 use crate::ir::{BinaryOp, Real, UnaryOp};
 
-/// What a filter makes of a cube of `n` texels a side in a direction; `texel` gives those inside by column, row and face.
-/// Texels beyond an edge are those of the next face; where three faces meet, what would be the fourth texel is the mean of
-/// the three.
+/// Filters a cube of `n` texels a side in a direction; `texel` returns those inside by column, row and face. Texels beyond an edge are
+/// those of the next face; where three faces meet, the missing fourth texel is the mean of the three.
 pub fn filtered<R: Real>(n: u32, linear: bool, direction: [R; 3], texel: impl Fn(u32, u32, u32) -> [R; 4]) -> [R; 4] {
     let side = i64::from(n);
     let (face, uv) = face(direction);

@@ -1,4 +1,4 @@
-//! Where a number stopped being finite.
+//! Origin of non-finite numbers.
 
 use crate::ir::{Counter, Graph, NodeId, Op};
 
@@ -7,14 +7,14 @@ use crate::ir::{Counter, Graph, NodeId, Op};
 pub struct NonFiniteOrigin {
     /// The operation.
     pub node: NodeId,
-    /// What it gave, component by component.
+    /// Result of the operation, component by component.
     pub value: Vec<f64>,
     /// Counters of the loops around it, looped and unrolled, outer ones first.
     pub counters: Vec<Counter>,
 }
 
 impl NonFiniteOrigin {
-    /// What happened, in a sentence: which variable, in which round of which loops, at which line.
+    /// Describes the event in a sentence: the variable, the iterations of the loops around it, and the line.
     pub fn describe(&self, graph: &Graph) -> String {
         let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();
         let value = lanes.join(", ");
@@ -42,7 +42,7 @@ impl NonFiniteOrigin {
         text
     }
 
-    /// Where it comes from: its own origin, or that of the first named value that it goes into.
+    /// Returns the operation's own origin, or that of the first named value that uses it.
     fn origin<'g>(&self, graph: &'g Graph) -> Option<&'g crate::ir::Origin> {
         let mut at = self.node;
         loop {

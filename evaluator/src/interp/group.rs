@@ -65,7 +65,7 @@ impl<R: Real> Interpreter<'_, R> {
         }
     }
 
-    /// What the first invocation says, and all others too.
+    /// Evaluates a decision for the first invocation, and checks that all others agree.
     fn agreed<T: PartialEq>(&self, s: &mut Scratch, says: impl Fn(&Self, &Scratch) -> T) -> T {
         let first = says(self, &s.threads[0]);
         if s.threads.iter().any(|thread| says(self, thread) != first) {
@@ -88,7 +88,7 @@ impl<R: Real> Interpreter<'_, R> {
         }
     }
 
-    /// Whether a step has a barrier in it.
+    /// Returns whether a step contains a barrier.
     fn waits(&self, step: &Step) -> bool {
         let any = |block: &Block| block.steps.iter().any(|step| self.waits(step));
         match step {

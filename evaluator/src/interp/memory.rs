@@ -1,17 +1,17 @@
-//! What a kernel writes: buffers, and what a workgroup shares, with who touched it last.
+//! Memory that a kernel writes: buffers and workgroup memory, with the last invocations that accessed it.
 
 use crate::ir::arith::Cells;
 use crate::ir::{Access, Graph, Memory};
 
-/// What the invocations of a workgroup did that has no defined result.
+/// Undefined behaviour of the invocations of a workgroup.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Disorder {
-    /// One wrote what another one read or wrote, with no barrier between.
+    /// An invocation wrote an element that another one read or wrote, without a barrier between.
     #[error(
         "threads {threads:?} of the workgroup at {origin:?} both use `{name}[{index}]` in one phase, and one of them writes it"
     )]
     Race {
-        /// What is shared, by its name in the kernel.
+        /// Name of the workgroup memory in the kernel.
         name: String,
         /// The element.
         index: usize,
@@ -28,13 +28,13 @@ pub enum Disorder {
     },
 }
 
-/// Who touched an element since the last barrier.
+/// Accesses to an element since the last barrier.
 #[derive(Clone, Copy, Debug, Default)]
 struct Touched {
     phase: u32,
     writer: Option<u32>,
     reader: Option<u32>,
-    /// Whether others than `reader` have read it too.
+    /// `true` if others than `reader` have read it too.
     several: bool,
 }
 
@@ -179,7 +179,7 @@ impl Memories {
         let Some(other) = other.filter(|other| *other != self.thread) else {
             return;
         };
-        // One of several readers.
+        // Stands for one of several readers.
         let other = if other == u32::MAX {
             u32::from(self.thread == 0)
         } else {
@@ -197,7 +197,7 @@ impl Memories {
 }
 
 impl Touched {
-    /// What has been done in a phase: nothing, if the last touch was before.
+    /// Returns the accesses in a phase: none, if the last access was in an earlier one.
     fn in_phase(&mut self, phase: u32) -> &mut Touched {
         if self.phase != phase {
             *self = Touched {

@@ -45,27 +45,27 @@ pub struct Scratch {
     /// Iterations of the last invocation, of all its loops.
     iterations: u64,
     non_finite_origin: Option<NonFiniteOrigin>,
-    /// What is written.
+    /// Memory that the kernel writes.
     memory: Memories,
-    /// Where the invocation lies in its workgroup.
+    /// Position of the invocation in its workgroup.
     local: [u32; 2],
-    /// Those of a workgroup, row by row; empty of other invocations.
+    /// State of each invocation of a workgroup, row by row; empty for other kernels.
     threads: Vec<Scratch>,
 }
 
 impl Scratch {
-    /// Where the last pixel first had a NaN or an infinity, if the interpreter watches for them.
+    /// Returns the first operation of the last pixel that produced a NaN or an infinity, if the interpreter watches for them.
     pub fn non_finite_origin(&self) -> Option<&NonFiniteOrigin> {
         self.non_finite_origin.as_ref()
     }
 
-    /// Whether the last invocation was ended because its loops had more than [`MOST_ITERATIONS`]: its result is of no account.
+    /// Returns whether the last invocation was ended because its loops had more than [`MOST_ITERATIONS`]: its result is meaningless.
     pub fn is_endless(&self) -> bool {
         let mut all = std::iter::once(self).chain(&self.threads);
         all.any(|scratch| scratch.iterations > MOST_ITERATIONS)
     }
 
-    /// What the invocations of a workgroup did that has no defined result, the first time.
+    /// Returns the first undefined behaviour of the invocations of a workgroup.
     pub fn disorder(&self) -> Option<&Disorder> {
         self.memory.disorder()
     }
@@ -180,16 +180,16 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
     }
 
-    /// What the first target of a pixel inside the frame holds: see [`Interpreter::invocation`].
+    /// Returns the value of the first target of a pixel inside the frame: see [`Interpreter::invocation`].
     pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
         let [width, height] = self.graph.invocation.tile();
         let (left, upper) = (x % width, y % height);
         self.invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
     }
 
-    /// What the first target holds of all pixels of the invocation whose upper left one is given, or of all of its workgroup, row
-    /// by row; those outside of the frame are of no account. Components that a value lacks are 0, and the fourth is 1. Of the other targets
-    /// [`Interpreter::target`] tells.
+    /// Runs the invocation whose upper left pixel is given, or its whole workgroup, and returns the values of the first target of all its
+    /// pixels, row by row; those outside of the frame are meaningless. Components that a value lacks are 0, and the fourth is 1.
+    /// [`Interpreter::target`] returns the other targets.
     pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.non_finite_origin = None;
         scratch.iterations = 0;
@@ -212,7 +212,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             .collect()
     }
 
-    /// What a target, by its index in [`Graph::targets`], holds of all pixels of the last invocation, in the order of
+    /// Returns the values of a target, by its index in [`Graph::targets`], of all pixels of the last invocation, in the order of
     /// [`Interpreter::invocation`]: floats and integers as they are.
     pub fn target(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
         self.given(index, scratch)
@@ -233,7 +233,8 @@ impl<'a, R: Real> Interpreter<'a, R> {
         })
     }
 
-    /// What a buffer that is written holds now, by its index in [`Graph::buffers`]: each element in as many lanes as it has.
+    /// Returns the present contents of a buffer that is written, by its index in [`Graph::buffers`]: each element in as many lanes as it
+    /// has.
     pub fn buffer(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
         let ty = self.graph.buffers[index].value();
         let lanes = ty.components() as usize;
@@ -244,8 +245,8 @@ impl<'a, R: Real> Interpreter<'a, R> {
         elements.collect()
     }
 
-    /// What a picture that is written at any place holds now, by its index in [`Graph::images`], row by row: 0 where nothing was
-    /// stored.
+    /// Returns the present contents of a picture that is written at any place, by its index in [`Graph::images`], row by row: 0 where
+    /// nothing was stored.
     pub fn image(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
         let ty = self.graph.images[index].ty;
         let texels = scratch.memory.image(index).iter();
@@ -341,7 +342,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
     }
 
-    /// What a read gives. Everything that is read has been bound.
+    /// Evaluates a read. Every resource that is read has been bound.
     fn read(&self, op: &Op, args: &[NodeId], s: &Scratch) -> Cells {
         let word = |k: usize, lane: usize| args.get(k).map_or(0, |a| s.values[a.0 as usize][lane] as u32);
         let real = |k: usize, lane: usize| R::from_bits(s.values[args[k].0 as usize][lane]);

@@ -8,19 +8,19 @@ use crate::ir::{Real, TextureKind, UnaryOp};
 pub struct Sampled<'a> {
     /// The image.
     pub image: &'a dyn Texels,
-    /// What it is to the kernel.
+    /// Kind of texture in the kernel.
     pub kind: TextureKind,
-    /// How it is read.
+    /// State of the sampler.
     pub state: SamplerState,
     /// The layer that is read, where there are several.
     pub layer: u32,
 }
 
-/// Which of a texture's levels are read.
+/// Level of detail of a read.
 pub enum Detail<R> {
     /// The finest.
     Finest,
-    /// One, or between two of them.
+    /// A level, or a position between two of them.
     Level(R),
     /// That at which the longer of two steps is one texel.
     Steps([[R; 3]; 2]),
@@ -118,7 +118,7 @@ impl Sampled<'_> {
         [tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0)]
     }
 
-    /// What the filter makes of a level's texels: `texel` gives those inside by column, row and layer, slice or face.
+    /// Filters the texels of a level: `texel` returns those inside by column, row and layer, slice or face.
     fn filtered<R: Real>(&self, place: [R; 3], level: u32, texel: impl Fn(u32, u32, u32) -> [R; 4]) -> [R; 4] {
         let linear = self.state.linear;
         if self.kind.is_cube() {

@@ -1,4 +1,4 @@
-//! What operations do: the one place, used to fold constants and to interpret, in any precision.
+//! Arithmetic of the operations: the single definition, used to fold constants and to interpret, in any precision.
 
 use super::{AtomicOp, BinaryOp, Bits, Op, Real, Scalar, Type, UnaryOp, usize_bits, usize_value};
 
@@ -131,7 +131,7 @@ fn binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
     }
 }
 
-/// One component of an operation on two operands of a type.
+/// Computes a component of an operation on two operands of a type.
 fn component<R: Real>(op: BinaryOp, operand: Type, a: u64, b: u64) -> Option<u64> {
     let first = |holds: bool| Some(if holds { a } else { b });
     match op {
@@ -268,7 +268,7 @@ fn bitcast<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
         _ => return None,
     })
 }
-/// What an atomic operation leaves of an integer and a value.
+/// Returns the value that an atomic operation stores, from the old value and its operand.
 pub fn atomic(op: AtomicOp, ty: Type, before: u64, value: u64) -> u64 {
     let (a, b) = (before as u32, value as u32);
     let signed = ty.kind() == Some(Scalar::I32);

@@ -5,11 +5,11 @@ use super::Type;
 /// An array that the host fills.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Buffer {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
-    /// What it holds.
+    /// Type of an element.
     pub element: Element,
-    /// What the kernel does with it.
+    /// Accesses by the kernel.
     pub access: Access,
 }
 
@@ -23,15 +23,15 @@ impl Buffer {
     }
 }
 
-/// What a kernel does with a buffer.
+/// Accesses of a kernel to a buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Access {
-    /// It only reads, and nothing changes the buffer meanwhile.
+    /// Only reads, and nothing changes the buffer meanwhile.
     #[default]
     Read,
-    /// It only writes.
+    /// Only writes.
     Write,
-    /// It changes elements by atomic operations.
+    /// Changes elements by atomic operations.
     Atomic,
 }
 
@@ -48,16 +48,16 @@ pub enum Element {
 /// out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Structure {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
-    /// Its fields.
+    /// Fields in order.
     pub fields: Vec<Field>,
 }
 
 /// A field of a structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Its name; those of what lies in it are joined by `_`.
+    /// Name; those of the fields of a nested structure are joined by `_`.
     pub name: String,
     /// A scalar or vector, or an array of them.
     pub ty: Type,
@@ -118,7 +118,7 @@ impl Element {
         }
     }
 
-    /// Where among [`values`](Self::values) a field begins.
+    /// Index in [`values`](Self::values) of a field's first value.
     pub fn first_value(&self, field: u32) -> usize {
         match self {
             Element::Value(_) => 0,

@@ -13,14 +13,14 @@ pub struct NodeId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct RegionId(pub u32);
 
-/// One operation.
+/// An operation.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Node {
-    /// What it does.
+    /// Operation.
     pub op: Op,
-    /// With what.
+    /// Arguments.
     pub args: Vec<NodeId>,
-    /// What comes out.
+    /// Type of the result.
     pub ty: Type,
 }
 
@@ -35,7 +35,7 @@ pub struct Region {
     pub results: Vec<NodeId>,
     /// Of a loop: whether this iteration is the last one, whatever the counter says.
     pub stop: Option<NodeId>,
-    /// What happens in it, in order: effects, and loops and branches that have some.
+    /// Effects of the region in order, with the loops and branches that contain effects.
     pub effects: Vec<NodeId>,
 }
 
@@ -58,18 +58,19 @@ pub enum Event {
 /// A sampler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sampler {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
-    /// Whether it compares with a reference.
+    /// `true` if it compares with a reference.
     pub comparison: bool,
-    /// Whether it may weigh texels. One that neither does nor compares gathers them as they are, from inside the texture.
+    /// `true` if it may interpolate texels. A sampler that neither filters nor compares gathers texels as they are, from inside the
+    /// texture.
     pub filters: bool,
 }
 
-/// One of the values that a kernel gives for a pixel.
+/// A value that a kernel computes for each pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Its name: [`Target::ALONE`], or that of a field of the kernel's structure.
+    /// Name: [`Target::ALONE`], or that of a field of the kernel's structure.
     pub name: String,
     /// A float or integer, or a vector of them.
     pub ty: Type,
@@ -79,7 +80,7 @@ impl Target {
     /// Name of the target of a kernel that gives one value.
     pub const ALONE: &'static str = "destination";
 
-    /// What a kernel gives that says nothing else: one colour.
+    /// Default target of a kernel: one colour.
     pub fn colour() -> Target {
         Target {
             name: Target::ALONE.to_owned(),
@@ -91,7 +92,7 @@ impl Target {
 /// A value set at run time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uniform {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
     /// Scalar or vector.
     pub ty: Type,
@@ -106,34 +107,34 @@ pub struct Uniform {
 pub struct Part {
     /// Name of the whole in the kernel.
     pub of: String,
-    /// Which part, from 0.
+    /// Index of the part, from 0.
     pub index: u32,
-    /// How many there are.
+    /// Number of parts.
     pub count: u32,
-    /// Whether they are columns.
+    /// `true` if the parts are columns of a matrix.
     pub columns: bool,
 }
 
 /// A value of a fragment that the host's rasteriser interpolates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Varying {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
     /// Float, or vector of floats.
     pub ty: Type,
 }
 
-/// What one invocation computes.
+/// Pixels that an invocation computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Invocation {
-    /// One pixel, inside the frame.
+    /// A pixel inside the frame.
     #[default]
     Pixel,
-    /// One pixel that may lie outside the frame: of a block that is yet to be expanded.
+    /// A pixel that may lie outside the frame: of a block that is yet to be expanded.
     MayBeOutside,
-    /// One pixel, in step with the three others of its quad; it may lie outside the frame.
+    /// A pixel, in step with the three others of its quad; it may lie outside the frame.
     Lane,
-    /// One pixel, together with the others of its workgroup, so many across and down; it may lie outside the frame.
+    /// A pixel, together with the others of its workgroup, so many across and down; it may lie outside the frame.
     Group([u32; 2]),
     /// A block of pixels, so many across and down, its upper left one inside the frame.
     Block([u32; 2]),
@@ -162,7 +163,7 @@ impl Invocation {
 pub struct Graph {
     /// In order of creation: arguments come before their users.
     pub nodes: Vec<Node>,
-    /// Where each node comes from, by node.
+    /// Origin of each node, by node.
     pub origins: Vec<Option<Origin>>,
     /// The region in which each node was first made, by node.
     pub homes: Vec<RegionId>,
@@ -176,7 +177,7 @@ pub struct Graph {
     pub buffers: Vec<Buffer>,
     /// Pictures of the frame's size that are written at any place, by the index that `Memory::Image` carries.
     pub images: Vec<Target>,
-    /// What workgroups share, by the index that `Memory::Shared` carries.
+    /// Workgroup memory, by the index that `Memory::Shared` carries.
     pub shared: Vec<Shared>,
     /// Samplers, by the index that `Op::Sample` carries.
     pub samplers: Vec<Sampler>,
@@ -184,19 +185,19 @@ pub struct Graph {
     pub uniforms: Vec<Uniform>,
     /// Interpolated values, by the index that `Op::Varying` carries.
     pub varyings: Vec<Varying>,
-    /// What the kernel gives for each pixel.
+    /// Values that the kernel computes for each pixel.
     pub targets: Vec<Target>,
-    /// What one invocation computes.
+    /// Pixels that an invocation computes.
     pub invocation: Invocation,
     /// Names of tallies, by the index that `Op::Tally` carries.
     pub tallies: Vec<String>,
     /// Source files, by the index that origins carry.
     pub files: Vec<String>,
-    /// What the functions of the source are for, by file and first line, in order.
+    /// Purposes of the source's functions, by file and first line, in order.
     pub purposes: Arc<[Purpose]>,
 }
 
-/// What a function of the source is for: for comments.
+/// Purpose of a function of the source: for comments.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Purpose {
     /// Index into [`Graph::files`].
@@ -229,7 +230,7 @@ impl Graph {
         &self.regions[id.0 as usize]
     }
 
-    /// Where a node comes from.
+    /// Returns the origin of a node.
     pub fn origin(&self, id: NodeId) -> Option<&Origin> {
         self.origins[id.0 as usize].as_ref()
     }
@@ -239,12 +240,12 @@ impl Graph {
         &self.regions[0].results
     }
 
-    /// Whether the kernel does more than give values.
+    /// Returns whether the kernel has effects besides its values.
     pub fn has_effects(&self) -> bool {
         !self.regions[0].effects.is_empty()
     }
 
-    /// Whether something is done to a buffer or a picture: what a workgroup shares nobody sees afterwards.
+    /// Returns whether the kernel changes a buffer or a picture: the contents of workgroup memory are lost at its end.
     pub fn has_lasting_effects(&self) -> bool {
         let mut effects = self.regions.iter().flat_map(|region| &region.effects);
         effects.any(|id| matches!(self.node(*id).op.memory(), Some(Memory::Buffer(_) | Memory::Image(_))))
@@ -344,7 +345,7 @@ impl<'r> Builder<'r> {
         self.known.reserve(nodes);
     }
 
-    /// What is built so far.
+    /// Returns the graph as built so far.
     pub fn graph(&self) -> &Graph {
         &self.graph
     }
@@ -420,7 +421,7 @@ impl<'r> Builder<'r> {
         &self.open
     }
 
-    /// How many effects each open region has.
+    /// Returns the number of effects of each open region.
     pub fn effects(&self) -> Vec<usize> {
         let open = self.open.iter();
         open.map(|region| self.graph.region(*region).effects.len()).collect()

@@ -7,7 +7,7 @@ use super::Type;
 pub enum Memory {
     /// A buffer, by index into `Graph::buffers`.
     Buffer(u32),
-    /// What a workgroup shares, by index into `Graph::shared`.
+    /// Workgroup memory, by index into `Graph::shared`.
     Shared(u32),
     /// A picture of the frame's size, by index into `Graph::images`.
     Image(u32),
@@ -19,15 +19,15 @@ pub const MOST_SHARED_BYTES: u64 = 16_384;
 /// An array that the invocations of a workgroup share; all 0 when they begin. It is bound by no host.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shared {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
     /// A scalar or a vector, of numbers.
     pub element: Type,
     /// Number of its elements, at least 1.
     pub len: u32,
-    /// Whether its elements are changed by atomic operations alone.
+    /// `true` if its elements are changed by atomic operations alone.
     pub atomic: bool,
-    /// Whether the invocations write every element before any of them reads one, so that nothing need make it 0 first.
+    /// `true` if the invocations write every element before any of them reads one, so that it need not be 0 first.
     pub filled: bool,
 }
 

@@ -2,24 +2,24 @@
 
 use super::{Bits, Memory, RegionId};
 
-/// What a node does with its arguments.
+/// Operation of a node on its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
     /// A known value, by its bits.
     Const(Bits),
-    /// Any value: nobody looks at it.
+    /// An undefined value: nothing reads it.
     Unused,
     /// Coordinate of the output pixel, `vec2<i32>`, inside the frame.
     Pixel,
     /// Width and height of the frame, `vec2<i32>`, each at least 1.
     FrameSize,
-    /// Where the lane lies in its quad, `vec2<i32>`, each 0 or 1.
+    /// Position of the lane in its quad, `vec2<i32>`, each 0 or 1.
     Lane,
-    /// Where the invocation lies in its workgroup, `vec2<i32>`, each at least 0 and below the workgroup's size.
+    /// Position of the invocation in its workgroup, `vec2<i32>`, each at least 0 and below the workgroup's size.
     Thread,
     /// The pixel of a workgroup's first invocation, `vec2<i32>`, the same in all of them.
     GroupOrigin,
-    /// Whether the pixel of an invocation of a workgroup is one that is computed: inside the frame.
+    /// True if the pixel of an invocation of a workgroup is to be computed: inside the frame.
     Inside,
     /// The argument as the lane beside, above or below, or across has it, bit for bit.
     Message(Direction),
@@ -30,7 +30,7 @@ pub enum Op {
     Varying(u32),
     /// A run-time parameter, by index into `Graph::uniforms`.
     Uniform(u32),
-    /// One argument.
+    /// An operation on one argument.
     Unary(UnaryOp),
     /// Two arguments of one type; comparisons give booleans, lane by lane. Of two float scalars `Min` and `Max` are those of
     /// `f32`, which pass over a NaN; of two vectors those of glam: the first one's component where it is less, or greater, and
@@ -49,12 +49,12 @@ pub enum Op {
     Splat,
     /// A vector from its lanes, each a scalar.
     Compose,
-    /// One lane of a vector.
+    /// A component of a vector.
     Extract(u8),
     /// A conversion to the node's type, lane by lane, as WGSL's value constructors do it: floats to integers
     /// truncate and saturate.
     Convert,
-    /// The same bits as another kind of number, lane by lane.
+    /// Reinterprets the bits as another kind of number, lane by lane.
     Bitcast,
     /// Width and height of a texture's finest level (index into `Graph::textures`), and depth of a volume: a vector of `i32`,
     /// each at least 1.
@@ -83,7 +83,7 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
-    /// One component of the four texels around a coordinate (`vec2<f32>`), and in a layer (`i32`) where there are several,
+    /// A component of each of the four texels around a coordinate (`vec2<f32>`), in a layer (`i32`) where there are several, as
     /// `vec4<f32>`: lower left, lower right, upper right, upper left.
     Gather {
         /// Index into `Graph::textures`.
@@ -95,8 +95,8 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
-    /// How much of a depth texture around a place, and in a layer where there are several, both as of `Sample`, passes a
-    /// comparison with a reference (`f32`).
+    /// Fraction of a depth texture around a place, in a layer where there are several (both as of `Sample`), that passes a comparison with
+    /// a reference (`f32`).
     Compare {
         /// Index into `Graph::textures`.
         texture: u32,
@@ -105,8 +105,8 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
-    /// Which of the four depths around a coordinate (`vec2<f32>`) pass a comparison with a reference (`f32`), 1 or 0 in
-    /// each lane of a `vec4<f32>`, in the order of `Gather`.
+    /// Comparison of each of the four depths around a coordinate (`vec2<f32>`) with a reference (`f32`): 1 for those that pass and 0 for
+    /// the others, in the lanes of a `vec4<f32>`, in the order of `Gather`.
     GatherCompare {
         /// Index into `Graph::textures`.
         texture: u32,
@@ -131,9 +131,9 @@ pub enum Op {
     /// inside the memory where the condition holds), and a value of the element's type but for `AtomicOp::Load`. Gives what was
     /// there before, and 0 where the condition does not hold, for which nothing is done. An effect.
     Atomic {
-        /// Where.
+        /// Memory that it changes.
         memory: Memory,
-        /// What it does.
+        /// Operation on the element.
         op: AtomicOp,
     },
     /// Writes an element: condition, index, value, as of `Atomic`. An effect.
@@ -144,7 +144,7 @@ pub enum Op {
     /// Waits for the other invocations of the workgroup; what any of them has done to what they share is seen by all of them
     /// behind it. An effect.
     Barrier {
-        /// Whether what they have done to buffers is seen, too.
+        /// `true` if it also makes writes to buffers visible.
         buffers: bool,
     },
     /// The argument, floats, as the operation that made it rounds them: no compiler may merge, reorder or contract that operation
@@ -168,7 +168,7 @@ pub enum Op {
     Param(RegionId, u32),
 }
 
-/// What an atomic operation makes of an element and a value.
+/// Value that an atomic operation computes from an element and its operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // named as in WGSL
 pub enum AtomicOp {
@@ -296,13 +296,13 @@ impl BinaryOp {
         ]
     };
 
-    /// Whether it compares, giving booleans.
+    /// Returns whether the operation compares, with a boolean result.
     pub fn is_comparison(self) -> bool {
         use BinaryOp::*;
         matches!(self, Eq | Ne | Lt | Le | Gt | Ge)
     }
 
-    /// Whether the arguments may be exchanged without any change of the result, bit for bit.
+    /// Returns whether exchanging the arguments changes no bit of the result.
     pub fn commutes(self) -> bool {
         use BinaryOp::*;
         matches!(self, Add | Mul | And | Or | Xor | Eq | Ne)
@@ -348,7 +348,7 @@ impl UnaryOp {
         ]
     };
 
-    /// Whether hardware computes it in a special, slower unit.
+    /// Returns whether hardware computes it in a special, slower unit.
     pub fn is_transcendental(self) -> bool {
         use UnaryOp::*;
         matches!(
@@ -373,8 +373,8 @@ impl UnaryOp {
 }
 
 impl Op {
-    /// Whether it does more than give a value: it happens as often as the kernel says, in the order of the source, and no two
-    /// of it are one.
+    /// Returns whether it does more than compute a value: it happens as often as the kernel says, in the order of the source, and is never
+    /// merged with another.
     pub fn is_effect(&self) -> bool {
         matches!(
             self,
@@ -396,7 +396,7 @@ impl Op {
         }
     }
 
-    /// Whether it reads memory that a host fills, which nothing changes meanwhile.
+    /// Returns whether it reads memory that a host fills, which nothing changes meanwhile.
     pub fn is_read(&self) -> bool {
         self.site().is_some()
     }
@@ -447,7 +447,7 @@ impl Op {
         }
     }
 
-    /// Whether it changes nothing: an effect because of its place alone, that goes if nothing uses it.
+    /// Returns whether it is ordered but free of side effects; dead if unused.
     pub fn only_looks(&self) -> bool {
         matches!(self, Op::SharedLoad(_))
     }

@@ -1,4 +1,4 @@
-//! Where a node comes from: what emitted names and comments are made of.
+//! Origins of nodes, from which names and comments of the emitted text are made.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use std::sync::Arc;
 pub struct Counter {
     /// The counter's name in the source.
     pub name: Arc<str>,
-    /// Its value.
+    /// Value of the counter.
     pub value: i64,
 }
 
-/// What a name was taken from, the best first.
+/// Source of a name, the best first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Naming {
     /// A variable.
@@ -28,7 +28,7 @@ pub enum Naming {
 pub struct Origin {
     /// Name of the variable; for a part of a structure `variable_field`. Empty if there is none.
     pub name: Arc<str>,
-    /// What the name was taken from.
+    /// Source of the name.
     pub naming: Naming,
     /// Index into `Graph::files`.
     pub file: u32,

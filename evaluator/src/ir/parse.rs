@@ -14,7 +14,7 @@ use super::{
 pub struct ParseError {
     /// From 1.
     pub line: usize,
-    /// What is wrong with it.
+    /// Description of the error.
     pub problem: String,
 }
 
@@ -497,7 +497,7 @@ fn position<'a>(mut names: impl Iterator<Item = &'a String>, name: &str) -> Opti
     names.position(|known| known == name).map(|k| k as u32)
 }
 
-/// What a uniform is a part of: `grade column 0 3`.
+/// Parses the part of a whole that a uniform is: `grade column 0 3`.
 fn part(text: &str) -> Parsed<Part> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (of, columns, index, count) = match words[..] {

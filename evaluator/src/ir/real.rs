@@ -10,7 +10,7 @@ pub trait Real:
 {
     /// `f16`, `f32` or `f64`.
     const NAME: &'static str;
-    /// What samplers compute in: they take and give `f32` where shaders compute in less.
+    /// Precision of samplers: they read and return `f32` where shaders compute in less.
     type Sampled: Real;
     /// The nearest number.
     fn from_f64(x: f64) -> Self;
@@ -20,9 +20,9 @@ pub trait Real:
     fn made(x: f64) -> Self {
         Self::from_f64(x)
     }
-    /// The same number.
+    /// Converts to `f64`, which changes no value.
     fn to_f64(self) -> f64;
-    /// Its bits, the unused high ones 0.
+    /// Bits of the number, the unused high ones 0.
     fn to_bits(self) -> u64;
     /// The number with these bits.
     fn from_bits(bits: u64) -> Self;

@@ -5,20 +5,20 @@
 use super::{Builder, Event, Graph, NodeId, Op, Region, RegionId, Rules, Type};
 use std::sync::Arc;
 
-/// What a pass changes while the graph is built again.
+/// Options of rebuilding a graph.
 pub struct Rebuild<'a> {
     /// Simplifications to apply.
     pub rules: &'a dyn Rules,
-    /// Whether reads of the same texel become one.
+    /// `true` if reads of the same texel are merged.
     pub share_loads: bool,
 }
 
-/// What stands for nodes while a graph is built again, and what comes before all of them.
+/// Replacements for nodes while a graph is rebuilt, and nodes that come before all of them.
 pub trait Replace {
     /// Makes what comes first.
     fn begin(&mut self, builder: &mut Builder<'_>);
 
-    /// What stands for a node of the old graph, of which `new` has what stands for the nodes before it; `None` for the same again.
+    /// Replacement of a node of the old graph, where `new` has the replacements of the nodes before it; `None` to copy the node.
     fn node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId>;
 
     /// The type of a parameter or a result that was of the type `ty`.
@@ -26,7 +26,7 @@ pub trait Replace {
         ty
     }
 
-    /// What stands for the start or the end of the loop of `region`, in the type of its counter; `None` for the same as elsewhere.
+    /// Replacement of the start or the end of the loop of `region`, in the type of its counter; `None` for the general replacement.
     fn bound(
         &mut self,
         _builder: &mut Builder<'_>,
@@ -37,8 +37,8 @@ pub trait Replace {
         None
     }
 
-    /// What stands for result `k` of `region`, or the first value of what its loop carries there, in the type of the result; `None`
-    /// for the same as elsewhere.
+    /// Replacement of result `k` of `region`, or of the first value of what its loop carries there, in the type of the result; `None` for
+    /// the general replacement.
     fn passed(
         &mut self,
         _builder: &mut Builder<'_>,
@@ -62,8 +62,8 @@ impl Replace for Nothing {
     }
 }
 
-/// The same kernel built again, with the effects that it has: unused nodes, unused carried values and unused components of texels vanish, the pass's
-/// rules apply.
+/// Rebuilds a kernel, with its effects: unused nodes, unused carried values and unused components of texels vanish, and the pass's rules
+/// apply.
 pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
     rebuild_replacing(old, pass, &mut Nothing)
 }
@@ -137,7 +137,7 @@ impl Walk<'_, '_> {
     fn event(&mut self, event: Event, replace: &dyn Replace) {
         match event {
             Event::Open(region) if self.live.regions[region.0 as usize] => self.open(region, replace),
-            // Its results may be newer than its end: they are set when its owner is built.
+            // Results of a region may be newer than its end: they are set when its owner is built.
             Event::Close(region) if self.live.regions[region.0 as usize] => self.builder.close_region(Vec::new()),
             _ => {}
         }
@@ -234,7 +234,7 @@ impl Walk<'_, '_> {
         };
         let new = match op {
             effect if effect.is_effect() => {
-                // What never happens is no effect, and gives 0.
+                // An effect whose condition is never true is dropped; its value is 0.
                 let never = args
                     .first()
                     .and_then(|id| self.builder.graph().constant(*id))
@@ -294,7 +294,7 @@ fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
     most
 }
 
-/// What the output depends on.
+/// Nodes and regions that the output depends on.
 struct Liveness {
     nodes: Vec<bool>,
     regions: Vec<bool>,
@@ -367,8 +367,8 @@ impl Liveness {
         }
     }
 
-    /// Of values that stand beside a region's results, those whose result is used. With `counter` the first
-    /// stands beside none and is kept.
+    /// Filters values that correspond to a region's results: keeps those whose result is used. With `counter` the first value corresponds
+    /// to none and is kept.
     fn kept(&self, region: RegionId, values: &[NodeId], counter: bool) -> Vec<NodeId> {
         let skip = usize::from(counter && !values.is_empty());
         let used = self.results[region.0 as usize].iter();

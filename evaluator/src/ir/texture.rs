@@ -2,10 +2,10 @@
 
 use super::{Scalar, Type};
 
-/// What a texture is.
+/// Kind of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TextureKind {
-    /// One image.
+    /// A single image.
     Flat,
     /// A stack of images.
     Layers,
@@ -13,9 +13,9 @@ pub enum TextureKind {
     Volume,
     /// The six faces of a cube, which a direction finds.
     Cube,
-    /// One image with several samples a texel.
+    /// A single image with several samples a texel.
     Multisampled,
-    /// One image of depths to compare.
+    /// A single image of depths to compare.
     Depth,
     /// A stack of images of depths to compare.
     DepthLayers,
@@ -42,17 +42,17 @@ impl TextureKind {
         found.expect("every kind is listed").1
     }
 
-    /// Whether a texel is read by its layer or sample too.
+    /// Returns whether a layer or sample is part of a texel's address.
     pub fn is_indexed(self) -> bool {
         self.has_layers() || self == TextureKind::Multisampled
     }
 
-    /// Whether it is a stack of images.
+    /// Returns whether it is a stack of images.
     pub fn has_layers(self) -> bool {
         matches!(self, TextureKind::Layers | TextureKind::DepthLayers)
     }
 
-    /// Whether its texels are depths, to be compared.
+    /// Returns whether its texels are depths, to be compared.
     pub fn is_depth(self) -> bool {
         matches!(
             self,
@@ -60,17 +60,17 @@ impl TextureKind {
         )
     }
 
-    /// Whether a direction finds its texels, which have no coordinates.
+    /// Returns whether texels are addressed by a direction, not by coordinates.
     pub fn is_cube(self) -> bool {
         matches!(self, TextureKind::Cube | TextureKind::DepthCube)
     }
 
-    /// Whether a sampler can filter it.
+    /// Returns whether a sampler can filter it.
     pub fn is_filtered(self) -> bool {
         !self.is_depth() && self != TextureKind::Multisampled
     }
 
-    /// Whether its rows are those of a picture, which some hosts count from below.
+    /// Returns whether its rows are those of a picture, which some hosts count from below.
     pub fn has_rows(self) -> bool {
         !self.is_cube() && self != TextureKind::Volume
     }
@@ -95,17 +95,17 @@ impl TextureKind {
 /// A texture that the kernel reads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Texture {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: String,
-    /// What it is.
+    /// Kind of the texture.
     pub kind: TextureKind,
-    /// What a component of a texel is: a float, or an integer, which no sampler reads.
+    /// Kind of a texel's components: float, or integer, which no sampler reads.
     pub scalar: Scalar,
     /// Components of a texel that the kernel uses, 1 to 4.
     pub components: u8,
     /// Components of a texel by its type in the kernel, 1 to 4: data rather than a colour below 3.
     pub declared: u8,
-    /// Whether it has the output's size; else it has one of its own.
+    /// `true` if it has the output's size, `false` if it has its own.
     pub framed: bool,
 }
 
@@ -115,7 +115,8 @@ impl Texture {
         Type::value(self.scalar, self.components)
     }
 
-    /// Whether the largest index that is read says how many layers, or samples of a texel, there must be. Others are asked.
+    /// Returns whether the largest index that is read determines the required number of layers, or samples of a texel. The number of other
+    /// textures is queried.
     pub fn is_counted(&self) -> bool {
         self.kind == TextureKind::Multisampled || (self.framed && self.kind == TextureKind::Layers)
     }

@@ -49,7 +49,7 @@ pub enum Type {
         /// Number of elements, at least 1.
         len: u32,
     },
-    /// What a loop or a branch gives: read by `Op::Result`.
+    /// Results of a loop or a branch: read by `Op::Result`.
     Results,
 }
 
@@ -91,7 +91,7 @@ impl Type {
         }
     }
 
-    /// The same shape with components of another kind.
+    /// Returns the same shape with components of another kind.
     pub fn with_scalar(self, scalar: Scalar) -> Type {
         match self {
             Type::Value { components, .. } => Type::Value { scalar, components },
@@ -134,22 +134,22 @@ impl Type {
         }
     }
 
-    /// Whether this is an array.
+    /// Returns whether this is an array.
     pub fn is_array(self) -> bool {
         matches!(self, Type::Array { .. })
     }
 
-    /// Whether this is a single lane.
+    /// Returns whether this is a single lane.
     pub fn is_scalar(self) -> bool {
         matches!(self, Type::Value { components: 1, .. })
     }
 
-    /// Whether the components are integers.
+    /// Returns whether the components are integers.
     pub fn is_integer(self) -> bool {
         matches!(self.kind(), Some(Scalar::I32 | Scalar::U32 | Scalar::Usize))
     }
 
-    /// Whether the components are floats.
+    /// Returns whether the components are floats.
     pub fn is_float(self) -> bool {
         self.kind() == Some(Scalar::F32)
     }

@@ -1,4 +1,4 @@
-//! What must hold of every graph.
+//! Invariants of every graph.
 //!
 //! 1. Arguments, and a region's results and parameters, are made before their users.
 //! 2. Every operation has as many arguments as it takes, of the types that it takes, and gives the type it says. Vectors have
@@ -106,7 +106,7 @@ fn effects(graph: &Graph) -> Result<(), String> {
             None if op.is_effect() => of[id.0 as usize],
             _ => None,
         };
-        // What was tried and taken back happens nowhere, and nothing looks at it.
+        // An effect that was rolled back is in no region, and nothing uses it.
         let missing = of[id.0 as usize].is_none() && (op.is_effect() || wanted.is_some());
         if (missing && live[id.0 as usize]) || (!missing && of[id.0 as usize] != wanted) {
             return Err(format!("%{} is no effect of the region that it happens in", id.0));
@@ -459,7 +459,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
     }
 }
 
-/// Whether an operation is one of a kind of numbers.
+/// Returns whether an operation exists for a kind of numbers.
 fn takes(op: UnaryOp, kind: Scalar) -> bool {
     use UnaryOp::*;
     match op {

@@ -1,4 +1,4 @@
-//! What reads and writes take and give.
+//! Arguments and results of reads and writes.
 
 use crate::ir::{Access, AtomicOp, Graph, Invocation, Memory, Node, Op, Scalar, Texture, TextureKind, Type};
 
@@ -185,7 +185,7 @@ fn textures(graph: &Graph, index: u32) -> Result<&Texture, String> {
     found.ok_or_else(|| "no such texture".to_owned())
 }
 
-/// What memory has of elements, and what effects do with it.
+/// Returns the type of a memory's elements, and the accesses by effects.
 fn memory_of(graph: &Graph, memory: Memory) -> Result<(Type, Access), String> {
     let group = matches!(graph.invocation, Invocation::Group(_));
     let found = match memory {
