@@ -1,17 +1,17 @@
-//! What becomes of loops and branches.
+//! Policies for loops, branches, reads and arithmetic.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// What becomes of a loop.
+/// Unroll policy of a loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Unroll {
-    /// It is run now: nothing of it is left.
+    /// Unrolled completely: runs at compile time.
     #[default]
     Full,
-    /// It is left in the shader where it can be a loop there: the baseline of unroll studies.
+    /// Left in the shader where it can be a loop there: the baseline of unroll studies.
     None,
-    /// It is left in the shader with its body written so many times in a row, at least 2; iterations that are left over follow it.
+    /// Left in the shader with its body written so many times in a row, at least 2; the remaining iterations follow it.
     Partial(u32),
 }
 
@@ -49,7 +49,7 @@ impl FromStr for Unroll {
     }
 }
 
-/// What becomes of an `if` whose condition is a runtime value.
+/// Policy for an `if` whose condition is a runtime value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Branches {
     /// As loops do: left as a branch where the unroll policy is not `full`, else both sides are computed and selected from.
@@ -84,11 +84,11 @@ impl FromStr for Branches {
     }
 }
 
-/// How a block reads texels and elements of buffers. The picture is the same, bit for bit; caches, and compilers that keep the order of
-/// the text, may like one more than the other.
+/// Order in which a block reads texels and elements of buffers. The picture is the same, bit for bit; caches, and compilers that keep the
+/// order of the text, may prefer one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ReadOrder {
-    /// Where the source reads them first.
+    /// In the order of the first reads in the source.
     #[default]
     Source,
     /// All whose places depend on nothing that is read come first, row by row of each layer of each texture.
@@ -122,15 +122,15 @@ impl FromStr for ReadOrder {
     }
 }
 
-/// What pixels share of the texels that they read, besides those that one invocation reads several times. The picture is the
-/// same, bit for bit.
+/// Sharing between pixels of the texels that they read, besides those that one invocation reads several times. The picture is the same, bit
+/// for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Share {
     /// Nothing: each invocation reads for itself.
     #[default]
     Invocation,
-    /// Those of frame-sized textures at constant offsets from the pixel: a workgroup of so many threads across and down reads
-    /// them once, with those around it, into its memory. Compute shaders of single pixels.
+    /// Texels of frame-sized textures at constant offsets from the pixel: a workgroup of so many threads across and down reads them once,
+    /// with those around it, into its memory. Compute shaders of single pixels.
     Workgroup([u32; 2]),
 }
 
@@ -138,7 +138,7 @@ impl Share {
     /// By workgroups of 16 by 16 threads: few texels lie around so many pixels, and every device has as many threads.
     pub const WORKGROUP: Share = Share::Workgroup([16, 16]);
 
-    /// The same, with workgroups of another size; of pixels that share nothing, the same.
+    /// Replaces the size of the workgroups; no change if pixels share nothing.
     pub fn of_size(self, size: [u32; 2]) -> Share {
         match self {
             Share::Invocation => Share::Invocation,
@@ -176,16 +176,16 @@ impl FromStr for Share {
     }
 }
 
-/// Which algebra may be done with floats.
+/// Algebra permitted with floats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Math {
-    /// What changes no bit of the result; and no driver may reorder or contract any operation on floats either.
+    /// Rules that change no bit of the result; and no driver may reorder or contract any operation on floats either.
     Strict,
-    /// What changes no bit of the result. Sums whose order matters are written so that drivers keep it.
+    /// Rules that change no bit of the result. Sums whose order matters are written so that drivers keep it.
     #[default]
     Exact,
-    /// What may change a rounding too (`docs/semantics.md`): results differ from the native function's by little, and which little is
-    /// for a test of the kernel's to say.
+    /// Rules that may change a rounding, too (`docs/semantics.md`): results differ slightly from those of the native function; a test of
+    /// the kernel has to decide what difference is acceptable.
     Fast,
 }
 
@@ -213,7 +213,7 @@ impl FromStr for Math {
     }
 }
 
-/// How the lanes of a quad communicate.
+/// Communication between the lanes of a quad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Transport {
     /// By quad operations, which move bits as they are. Fragment shaders, on devices with subgroups.
@@ -248,19 +248,19 @@ impl FromStr for Transport {
     }
 }
 
-/// What becomes of single loops, by the path `function.counter` or by the counter alone.
+/// Unroll policy of single loops, by the path `function.counter` or by the counter alone.
 pub type LoopPolicy = (String, Unroll);
 
-/// What is asked of one loop.
+/// Policy requested for a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
-    /// What it is to become.
+    /// Requested unrolling.
     pub unroll: Unroll,
-    /// Whether this is said of the loop itself, by path or attribute, and not of all loops.
+    /// `true` if the request names the loop, by path or attribute, `false` if it is for all loops.
     pub by_name: bool,
 }
 
-/// What a kernel's loops and branches become, and how it reads.
+/// Policies for a kernel's loops, branches, reads and arithmetic.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Policy {
     /// Of loops of which nothing else is said.
@@ -271,9 +271,9 @@ pub struct Policy {
     pub branches: Branches,
     /// In which order blocks read.
     pub reads: ReadOrder,
-    /// What pixels share of what they read.
+    /// Sharing of texels between pixels.
     pub share: Share,
-    /// Which algebra was done with floats.
+    /// Algebra permitted with floats.
     pub math: Math,
 }
 
@@ -308,7 +308,7 @@ impl Policy {
         Ok(())
     }
 
-    /// What is asked of the loop over `counter` in `function`, of which the source says `attribute`.
+    /// Returns the policy requested for the loop over `counter` in `function`, which has the attribute `attribute` in the source.
     pub fn asked(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Asked {
         let named = self
             .loops
@@ -322,7 +322,7 @@ impl Policy {
         }
     }
 
-    /// Whether a branch of which the source says `attribute` is kept.
+    /// Returns whether a branch with the attribute `attribute` in the source is kept.
     pub fn keeps(&self, attribute: Option<Branches>) -> bool {
         match attribute.unwrap_or(self.branches) {
             Branches::Keep => true,
@@ -332,7 +332,7 @@ impl Policy {
     }
 }
 
-/// Whether `path` names the loop over `counter` in `function`.
+/// Returns whether `path` names the loop over `counter` in `function`.
 pub fn matches(path: &str, function: &str, counter: &str) -> bool {
     match path.rsplit_once('.') {
         Some((of, name)) => of == function && name == counter,

@@ -1,6 +1,6 @@
 //! Names that were meant.
 
-/// What helps a wrong name: the name that it was meant to be, or those that there are.
+/// Help for an unknown name: the name that was probably meant, or the known ones.
 pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
     match known.iter().find(|k| **k != name && is_close(name, k)) {
         Some(close) => format!("did you mean `{close}`?"),
@@ -12,7 +12,7 @@ pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
     }
 }
 
-/// Whether a name may be another one misspelt.
+/// Returns whether a name may be another one misspelt.
 pub fn is_close(name: &str, known: &str) -> bool {
     distance(name, known) <= (1 + name.len() / 5).min(name.len().saturating_sub(1))
 }

@@ -48,13 +48,13 @@ struct Neighbour {
     step: [i32; 2],
     /// The largest coordinate, where it is brought below that.
     last: Option<NodeId>,
-    /// Whether it is brought to at least 0.
+    /// `true` if it is clamped to at least 0.
     from_zero: bool,
-    /// Whether the pixel itself is known to lie inside, so that a step back never leaves behind the last.
+    /// `true` if the pixel itself is known to lie inside, so that a step back never passes the last coordinate.
     inside: bool,
 }
 
-/// One component of it.
+/// A component of a neighbour's coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Part {
     pixel: NodeId,
@@ -165,7 +165,7 @@ impl Part {
         at
     }
 
-    /// Which column or row it is, and from the second on by how much.
+    /// Name for the column or row, with the distance from the second on.
     fn name(&self) -> String {
         let side = match (self.axis, self.step) {
             (0, 0) => "column",

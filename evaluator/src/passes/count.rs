@@ -187,7 +187,7 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     Some(layers)
 }
 
-/// How often a loop runs at most, where both bounds are known.
+/// Returns the most iterations of a loop, if both bounds are known.
 pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
     let endless = graph.constant(graph.node(node).args[1]) == Some([Graph::ENDLESS as u32, 0, 0, 0]);
     if endless && graph.region(graph.regions_of(node)[0]).stop.is_some() {

@@ -8,7 +8,7 @@
 
 use crate::ir::{BinaryOp, Builder, NodeId, Op, Scalar, Type};
 
-/// The same value by other operations, of a division or a power.
+/// Computes a division or a power by other operations, with the same value.
 pub fn at_constants(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let Op::Binary(op @ (BinaryOp::Div | BinaryOp::Pow)) = op else {
         return None;
@@ -76,7 +76,7 @@ fn division(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeI
     }
 }
 
-/// Whether a divisor is a zero, a subnormal number, an infinity or a NaN.
+/// Returns whether a divisor is a zero, a subnormal number, an infinity or a NaN.
 fn is_edge(bits: u32) -> bool {
     !f32::from_bits(bits).is_normal()
 }
@@ -95,7 +95,7 @@ fn by_constant(b: &mut Builder<'_>, x: NodeId, divisor: f32) -> NodeId {
         let zero = times(b, x, 1.0 / divisor);
         if_finite(b, x, zero)
     } else {
-        // What overflows here has a quotient that does, too; and no factor of two rounds.
+        // If the scaled value overflows, so does the quotient; and a power of two never rounds.
         const SCALE: f32 = 16_777_216.0;
         let scaled = times(b, x, SCALE);
         let divisor = b.f32(divisor * SCALE);

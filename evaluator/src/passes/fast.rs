@@ -91,7 +91,7 @@ impl<'g> Fast<'g> {
         }
     }
 
-    /// Whether a constant factor costs nothing here: it goes into a constant, or stands before one that is added.
+    /// Returns whether a constant factor is free here: it is folded into a constant, or into a sum with a constant.
     fn absorbs(&self, id: NodeId) -> bool {
         let node = self.old.node(id);
         if self.constant(id).is_some() {
@@ -197,7 +197,7 @@ fn lanes(ty: Type) -> usize {
     usize::from(ty.components())
 }
 
-/// What a node divides by, if it is one number and no constant, and how many quotients that makes.
+/// Returns the divisor of a node, if it is a single number and no constant, and the number of quotients.
 fn divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
     let node = g.node(id);
     let ([_, below], true) = (&node.args[..], node.op == Op::Binary(BinaryOp::Div)) else {
@@ -212,8 +212,8 @@ fn divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
     (is_float && g.constant(of).is_none()).then_some((of, u32::from(node.ty.components())))
 }
 
-/// Whether constants are 0 or lie where half precision has numbers of all its bits too: then no product of one of them is lost, or
-/// infinite, that was none.
+/// Returns whether constants are 0 or in the range of normal numbers of half precision: then no product with one of them underflows or
+/// overflows that did not before.
 fn is_held(factors: &[f32]) -> bool {
     let held = |k: f32| k == 0.0 || (6.2e-5..=65504.0).contains(&k.abs());
     factors.iter().all(|k| held(*k))

@@ -81,7 +81,7 @@ struct Floor<'g> {
     ids: Vec<Option<NodeId>>,
     /// Reads that there are.
     made: HashSet<NodeId>,
-    /// How many places had to be chosen.
+    /// Number of reads whose place had to be chosen.
     moved: u32,
 }
 
@@ -114,7 +114,7 @@ impl Floor<'_> {
         }
     }
 
-    /// Whether where a read looks is computed as in the kernel.
+    /// Returns whether the place of a read is computed as in the kernel.
     fn is_placed(&self, read: NodeId) -> bool {
         let mut args = self.old.node(read).args.iter();
         args.all(|arg| self.ids[arg.0 as usize].is_some() && !self.old.node(*arg).op.is_read())
@@ -154,7 +154,7 @@ impl Floor<'_> {
         })
     }
 
-    /// What a read is given that cannot look where the kernel looks.
+    /// Arguments for a read whose place cannot be computed as in the kernel.
     fn moved_args(&mut self, op: &Op, old: &[NodeId], awaited: Option<NodeId>) -> Vec<NodeId> {
         let step = self.step(awaited);
         let first = match op {

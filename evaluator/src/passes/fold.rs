@@ -41,7 +41,7 @@ fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<N
     Some(b.constant(ty, bits))
 }
 
-/// What is known with its arguments exchanged: a + b where b + a is, a < b where b > a is.
+/// Finds a node with exchanged arguments: `b + a` for `a + b`, `b > a` for `a < b`.
 fn exchanged(b: &Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let Op::Binary(op) = op else { return None };
     let other = match op {
@@ -105,7 +105,7 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
             let narrow = node(args[0]).args[0];
             Some(b.add(Op::Convert, [narrow], ty))
         }
-        // What is known is known in every lane; a message and its answer are no message.
+        // A constant or uniform is the same in every lane; two equal messages in a row cancel.
         Op::Message(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
         Op::Message(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
         _ => None,
@@ -260,7 +260,7 @@ fn opposite(b: &Builder<'_>, id: NodeId) -> Option<NodeId> {
     b.find(&node.op, &args, node.ty)
 }
 
-/// Whether `id` is never more than the non-zero constant `bound`, and never a NaN.
+/// Returns whether `id` is never more than the non-zero constant `bound`, and never a NaN.
 fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     let is_bound = g.constant(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31);
     is_bound && at_most(g, id, bound)
@@ -277,7 +277,7 @@ fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
         Op::Binary(BinaryOp::Min) if node.ty.is_scalar() => node.args.contains(&bound),
         Op::Binary(BinaryOp::Min) => node.args[1] == bound,
         Op::Binary(BinaryOp::Max) => node.args.iter().all(|arg| at_most(g, *arg, bound)),
-        // What is compared with the bound before it is taken.
+        // A selection that compares its value with the bound.
         Op::Select if node.ty.is_scalar() => {
             let (condition, [yes, no]) = (g.node(node.args[0]), [node.args[1], node.args[2]]);
             let compared = condition.op == Op::Binary(BinaryOp::Lt) && condition.args == [yes, bound];
@@ -302,7 +302,7 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
     if op == BinaryOp::Sub
         && let (Some(step), Op::Pixel) = (b.graph().constant(y), &b.graph().node(x).op)
     {
-        // One way to say where a neighbour lies.
+        // Canonical form of a neighbour's coordinate.
         let ty = b.graph().ty(y);
         let back = b.constant(ty, step.map(u32::wrapping_neg));
         return Some(b.add(Op::Binary(BinaryOp::Add), [x, back], ty));
@@ -333,8 +333,8 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
     }
 }
 
-/// (pixel + a) + b is pixel + (a + b): integers wrap, so their order is free. Neighbours of neighbours are then told alike,
-/// and their reads are shared.
+/// Rewrites `(pixel + a) + b` as `pixel + (a + b)`: integers wrap, so their order is free. Neighbours of neighbours then have the same
+/// form, and their reads are shared.
 fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
     let ty = b.graph().ty(x);
     let (inner, second) = match (b.graph().constant(x), b.graph().constant(y)) {
@@ -426,7 +426,7 @@ fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
     b.add(Op::Unary(UnaryOp::Not), [x], ty)
 }
 
-/// Whether `id` is a constant with `bits` in every lane.
+/// Returns whether `id` is a constant with `bits` in every lane.
 fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
     let lanes = match g.ty(id) {
         Type::USIZE => return g.constant(id).is_some_and(|c| usize_value(&c) == u64::from(bits)),

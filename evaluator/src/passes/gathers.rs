@@ -53,7 +53,7 @@ impl Gathered {
     }
 }
 
-/// What a gather reads: texture, component and layer.
+/// Source of a gather: texture, component and layer.
 type Source = (u32, u8, Option<u32>);
 
 /// An offset from the pixel, across and down.
@@ -102,7 +102,7 @@ pub fn gathers(graph: &Graph) -> Result<(Graph, Vec<Gathered>), String> {
     Ok((rebuild_replacing(graph, &pass, &mut gathering), gathered))
 }
 
-/// What is gathered: from where, the offset of the upper left texel, and each read that it stands for with the square's column and row.
+/// A gather: its source, the offset of the upper left texel, and each read that it replaces with the square's column and row.
 type Square = (Source, Offset, Vec<(NodeId, [usize; 2])>);
 
 /// Squares of two by two texels that are worth a gather, in the order in which they are chosen: those first that the most reads are left for.

@@ -82,7 +82,7 @@ impl Expansion<'_> {
     fn event(&mut self, event: Event) {
         match event {
             Event::Open(region) => self.open(region),
-            // Its results may be newer than its end: they are set when its owner is built.
+            // Results of a region may be newer than its end: they are set when its owner is built.
             Event::Close(_) => self.builder.close_region(Vec::new()),
         }
     }

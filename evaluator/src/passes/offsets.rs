@@ -1,4 +1,4 @@
-//! Which texels are read at a constant offset from the pixel.
+//! Reads of texels at a constant offset from the pixel.
 
 use crate::ir::{BinaryOp, Graph, Node, NodeId, Op, Scalar, UnaryOp};
 
@@ -15,7 +15,7 @@ enum Place {
     Size(usize, i64),
     /// The pixel's and so much.
     Away(usize, i64),
-    /// The same brought into the frame, from outside at most on the side to which it lies.
+    /// `Away`, clamped to the frame: it can lie outside only on the side of its offset.
     Inside(usize, i64),
 }
 
@@ -98,7 +98,7 @@ fn moved(place: Place, by: i64) -> Option<Place> {
         Known(n) => Known(n + by),
         Size(axis, n) => Size(axis, n + by),
         Away(axis, n) => Away(axis, n + by),
-        // What has been brought to the border lies at another offset there.
+        // A clamped coordinate has another offset at the border.
         Inside(..) => return (by == 0).then_some(place),
     })
 }

@@ -6,12 +6,11 @@ use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Sc
 const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
 
-/// The same kernel on textures whose row 0 is the lowest: every row that it names is turned into the one that holds it there.
-/// [`Op::Pixel`] goes on counting from above, as does what is computed of it; the entry point turns that.
+/// Returns the kernel for textures whose row 0 is the lowest: every row number is converted to that of the same row there. [`Op::Pixel`]
+/// still counts from above, as do values computed from it; the entry point converts it.
 ///
-/// Texels are those that the kernel means. A filtered place `v` becomes `1 - v`, which is the same place for every address
-/// mode; the four texels of a gather come in the order that the kernel expects. Volumes and cubes are no pictures: they are
-/// the same for every host.
+/// Reads return the texels that the kernel means. A filtered place `v` becomes `1 - v`, which is the same place for every address mode; the
+/// four texels of a gather come in the order that the kernel expects. Volumes and cubes are no pictures: they are the same for every host.
 pub fn from_below(graph: &Graph) -> Graph {
     let pass = Rebuild {
         rules: &FromBelow { graph },

@@ -1,10 +1,10 @@
-//! What is known of a value without knowing it.
+//! Ranges of runtime values.
 //!
 //! File tests: `evaluator/tests/filetests/passes/ranges`.
 
 use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp, usize_value};
 
-/// How far back a question is followed; beyond it nothing is known.
+/// Depth of arguments to which a query is followed; beyond it nothing is known.
 const DEPTH: u32 = 12;
 
 /// No texture is wider or higher, and no pixel lies farther out but by a block's width.
@@ -16,7 +16,7 @@ const LONGEST_BUFFER: i64 = 1 << 28;
 /// The farthest pixel of a block.
 const FARTHEST_PIXEL: i64 = LARGEST_FRAME + 64;
 
-/// Whether every lane of a float is +0, positive or NaN: never negative and never -0.
+/// Returns whether every lane of a float is +0, positive or NaN: never negative and never -0.
 pub fn nonnegative(g: &Graph, id: NodeId) -> bool {
     at_depth(g, id, DEPTH)
 }
@@ -85,7 +85,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
     let of = |k: usize| bounds_at(g, node.args[k], component, depth - 1);
     let (smallest, largest) = whole(node.ty);
     let (unsigned, wide) = (smallest == 0, node.ty == Type::USIZE);
-    // What leaves the range wraps.
+    // Values outside of the type's range wrap.
     let fits = |(low, high): (i64, i64)| {
         (low >= smallest && high <= largest && !(wide && high == largest)).then_some((low, high))
     };
@@ -302,7 +302,7 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
         }
     }
     let range = |id, component| component_bounds(g, id, component).unwrap_or(whole(ty));
-    // Whether the first is smaller than the second in every component, or the other way.
+    // Compares the first's largest value with the second's smallest by `less`, in every component.
     let all = |less: fn(i64, i64) -> bool, first, second| {
         (0..ty.components()).all(|component| less(range(first, component).1, range(second, component).0))
     };
@@ -325,7 +325,8 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
     (yes || no).then(|| b.bool(yes))
 }
 
-/// Whether of two `usize` the first is a sum with the second, or the other way, that has no 64 bits.
+/// Compares two `usize` of which one is a sum that includes the other and does not overflow: `true` if the first is the sum, `false` if the
+/// second is.
 fn sum_of(g: &Graph, x: NodeId, y: NodeId) -> Option<bool> {
     let is_sum = |sum: NodeId, part: NodeId| {
         let node = g.node(sum);
@@ -348,7 +349,7 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
     }
     let node = g.node(args[0]);
     match node.op {
-        // What is one of several pixels may lie outside.
+        // The pixel of such an invocation may lie outside.
         _ if matches!(
             g.invocation,
             Invocation::MayBeOutside | Invocation::Lane | Invocation::Group(_)
@@ -374,7 +375,7 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
                 None
             }
         }
-        // What has been brought inside already: a step to the right or down was at most the last, one back at least 0.
+        // A clamped coordinate stays: a step to the right or down was limited to the last one, a step back to 0.
         Op::Binary(side @ (BinaryOp::Min | BinaryOp::Max)) => {
             let [moved, bound] = [node.args[0], node.args[1]];
             let inner = [moved, args[1], args[2]];

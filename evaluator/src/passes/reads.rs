@@ -50,7 +50,7 @@ pub fn rows_first(graph: &Graph, place: &[Option<RegionId>], steps: &mut [Vec<No
     }
 }
 
-/// Whether a node is computed from its arguments alone, wherever it stands in its region.
+/// Returns whether a node is computed from its arguments alone, wherever it stands in its region.
 fn is_arithmetic(graph: &Graph, id: NodeId) -> bool {
     let node = graph.node(id);
     let waits = node.op.is_read()
@@ -64,8 +64,8 @@ fn is_arithmetic(graph: &Graph, id: NodeId) -> bool {
     !waits
 }
 
-/// What a read is sorted by: texture or buffer, then layer, level and the like, then row and column. `None` where its place is not one
-/// relative to the pixel.
+/// Sort key of a read: texture or buffer, then layer, level and the like, then row and column. `None` if its place is not relative to the
+/// pixel.
 fn key(graph: &Graph, node: &Node, values: &[Value]) -> Option<Vec<f64>> {
     let resource = match (&node.op, node.op.texture()) {
         (_, Some(texture)) => f64::from(texture),

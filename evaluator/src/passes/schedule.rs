@@ -1,4 +1,4 @@
-//! Where and in which order nodes are evaluated.
+//! Regions and order in which nodes are evaluated.
 //!
 //! A node goes as far out of loops as its arguments allow, and as far into branches as its uses allow (Click's
 //! global code motion). Within a block nodes keep the order in which they were made, which is the order of the
@@ -14,14 +14,14 @@ use crate::policy::ReadOrder;
 pub struct Schedule {
     /// The body of the kernel.
     pub body: Block,
-    /// How often each node's value is used, by node: as an argument or as a region's result.
+    /// Number of uses of each node's value, by node: as an argument or as a region's result.
     pub uses: Vec<u32>,
     /// The region that each node is evaluated in, by node; `None` if it is not used.
     pub place: Vec<Option<RegionId>>,
 }
 
 impl Schedule {
-    /// Whether a node is evaluated.
+    /// Returns whether a node is evaluated.
     pub fn has(&self, id: NodeId) -> bool {
         self.place[id.0 as usize].is_some()
     }
@@ -34,7 +34,7 @@ pub struct Block {
     pub steps: Vec<Step>,
 }
 
-/// One step of a block.
+/// A step of a block.
 #[derive(Clone, Debug)]
 pub enum Step {
     /// Evaluate a node.
@@ -43,7 +43,7 @@ pub enum Step {
     Loop {
         /// The `Op::Loop` node.
         node: NodeId,
-        /// Its body.
+        /// Body of the loop.
         body: Block,
     },
     /// Run one side of the branch that `node` stands for.
@@ -103,7 +103,7 @@ struct Places<'g> {
     /// Depth of nesting of each region, and of loops alone.
     depth: Vec<u32>,
     loops: Vec<u32>,
-    /// Where an effect happens, by node.
+    /// Region of an effect, by node.
     happens: Vec<Option<RegionId>>,
     /// The region that owns a loop's or branch's regions is where it was written.
     early: Vec<RegionId>,

@@ -400,7 +400,7 @@ fn rules_of_workgroups_are_checked() {
         };
         assert!(said.contains(expected), "`{expected}`: {said}");
     }
-    // What nobody uses of what is shared is not read.
+    // A read of workgroup memory whose value is unused is removed.
     let clean = straightline_evaluator::passes::clean(&sharing());
     assert!(!clean.nodes.iter().any(|n| n.op == Op::SharedLoad(0)));
     assert!(clean.nodes.iter().any(|n| n.op == Op::Barrier { buffers: false }));

@@ -47,7 +47,7 @@ fn marks(graph: &Graph) -> FxHashSet<NodeId> {
     }
     let mut ordered = found.marks;
     ordered.extend(made_of(graph, &dependence, found.errors));
-    // What is exact already, because it was asked for.
+    // Operations that are exact already, by request.
     let asked = graph.ids().filter(|id| graph.node(*id).op == Op::Exact);
     let asked: FxHashSet<NodeId> = asked.map(|id| graph.node(id).args[0]).collect();
     let mut marks = ordered.clone();

@@ -17,7 +17,7 @@ const MAX_AGE: u8 = 2;
 pub struct Place {
     /// The value.
     pub node: NodeId,
-    /// Its component, or [`Place::ALL`] of a vector whose components are all computed alike.
+    /// The component, or [`Place::ALL`] for a vector whose components are all computed alike.
     pub lane: u8,
     /// Iterations back, and of which loop; 0 outside of loops.
     pub age: (RegionId, u8),
@@ -114,7 +114,7 @@ pub enum Made {
     ByLane,
     /// A sum of others.
     Sum(Vec<Part>),
-    /// One of two, by a choice.
+    /// Two alternatives, of which a choice takes one.
     Either(Choice, [Part; 2]),
 }
 

@@ -13,7 +13,7 @@ const LONGEST_LOOP: i128 = 1 << 24;
 const WIDEN: u32 = 4;
 const GIVE_UP: u32 = 40;
 
-/// What is known of each `usize`.
+/// Extents of each `usize` of a graph.
 pub struct Analysis<'g> {
     pub graph: &'g Graph,
     facts: &'g Facts,
@@ -24,7 +24,7 @@ pub struct Analysis<'g> {
     owners: HashMap<RegionId, NodeId>,
 }
 
-/// Whether a node is a `usize`, or an array of them.
+/// Returns whether a node is a `usize`, or an array of them.
 pub fn is_wide(graph: &Graph, id: NodeId) -> bool {
     graph.ty(id).kind() == Some(Scalar::Usize)
 }
@@ -85,17 +85,17 @@ impl<'g> Analysis<'g> {
         changed
     }
 
-    /// What is known of a `usize`.
+    /// Returns the extent of a `usize`.
     pub fn known(&self, id: NodeId) -> Extent {
         self.extents[id.0 as usize]
     }
 
-    /// What is known of an argument of a node.
+    /// Returns the extent of an argument of a node.
     pub fn arg(&self, id: NodeId, k: usize) -> Extent {
         self.known(self.graph.node(id).args[k])
     }
 
-    /// Whether a difference wraps by intention.
+    /// Returns whether a difference wraps intentionally.
     fn wraps(&self, id: NodeId) -> bool {
         self.facts.wrapping.contains(&id)
     }
@@ -197,7 +197,7 @@ impl<'g> Analysis<'g> {
         self.owners.get(&region).copied()
     }
 
-    /// What is known of a value where a comparison of it with a constant holds, or where it does not.
+    /// Returns the extent of a value where a comparison of it with a constant holds, or where it does not.
     fn under(&self, id: NodeId, condition: NodeId, holds: bool) -> Extent {
         let (whole, node) = (self.known(id), self.graph.node(condition));
         let (Op::Binary(op), Some((low, high)), [first, second]) = (&node.op, whole.bounds(), node.args.as_slice())
@@ -284,7 +284,7 @@ impl<'g> Analysis<'g> {
         Extent::range(low, last.max(low))
     }
 
-    /// What lies between the ends of a range.
+    /// Returns the extent of the values between the ends of a range.
     fn between(&self, start: NodeId, end: NodeId) -> Option<Extent> {
         let ((low, high), (from, to)) = (self.known(start).bounds()?, self.known(end).bounds()?);
         let last = if from < 0 { i32::MAX.into() } else { to };
@@ -298,7 +298,7 @@ pub fn power(count: Extent) -> Option<Extent> {
     (low >= 0 && high < 32).then(|| Extent::range(1 << low, 1 << high))
 }
 
-/// What goes on growing.
+/// Extent of a carried value that still grows after [`WIDEN`] rounds.
 fn widened(before: Extent, after: Extent) -> Extent {
     match (before, after) {
         (

@@ -1,6 +1,6 @@
 //! Values that a `usize` may have, and how far the 32 bits that stand for it in a shader agree with its 64.
 
-/// One more than the largest number of 32 bits.
+/// Smallest number that needs more than 32 bits.
 pub const WORD: i128 = 1 << 32;
 
 /// Bound of what loops count up to in small steps: no loop of a shader runs so long that it gets there.
@@ -9,7 +9,7 @@ pub const COUNTED: i128 = i32::MAX as i128;
 /// Largest step that [`COUNTED`] holds for.
 const SMALL_STEP: i128 = 255;
 
-/// What is known of a `usize`.
+/// Possible values of a `usize`, and their form in the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// The lower 32 bits are those of the value.
@@ -37,7 +37,7 @@ impl Extent {
         Extent::capped(low, high, None)
     }
 
-    /// Values of which those from `cap` on are not told apart.
+    /// Values from `low` to `high`, of which those from `cap` on share one representation.
     pub fn capped(low: i128, high: i128, cap: Option<i128>) -> Extent {
         let fits = match cap {
             None => low >= i128::from(i64::MIN) && high <= i128::from(i64::MAX),
@@ -75,22 +75,22 @@ impl Extent {
         }
     }
 
-    /// Whether the shader's number is the value.
+    /// Returns whether the shader's number is the value.
     pub fn is_exact(self) -> bool {
         self.bounds().is_some_and(|(low, high)| low >= 0 && high < WORD)
     }
 
-    /// Whether the lower 32 bits are those of the value.
+    /// Returns whether the lower 32 bits are those of the value.
     pub fn has_bits(self) -> bool {
         matches!(self, Known { cap: None, .. } | Modular)
     }
 
-    /// Whether an `i32` holds its bits without a change of order but for negative ones.
+    /// Returns whether an `i32` holds every value, negative ones included.
     pub fn is_signed(self) -> bool {
         matches!(self, Known { low, high, .. } if low >= i128::from(i32::MIN) && high <= i128::from(i32::MAX))
     }
 
-    /// Whether an `i32` is the value.
+    /// Returns whether an `i32` is the value.
     pub fn is_natural(self) -> bool {
         self.is_signed() && matches!(self, Known { low: 0.., .. })
     }
@@ -136,7 +136,7 @@ impl Extent {
         }
     }
 
-    /// Whether the shader's numbers are ordered as the values are.
+    /// Returns whether the shader's numbers are ordered as the values are.
     pub fn is_ordered_with(self, other: Extent) -> bool {
         match (self, other) {
             (
@@ -351,7 +351,7 @@ impl Extent {
         }
     }
 
-    /// What has the lower bits of an operation on both.
+    /// Extent of an operation on both that only preserves the lower bits.
     fn by_bits(self, other: Extent) -> Extent {
         match self.has_bits() && other.has_bits() {
             true => Modular,

@@ -20,7 +20,7 @@ pub struct Lower<'a> {
     following: Vec<NodeId>,
 }
 
-/// What stands for the nodes so far.
+/// Replacements of the nodes so far.
 type New<'n> = &'n [Option<NodeId>];
 
 impl<'a> Lower<'a> {
@@ -108,7 +108,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// What stands for a node, as a kind.
+    /// Replacement of a node, converted to a kind.
     fn as_kind(&self, b: &mut Builder<'_>, old: NodeId, kind: Scalar, new: New<'_>) -> NodeId {
         if let Op::Const(bits) = &self.graph.node(old).op {
             return b.constant(Type::scalar(kind), [usize_value(bits) as u32, 0, 0, 0]);
@@ -132,7 +132,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// Whether a shader computes an operation as it is computed natively.
+    /// Returns whether the shader's operation gives the native result.
     fn is_same(&self, id: NodeId) -> bool {
         let node = self.graph.node(id);
         let of = |k: usize| self.of.known(node.args[k]);
@@ -186,7 +186,7 @@ impl<'a> Lower<'a> {
             let whole = self.as_kind(b, whole, kind, new);
             return convert(b, whole, Scalar::F32);
         };
-        // What does not fit into 32 bits is a whole number.
+        // A float from 2^32 on is a whole number already.
         let x = new[float.0 as usize].expect("arguments are built before their users");
         let [word, most] = [b.f32(WORD as f32), b.f32(u64::MAX as f32)];
         let large = b.add(Op::Binary(BinaryOp::Ge), [x, word], Type::BOOL);

@@ -17,21 +17,21 @@ use std::collections::{HashMap, HashSet};
 
 pub use refuse::Refusal;
 
-/// What evaluation knows of values of `usize`.
+/// Facts from the evaluation about values of `usize`.
 #[derive(Default)]
 pub struct Facts {
     /// Counters that are computed, with the start and the end of their ranges.
     pub counters: HashMap<NodeId, (NodeId, NodeId)>,
     /// Differences that wrap by intention.
     pub wrapping: HashSet<NodeId>,
-    /// Where each node was made; of later nodes nothing is known.
+    /// Source location of each node; none for later nodes.
     pub places: Vec<Span>,
 }
 
-/// Where numbers are held that are too large to be computed with.
+/// Caps for numbers that are too large to compute with.
 const CAPS: [i128; 4] = [1 << 30, 1 << 28, 1 << 24, 1 << 20];
 
-/// The same kernel without a `usize`; `None` if it has none.
+/// Returns the kernel without a `usize`; `None` if it has none.
 ///
 /// # Errors
 ///

@@ -19,7 +19,7 @@ struct Place {
 }
 
 impl Place {
-    /// Whether an element is a texel as reads give it.
+    /// Returns whether an element is a texel as reads return it.
     fn is_whole(&self, texel: Type) -> bool {
         self.shared.element == texel && self.components.len() == usize::from(texel.components())
     }
@@ -97,7 +97,7 @@ impl<'g> Tiling<'g> {
         }
     }
 
-    /// One texel of each.
+    /// Fills an element of each of some tiles.
     fn fill_texel(&self, b: &mut Builder<'_>, tiles: &[usize], corner: NodeId, texel: NodeId) {
         let width = b.i32(self.tiles[tiles[0]].size[0] as i32);
         let [x, y] = [BinaryOp::Rem, BinaryOp::Div].map(|op| add(b, op, texel, width));
@@ -141,7 +141,7 @@ impl<'g> Tiling<'g> {
         }
     }
 
-    /// A texel of a tile, as the read that it stands for gives it; nobody looks at components that are not there.
+    /// A texel of a tile, in the type of the read that it replaces; components that the tile lacks are unused.
     fn texel(&self, b: &mut Builder<'_>, load: NodeId) -> Option<NodeId> {
         let (k, offset) = *self.loads.get(&load)?;
         let tile = &self.tiles[k];

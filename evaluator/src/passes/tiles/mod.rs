@@ -20,10 +20,10 @@ use std::collections::BTreeSet;
 /// Why a tile was left out that would not fit beside the others.
 const TOO_LARGE: &str = "its tile does not fit into 16384 bytes beside those of others";
 
-/// What a workgroup shares of a texture, or of a layer of it.
+/// Texels of a texture, or of a layer of it, that a workgroup shares.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tile {
-    /// Its name in the shader.
+    /// Name in the shader.
     pub name: String,
     /// The texture's name.
     pub texture: String,
@@ -56,13 +56,13 @@ impl Tile {
 pub struct Apart {
     /// The texture's name.
     pub texture: String,
-    /// How many, of a pixel.
+    /// Number of reads of a pixel.
     pub reads: u32,
     /// Why.
     pub why: String,
 }
 
-/// What has become of a kernel's reads of textures.
+/// Outcome of sharing for a kernel's reads of textures.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sharing {
     /// Threads of a workgroup, across and down.
@@ -208,7 +208,7 @@ impl Candidate {
         }
     }
 
-    /// What lies in the tile of each texel. Three components take the room of four, and are read at once where they lie as four.
+    /// Type of a tile's elements. Three components take the space of four, and are read at once as four.
     fn element(&self, graph: &Graph) -> Type {
         let scalar = graph.textures[self.texture as usize].scalar;
         let lanes = match self.components.len() as u8 {
@@ -218,7 +218,7 @@ impl Candidate {
         Type::value(scalar, lanes)
     }
 
-    /// How large it is, and what it saves.
+    /// Computes the size of the tile, and the reads that it saves.
     fn measure(&mut self, graph: &Graph, threads: [u32; 2]) {
         self.components.sort_unstable();
         self.components.dedup();
@@ -254,7 +254,7 @@ impl Candidate {
     }
 }
 
-/// Those that pay and fit.
+/// Returns the tiles that save reads and fit into the memory together.
 fn chosen(graph: &Graph, candidates: Vec<Candidate>, threads: [u32; 2], apart: &mut Vec<Apart>) -> Vec<Candidate> {
     let mut kept = Vec::new();
     let mut leave = |candidate: &Candidate, why: String| {
