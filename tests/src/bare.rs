@@ -105,7 +105,7 @@ fn groups(manifest: &Manifest, size: UVec2) -> Result<[u32; 3], String> {
     Ok([size.x.div_ceil(x * across), size.y.div_ceil(y * down), 1])
 }
 
-/// What the manifest binds, but for its targets.
+/// Bindings of the manifest, except for its targets.
 fn bindings(manifest: &Manifest, inputs: &Inputs) -> Result<Vec<Binding>, String> {
     let bound = manifest.bindings.iter().map(|binding| {
         Ok(Binding {
@@ -117,7 +117,7 @@ fn bindings(manifest: &Manifest, inputs: &Inputs) -> Result<Vec<Binding>, String
     bound.collect()
 }
 
-/// What a language binds besides.
+/// Additional bindings of a language.
 fn own_bindings(manifest: &Manifest, target: Target) -> Result<Vec<Binding>, String> {
     let language = target.to_string();
     let own = manifest.language_bindings.iter();

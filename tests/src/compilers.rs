@@ -64,7 +64,7 @@ pub fn tint(path: &Path) -> Result<(), String> {
     }
 }
 
-/// Whether Tint is on the path.
+/// Returns whether Tint is on the path.
 pub fn has_tint() -> bool {
     static HAS: LazyLock<bool> = LazyLock::new(|| Command::new("tint").arg("--help").output().is_ok());
     *HAS
@@ -111,7 +111,7 @@ pub fn all(folder: &Path, shaders: &[(PathBuf, String)]) -> Result<(), String> {
     }
 }
 
-/// Whether glslc is on the path.
+/// Returns whether glslc is on the path.
 fn has_glslc() -> bool {
     static HAS: LazyLock<bool> = LazyLock::new(|| Command::new("glslc").arg("--version").output().is_ok());
     *HAS
@@ -283,7 +283,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What cannot be removed stays behind in the folder for temporary files.
+        // A folder that cannot be removed stays among the temporary files.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
@@ -361,7 +361,7 @@ pub fn blocks(words: &[u32]) -> Vec<Vec<u32>> {
     blocks
 }
 
-/// Whether an opcode reads a texel: `OpImageSampleImplicitLod` to `OpImageRead`.
+/// Returns whether an opcode reads a texel: `OpImageSampleImplicitLod` to `OpImageRead`.
 pub fn reads_texel(opcode: &u32) -> bool {
     (87..=98).contains(opcode)
 }

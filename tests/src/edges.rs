@@ -30,7 +30,7 @@ pub fn of_drivers() -> Vec<f32> {
     FLOATS.into_iter().filter(is_half).collect()
 }
 
-/// Those that stand for the others where all of them would be too many.
+/// Representatives of the others, for tests in which all of them would be too many.
 #[rustfmt::skip]
 pub const FEW: [f32; 16] = [
     0.0, -0.0, 1.0, -1.0, 0.5, 2.0, -3.0, 3.0, -104.0, 2.0e19, f32::MAX, -5.9e-39, 1.570_796_4, f32::INFINITY, f32::NEG_INFINITY, f32::NAN,

@@ -1,4 +1,4 @@
-//! What several tests and programs share.
+//! Code shared by several tests and programs.
 //!
 //! [`random`]: differential testing of the generator. A random kernel is compiled natively by rustc, and by the generator in
 //! every form: all must compute the same bits.

@@ -27,7 +27,7 @@ pub fn compile(text: &str, arguments: &[&str]) -> Result<Vec<u8>, String> {
     DXC.as_ref().map_err(String::clone)?.compile(text, arguments)
 }
 
-/// Where `tools/dxc` puts the library.
+/// Path of the library as `tools/dxc` installs it.
 fn installed() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     root.join("target/dxc/libdxcompiler.so")
@@ -201,7 +201,7 @@ impl Dxc {
 struct Owned(Object);
 
 impl Owned {
-    /// What a call gave together with its code.
+    /// Wraps the object that a call returned, if its code is no error.
     fn new(object: Object, code: i32, call: &str) -> Result<Owned, String> {
         match code < 0 || object.is_null() {
             true => Err(format!("DXC: {call} failed with {code:#x}")),

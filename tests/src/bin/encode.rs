@@ -1,4 +1,4 @@
-//! What recording a frame costs on the processor: `cargo run --release -p straightline-tests --bin encode [-- FILE.json]`.
+//! Cost of recording a frame on the processor: `cargo run --release -p straightline-tests --bin encode [-- FILE.json]`.
 //!
 //! SRAA 4 by what `Pass::bind` gives, by wgpu calls written out, and bound anew every frame; beside it SMAA by the crate
 //! `smaa`. All in turn, in CPU time of the recording thread, so that a software driver's own threads do not count.
@@ -23,7 +23,7 @@ const SIZE: u32 = 64;
 /// Frames that are timed together.
 const FRAMES: usize = 64;
 
-/// How often each is timed, after one that does not count.
+/// Measured repetitions of each, after one that does not count.
 const ROUNDS: usize = 41;
 
 fn main() -> ExitCode {
@@ -75,7 +75,7 @@ fn run(file: Option<&str>) -> Result<(), Box<dyn Error>> {
                 0 => gpu.recorded(|encoder| bound.encode(encoder))?,
                 1 => gpu.recorded(|encoder| handwritten.encode(encoder))?,
                 2 => gpu.recorded(|encoder| frame.bind(&pass).expect("it was bound before").encode(encoder))?,
-                // It has an encoder of its own, and submits.
+                // SMAA has an encoder of its own, and submits.
                 _ => gpu.timed(|| {
                     for _ in 0..FRAMES {
                         smaa.start_frame(&gpu.device, &gpu.queue, &frame.shown).resolve();
@@ -234,7 +234,7 @@ impl Gpu {
     }
 }
 
-/// What SRAA 4 reads and writes, and what SMAA writes.
+/// Textures that SRAA 4 reads and writes, and that SMAA writes.
 struct Frame {
     color: wgpu::TextureView,
     depth: wgpu::TextureView,
@@ -284,7 +284,7 @@ impl Frame {
     }
 }
 
-/// The same pass as one writes it without a runtime.
+/// The same pass, hand-written without a runtime.
 struct Handwritten {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,

@@ -1,4 +1,4 @@
-//! How long generating takes, in seconds of CPU time: `cargo run --profile dist -p straightline-tests --bin generate`.
+//! Duration of generating, in seconds of CPU time: `cargo run --profile dist -p straightline-tests --bin generate`.
 
 use cpu_time::ProcessTime;
 use std::process::ExitCode;

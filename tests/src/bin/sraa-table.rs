@@ -15,7 +15,7 @@ use straightline_tests::sraa::{Options, compiled, difference, scenes, surfaces};
 
 const USAGE: &str = "usage: sraa-table [--record FILE]";
 
-/// What the rows run through.
+/// Options that vary over the rows.
 const COLUMNS: [&str; 5] = ["metric", "pattern", "falloff", "normalisation", "layout"];
 
 fn main() -> ExitCode {
@@ -41,7 +41,7 @@ fn main() -> ExitCode {
 /// Most that a row may be off, for colours in 0..1.
 const BOUND: f64 = 1.0 / 1024.0;
 
-/// Whether all rows are within the bound.
+/// Returns whether all rows are within the bound.
 fn table(record: Option<PathBuf>) -> Result<bool, String> {
     let (bench, adapter, samples) = device()?;
     let start = Instant::now();

@@ -8,7 +8,7 @@ use std::ffi::c_void;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// What to install where there is no EGL, or it finds no driver.
+/// Help for systems without EGL, or without a driver for it.
 const INSTALL: &str = "install Debian's libegl1 and libgl1-mesa-dri";
 
 /// `EGL_PLATFORM_SURFACELESS_MESA`: a display that shows nothing.
@@ -82,7 +82,7 @@ impl Context {
     fn of(display: &'static Display, context: egl::Context) -> Result<Self, String> {
         let current = display.egl.make_current(display.handle, None, None, Some(context));
         if let Err(error) = current {
-            // Not to be used, and there is nobody else to tell that it cannot be destroyed.
+            // The context is not used any more, and a failure to destroy it can only be ignored.
             let _ = display.egl.destroy_context(display.handle, context);
             return Err(format!("a context without a surface: {error}: {INSTALL}"));
         }
@@ -144,7 +144,7 @@ impl fmt::Debug for Context {
     }
 }
 
-/// EGL with its display that shows nothing. There is one in a process, which stays: whoever closed it would close it for all.
+/// EGL with its display that shows nothing. A process has one, which stays: closing it would close it for all.
 struct Display {
     egl: egl::DynamicInstance<egl::EGL1_5>,
     handle: egl::Display,

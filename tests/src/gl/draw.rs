@@ -286,7 +286,7 @@ fn set_uniform(
     describe(gl, &format!("setting the uniform `{name}` to {value:?}"))
 }
 
-/// Where a storage buffer is bound. The text is asked, as OpenGL ES cannot move a block to another binding.
+/// Binding of a storage buffer, read from the text, as OpenGL ES cannot move a block to another binding.
 fn binding_of(text: &str, place: &Place) -> Result<u32, String> {
     let name = match place {
         Place::Binding(binding) => return Ok(*binding),
@@ -328,7 +328,7 @@ fn require_name(text: &str, name: &str) -> Result<(), String> {
     }
 }
 
-/// What OpenGL has against what was done since it was last asked.
+/// Returns the errors of OpenGL since the last query.
 pub fn describe(gl: &glow::Context, doing: &str) -> Result<(), String> {
     // SAFETY: see the module.
     let error = unsafe { gl.get_error() };

@@ -85,9 +85,9 @@ fn require_varyings(program: &Program<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// Where the triangle's vertices lie, in widths of the picture. No local variables, which could have the name of a varying.
+/// Horizontal positions of the triangle's vertices, in widths of the picture. No local variables, which could have the name of a varying.
 const ACROSS: &str = "float(2 * int(gl_VertexID == 1))";
-/// The same in heights.
+/// Vertical positions in heights.
 const DOWN: &str = "float(2 * int(gl_VertexID == 2))";
 
 /// The vertex shader of a triangle that covers the picture, in the version of the fragment shader.

@@ -9,11 +9,11 @@ use straightline_kernels::prelude::Frame;
 pub struct Program<'a> {
     /// GLSL that begins with its `#version`.
     pub text: &'a str,
-    /// Where the result comes from.
+    /// Stage that computes the result.
     pub stage: Stage,
     /// Width and height of the picture.
     pub size: [u32; 2],
-    /// What the picture's texels are stored as; 32 bits a component unless stated.
+    /// Storage format of the picture's texels; 32 bits a component unless stated.
     pub format: Format,
     /// Images that a compute shader writes too, by their bindings.
     pub other_images: Vec<(u32, Format)>,
@@ -56,13 +56,13 @@ pub struct Texture {
     pub layers: Option<u32>,
     /// Row by row from `y = 0`, layer by layer.
     pub texels: Vec<[f32; 4]>,
-    /// How it is sampled. The nearest texel, clamped to the border, unless stated.
+    /// State of the sampler. The nearest texel, clamped to the border, unless stated.
     pub sampler: SamplerState,
-    /// Whether it is read through a `sampler2DShadow`: a depth texture of the texels' first components, which are clamped to 0..=1.
+    /// `true` if it is read through a `sampler2DShadow`: a depth texture of the texels' first components, which are clamped to 0..=1.
     pub compares: bool,
 }
 
-/// Where a storage buffer is bound.
+/// Binding of a storage buffer.
 #[derive(Clone, Debug)]
 pub enum Place {
     /// At the binding that the text states for the block of this name.
@@ -87,7 +87,7 @@ pub enum Uniform {
 pub struct Varying {
     /// Name of the fragment shader's input.
     pub name: String,
-    /// Its `layout(location = ...)`, if it has one.
+    /// Location of `layout(location = ...)`, if the text states one.
     pub location: Option<u32>,
     /// Components, 1 to 4.
     pub components: usize,

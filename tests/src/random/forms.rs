@@ -4,7 +4,7 @@ use std::fmt;
 use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::{Branches, ReadOrder, Settings, Unroll};
 
-/// What may become of loops and branches; the first is what kernels are made for, and what it takes all must take.
+/// Policies for loops and branches; kernels are made for the first, which must accept all of them.
 pub const FORMS: &[Form] = &[
     Form(Unroll::Full, Branches::AsLoops),
     Form(Unroll::None, Branches::AsLoops),
@@ -13,7 +13,7 @@ pub const FORMS: &[Form] = &[
     Form(Unroll::Full, Branches::Keep),
 ];
 
-/// What becomes of loops, and of branches on runtime values. Where branches do not go as loops do, reads come row by row.
+/// Policies for loops, and for branches on runtime values. If branches do not follow loops, reads come row by row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form(pub Unroll, pub Branches);
 
@@ -33,7 +33,7 @@ impl fmt::Display for Form {
     }
 }
 
-/// Whether two texels are the same bit for bit, where any NaN equals any other.
+/// Returns whether two texels are equal bit for bit, where any NaN equals any other.
 pub fn same(a: [f64; 4], b: [f64; 4]) -> bool {
     a.iter()
         .zip(b)

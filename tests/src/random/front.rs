@@ -1,4 +1,4 @@
-//! Whether the generator stands whatever text it is given.
+//! Robustness of the generator against arbitrary text.
 
 use super::forms::is_internal;
 use std::sync::mpsc;
@@ -18,7 +18,7 @@ pub fn survives(text: &str, function: &str) -> Result<bool, String> {
     let (send, receive) = mpsc::channel();
     std::thread::spawn(move || {
         let outcome = std::panic::catch_unwind(|| kernel.compile(&Settings::default()).map(|_| ()));
-        // Nobody listens any more if it took too long.
+        // The receiver is gone if the text took too long.
         let _ = send.send(outcome);
     });
     match receive.recv_timeout(PATIENCE) {

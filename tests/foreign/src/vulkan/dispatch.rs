@@ -1,4 +1,4 @@
-//! One dispatch of a compute shader.
+//! A dispatch of a compute shader.
 #![expect(
     unsafe_code,
     reason = "Vulkan's functions are foreign; each handle is made, used and destroyed in one dispatch"
@@ -11,18 +11,18 @@ use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::time::Duration;
 
-/// What a shader reads or writes, and where it is bound.
+/// A resource of a shader with its binding number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Binding {
     /// Descriptor set.
     pub set: u32,
     /// Number in the set.
     pub number: u32,
-    /// What is bound there.
+    /// The resource.
     pub resource: Resource,
 }
 
-/// What is bound.
+/// Kinds of resources.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Resource {
     /// A texture that is read.
@@ -31,7 +31,7 @@ pub enum Resource {
     Target(Image),
     /// A sampler that clamps: linear, or of the nearest texel.
     Sampler {
-        /// Whether texels are interpolated.
+        /// `true` if texels are interpolated.
         linear: bool,
     },
     /// A uniform buffer.
@@ -40,7 +40,7 @@ pub enum Resource {
     Buffer(Vec<u8>),
 }
 
-/// One dispatch.
+/// A dispatch of a compute shader with its resources.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dispatch<'a> {
     /// SPIR-V.
@@ -86,7 +86,7 @@ impl Device {
                 seen_by_host(&self.device, commands);
             });
             if let Err(e) = done {
-                // It may be running still, with all that it uses.
+                // The dispatch may still be running, with all that it uses.
                 std::mem::forget((made, bound));
                 return Err(refused(e));
             }
@@ -114,7 +114,7 @@ impl Device {
     }
 }
 
-/// What is bound, on the device.
+/// A resource on the device.
 enum Bound<'d> {
     Texture(Texels<'d>),
     Target(Texels<'d>),
@@ -176,7 +176,7 @@ fn descriptor_type(resource: &Resource) -> vk::DescriptorType {
     }
 }
 
-/// What is destroyed when it goes.
+/// Vulkan objects, destroyed when dropped.
 struct Made<'d> {
     device: &'d ash::Device,
     set_layouts: Vec<vk::DescriptorSetLayout>,

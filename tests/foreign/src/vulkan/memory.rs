@@ -16,14 +16,14 @@ pub struct Image {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Its texels: `width * height * format.bytes()` bytes.
+    /// Texels: `width * height * format.bytes()` bytes.
     pub bytes: Vec<u8>,
 }
 
 /// Format of a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// One `f32`.
+    /// A single `f32`.
     R32Float,
     /// Two `f32`.
     Rg32Float,
@@ -105,7 +105,7 @@ impl<'d> Bytes<'d> {
         Ok(made)
     }
 
-    /// What the buffer holds now.
+    /// Reads the present contents of the buffer.
     pub fn read(&self) -> Result<Vec<u8>, vk::Result> {
         let mut bytes = vec![0u8; self.length];
         // SAFETY: the memory is as large, visible to the host and coherent, and no command is running.

@@ -17,7 +17,7 @@ use straightline_tests::random::make::make;
 /// Kernels whose texts lie in a folder at once.
 const BATCH: u64 = 64;
 
-/// What became of kernels.
+/// Outcomes of the kernels.
 #[derive(Default)]
 struct Counts {
     kernels: u64,
@@ -38,7 +38,7 @@ pub fn languages(options: &Options) -> Result<(), String> {
     starts.par_iter().try_for_each(|start| {
         let folder = std::env::temp_dir().join(format!("straightline-languages-{}-{start}", std::process::id()));
         let outcome = batch(options, *start..(start + BATCH).min(end), &folder, &total);
-        // What cannot be removed stays behind in the folder for temporary files.
+        // A folder that cannot be removed stays among the temporary files.
         let _ = std::fs::remove_dir_all(&folder);
         outcome
     })?;
@@ -163,7 +163,7 @@ fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(T
     texts
 }
 
-/// Whether a kernel is nothing that a language or a stage has, whatever is in it.
+/// Returns whether an error is a feature that a language or a stage lacks, whatever the kernel.
 fn has_no_such_text(error: &Errors) -> bool {
     matches!(
         error.code(),
@@ -171,7 +171,7 @@ fn has_no_such_text(error: &Errors) -> bool {
     )
 }
 
-/// What a compiler says, without the text that it was given.
+/// Messages of a compiler, without the text that it compiled.
 fn first_lines(text: &str) -> String {
     text.lines().take(6).collect::<Vec<_>>().join("\n  ")
 }

@@ -26,7 +26,7 @@ fn main() -> ExitCode {
         }
         return ExitCode::SUCCESS;
     }
-    // What the generator panics with, and where, is part of the report.
+    // Message and place of the generator's panics are part of the report.
     if options.gpu == 0 {
         std::panic::set_hook(Box::new(|_| {}));
     }

@@ -1,4 +1,4 @@
-//! What the program is asked to do.
+//! Options of the program.
 
 use straightline_tests::random::make::Features;
 use straightline_tests::random::oracle::Ways;
@@ -21,7 +21,7 @@ usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATU
   --keep-going       list every disagreement by its seed, instead of making the first smaller
   --print            only print the kernel of the seed, and why it is refused if it is";
 
-/// What the program is asked to do.
+/// Options of the program.
 pub struct Options {
     /// Random kernels to compare with rustc.
     pub kernels: u64,
@@ -33,21 +33,21 @@ pub struct Options {
     pub batch: u64,
     /// The number of the inputs, unless it is that of a batch's first kernel.
     pub world: Option<u64>,
-    /// What kernels are made of.
+    /// Features that kernels are made of.
     pub features: Features,
     /// Kernels with a mistake in them.
     pub accepts: u64,
     /// Random kernels to run on a Vulkan adapter.
     pub gpu: u64,
-    /// What is made of each of them.
+    /// Ways in which each kernel is compiled and run.
     pub ways: Ways,
     /// Random kernels to emit in every language.
     pub languages: u64,
     /// Minutes for mutated texts.
     pub front_minutes: f64,
-    /// Whether every disagreement is listed.
+    /// `true` to list every disagreement.
     pub keep_going: bool,
-    /// Whether the kernel of the seed is only printed.
+    /// `true` to print the kernel of the seed, and stop.
     pub print: bool,
 }
 

@@ -104,7 +104,7 @@ impl Maker {
         self.close("}");
     }
 
-    /// What has changed in a loop that is left at run time is known no more.
+    /// Values that changed in a loop that is left at run time are no constants any more.
     pub(super) fn unknown_after(&mut self, left: bool) {
         if left {
             self.locals.iter_mut().filter(|l| l.mutable).for_each(|l| {

@@ -85,7 +85,7 @@ impl Maker {
             }
             3 if !want.known && d.depth > 0 => {
                 let word = self.random.pick(&["or", "xor", "and"]);
-                // What comes after `and` may be of any type.
+                // The argument of `and` may be of any type.
                 let (a, b) = (self.receiver(&own, d), self.expr(&own, d.inferred(word != "and")));
                 format!("{a}.{word}({b})")
             }

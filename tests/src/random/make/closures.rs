@@ -49,7 +49,7 @@ impl Maker {
         self.bind(&result, &ty, false);
     }
 
-    /// Whether a closure that takes what it mentions along would leave less behind.
+    /// Returns whether a closure that takes the variables that it mentions by value would move some.
     fn would_move(&self, body: &str) -> bool {
         let mut words = body.split(|c: char| !c.is_alphanumeric() && c != '_');
         words.any(|word| {
@@ -84,7 +84,7 @@ impl Maker {
         });
         self.freeze(&place.root, false);
         self.locals.truncate(mark);
-        // Its argument was computed before the closure borrowed.
+        // The argument was computed before the closure borrowed.
         let last = self.lines.pop().expect("a line was just written");
         let argument = self.fresh("v");
         self.line(format!("let {argument}: {written} = {value};"));

@@ -102,7 +102,7 @@ impl Maker {
         }
     }
 
-    /// What the kernel reads.
+    /// An expression that reads an input of the kernel.
     fn input(&mut self, ty: &Ty) -> Option<String> {
         let further = match self.random.below(6) {
             0..=1 => self.further(ty),

@@ -1,4 +1,4 @@
-//! Which constructs kernels are made of.
+//! Constructs that kernels are made of.
 
 /// A group of constructs that can be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub enum Feature {
     Enums,
     /// Closures, functions as values, adaptors of iterators.
     Closures,
-    /// What the generator has as text of the kernel language.
+    /// Functions that the generator has as text of the kernel language.
     Library,
     /// `match` on runtime values, guards, `if let`, `let ... else`, `matches!`, `while let`.
     Matching,
@@ -32,7 +32,7 @@ pub enum Feature {
     Nested,
     /// Labelled loops, `break`, `continue`, early `return`.
     Leaving,
-    /// The same under conditions that are runtime values, and in loops that stay loops.
+    /// As `Leaving`, under conditions that are runtime values, and in loops left in the shader.
     RuntimeLeaving,
     /// `while` and `loop`.
     While,
@@ -104,7 +104,7 @@ impl Features {
         Features(u32::MAX)
     }
 
-    /// What all drivers compute in the same bits.
+    /// Features that all drivers compute in the same bits.
     pub fn exact_on_drivers() -> Features {
         Features::all().on_drivers()
     }
@@ -119,7 +119,7 @@ impl Features {
         Features(self.0 & !(1 << feature as u32))
     }
 
-    /// Whether a feature is in the set.
+    /// Returns whether a feature is in the set.
     pub fn has(self, feature: Feature) -> bool {
         self.0 & (1 << feature as u32) != 0
     }

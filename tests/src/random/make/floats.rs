@@ -120,7 +120,7 @@ impl Maker {
                 match n {
                     8 if coarse => format!("inverse_sqrt({}.abs() + 0.5)", self.float_receiver(d)),
                     8 | 9 if !coarse => self.leaf(&Ty::F32, want),
-                    // Which zero a maximum gives of two is open in Rust.
+                    // Rust leaves open which of two zeros a maximum returns.
                     _ if name == "saturate" => format!("saturate({} + 0.0f32)", self.expr(&Ty::F32, d)),
                     9 => format!("smoothstep(-1.0, 3.0, {})", self.expr(&Ty::F32, d)),
                     _ => {

@@ -4,18 +4,18 @@
 use super::types::Ty;
 use super::{Feature, Maker};
 
-/// What the threads of a workgroup share.
+/// Memory that the threads of a workgroup share.
 #[derive(Clone, Debug)]
 pub struct Memory {
     name: String,
     ty: Ty,
     len: usize,
     atomic: bool,
-    /// What the phase does with it that is being made.
+    /// Use of the memory in the phase that is being made.
     role: Role,
 }
 
-/// What a phase does with a memory.
+/// Use of a memory in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     /// Every thread reads any element.
@@ -68,7 +68,7 @@ impl Maker {
         stated
     }
 
-    /// What memory that is shared may hold.
+    /// Type of the elements of workgroup memory.
     fn shared_type(&mut self) -> Ty {
         loop {
             let ty = self.plain_type();
@@ -160,7 +160,7 @@ impl Maker {
         self.phase_of(result, false);
     }
 
-    /// What each thread does: a statement whose values are kept, or the last expression of the kernel.
+    /// Work of each thread in a phase: a statement whose values are kept, or the last expression of the kernel.
     fn phase_of(&mut self, result: Option<&Ty>, last: bool) {
         for k in 0..self.memories.len() {
             let operation = self.random.pick(UNORDERED);
@@ -222,7 +222,7 @@ impl Maker {
         self.shape.group.map_or(0, |[width, height]| width * height)
     }
 
-    /// What a thread knows of itself and of what it has kept.
+    /// Variables of a thread: its position, and the values that it has kept.
     fn thread(&mut self) {
         self.line("let pixel = thread.pixel;");
         let (index, local) = (self.fresh("v"), self.fresh("v"));

@@ -28,7 +28,7 @@ impl Maker {
             receiver: None,
             inputs: self.shape.group.is_none(),
             params: Vec::new(),
-            // What all threads do together gives no value that could be given early.
+            // A phase of all threads has no value that an early return could give.
             result: self.shape.group.is_none().then_some(result.clone()),
             known: false,
             cost: 0,
@@ -88,7 +88,7 @@ impl Maker {
         self.bind(&name, &Ty::F32, false);
     }
 
-    /// What the kernel gives, from as many variables as there are numbers in it.
+    /// Value of the kernel, from as many variables as there are numbers in it.
     pub(super) fn given(&mut self, ty: &Ty) -> String {
         let want = Want {
             depth: 1,

@@ -192,7 +192,7 @@ impl Maker {
     }
 }
 
-/// Whether the parenthesis that begins a text ends it.
+/// Returns whether the parenthesis that begins a text ends it.
 fn whole(text: &str) -> bool {
     let mut depth = 0;
     for (k, c) in text.char_indices() {

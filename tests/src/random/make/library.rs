@@ -91,7 +91,7 @@ impl Maker {
         match self.random.below(14) {
             0 => format!("{own}.midpoint({other})"),
             1 => format!("{own}.fract_gl()"),
-            // Which zero a maximum gives of two is open in Rust.
+            // Rust leaves open which of two zeros a maximum returns.
             2 => format!("({own} + 0.0).saturate()"),
             3 => format!("{own}.copysign({other})"),
             4 => format!("{own}.project_onto_normalized({other})"),

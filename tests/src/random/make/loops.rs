@@ -254,7 +254,7 @@ impl Maker {
             3 if self.copies(&of) => (format!("for &{name} in {path}.iter()"), Hold::Value, None),
             _ => (format!("for {name} in {path}.iter()"), Hold::Shared, None),
         };
-        // What is iterated by reference cannot be changed inside.
+        // An array that is iterated by reference cannot be changed inside.
         let blocks = head.contains(".iter()");
         let writes = array.mutable || array.hold == Hold::Mutable;
         if blocks && writes {
@@ -316,7 +316,7 @@ impl Maker {
             format!("while {name} < {end}")
         };
         if self.chance(Feature::Attributes, 6) {
-            // It has at most three iterations.
+            // The loop has at most three iterations.
             let bound = self.random.between(3, 6);
             self.line(format!("#[cfg_attr(false, bound({bound}))]"));
         }

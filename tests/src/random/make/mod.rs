@@ -54,7 +54,7 @@ pub fn make(seed: u64, features: Features) -> Text {
     }
 }
 
-/// How a variable holds its value.
+/// Way in which a variable holds its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Hold {
     /// By value.
@@ -72,7 +72,7 @@ struct Local {
     ty: Ty,
     mutable: bool,
     hold: Hold,
-    /// Whether its value is a compile-time constant once all loops are unrolled.
+    /// `true` if the value is a compile-time constant once all loops are unrolled.
     known: bool,
     /// Bounds of a known integer that may index or bound a loop.
     range: Option<(i64, i64)>,
@@ -82,14 +82,14 @@ struct Local {
     frozen: bool,
 }
 
-/// What an expression must be.
+/// Requirements on an expression.
 #[derive(Clone, Copy, Debug)]
 struct Want {
     /// Levels of nesting left.
     depth: u32,
     /// A compile-time constant.
     known: bool,
-    /// What surrounds it tells rustc the type of an untyped literal.
+    /// `true` if rustc infers the type of an untyped literal from the context.
     inferred: bool,
 }
 
@@ -112,7 +112,7 @@ struct Around {
     /// Runtime conditions around it: under more of them it cannot be left.
     dynamic: u32,
     label: Option<String>,
-    /// Whether it, or an iteration of it, may be left at run time.
+    /// `true` if it, or an iteration of it, may be left at run time.
     left: bool,
 }
 
@@ -127,9 +127,9 @@ struct Maker {
     structures: Vec<Structure>,
     enumerations: Vec<Enumeration>,
     choices: Vec<Choice>,
-    /// Whether there are functions with `?`, with `..` in a pattern, and one that gives a closure.
+    /// `true` if there are functions with `?`, with `..` in a pattern, and one that returns a closure.
     tries: bool,
-    /// Whether the trait is there.
+    /// `true` if the trait is declared.
     traits: bool,
     signatures: Vec<Signature>,
     /// Names, types and bounds of constants.
@@ -139,23 +139,23 @@ struct Maker {
     /// Runtime conditions around.
     dynamic: u32,
     nesting: u32,
-    /// How often the current place runs at most.
+    /// Upper bound on the executions of the current place.
     repeats: u32,
     cost: u32,
     budget: u32,
     loops: Vec<Around>,
-    /// What the function returns that is being made.
+    /// Type of the result of the function that is being made.
     result: Option<Ty>,
-    /// What the kernel takes and gives.
+    /// Parameters and result of the kernel.
     shape: Shape,
-    /// What threads of a workgroup share, and what each of them keeps.
+    /// Memories of the workgroup, and values that each thread keeps.
     memories: Vec<Memory>,
     kept: Vec<Kept>,
-    /// Whether `a`, `b`, `p`, `q`, `r`, further inputs and `pixel` are in reach.
+    /// `true` if `a`, `b`, `p`, `q`, `r`, further inputs and `pixel` are in scope.
     inputs: bool,
-    /// Whether what is made is an index or a value for a further input, which reads no other.
+    /// `true` inside an index or a value for a further input, which reads no other.
     reading: bool,
-    /// Whether an expression may call what changes variables.
+    /// `true` if an expression may call functions that change variables.
     effects: bool,
     options: bool,
 }

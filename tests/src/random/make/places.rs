@@ -6,12 +6,12 @@ use super::{Feature, Hold, Local, Maker, Want};
 /// A variable or a part of it.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// How Rust writes it.
+    /// Text in Rust.
     pub text: String,
     pub ty: Ty,
     /// The variable.
     pub root: String,
-    /// Whether it is the whole of a variable that is a reference.
+    /// Set if the place is the whole of a variable that is a reference.
     pub reference: Hold,
 }
 

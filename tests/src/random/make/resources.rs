@@ -1,4 +1,4 @@
-//! What kernels read of further inputs.
+//! Reads of further inputs.
 
 use super::types::{Lane, Ty};
 use super::{Feature, Maker, Want};
@@ -99,7 +99,7 @@ impl Maker {
             .filter(|(of, given, _)| *given == wanted && self.shape.takes(of))
             .map(|(.., read)| *read)
             .collect();
-        // What an index is computed of reads nothing further.
+        // Operands of an index read no further input.
         if fit.is_empty() || self.reading {
             return None;
         }

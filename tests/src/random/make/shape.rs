@@ -1,5 +1,5 @@
-//! What a kernel takes and gives. Most take a frame, a buffer, three numbers and their pixel, and give a colour; a share of
-//! them takes further shapes.
+//! Parameters and results of kernels. Most kernels have a frame, a buffer, three numbers and their pixel, and return a colour; a share of
+//! them has further shapes.
 
 use super::types::{Structure, Ty};
 use super::{Feature, Lane, Maker};
@@ -7,18 +7,18 @@ use super::{Feature, Lane, Maker};
 /// A parameter: its name and its type.
 pub type Parameter = (&'static str, &'static str);
 
-/// What the kernel takes and gives.
+/// Parameters and result of a kernel.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// What functions that take the inputs take, but their pixel.
+    /// Parameters of functions that take the inputs, except the pixel.
     pub inputs: Vec<Parameter>,
     /// Width and height of the workgroup whose kernel it is.
     pub group: Option<[usize; 2]>,
-    /// What the kernel gives each pixel.
+    /// Type of the value for each pixel.
     pub result: Ty,
 }
 
-/// What every kernel takes.
+/// Parameters of every kernel.
 const PLAIN: &[Parameter] = &[
     ("a", "&Frame<Vec4>"),
     ("b", "&Buffer<f32>"),
@@ -27,7 +27,7 @@ const PLAIN: &[Parameter] = &[
     ("r", "f32"),
 ];
 
-/// What a kernel may read besides; samplers come with what they read. The native program knows each by its name.
+/// Additional inputs of a kernel; samplers come with the textures that they read. The native program knows each by its name.
 const READ: &[Parameter] = &[
     ("bu", "&Buffer<u32>"),
     ("bi", "&Buffer<i32>"),
@@ -58,7 +58,7 @@ const READ: &[Parameter] = &[
     ("resolution", "UVec2"),
 ];
 
-/// What a kernel may write.
+/// Memory that a kernel may write.
 const WRITTEN: &[Parameter] = &[
     ("wf", "&StorageBuffer<f32>"),
     ("wv", "&StorageBuffer<Vec4>"),
@@ -81,12 +81,12 @@ impl Shape {
         }
     }
 
-    /// Whether the kernel takes more than every one does.
+    /// Returns whether the kernel has more parameters than every kernel has.
     pub fn is_wide(&self) -> bool {
         self.inputs.len() > PLAIN.len()
     }
 
-    /// Whether the kernel takes a parameter of a name.
+    /// Returns whether the kernel has a parameter of a name.
     pub fn takes(&self, name: &str) -> bool {
         self.inputs.iter().any(|(taken, _)| *taken == name)
     }
@@ -198,7 +198,7 @@ impl Maker {
         Ty::Struct(self.structures.len() - 1)
     }
 
-    /// One number or vector, or several as a tuple or a structure.
+    /// A number or vector, or several as a tuple or a structure.
     fn result_type(&mut self) -> Ty {
         // WebGPU promises four storage textures, of which a picture that is written is one.
         let most = if self.shape.takes("wt") { 3 } else { 4 };

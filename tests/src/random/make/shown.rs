@@ -1,4 +1,4 @@
-//! What shows the values of variables in the picture.
+//! Code that shows the values of variables in the picture.
 
 use super::types::Ty;
 use super::{Hold, Maker};

@@ -15,7 +15,7 @@ impl Maker {
         }
     }
 
-    /// One statement, or a few that belong together.
+    /// Writes a statement, or a few that belong together.
     pub(super) fn statement(&mut self) {
         if self.poor() {
             return self.assign();
@@ -117,7 +117,7 @@ impl Maker {
         if !self.loops.is_empty() && self.chance(Feature::RuntimeLeaving, 4) {
             self.leave_at_run_time();
         }
-        // What was computed inside is carried out.
+        // Values computed inside are carried out.
         if self.random.below(3) > 0 && self.locals.len() > mark {
             self.carry();
         }
