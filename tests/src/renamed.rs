@@ -459,17 +459,17 @@ pub struct Source {
     pub texts: Vec<String>,
     /// The function.
     pub function: String,
-    /// How it is evaluated.
+    /// Settings of the evaluation.
     pub settings: Settings,
 }
 
 /// A kernel under other names.
 pub struct Renamed {
-    /// It.
+    /// The compiled kernel.
     pub compiled: Compiled,
     /// The other names by those of the original.
     pub names: BTreeMap<String, String>,
-    /// Its first file.
+    /// Text of its first file.
     pub text: String,
 }
 
@@ -534,7 +534,7 @@ impl Source {
     }
 }
 
-/// The same inputs under the names of another graph of the same kernel.
+/// Renames inputs for another graph of the same kernel.
 pub fn inputs_of(from: &Graph, to: &Graph, inputs: &Inputs) -> Inputs {
     let mut names: BTreeMap<&str, &str> = BTreeMap::new();
     let each = |graph: &'_ Graph| -> Vec<String> {

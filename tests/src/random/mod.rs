@@ -38,7 +38,7 @@ impl Random {
         self.below(n) == 0
     }
 
-    /// One of some values.
+    /// Chooses one of some values.
     pub fn pick<T: Clone>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())].clone()
     }

@@ -120,7 +120,7 @@ const WORDS: &[&str] = &[
     "|x|",
 ];
 
-/// What is nested, and how it ends.
+/// Texts to nest: beginning and end.
 const NESTED: &[(&str, &str)] = &[
     ("(", ")"),
     ("[", "]"),
@@ -169,7 +169,7 @@ impl Texts {
             (make(random.bits(), Features::all()).file(), "k")
         };
         let mut bytes = text.into_bytes();
-        // One change leaves much that can still be evaluated; more go deeper into the parser's errors.
+        // A single change leaves much that can still be evaluated; more changes reach more of the parser's errors.
         let changes = if random.once_in(2) { 1 } else { 2 + random.below(3) };
         for _ in 0..changes {
             mutate(&mut bytes, &mut random);
@@ -195,7 +195,7 @@ fn collect(folder: &Path, files: &mut Vec<String>) {
     }
 }
 
-/// Where tokens begin and end, roughly.
+/// Approximate range of a token.
 fn token(bytes: &[u8], random: &mut Random) -> (usize, usize) {
     let word = |b: u8| b.is_ascii_alphanumeric() || b == b'_';
     let at = random.below(bytes.len());

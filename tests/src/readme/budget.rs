@@ -38,7 +38,7 @@ fn text(value: &Value) -> &str {
     value.as_str().unwrap_or_default()
 }
 
-/// What each metric costs, on each adapter.
+/// Cost of each metric, on each adapter.
 pub fn metrics(files: &[&Path]) -> Result<String, String> {
     let records = read(files)?;
     // The paper has these for 4 samples.

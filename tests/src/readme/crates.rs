@@ -1,4 +1,4 @@
-//! Which crate needs which.
+//! Dependencies between the crates.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What recording a frame costs on the processor.
+//! Cost of recording a frame on the processor.
 
 use super::markdown;
 use serde_json::Value;

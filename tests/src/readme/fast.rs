@@ -1,4 +1,4 @@
-//! What mathematics that may change roundings is worth.
+//! Gain from mathematics that may change roundings.
 
 use super::markdown;
 use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};

@@ -1,4 +1,4 @@
-//! What texels read four at once are worth.
+//! Gain from reading four texels at once.
 
 use super::markdown;
 use straightline_isa::Figures;

@@ -1,4 +1,4 @@
-//! What GPU compilers say.
+//! Statistics of GPU compilers.
 
 use super::markdown;
 use straightline_isa::{Family, Figures};
@@ -27,7 +27,7 @@ pub fn cycles(record: &IsaRecord) -> Result<String, String> {
     Ok(markdown(&head, rows.collect()))
 }
 
-/// What Slang's compiler was given too, on one family.
+/// Comparison with Slang's compiler, on one family.
 pub fn rivals(record: &IsaRecord) -> Result<String, String> {
     let Some(family) = record.devices.keys().next() else {
         return Err("the record has no family".to_owned());

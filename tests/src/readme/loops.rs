@@ -141,7 +141,7 @@ fn ratio(kernel: &KernelForms, kind: FormKind) -> String {
     form.map_or("–".to_owned(), |form| format!("{:.2}", form.ratio.median))
 }
 
-/// What the unrolling made of a count.
+/// Change of a count by unrolling.
 fn change(kernel: &KernelForms, count: fn(&Form) -> u32) -> String {
     match (kernel.form(FormKind::Looped), kernel.form(FormKind::Full)) {
         (Some(looped), Some(full)) if count(looped) == count(full) => count(full).to_string(),

@@ -3,7 +3,7 @@
 use super::markdown;
 use straightline_study::record::{MotionRecord, MovedMethod, MovedScene};
 
-/// What stands in a column: SRAA's variants and, last, supersampling.
+/// Columns: SRAA's variants and, last, supersampling.
 const COLUMNS: [&str; 5] = [
     "relative depth",
     "placed and searched",

@@ -14,7 +14,7 @@ const METHODS: [(&str, &str); 6] = [
     ("Nx", "supersampling"),
 ];
 
-/// The same of even regions.
+/// Columns for even regions.
 const EVEN: [(&str, &str); 5] = [
     ("SRAA N", "SRAA"),
     ("SRAA N, placed and searched by planes", "placed, searched by planes"),

@@ -1,4 +1,4 @@
-//! What sharing work over pixel quads is worth.
+//! Gain from sharing work over pixel quads.
 
 use straightline_manifest::Stage;
 use straightline_study::record::{QuadWay, QuadsRecord};
@@ -23,7 +23,7 @@ pub fn ways(record: &QuadsRecord) -> String {
             ("block", Stage::Compute),
             ("block 8x2", Stage::Compute),
         ];
-        // What shares nothing sends nothing, though it is computed in blocks: its columns are the first two.
+        // A kernel that shares nothing sends nothing, though it is computed in blocks: its columns are the first two.
         let alone = row.1 == "naive" || row.1 == "bilinear";
         let cell = |(transport, stage): (&str, Stage)| {
             let is = match (alone, transport, stage) {

@@ -65,7 +65,7 @@ pub fn in_short(record: &QualityRecord) -> String {
     markdown(&head, MAIN.iter().map(row).collect())
 }
 
-/// What a method gave on a scene.
+/// Errors of a method on a scene.
 pub(super) fn found<'a>(scene: &'a SceneErrors, name: &str) -> Option<&'a MethodErrors> {
     scene.methods.iter().find(|method| method.method == name)
 }
@@ -159,7 +159,7 @@ fn errors<const N: usize>(record: &QualityRecord, methods: [&str; N]) -> String 
     markdown(&head, rows)
 }
 
-/// What shades or covers more samples beside SRAA, scene by scene: PSNR, and what the filter or the resolve takes.
+/// Methods that shade or cover more samples, beside SRAA, scene by scene: PSNR, and the cost of the filter or the resolve.
 pub fn samplings(record: &QualityRecord) -> String {
     const METHODS: [&str; 11] = [
         "1x",
@@ -234,7 +234,7 @@ pub fn methods(record: &QualityRecord) -> String {
     markdown(&head, names.iter().map(row).collect())
 }
 
-/// Where edges are those of paint and shadow: what is borrowed apart from them, between SRAA and supersampling.
+/// Methods on edges of paint and shadow: demodulated variants between SRAA and supersampling.
 const DEMODULATED: [&str; 7] = [
     "SRAA N, relative depth",
     "SRAA N, demodulated by albedo",
@@ -294,7 +294,7 @@ pub(super) fn cell(scene: &SceneErrors, name: &str) -> String {
     }
 }
 
-/// What one method gave on some scenes.
+/// Errors of a method on some scenes.
 struct Scenes<'a>(Vec<&'a MethodErrors>);
 
 impl<'a> Scenes<'a> {
@@ -318,7 +318,7 @@ impl<'a> Scenes<'a> {
     }
 }
 
-/// How far SRAA is from supersampling on every scene that has gaps, and what that is made of.
+/// Distance of SRAA from supersampling on every scene that has gaps, with its parts.
 pub fn gaps(record: &QualityRecord) -> String {
     let mut head = vec!["scene".to_owned()];
     let first = record.scenes.iter().find(|scene| !scene.gaps.is_empty());

@@ -1,4 +1,4 @@
-//! Whether cycles by a compiler put shaders into the order of their times.
+//! Correlation between a compiler's cycles and measured times of shaders.
 
 use super::markdown;
 use straightline_isa::Family;
@@ -103,7 +103,7 @@ fn shader(
     })
 }
 
-/// What a record was taken with, in a word.
+/// Driver of a record, in a word.
 fn driver(record: &LoopsRecord) -> String {
     let circumstances = &record.circumstances;
     match circumstances.adapter.contains("llvmpipe") {

@@ -94,7 +94,7 @@ fn row(what: &str, goal: &str, now: &str, is_met: bool) -> Vec<String> {
     vec![what.to_owned(), goal.to_owned(), format!("**{now}**"), met.to_owned()]
 }
 
-/// How far a method is below supersampling with as many samples, over the scenes of geometric edges: mean and worst.
+/// Distance of a method below supersampling with as many samples, over the scenes of geometric edges: mean and worst.
 fn below(record: &QualityRecord, method: &str, samples: &str) -> Result<(f64, f64), String> {
     let scenes = record
         .scenes

@@ -1,4 +1,4 @@
-//! What partial unrolling of a convolution is worth.
+//! Gain from partial unrolling of a convolution.
 
 use super::markdown;
 use straightline_study::record::{SweepRecord, Swept};

@@ -1,10 +1,10 @@
-//! What it is worth that workgroups share texels.
+//! Gain from workgroups that share texels.
 
 use super::markdown;
 use straightline_isa::Figures;
 use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
-/// What a compiler says: each pixel reading for itself, and by workgroups.
+/// Cycles by a compiler: each pixel reading for itself, and by workgroups.
 pub fn cycles(record: &IsaRecord) -> Result<String, String> {
     let Some(family) = record.devices.keys().next() else {
         return Err("the record has no family".to_owned());

@@ -1,4 +1,4 @@
-//! What scenes need.
+//! Cheapest variants that meet the needs of scenes.
 
 use super::markdown;
 use straightline_study::record::TuneRecord;

@@ -31,7 +31,7 @@ impl Random {
         (self.number() >> 40) as f32 / (1 << 24) as f32
     }
 
-    /// One of `all`, which is not empty.
+    /// Chooses one of `all`, which is not empty.
     pub fn choose<T: Copy>(&mut self, all: &[T]) -> T {
         all[(self.number() % all.len() as u64) as usize]
     }
@@ -46,7 +46,7 @@ pub fn compiled(options: &Options, unroll: Unroll) -> Result<Compiled, Errors> {
     kernel("sraa", options, unroll)
 }
 
-/// One of the kernels of SRAA with some options set.
+/// Compiles one of the kernels of SRAA with some options set.
 ///
 /// # Errors
 ///
@@ -56,7 +56,7 @@ pub fn kernel(name: &str, options: &Options, unroll: Unroll) -> Result<Compiled,
     Kernel::builtin(name)?.compile(&settings)
 }
 
-/// How far a result is from what it should be.
+/// Distance of a result from the expected one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Difference {
     /// The largest, over all components of all pixels that 32 bits decide as 64 do.

@@ -119,7 +119,7 @@ fn leaked<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> &'static [T] {
     Vec::leak(parts.collect())
 }
 
-/// What there is of a G-buffer.
+/// G-buffer of the inputs that are present.
 pub fn gbuffer(inputs: &Inputs) -> GBuffer {
     let mut gbuffer = GBuffer::unread();
     for (name, images) in &inputs.images {

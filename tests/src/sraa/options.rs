@@ -41,7 +41,7 @@ pub fn value<'a>(options: &'a Options, name: &str, default: &'a str) -> &'a str 
     found.map_or(default, |(_, value)| value.as_str())
 }
 
-/// What an option needs beside it: the data of a list.
+/// Adds the data that an option needs: a list.
 pub fn completed(mut options: Options) -> Options {
     if value(&options, "pattern", "latin4") == "listed" {
         options.push(("offsets".to_owned(), LISTED.to_owned()));
@@ -75,7 +75,7 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
             (name.clone(), values[k].clone())
         });
         let mut set = completed(chosen.collect());
-        // What most other options refuse: left out, so that those are tried.
+        // Conflicts with most other options: removed, so that those are tried.
         if refusal(&set) == Some(SEARCH_REFUSED) {
             set.retain(|(name, _)| name != "search" && name != "extra");
         }
@@ -87,10 +87,10 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
     (0..count).map(|_| set()).collect()
 }
 
-/// What a search needs, and further shading samples.
+/// Refusal of a search, and of further shading samples.
 const SEARCH_REFUSED: &str = "what sets samples apart needs one shading sample a pixel, a box and shifted weights";
 
-/// What taking light apart from paint refuses.
+/// Refusal of taking light apart from paint.
 const MASK_REFUSED: &str = "a mask leaves paint as it is";
 
 /// Why the kernel refuses a set, by what the options' documentation says; `None` if it takes it.

@@ -81,7 +81,7 @@ fn places_of(random: &mut Random, size: UVec2, layers: usize) -> Frame<u32> {
     Frame::new(size, (0..size.x * size.y).map(layer).collect())
 }
 
-/// What a shader with these options reads.
+/// Inputs of a shader with these options.
 pub fn inputs(options: &Options, size: UVec2, seed: u64) -> Inputs {
     inputs_of(&capture(options, size, seed), options, seed)
 }
@@ -114,7 +114,7 @@ pub fn cleared(mut capture: Capture, depth: Option<f32>) -> Capture {
     capture
 }
 
-/// What a shader with these options reads of a capture of them.
+/// Inputs of a shader with these options, from a capture.
 pub fn inputs_of(capture: &Capture, options: &Options, seed: u64) -> Inputs {
     let size = capture.size;
     let compiled = compiled(options, Unroll::Full).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));

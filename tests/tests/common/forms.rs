@@ -65,7 +65,7 @@ pub fn pixels(size: UVec2) -> impl Iterator<Item = IVec2> {
     (0..size.y as i32).flat_map(move |y| (0..size.x as i32).map(move |x| ivec2(x, y)))
 }
 
-/// One image of the inputs, by its name.
+/// An image of the inputs, by its name.
 pub fn image<'a>(inputs: &'a Inputs, name: &str) -> &'a Frame<Vec4> {
     let (_, layers) = inputs
         .images

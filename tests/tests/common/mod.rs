@@ -49,7 +49,7 @@ pub fn device() -> (wgpu::Device, wgpu::Queue) {
     device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name))
 }
 
-/// The same, bit for bit; any NaN equals any other.
+/// Compares bit for bit; any NaN equals any other.
 pub fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<(), String> {
     for (k, (x, y)) in a.iter().zip(b).enumerate() {
         for (p, q) in x.iter().zip(y) {
@@ -61,7 +61,7 @@ pub fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<(), String> {
     Ok(())
 }
 
-/// The same, bit for bit; any NaN equals any other.
+/// Compares bit for bit; any NaN equals any other.
 pub fn same_texels(a: &[[f64; 4]], b: &[[f64; 4]]) -> Result<(), String> {
     if a.len() != b.len() {
         return Err(format!("{} pixels and {}", a.len(), b.len()));
@@ -76,7 +76,7 @@ pub fn same_texels(a: &[[f64; 4]], b: &[[f64; 4]]) -> Result<(), String> {
     Ok(())
 }
 
-/// What a target holds of a value: components that it lacks are 0, and the fourth is 1.
+/// Conversion of a value to a target's texel: missing components are 0, and the fourth is 1.
 pub trait Texel {
     fn texel(&self) -> [f64; 4];
 }

@@ -43,7 +43,7 @@ fn mandelbrot() {
 fn sphere_tracing() {
     let shader = Shader::new("sphere_tracing", SIZE).number("angle", 0.7);
     let native = |at| shaders::sphere_tracing::sphere_tracing(SIZE, shader.float("angle"), at);
-    // Where a ray grazes the ball or ends far away.
+    // Rays that graze the ball or end far away.
     shader.check(
         Within(1.0e-2, 0.02),
         Within(1.0e-2, 0.03),
@@ -226,7 +226,7 @@ fn motion_blur() {
     let shader = moving(moving(Shader::new("motion_blur", SIZE), "velocities", 6.0), "most", 9.0);
     let (velocities, most, depth) = (shader.pairs("velocities"), shader.pairs("most"), shader.flat("depth"));
     let native = |at| shaders::motion_blur::motion_blur(shader.frame("color"), &velocities, &most, &depth, at);
-    // Which pixel a tap falls on.
+    // The pixel that a tap falls on depends on rounding.
     shader.check(Within(5.0e-3, 0.02), Within(5.0e-3, 0.01), native, motion::motion_blur);
 }
 
@@ -264,7 +264,7 @@ fn gtao() {
     let shader = shader.image("normal", |uv| normal.load((uv * SIZE.as_vec2()).as_ivec2()).extend(0.0));
     let (radius, focal) = (shader.float("radius"), shader.float("focal"));
     let native = |at| shaders::gtao::gtao(&depth, &normal, radius, focal, at);
-    // Which pixel a step falls on.
+    // The pixel that a step falls on depends on rounding.
     shader.check(Within(1.0e-2, 0.02), Within(2.0e-3, 0.02), native, light::gtao);
 }
 
@@ -342,7 +342,7 @@ fn screen_space_reflections() {
         let color = shader.frame("color");
         shaders::screen_space_reflections::screen_space_reflections(color, &depth, &normal, shader.float("focal"), at)
     };
-    // Which pixel a step falls on, and whether it is met there.
+    // The pixel that a step falls on, and whether it hits there, depend on rounding.
     shader.check(
         Within(1.0e-2, 0.03),
         Within(1.0e-2, 0.02),
@@ -394,7 +394,7 @@ fn normal_from_depth() {
     );
 }
 
-/// What a texture of 8 bits keeps.
+/// Values as a texture of 8 bits stores them.
 fn in_levels(texels: impl Iterator<Item = Vec4>, size: UVec2) -> Frame<Vec4> {
     let level = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() / 255.0;
     Frame::new(size, texels.map(|t| t.map(level)).collect())
@@ -478,7 +478,7 @@ fn every_language_and_form() {
     assert!(texts >= shaders.len() * 30, "{texts} texts");
 }
 
-/// How many texts of a shader its languages' compilers have read.
+/// Number of texts of a shader that its languages' compilers have read.
 fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
     let name = path.display();
     let settings = Settings::new().unroll(unroll);
@@ -504,7 +504,7 @@ fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
         }
         emitted.files.len()
     };
-    // What is written as a whole shader is no function.
+    // A language that is written as a whole shader has no function.
     let whole = |target: &&Target| matches!(target, Target::Spirv | Target::Msl);
     let targets = Target::ALL
         .iter()

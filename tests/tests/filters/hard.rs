@@ -266,7 +266,7 @@ fn what_was_done_is_kept_and_a_record_is_read_as_it_was_written() {
         forms: Form::all().into_iter().take(1).collect(),
         precisions: vec![Precision::F32],
     };
-    // One form is compiled, and two cases are run.
+    // Compiles one form, and runs two cases.
     let found = hard::run(&selection, None, circumstances(), &mut StopsAfter(3)).expect("it runs");
     assert_eq!((found.cases.len(), found.circumstances.complete), (2, false));
     let without = found.cases[0].results.iter().filter(|r| r.refused.is_some());

@@ -336,7 +336,7 @@ fn a_roof_comes_close_to_supersampling() {
     close_to_supersampling("roof");
 }
 
-/// Where the board was in the last frame and is no more, nor beside.
+/// Pixels where the board was in the last frame and is no more, nor beside.
 fn uncovered(name: &str, frame: usize) -> Vec<bool> {
     let covered = |frame: usize| {
         let with = Motion::Board.scene(&Scene::named(name).expect("a scene"), PICTURE, frame);

@@ -104,7 +104,7 @@ fn catmull_rom() {
 #[test]
 fn kuwahara() {
     let cfg = kuwahara::Kuwahara::default();
-    // Two quarters that vary alike are told apart by the last bit.
+    // The last bit decides between two quarters that vary alike.
     check("kuwahara", 5.0e-3, 0.01, |inputs, at| {
         kuwahara::kuwahara(&cfg, image(inputs, "color"), at)
     });
@@ -113,7 +113,7 @@ fn kuwahara() {
 #[test]
 fn fxaa() {
     let cfg = fxaa::Fxaa::default();
-    // Where a search ends hangs on filtered texels, which a GPU weighs in steps of 1/256.
+    // The end of a search hangs on filtered texels, which a GPU weighs in steps of 1/256.
     check("fxaa", 5.0e-3, 0.01, |inputs, at| {
         fxaa::fxaa(&cfg, image(inputs, "color"), &Sampler::default(), at)
     });

@@ -26,7 +26,7 @@ fn shots(scene: &str) -> (Vec<Method>, Shot) {
     (resolved, shot)
 }
 
-/// What a kernel gives on the device, and by the interpreter in `f32` and `f64`.
+/// Results of a kernel on the device, and by the interpreter in `f32` and `f64`.
 fn made(bench: &Bench, compiled: &Compiled, inputs: &Inputs) -> [Vec<Written>; 3] {
     [
         bench.targets(compiled, Stage::Compute, inputs).expect("it runs"),
@@ -56,7 +56,7 @@ fn pictures_are_those_of_the_definitions() {
                     |(a, b): (&Vec4, &[f64; 4])| (0..4).map(|c| (f64::from(a[c]) - b[c]).abs()).fold(0.0, f64::max);
                 let mut off: Vec<f64> = texels.map(off).collect();
                 off.sort_by(f64::total_cmp);
-                // Where a threshold lies between the two, the pixel is resolved in another way.
+                // A pixel whose value and reference lie on either side of a threshold is resolved differently.
                 let beyond = off.iter().filter(|off| **off > 2.0e-5).count();
                 println!(
                     "{scene}, {}, {by}: {beyond} pixels, {:.1e} at most",

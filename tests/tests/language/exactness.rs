@@ -129,7 +129,7 @@ fn bench() -> Bench {
 fn every_sum_is_what_rustc_makes_of_it() {
     let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
     let all = ORDERED.iter().chain(ASKED).chain(ORDINARY);
-    // What rustc runs has no uniforms.
+    // The program that rustc runs has no uniforms.
     let texts = all
         .filter(|(_, kernel)| !kernel.contains("taps"))
         .enumerate()

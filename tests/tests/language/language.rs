@@ -10,7 +10,7 @@ use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Precision, S
 use straightline_kernels::prelude::*;
 use straightline_tests::sraa::Random;
 
-/// What the examples read, by name.
+/// Inputs of the examples, by name.
 pub struct World {
     pub color: Frame<Vec4>,
     pub layers: FrameLayers<f32>,
@@ -41,7 +41,7 @@ pub struct World {
 pub struct Example {
     pub name: &'static str,
     pub source: &'static str,
-    /// What is given for a pixel, a texel for each target.
+    /// Values of a pixel, a texel for each target.
     pub native: fn(&World, IVec2) -> Vec<[f64; 4]>,
 }
 

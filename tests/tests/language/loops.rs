@@ -249,7 +249,7 @@ fn every_kept_loop_is_shown_to_end() {
     assert!(with_loops >= 10, "{with_loops}");
 }
 
-/// A text of one's own whose loop may not end keeps wgpu's bound, or is refused.
+/// A text of the caller's whose loop may not end keeps wgpu's bound, or is refused.
 #[test]
 fn a_loop_that_may_not_end_keeps_its_bound() {
     let gpu = bench();

@@ -133,7 +133,7 @@ fn every_kernel_takes_reserved_words() {
         .sum();
     let given: usize = all.iter().map(|(.., renamed)| renamed.names.len()).sum();
     let mut run = 0;
-    // What is interpolated needs triangles.
+    // Interpolated values need triangles.
     let is_run = |of: &Compiled| of.text_counts().statements < 200 && of.graph.varyings.is_empty();
     for (name, original, renamed) in all.iter().filter(|(_, original, _)| is_run(original)) {
         gives_the_same(&bench, name, original, &renamed.compiled);

@@ -209,7 +209,7 @@ fn texts() -> Vec<Text> {
     texts
 }
 
-/// What the kernels are made of, as far as it is arithmetic.
+/// Arithmetic operations of the kernels.
 fn operations(texts: &[Text]) -> (BTreeSet<UnaryOp>, BTreeSet<BinaryOp>) {
     let (mut unary, mut binary) = (BTreeSet::new(), BTreeSet::new());
     for text in texts {

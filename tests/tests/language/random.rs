@@ -18,7 +18,7 @@ const SEED: u64 = 10_440;
 /// Kernels that rustc compiles at once.
 const BATCH: u64 = 150;
 
-/// What rustc makes of kernels is what every form makes of them.
+/// Every form computes the values of rustc's program.
 #[test]
 fn every_form_agrees_with_rustc() {
     let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
@@ -105,7 +105,7 @@ fn changes_without_meaning_change_no_bit() {
     }
 }
 
-/// What rustc makes of kernels is what shaders compute of what all drivers compute alike.
+/// Shaders compute the values of rustc's program, for operations in which all drivers agree.
 #[test]
 fn shaders_agree_with_rustc() {
     let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));

@@ -79,7 +79,7 @@ fn kernels_with_buffers_and_integers() {
     check(&compiled, &inputs);
 }
 
-/// What a shader leaves unwritten holds what it held.
+/// Texels that a shader does not write keep their contents.
 #[test]
 fn texels_that_are_not_written_keep_the_sentinel() {
     let text = "#version 450\nlayout(local_size_x = 1) in;\nlayout(set = 0, binding = 3, rgba32f) uniform writeonly image2D o;\n\

@@ -36,9 +36,9 @@ pub struct Structure {
     /// Names are numbers if it is a tuple structure.
     pub fields: Vec<(String, Ty)>,
     pub tuple: bool,
-    /// Whether it is `Copy`.
+    /// `true` if it is `Copy`.
     pub copy: bool,
-    /// Whether it has operators.
+    /// `true` if it has operators.
     pub operators: bool,
 }
 
@@ -63,28 +63,28 @@ pub struct Param {
     pub name: String,
     pub ty: Ty,
     pub hold: Hold,
-    /// Its argument must be known and between these.
+    /// Bounds of an argument that must be a compile-time constant.
     pub known: Option<(i64, i64)>,
 }
 
 /// A function as its callers see it.
 #[derive(Clone, Debug)]
 pub struct Signature {
-    /// Its name, with `S0::` for associated functions.
+    /// Name, with `S0::` for associated functions.
     pub name: String,
     /// The structure that it is a method of, and how it takes it.
     pub receiver: Option<(Ty, Hold)>,
-    /// Whether it takes the inputs first.
+    /// `true` if the inputs are its first parameters.
     pub inputs: bool,
     pub params: Vec<Param>,
     pub result: Option<Ty>,
-    /// Whether its result is a compile-time constant.
+    /// `true` if its result is a compile-time constant.
     pub known: bool,
     pub cost: u32,
 }
 
 impl Signature {
-    /// Whether calling it may change a variable.
+    /// Returns whether calling it may change a variable.
     pub fn changes(&self) -> bool {
         self.params.iter().any(|p| p.hold == Hold::Mutable) || matches!(self.receiver, Some((_, Hold::Mutable)))
     }
@@ -137,7 +137,7 @@ impl Maker {
         }
     }
 
-    /// Whether values of a type can be copied.
+    /// Returns whether values of a type can be copied.
     pub(super) fn copies(&self, ty: &Ty) -> bool {
         match ty {
             Ty::Struct(k) => self.structures[*k].copy,
@@ -160,7 +160,7 @@ impl Maker {
         Ty::Vec(lane, self.random.between(2, 4) as u8)
     }
 
-    /// What a field or a part of a tuple may be.
+    /// A type for a field or a part of a tuple.
     pub(super) fn part_type(&mut self) -> Ty {
         match self.random.below(12) {
             0..=6 => self.plain_type(),

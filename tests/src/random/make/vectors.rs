@@ -113,7 +113,7 @@ impl Maker {
                     format!("mix({a}, {b}, {})", self.expr(&Ty::F32, d))
                 }
                 5 if n == 2 => format!("{}.perp()", self.vector_receiver(lane, n, own)),
-                // Which zero a maximum gives of two is open in Rust.
+                // Rust leaves open which of two zeros a maximum returns.
                 _ => format!("saturate({} + 0.0)", self.expr(&ty, d)),
             },
             15 if lane == Lane::F && self.on(Feature::Coarse) => {
@@ -190,7 +190,7 @@ impl Maker {
                 .random
                 .pick(&["element_sum", "element_product", "min_element", "max_element"])
             {
-                // Which of two zeros these give, and of a NaN, is open.
+                // The choice between two zeros, and the result for a NaN, are open.
                 name @ ("min_element" | "max_element") => {
                     let vec = self.ty(ty);
                     format!("({e}.clamp({vec}::splat(-64.0), {vec}::splat(64.0)) + 0.0).{name}()")

@@ -40,7 +40,7 @@ impl Maker {
             .collect()
     }
 
-    /// Whether something may be written here.
+    /// Returns whether something may be written here.
     pub(super) fn writes(&self) -> bool {
         self.inputs && !(self.written(true).is_empty() && self.written(false).is_empty())
     }
@@ -87,7 +87,7 @@ impl Maker {
         self.line(format!("{name}.{operation}({index}, {value});"));
     }
 
-    /// What was in a buffer of atomics, which may change it.
+    /// A read of a buffer of atomics, which may change it.
     pub(super) fn atomic_read(&mut self, ty: &Ty) -> Option<String> {
         let fit: Vec<&str> = self
             .written(true)

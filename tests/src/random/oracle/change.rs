@@ -12,7 +12,7 @@ const OWNERSHIP: &[&str] = &[
     "E0382", "E0499", "E0502", "E0503", "E0505", "E0506", "E0507", "E0508", "E0515", "E0597", "E0713", "E0716",
 ];
 
-/// What became of changed kernels.
+/// Verdicts on changed kernels.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Verdicts {
     /// Refused by both.
@@ -134,7 +134,7 @@ fn calls_the_trait(lines: &[&str]) -> bool {
     lines.iter().any(|line| !own(line) && mentions(line))
 }
 
-/// What is written instead of what, where it stands.
+/// Replacements: each text, and the text that replaces it.
 const CHANGES: &[(&str, &str)] = &[
     ("let mut ", "let "),
     ("&mut ", "&"),

@@ -1,4 +1,4 @@
-//! One kernel in every form, against what rustc's program computes.
+//! Compares a kernel in every form with the result of rustc's program.
 
 use super::works::Works;
 use super::{Given, Place, Texel, Text, World, computed};
@@ -8,14 +8,14 @@ use std::fmt;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
 
-/// How a kernel is not what rustc makes of it.
+/// Difference between a form of a kernel and rustc's program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Difference {
     /// A value of a form is not the native one.
     Value {
         /// The form.
         form: Form,
-        /// Where it lies.
+        /// Position of the value.
         place: Place,
         /// The native value.
         expected: Texel,
@@ -31,7 +31,7 @@ pub enum Difference {
 }
 
 impl Difference {
-    /// Whether two are of one sort, so that the smaller text shows the same defect.
+    /// Returns whether two are of one sort, so that the smaller text shows the same defect.
     pub fn like(&self, other: &Difference) -> bool {
         match (self, other) {
             (Difference::Value { form: a, .. }, Difference::Value { form: b, .. }) => a == b,
@@ -58,7 +58,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// How often something was said.
+/// Number of times that a reason was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reason {
     /// Kernels of which it was said.
@@ -75,7 +75,7 @@ impl Reason {
     }
 }
 
-/// What became of many kernels.
+/// Outcomes of many kernels.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Kernels that were compared in all forms.
@@ -133,7 +133,7 @@ pub enum NotRun {
     Failed(String),
 }
 
-/// What a kernel gives in a form.
+/// Runs a form of a kernel by the interpreter.
 ///
 /// # Errors
 ///
@@ -152,7 +152,7 @@ fn worked(kernel: &Kernel, form: Form, world: &World) -> Result<(Given, u64), No
 /// Work of a kernel that is refused for its size.
 const REFUSED: u64 = 20_000_000;
 
-/// Whether an error says that a kernel takes too much.
+/// Returns whether an error says that a kernel exceeds a limit.
 fn is_of_size(message: &str) -> bool {
     ["unrolls to more than", "takes more than"]
         .iter()

@@ -1,4 +1,4 @@
-//! Which constructs random kernels have.
+//! Constructs that random kernels contain.
 
 use crate::random::make::{Features, make};
 use std::collections::BTreeSet;
@@ -49,7 +49,7 @@ const NOT_OF_KERNELS: &[&str] = &[
     "workgroupBarrier",
 ];
 
-/// What is missing.
+/// Constructs that are missing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missing {
     /// Variants of the front end's tree, `Enum::Variant`.
@@ -58,7 +58,7 @@ pub struct Missing {
     pub names: BTreeSet<String>,
 }
 
-/// What kernels of the first seeds never have of the front end's tree and of the page's names.
+/// Finds the constructs of the front end's tree, and the page's names, that kernels of the first seeds never have.
 ///
 /// # Errors
 ///
@@ -81,7 +81,7 @@ pub fn missing(seeds: std::ops::Range<u64>) -> Result<Missing, String> {
         if missing.variants.is_empty() {
             continue;
         }
-        // What the front end refuses has no tree.
+        // Text that the front end refuses has no tree.
         if let Ok(tree) = Kernel::from_text("random.rs", &text.file(), "k").tree() {
             missing.variants.retain(|variant| !has(&tree, variant));
         }
@@ -108,7 +108,7 @@ fn variants(text: &str) -> Vec<(String, String)> {
     found
 }
 
-/// Whether a tree, in its `Debug` form, has a variant. Kinds of expressions stand behind `kind: `, all else does not.
+/// Returns whether a tree, in its `Debug` form, has a variant. Kinds of expressions follow `kind: `, everything else does not.
 fn has(tree: &str, variant: &str) -> bool {
     let (of, name) = variant.split_once("::").expect("an enum and a variant");
     match of {
@@ -169,7 +169,7 @@ fn method_or_type(text: &str) -> Option<&str> {
     (name.len() > 1 && name.chars().all(of_name) && !NOT_OF_KERNELS.contains(&name)).then_some(name)
 }
 
-/// Whether a text has a name as a word.
+/// Returns whether a text has a name as a word.
 fn calls(source: &str, name: &str) -> bool {
     source.match_indices(name).any(|(at, _)| {
         let word = |c: char| c.is_alphanumeric() || c == '_';

@@ -31,7 +31,7 @@ impl Ways {
     }
 }
 
-/// What a driver is given of a kernel.
+/// Shaders of a kernel for a driver.
 #[derive(Debug)]
 pub struct Shaders {
     made: Vec<Shader>,
@@ -51,7 +51,7 @@ struct Shader {
 struct Glsl {
     text: String,
     manifest: Manifest,
-    /// What glslang makes of it.
+    /// Output of glslang.
     words: Result<Vec<u32>, String>,
 }
 
@@ -67,23 +67,23 @@ pub struct Driver {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Way(Form, Target);
 
-/// What is made of each kernel.
+/// Forms and languages that each kernel is emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ways {
     /// Every form, as WGSL.
     Forms,
-    /// One form, another for the next seed, as WGSL and as GLSL.
+    /// A form that depends on the seed, as WGSL and as GLSL.
     Languages,
 }
 
-/// What was compared.
+/// Counts of comparisons.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Compared {
     /// Kernels compared in every form.
     pub kernels: u64,
     /// Texels of targets, and elements of buffers, that were compared.
     pub pixels: u64,
-    /// Those of them that are not the native ones bit for bit, but where rounding shows.
+    /// Number of them that differ from the native ones in bits, where rounding explains it.
     pub rounded: u64,
     /// Pixels whose native value is not finite, or whose kernel panics there, so that shaders may do anything; and those
     /// that are off where a decision hangs on rounding.
@@ -103,14 +103,14 @@ impl Compared {
     }
 }
 
-/// How a driver's picture is not the native one.
+/// Difference between a driver's picture and the native one.
 #[derive(Clone, Debug)]
 pub enum Off {
     /// A value.
     Value {
         /// The form and the language.
         way: Way,
-        /// Where it lies.
+        /// Position of the value.
         place: Place,
         /// The native value.
         expected: Texel,
@@ -122,7 +122,7 @@ pub enum Off {
 }
 
 impl Off {
-    /// Whether two are of one sort, so that the smaller text shows the same defect.
+    /// Returns whether two are of one sort, so that the smaller text shows the same defect.
     pub fn like(&self, other: &Off) -> bool {
         match (self, other) {
             (Off::Value { way: a, .. }, Off::Value { way: b, .. }) => a == b,
@@ -192,7 +192,7 @@ impl Driver {
         let compiled = forms
             .iter()
             .filter_map(|form| Some((*form, kernel.compile(&form.settings()).ok()?)));
-        // What is written under a condition that never holds is not in the shader, and one that does nothing is not run.
+        // A write under a condition that never holds is not in the shader, and a shader that does nothing is not run.
         let compiled = compiled.filter(|(_, made)| !made.graph.targets.is_empty() || made.graph.has_lasting_effects());
         let made: Vec<Shader> = compiled
             .map(|(form, compiled)| Shader {
@@ -304,14 +304,14 @@ fn judge(
     Ok(())
 }
 
-/// Whether rounding explains that a driver's pixel is not the native one.
+/// Role of rounding in a difference between a driver's pixel and the native one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rounding {
     /// A decision hangs on it, so that the pixel proves nothing.
     Decides,
-    /// It does, in the last bits.
+    /// Explains the difference, in the last bits.
     Shows,
-    /// It does not.
+    /// Does not explain it.
     No,
 }
 

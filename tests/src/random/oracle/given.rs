@@ -1,4 +1,4 @@
-//! What a kernel gives and writes.
+//! Results and writes of a kernel.
 
 use straightline_bench::execute::{self, Written};
 use straightline_codegen::Compiled;
@@ -6,10 +6,10 @@ use straightline_codegen::ir::Real;
 
 use super::World;
 
-/// What a target or a buffer holds of a value; in targets components that it lacks are 0 and the fourth is 1, in buffers all are 0.
+/// Texel of a target, or element of a buffer; in targets missing components are 0 and the fourth is 1, in buffers all are 0.
 pub type Texel = [f64; 4];
 
-/// What a kernel gives each pixel, and the buffers that it writes as they are afterwards.
+/// Values of a kernel for each pixel, and the final contents of the buffers that it writes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Given {
     /// Of each pixel, row by row, the texel of each target; `None` where rustc's program panics, so that Rust says nothing.
@@ -18,7 +18,7 @@ pub struct Given {
     pub buffers: Vec<(String, Vec<Texel>)>,
 }
 
-/// Where a value lies that a kernel gives.
+/// Position of a value that a kernel computes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A pixel, and the number of the target.
@@ -53,7 +53,7 @@ impl Given {
         }
     }
 
-    /// Whether rustc's program panics at a pixel, so that nothing is known of what it writes.
+    /// Returns whether rustc's program panics at a pixel, so that nothing is known of its writes.
     pub fn panics(&self) -> bool {
         self.pixels.iter().any(Option::is_none)
     }
@@ -94,7 +94,7 @@ impl Given {
     }
 }
 
-/// What a compiled kernel gives, in a precision.
+/// Runs a compiled kernel in a precision.
 ///
 /// # Errors
 ///

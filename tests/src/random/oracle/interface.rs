@@ -1,4 +1,4 @@
-//! What a kernel takes and gives, read from its text, and how rustc's program calls it.
+//! Parameters and result of a kernel, read from its text, and its call in rustc's program.
 
 use std::fmt::Write;
 
@@ -122,7 +122,7 @@ fn is_written(ty: &str) -> bool {
     written.iter().any(|prefix| ty.starts_with(prefix))
 }
 
-/// What a buffer that is written holds before the first pixel. `World::inputs` has the same.
+/// Initial contents of a buffer that is written. `World::inputs` has the same.
 fn initial(name: &str) -> Option<&'static str> {
     Some(match name {
         "wf" => "StorageBuffer::new((0..32).map(|k| w.c.float(k)).collect())",
@@ -135,7 +135,7 @@ fn initial(name: &str) -> Option<&'static str> {
     })
 }
 
-/// What the program gives for a parameter.
+/// The program's argument for a parameter.
 fn argument(name: &str, ty: &str) -> Option<String> {
     Some(match (name, ty) {
         ("cfg", _) => "&Default::default()".to_owned(),

@@ -49,7 +49,7 @@ pub struct Failure {
     pub text: Text,
     /// The seed of the inputs.
     pub world: u64,
-    /// How it differs.
+    /// Difference from the native result.
     pub difference: Difference,
 }
 

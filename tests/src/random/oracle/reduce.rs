@@ -7,7 +7,7 @@ use straightline_codegen::{Kernel, Settings};
 /// Candidates that are tried at once.
 const TOGETHER: usize = 80;
 
-/// Which of some candidates differ as the first text does.
+/// Filters candidates: keeps those with the same difference as the first text.
 type Alike<'a> = dyn Fn(&[Text]) -> Result<Vec<Text>, String> + 'a;
 
 /// The smallest text found that differs in the same manner.
@@ -61,7 +61,7 @@ fn smallest(text: &Text, alike: &Alike<'_>) -> Text {
         if skip >= candidates.len() {
             return best;
         }
-        // What the generator refuses shows nothing, and most that rustc refuses it refuses sooner.
+        // A refused candidate shows nothing, and the generator refuses most that rustc refuses, sooner.
         let texts: Vec<Text> = candidates[skip..]
             .par_iter()
             .take(TOGETHER)

@@ -17,10 +17,10 @@ pub struct Rustc {
     folder: PathBuf,
 }
 
-/// What rustc says of kernels.
+/// Verdict of rustc on a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It compiles.
+    /// Compiles.
     Accepted,
     /// The first error in it.
     Refused(String),
@@ -116,7 +116,7 @@ impl Rustc {
         command.output().map_err(|e| format!("{}: {e}", self.program.display()))
     }
 
-    /// What rustc says of each text: whether it compiles, all checks included.
+    /// Returns rustc's verdict on each text, all checks included.
     ///
     /// # Errors
     ///

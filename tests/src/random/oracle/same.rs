@@ -41,7 +41,7 @@ pub fn apply(change: Change, source: &str, random: &mut Random) -> Option<String
     (text != source).then_some(text)
 }
 
-/// Whether two texts give the same bits in every form that takes both.
+/// Returns whether two texts have the same result, bit for bit, in every form that accepts both.
 ///
 /// # Errors
 ///

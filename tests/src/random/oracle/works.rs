@@ -22,7 +22,7 @@ pub struct Works {
 /// Work of kernels of about one size.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Sized {
-    /// How many took about so much.
+    /// Number of kernels by approximate work.
     counts: BTreeMap<u32, u64>,
     /// The most, with the kernel and the form.
     heaviest: (u64, u64, String),
@@ -31,11 +31,11 @@ struct Sized {
 /// A kernel whose work stands out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Outlier {
-    /// Its seed.
+    /// Seed of the kernel.
     pub seed: u64,
     /// The form that it was compiled to.
     pub form: String,
-    /// Its work.
+    /// Work of the kernel.
     pub work: u64,
     /// About the median of kernels of its size.
     pub median: u64,
@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(works.outliers(), []);
         let mut more = Works::default();
         more.add(910, 200_000, 71, "keep");
-        // One of another size has no others to be compared with.
+        // A kernel of another size has no others to be compared with.
         more.add(9000, 900_000, 72, "keep");
         works.merge(&more);
         let outliers = works.outliers();

@@ -1,4 +1,4 @@
-//! What every kernel of a batch reads.
+//! Inputs of every kernel of a batch.
 
 #[path = "native/resources.rs"]
 mod resources;
@@ -24,7 +24,7 @@ pub struct World {
     p: i32,
     q: u32,
     r: f32,
-    /// What everything else is made of.
+    /// Floats that all inputs are made of.
     floats: Vec<f32>,
     bits: Vec<u32>,
     resources: Resources,
@@ -201,7 +201,7 @@ impl World {
         (0..3).flat_map(record).collect()
     }
 
-    /// What a buffer or a picture that kernels write holds before the first pixel.
+    /// Initial contents of a buffer or a picture that kernels write.
     pub fn initial(&self, name: &str) -> Vec<Texel> {
         let w = &self.resources;
         let whole = |k: usize| f64::from(w.bit(k) as i32);

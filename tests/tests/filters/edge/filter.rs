@@ -1,4 +1,4 @@
-//! One setting of one filter: as a kernel, natively, and by definition.
+//! A setting of a filter: as a kernel, natively, and by definition.
 
 use super::world::{World, pixels};
 use straightline_bench::execute::Inputs;
@@ -10,7 +10,7 @@ use straightline_oracle::oracle::edge as oracle;
 /// Values by the names of options.
 type Named<T> = Vec<(&'static str, T)>;
 
-/// One setting of one filter.
+/// A filter with its setting.
 #[derive(Clone, Copy, Debug)]
 pub enum Filter {
     Stalker(Stalker),
@@ -161,7 +161,7 @@ impl Filter {
         compile(self.name(), choices.collect(), unroll)
     }
 
-    /// What it reads, its numbers among it.
+    /// Inputs of the filter, numbers included.
     pub fn inputs(&self, world: &World) -> Inputs {
         let (_, numbers) = self.options();
         numbers
@@ -184,7 +184,7 @@ impl Filter {
         pixels(depth.size()).map(|at| pixel(at).to_array()).collect()
     }
 
-    /// How much of an edge each pixel is, and the filtered colours, by definition.
+    /// Edge strength of each pixel, and the filtered colours, by definition.
     pub fn exact(&self, world: &World) -> (Vec<oracle::Edge>, Vec<[f64; 4]>) {
         let (edges, colors) = match self {
             Filter::Stalker(cfg) => {
@@ -225,7 +225,7 @@ impl Filter {
         }
     }
 
-    /// How much of an edge the kernel finds at `at`.
+    /// Edge strength that the kernel finds at `at`.
     pub fn edge(&self, world: &World, at: IVec2) -> f32 {
         self.native(world)[(at.y as u32 * world.depth.size().x + at.x as u32) as usize][0]
     }

@@ -1,4 +1,4 @@
-//! What the edge filters are run on.
+//! Inputs of the edge filters.
 
 use straightline_bench::execute::Inputs;
 use straightline_kernels::edge::Normals;
@@ -6,7 +6,7 @@ use straightline_kernels::prelude::*;
 use straightline_oracle::oracle::edge as oracle;
 use straightline_scene::encode::NormalEncoding;
 
-/// What both filters read.
+/// Inputs of both filters.
 pub struct World {
     pub depth: Frame<f32>,
     /// Unit vectors.

@@ -21,7 +21,7 @@ fn color() -> Frame<Vec4> {
     Frame::new(SIZE, pixels(SIZE).map(texel).collect())
 }
 
-/// How many pixels have a logarithm of luminance between the edges of each bin, which lie 1/254 of the range apart.
+/// Number of pixels with a logarithm of luminance between the edges of each bin, which lie 1/254 of the range apart.
 fn counted(color: &Frame<Vec4>) -> Vec<i64> {
     let mut luminances: Vec<f64> = color
         .texels()

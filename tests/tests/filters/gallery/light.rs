@@ -4,7 +4,7 @@ use super::world::{Picture, World, interleaved, mix};
 use glam::{DVec2, DVec3, DVec4};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Where a pixel lies in front of the eye.
+/// Position of a pixel in front of the eye.
 fn position(w: &World, depth: &Picture, x: i64, y: i64, beyond: (i64, i64)) -> DVec3 {
     let z = depth.r(x, y);
     // Beyond the border the depth is the border's, the ray is not.

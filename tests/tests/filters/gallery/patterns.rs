@@ -1,4 +1,4 @@
-//! What the patterns are by their definitions.
+//! Definitions of the patterns.
 
 use super::world::{World, interleaved};
 use glam::{DVec2, DVec3, DVec4};

@@ -13,7 +13,7 @@ pub struct Shader {
     pub inputs: Inputs,
 }
 
-/// How far something may be off, and for which share of the pixels it may be more, since a decision hangs on the last bit.
+/// Largest error, and the share of the pixels that may exceed it, since a decision hangs on the last bit.
 #[derive(Clone, Copy)]
 pub struct Within(pub f64, pub f64);
 

@@ -96,7 +96,7 @@ impl<'a> Chain<'a> {
         self.views.insert(name, texture.create_view(&Default::default()));
     }
 
-    /// One pass into a texture that later passes read as `into`.
+    /// Draws a pass into a texture that later passes read as `into`.
     fn draw(
         &mut self,
         name: &'static str,

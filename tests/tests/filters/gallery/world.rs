@@ -1,4 +1,4 @@
-//! What the shaders of the gallery read, in f64: nothing of this is shared with what it judges.
+//! Inputs of the gallery's shaders, in f64: nothing of this is shared with the code that it judges.
 
 use glam::{DVec2, DVec3, DVec4, Vec4};
 use straightline_bench::execute::Inputs;

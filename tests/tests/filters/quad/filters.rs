@@ -138,7 +138,7 @@ fn bilateral_blur_is_a_mean_of_near_pixels() {
     }
 }
 
-/// What upsampling reads: two surfaces with a step between them, noise on both.
+/// Inputs of upsampling: two surfaces with a step between them, noise on both.
 struct Low {
     packed: Frame<Vec4>,
     color: Frame<Vec4>,

@@ -7,7 +7,7 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_manifest::Manifest;
 
 const PLACES: &str = "
-/// Where the pixel lies on its triangle, and where the three others of its quad do.
+/// Position of the pixel on its triangle, and of the three others of its quad.
 pub fn places(place: Quad<Vec2>) -> Quad<Vec4> {
     let [own, beside, below, across] = place.gather();
     Quad::from_xy(own.x() + own.y() * 4096.0, beside.x() + beside.y() * 4096.0)

@@ -164,7 +164,7 @@ fn a_bounce_of_light_beside_the_sky_is_finite_and_the_same_everywhere() {
     }
 }
 
-/// One bad lane spoils no other: the quad's other pixels have their own mean place.
+/// A bad lane affects no other: the quad's other pixels have their own mean place.
 #[test]
 fn bad_coordinates_spoil_no_other_lane() {
     let gpu = bench();
@@ -343,7 +343,7 @@ fn given_weights_do_not_overflow() {
     );
 }
 
-/// What a case looks like at pixels' centres.
+/// Picture of a case at the pixels' centres.
 fn seen(case: &Case, texel: impl Fn(hard::Seen) -> Vec4) -> Frame<Vec4> {
     filled(case.size, |pixel| texel(case.at(pixel, Vec2::ZERO, None)))
 }

@@ -4,7 +4,7 @@ use super::*;
 use straightline_codegen::ir::F16;
 
 const HEARD: &str = "
-/// What a lane has, and what it receives from the three others.
+/// A lane's value, and the values that it receives from the three others.
 pub fn heard(value: &Frame<f32>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let [own, beside, below, across] = value.load(pixel).gather();
     Quad::from_xy(own, beside).extend(below).extend(across)
@@ -16,7 +16,7 @@ fn heard(transport: Option<Transport>) -> Compiled {
     compile_text(HEARD, "heard", &settings)
 }
 
-/// What the lanes of a quad hear by derivatives, in plain arithmetic: towards the other lane and back.
+/// Values received by the lanes of a quad through derivatives, in plain arithmetic: towards the other lane and back.
 fn by_derivatives(lanes: [f32; 4]) -> [[f32; 4]; 4] {
     let [a, b, c, d] = lanes;
     let towards = |own: f32, sign: f32, slope: f32| own + sign * slope;

@@ -1,4 +1,4 @@
-//! What cannot be done with quads is said, with help.
+//! Refusals of quads, with their help.
 
 use super::*;
 use straightline_codegen::EmitOptions;

@@ -14,7 +14,7 @@ use straightline_tests::sraa::{compiled, difference, kernel, native, surfaces};
 
 const SIZE: UVec2 = uvec2(31, 23);
 
-/// How much is seen from the upper to the lower edge.
+/// Height of the view from the upper to the lower edge.
 const HEIGHT: f32 = 6.0;
 
 /// A roof of two steep planes before the sky, seen along parallel rays, in view space.

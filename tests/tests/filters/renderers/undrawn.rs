@@ -1,4 +1,4 @@
-//! Where nothing is drawn: renderers clear normals to 0, depth to that of the far plane, or of a linear depth to anything. There the filter
+//! Pixels without a surface: renderers clear normals to 0, depth to that of the far plane, or a linear depth to anything. There the filter
 //! goes by depth alone, in every form, and a sky costs nothing.
 
 use crate::common::{bench, same_bits};
