@@ -28,7 +28,7 @@ pub struct Bound {
     pub(crate) uniforms: Uniforms,
 }
 
-/// What is recorded.
+/// Operation that a bound pass records: a dispatch or a draw.
 #[derive(Debug)]
 pub(crate) enum Work {
     Compute {
@@ -46,7 +46,8 @@ pub(crate) enum Work {
 }
 
 impl Work {
-    /// What `pipeline` has to do to fill `rectangle` of `targets`. Outside of a part all stays as it is.
+    /// Returns the operation with which `pipeline` fills `rectangle` of `targets`. If that is only a part, the rest keeps its
+    /// contents.
     pub(crate) fn new(
         plan: &Plan,
         pipeline: &Pipeline,
@@ -63,7 +64,7 @@ impl Work {
                 pipeline: pipeline.clone(),
                 targets: targets.iter().map(|target| (*target).clone()).collect(),
                 rectangle,
-                // Where every pixel is overwritten, clearing spares tiled GPUs from loading the old ones.
+                // Clearing spares tiled GPUs from loading the old pixels, where all of them are overwritten.
                 load: match is_part {
                     true => wgpu::LoadOp::Load,
                     false => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),

@@ -28,7 +28,7 @@ pub(crate) fn scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Resu
     }
 }
 
-/// [`scoped`], with out-of-memory told apart from everything else, which `describe` makes an error of.
+/// Runs `work` as [`scoped`] does. Out-of-memory becomes [`Error::OutOfMemory`]; `describe` makes the error of all else.
 pub(crate) fn guarded<T>(
     device: &wgpu::Device,
     doing: &str,
@@ -63,9 +63,9 @@ pub(crate) struct LossProbe {
     buffer: Mutex<wgpu::Buffer>,
 }
 
-/// How wgpu takes a request to map a buffer.
+/// wgpu's response to a request to map a buffer.
 enum Answer {
-    /// It will be mapped.
+    /// The buffer will be mapped.
     Accepted,
     /// Refused without a word: the device is lost, which is checked before the state of the buffer.
     Silent,
@@ -96,14 +96,15 @@ impl LossProbe {
             Answer::Accepted => Ok(LossProbe {
                 buffer: Mutex::new(buffer),
             }),
-            // Nobody else knows the buffer, so that anything against it means that it was born dead.
+            // No other code uses the buffer, so any refusal means that it was created invalid: the device was lost by then.
             Answer::Silent | Answer::Explained => Err(lost()),
         }
     }
 
     /// [`Error::DeviceLost`] if `device` is lost or was destroyed.
     pub(crate) fn check(&self, device: &wgpu::Device, doing: &str) -> Result<(), Error> {
-        // One question at a time, as wgpu answers for itself while it believes that the buffer is mapped.
+        // The lock admits one question at a time: while wgpu believes the buffer to be mapped, it answers without asking the
+        // device.
         let buffer = self.buffer.lock().unwrap_or_else(PoisonError::into_inner);
         match ask(device, &buffer) {
             // Explained: another thread's submission carried out an earlier mapping just when it was withdrawn.

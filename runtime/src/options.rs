@@ -1,4 +1,4 @@
-//! What a caller may choose when a pass is made, and when it is bound.
+//! Options of making and of binding a pass.
 
 use crate::{Region, UniformValue};
 use wgpu::TextureFormat;
@@ -10,10 +10,10 @@ pub struct PassOptions {
     /// Format of the colour target of a fragment pass, where it is not the manifest's; a swap chain's, say.
     /// For compute, the shader's text fixes the format, and another one here is an error.
     pub target_format: Option<TextureFormat>,
-    /// The same of a kernel that writes several targets, by their names.
+    /// Formats of single targets, by name, of a kernel that writes several.
     pub formats: Vec<(String, TextureFormat)>,
-    /// Whether loops go without the bound that wgpu otherwise puts on the iterations of each, by a counter that costs time. Only
-    /// for shaders whose text shows that every loop ends, as that of emitted shaders does; all others are refused.
+    /// True if loops run without the bound that wgpu otherwise puts on the iterations of each, by a counter that costs time.
+    /// Only for shaders whose text shows that every loop ends, as that of emitted shaders does; all others are refused.
     pub unbounded_loops: bool,
 }
 
@@ -30,14 +30,14 @@ impl PassOptions {
         self
     }
 
-    /// Whether loops go without wgpu's bound.
+    /// Sets whether loops run without wgpu's bound.
     pub fn unbounded_loops(mut self, unbounded: bool) -> Self {
         self.unbounded_loops = unbounded;
         self
     }
 }
 
-/// What a pass is bound with besides its inputs and targets.
+/// Options that a pass is bound with, besides its inputs and targets.
 ///
 /// ```
 /// # use straightline_runtime::{BindOptions, Region};

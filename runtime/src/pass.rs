@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use wgpu::{Device, TextureFormat};
 
-/// One emitted shader on one device: pipeline and bind group layouts.
+/// An emitted shader on one device: pipeline and bind group layouts.
 ///
 /// Making one compiles the shader; keep it, and [`bind`](Self::bind) it to what it is to read and write. A pass can be shared
 /// between threads.
@@ -85,8 +85,8 @@ impl Pass {
         names.zip(self.formats.iter().copied())
     }
 
-    /// How long the device took to make the pipeline: wgpu's translation of the checked shader into the backend's language,
-    /// and what the driver compiles then. Some drivers compile only when the pass first runs.
+    /// Returns the time that the device took to make the pipeline: wgpu's translation of the checked shader into the backend's
+    /// language, and the driver's compilation. Some drivers compile only when the pass first runs.
     pub fn creation_time(&self) -> Duration {
         self.creation_time
     }

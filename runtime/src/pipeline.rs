@@ -262,7 +262,7 @@ fn check_format(
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
         view_formats: &[],
     };
-    // One texel tells better than any table what this adapter can draw to.
+    // Creating a texture of one texel shows better than any table whether this adapter can draw to the format.
     match scoped(device, || device.create_texture(&target)) {
         Ok(_) => Ok(format),
         Err(wgpu::Error::OutOfMemory { .. }) => Err(Refused::Memory),

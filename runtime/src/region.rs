@@ -19,7 +19,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// The same rectangle of inputs and target.
+    /// Returns a region that has the same rectangle in inputs and target.
     pub fn at(first: [u32; 2], size: [u32; 2]) -> Self {
         Region {
             first,

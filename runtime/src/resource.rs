@@ -1,4 +1,4 @@
-//! What a caller gives for an input.
+//! Resources that the caller binds to inputs.
 
 use crate::plan::InputKind;
 use std::fmt;
@@ -24,7 +24,7 @@ pub enum Resource<'a> {
 }
 
 impl<'a> Resource<'a> {
-    /// What kind of resource it is.
+    /// Returns the kind of the resource.
     pub fn kind(&self) -> ResourceKind {
         match self {
             Resource::Texture(_) => ResourceKind::Texture,

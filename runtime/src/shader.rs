@@ -7,8 +7,8 @@ use straightline_manifest::text_hash;
 /// An emitted shader: its text, with its plan. A [`Pass`](crate::Pass) or a [`Draw`](crate::Draw) is made of one.
 ///
 /// In a crate with a build script it is the constant `SHADER` of the shader's module, and nothing is parsed when the program
-/// starts: the generator has compared the text with what stands beside it. A shader that travels is read by
-/// `Shader::from_manifest` (the feature `manifest`). Both are the same afterwards.
+/// starts: the generator has compared the text with the plan. A shader that travels is read by `Shader::from_manifest` (the
+/// feature `manifest`). Both are the same afterwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shader<'a> {
     pub(crate) plan: Plan,
@@ -46,7 +46,7 @@ impl Shader<'_> {
 pub enum Loops {
     /// Each ends.
     End(LoopsEnd),
-    /// One may not: how the first such loop differs from one that counts.
+    /// At least one is not shown to end: how the first such loop differs from one that counts.
     Unproven(Cow<'static, str>),
 }
 
@@ -59,7 +59,7 @@ impl LoopsEnd {
     ///
     /// # Safety
     ///
-    /// Each loop of the text that it stands beside must end.
+    /// Each loop of the text that the witness belongs to must end.
     #[allow(unsafe_code)]
     pub const unsafe fn new() -> Self {
         LoopsEnd(())

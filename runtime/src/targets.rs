@@ -1,4 +1,4 @@
-//! What a pass writes.
+//! Targets that a pass writes.
 
 use crate::error::{Error, Names};
 use crate::plan::Plan;

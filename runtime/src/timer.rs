@@ -33,7 +33,7 @@ pub struct Timer {
 struct Batch {
     /// A buffer of its own, so that what was never submitted still reads as zeros. None if there are no spans.
     readback: Option<wgpu::Buffer>,
-    /// What the device said to the request to map it; nothing yet while it works. None before it is asked.
+    /// The device's answer to the request to map the buffer, still empty while the device works; `None` before the request.
     mapping: Option<Answer>,
 }
 
@@ -178,7 +178,8 @@ impl Timer {
         Ok(())
     }
 
-    /// How long each span of the oldest unread [`resolve`](Self::resolve) took, in the order they were recorded.
+    /// Returns the duration of each span of the oldest unread [`resolve`](Self::resolve), in the order in which they were
+    /// recorded.
     /// Waits until the device has run them. In a browser nothing waits: see [`try_read`](Self::try_read).
     ///
     /// A timestamp is as fine as the device makes it; a span too short for it is zero.

@@ -105,7 +105,7 @@ impl Handwritten {
     }
 }
 
-/// One triangle over all of `target`, with what `set` sets.
+/// Draws one triangle over all of `target`, with the pipeline and groups that `set` sets.
 fn render(encoder: &mut wgpu::CommandEncoder, target: &TextureView, set: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("copy"),
@@ -125,7 +125,7 @@ fn render(encoder: &mut wgpu::CommandEncoder, target: &TextureView, set: impl Fn
     pass.draw(0..3, 0..1);
 }
 
-/// What is allocated while one frame is recorded.
+/// Counts the allocations of recording one frame.
 fn frame(gpu: &Gpu, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> AllocationInfo {
     let mut encoder = gpu.encoder();
     let info = measure(|| record(&mut encoder));

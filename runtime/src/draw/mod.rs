@@ -18,7 +18,7 @@ use wgpu::{Device, Queue, RenderPass, RenderPipeline, TextureFormat};
 
 pub use options::{DrawOptions, VertexShader};
 
-/// One emitted fragment shader behind a vertex shader of the caller's: a pipeline for triangles, which a [`Pass`](crate::Pass)
+/// An emitted fragment shader behind a vertex shader of the caller's: a pipeline for triangles, which a [`Pass`](crate::Pass)
 /// has none of. Kernels that take interpolated values, such as shadow filters, are drawn so.
 ///
 /// The caller records the render pass, with its own targets, depth buffer and vertices; [`BoundDraw::set`] sets the pipeline and

@@ -1,4 +1,4 @@
-//! What the caller draws with.
+//! Options of a [`Draw`](crate::Draw): the caller's vertex shader and the state of the render pipeline.
 
 use crate::PassOptions;
 use wgpu::{
@@ -16,7 +16,7 @@ pub enum VertexShader<'a> {
         /// Name of the function.
         entry_point: &'a str,
     },
-    /// A module that is there already. In a browser, what does not fit is told to the device's error handler only.
+    /// An existing module. In a browser, only the device's error handler learns of a mismatch.
     Module {
         /// The module.
         module: &'a ShaderModule,
@@ -79,7 +79,7 @@ impl<'a> DrawOptions<'a> {
         self
     }
 
-    /// How vertices make primitives, which side is culled.
+    /// Sets the primitive topology and which side is culled.
     pub fn primitive(mut self, primitive: PrimitiveState) -> Self {
         self.primitive = primitive;
         self
@@ -97,7 +97,7 @@ impl<'a> DrawOptions<'a> {
         self
     }
 
-    /// How each colour is blended with what the target has: multiplied, say, for light.
+    /// Sets how each colour is blended with the target's: multiplied, say, for light.
     pub fn blend(mut self, blend: BlendState) -> Self {
         self.blend = Some(blend);
         self

@@ -26,7 +26,7 @@ pub enum Error {
         kernel: String,
         /// The part of the manifest, such as ``binding `depth` ``.
         place: String,
-        /// What is wrong there.
+        /// Description of the error.
         problem: String,
     },
 
@@ -35,7 +35,7 @@ pub enum Error {
     Mismatch {
         /// The kernel's name.
         kernel: String,
-        /// Where they differ.
+        /// Description of the difference.
         problem: String,
     },
 
@@ -58,7 +58,7 @@ pub enum Error {
     Shader {
         /// The kernel's name.
         kernel: String,
-        /// What naga or wgpu said, with the place in the text where it is known.
+        /// Message of naga or wgpu, with the place in the text where it is known.
         description: String,
     },
 
@@ -67,7 +67,7 @@ pub enum Error {
     UnboundedLoop {
         /// The kernel's name.
         kernel: String,
-        /// What is wrong with the first such loop.
+        /// Description of the first loop that is not shown to end.
         problem: String,
     },
 
@@ -76,7 +76,7 @@ pub enum Error {
     Pipeline {
         /// The kernel's name.
         kernel: String,
-        /// What wgpu said.
+        /// wgpu's message.
         description: String,
     },
 
@@ -85,7 +85,7 @@ pub enum Error {
     VertexShader {
         /// The kernel's name.
         kernel: String,
-        /// What naga or wgpu said, with the place in the text where it is known.
+        /// Message of naga or wgpu, with the place in the text where it is known.
         description: String,
     },
 
@@ -96,11 +96,11 @@ pub enum Error {
         kernel: String,
         /// The varying.
         name: String,
-        /// Its location.
+        /// Location of the varying.
         location: u32,
-        /// Its type, as WGSL spells it.
+        /// Type of the varying, as WGSL spells it.
         ty: String,
-        /// What the vertex shader gives there, and what it should.
+        /// Description of the vertex shader's output there, and of the one needed.
         problem: String,
     },
 
@@ -124,9 +124,9 @@ pub enum Error {
         kernel: String,
         /// The field of [`wgpu::Limits`].
         limit: &'static str,
-        /// What is needed.
+        /// Value that the shader needs.
         needed: u64,
-        /// What the device allows.
+        /// Value that the device allows.
         available: u64,
     },
 
@@ -135,7 +135,7 @@ pub enum Error {
         "{purpose} needs the device feature `{feature}`: ask for it in `DeviceDescriptor::required_features` where the adapter has it"
     )]
     MissingFeature {
-        /// What it is for.
+        /// Purpose of the feature.
         purpose: &'static str,
         /// The constant of [`wgpu::Features`].
         feature: &'static str,
@@ -144,14 +144,14 @@ pub enum Error {
     /// The device is lost or was destroyed. Nothing that was made from it works any more.
     #[error("the device was lost ({doing}): make a new device, and everything that belongs to it, again")]
     DeviceLost {
-        /// What was being done.
+        /// Operation during which the loss was found.
         doing: String,
     },
 
     /// The device has no memory left.
     #[error("out of memory ({doing})")]
     OutOfMemory {
-        /// What was being done.
+        /// Operation that ran out of memory.
         doing: String,
     },
 
@@ -206,7 +206,7 @@ pub enum Error {
         kernel: String,
         /// The input.
         name: String,
-        /// What is wrong with the view.
+        /// Problem of the view.
         problem: ViewProblem,
     },
 
@@ -217,7 +217,7 @@ pub enum Error {
         kernel: String,
         /// The input.
         name: String,
-        /// What is wrong with the sampler.
+        /// Problem of the sampler.
         problem: SamplerProblem,
     },
 
@@ -228,7 +228,7 @@ pub enum Error {
         kernel: String,
         /// The input.
         name: String,
-        /// What is wrong with the buffer.
+        /// Problem of the buffer.
         problem: BufferProblem,
     },
 
@@ -279,7 +279,7 @@ pub enum Error {
         kernel: String,
         /// The target, where the kernel has several and it is known which is meant.
         name: Option<String>,
-        /// What is wrong with the view.
+        /// Problem of the view.
         problem: ViewProblem,
     },
 
@@ -288,7 +288,7 @@ pub enum Error {
     Combination {
         /// The kernel's name.
         kernel: String,
-        /// What wgpu said.
+        /// wgpu's message.
         description: String,
     },
 
@@ -321,7 +321,7 @@ pub enum Error {
         kernel: String,
         /// The uniform.
         name: String,
-        /// Its type, as WGSL spells it.
+        /// Type of the uniform, as WGSL spells it.
         needed: String,
         /// The value's type, as WGSL spells it.
         given: String,
@@ -394,7 +394,7 @@ pub enum Error {
     /// Reading a timer back failed.
     #[error("reading timestamps back failed: {description}")]
     TimerRead {
-        /// What wgpu said.
+        /// wgpu's message.
         description: String,
     },
 }

@@ -1,9 +1,9 @@
-//! What can be wrong with a single resource.
+//! Problems of single resources.
 
 use straightline_manifest::{Dimension, SamplerType};
 use wgpu::TextureFormat;
 
-/// What is wrong with a texture view.
+/// Reason why a texture view cannot be bound.
 ///
 /// wgpu tells a view's texture but not which part of it the view shows. Sizes, layers and formats are therefore
 /// those of the texture; what only the view knows is asked of wgpu, and its answer is [`ViewProblem::Refused`].
@@ -15,7 +15,7 @@ pub enum ViewProblem {
     Dimension {
         /// The dimension that is needed.
         needed: Dimension,
-        /// What was found.
+        /// The dimension found.
         found: String,
     },
     /// Multisampled, where one sample a texel is needed.
@@ -119,7 +119,7 @@ pub enum ViewProblem {
         needed: TextureFormat,
         /// The texture's format.
         found: TextureFormat,
-        /// What to do, which differs by stage.
+        /// Advice, which differs by stage.
         remedy: &'static str,
     },
     /// The texture was created without a usage.
@@ -136,13 +136,13 @@ pub enum ViewProblem {
         /// Width and height of the first one.
         first: [u32; 2],
     },
-    /// The same image is given for two targets.
+    /// Image given for two targets.
     #[error("is the target `{other}` too: give each a texture of its own")]
     IsOtherTarget {
         /// The other target.
         other: String,
     },
-    /// The same image is read and written.
+    /// Image both read and written.
     #[error("is the target itself, which cannot be read while it is written: use two textures")]
     IsTarget,
     /// Larger than one dispatch can cover with the device's limits.
@@ -158,12 +158,12 @@ pub enum ViewProblem {
     /// wgpu refuses the view.
     #[error("wgpu refuses the view: {description}")]
     Refused {
-        /// What wgpu said.
+        /// wgpu's message.
         description: String,
     },
 }
 
-/// What is wrong with a sampler.
+/// Reason why a sampler cannot be bound.
 ///
 /// wgpu does not tell what a sampler was made for; it is asked to bind the sampler, and its answer is read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -172,18 +172,18 @@ pub enum SamplerProblem {
     /// Compares where it is to filter, or the other way round.
     #[error("{}", sampler_type_advice(*.needed))]
     Type {
-        /// What the sampler is needed for.
+        /// Sampler type that the kernel needs.
         needed: SamplerType,
     },
     /// wgpu refuses the sampler.
     #[error("wgpu refuses the sampler: {description}")]
     Refused {
-        /// What wgpu said.
+        /// wgpu's message.
         description: String,
     },
 }
 
-/// What is wrong with a storage buffer. It is bound whole.
+/// Reason why a storage buffer cannot be bound. Storage buffers are bound whole.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BufferProblem {
@@ -226,7 +226,7 @@ pub enum BufferProblem {
     /// wgpu refuses the buffer.
     #[error("wgpu refuses the buffer: {description}")]
     Refused {
-        /// What wgpu said.
+        /// wgpu's message.
         description: String,
     },
 }

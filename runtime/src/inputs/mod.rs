@@ -13,10 +13,10 @@ use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
 pub(crate) use target::check_targets;
 pub(crate) use texture::{is_one_image, size};
 
-/// What WebGPU wants the size of a storage binding to be a multiple of.
+/// Bytes of which the size of a storage binding must be a multiple, by WebGPU.
 const SIZE_ALIGNMENT: u64 = 4;
 
-/// What of a device decides whether a resource is fit. Asked once, as wgpu copies all of its limits each time.
+/// Features and limits of a device that decide whether a resource fits. Asked once, as wgpu copies all of its limits each time.
 #[derive(Debug)]
 pub(crate) struct Abilities {
     features: Features,
@@ -25,7 +25,7 @@ pub(crate) struct Abilities {
 }
 
 impl Abilities {
-    /// Those of `device`.
+    /// Reads the features and limits of `device`.
     pub(crate) fn new(device: &Device) -> Self {
         let limits = device.limits();
         Abilities {

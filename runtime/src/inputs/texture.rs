@@ -55,7 +55,7 @@ pub(crate) fn size(texture: &Texture) -> [u32; 2] {
     [texture.width(), texture.height()]
 }
 
-/// Whether `texture` has neither further mip levels nor further layers.
+/// Returns whether `texture` has neither further mip levels nor further layers.
 pub(crate) fn is_one_image(texture: &Texture) -> bool {
     texture.mip_level_count() == 1 && texture.depth_or_array_layers() == 1
 }

@@ -34,7 +34,7 @@ impl Layout {
         Self::with_groups(device, plan, &[])
     }
 
-    /// The same in a pipeline that has groups of the caller's too.
+    /// Makes them for a pipeline that has groups of the caller's too.
     pub(crate) fn with_groups(
         device: &wgpu::Device,
         plan: &Plan,

@@ -8,7 +8,7 @@ use wgpu::{Device, ShaderModule};
 #[cfg(feature = "manifest")]
 mod spirv;
 
-/// What a shader module is made of.
+/// Source of a shader module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Source<'a> {
     /// Text, without wgpu's bound on the trip counts of its loops if the loops are given.

@@ -1,4 +1,4 @@
-//! What the pixel quads of a device can tell each other.
+//! Communication within the pixel quads of a device.
 //!
 //! Shaders whose lanes send messages rest on what graphics interfaces leave open: where quads lie, that all four lanes
 //! run, and, for messages by derivatives, that both rows and both columns of a quad are looked at. [`Quads::detect`]
@@ -8,7 +8,7 @@ use crate::Error;
 use crate::guard::guarded;
 use wgpu::{Device, Features, Queue};
 
-/// How lanes of quads hear from each other; see the generator's option of the same name.
+/// Transport of messages between the lanes of a quad; see the generator's option of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum QuadTransport {
     /// By quad operations of subgroups.
@@ -17,7 +17,7 @@ pub enum QuadTransport {
     Derivatives,
 }
 
-/// Which derivatives are asked for when quads are looked at.
+/// Derivatives that the probe of quads uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DerivativeControl {
     /// `dpdxFine` and `dpdyFine`, as emitted shaders ask for.
@@ -27,31 +27,31 @@ pub enum DerivativeControl {
     Coarse,
 }
 
-/// What derivatives are like.
+/// Precision of derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DerivativeKind {
     /// Each row and each column of a quad has its own: messages arrive.
     Fine,
-    /// One row and one column speak for all.
+    /// Both rows of a quad share the derivative of one row, both columns that of one column.
     Coarse,
     /// Fine on one axis, coarse on the other.
     Mixed,
 }
 
-/// Which messages arrived: by the lane that sends (upper left, upper right, lower left, lower right), then horizontal,
-/// vertical and diagonal. One counts as arrived if all pixels heard it and none heard it that should not.
+/// Messages that arrived, by the sending lane (upper left, upper right, lower left, lower right), then horizontal, vertical and
+/// diagonal. A message counts as arrived if all pixels that should receive it did and no other pixel did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrivals(pub [[bool; 3]; 4]);
 
 impl Arrivals {
     const NAMES: [&str; 3] = ["horizontal", "vertical", "diagonal"];
 
-    /// Whether every message arrived.
+    /// Returns whether every message arrived.
     pub fn all(&self) -> bool {
         self.0.iter().flatten().all(|arrived| *arrived)
     }
 
-    /// What did not arrive, in words; empty if everything did.
+    /// Lists the lost messages in words; empty if all arrived.
     pub fn lost(&self) -> String {
         if self.0.iter().flatten().all(|arrived| !arrived) {
             return "all of every lane".to_owned();
@@ -68,18 +68,18 @@ impl Arrivals {
     }
 }
 
-/// What the pixel quads of a device can tell each other.
+/// Result of probing the pixel quads of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quads {
     /// Messages by quad operations; `None` if the device was made without the feature `SUBGROUP`.
     pub subgroup: Option<Arrivals>,
     /// Messages by derivatives.
     pub derivatives: Arrivals,
-    /// What derivatives are like.
+    /// Precision of the device's derivatives.
     pub kind: DerivativeKind,
-    /// Where quads begin: the lowest bits of the coordinates of their upper left pixels. `None` if pixels disagree.
+    /// Alignment of quads: the lowest bits of the coordinates of their upper left pixels. `None` if pixels disagree.
     pub origin: Option<[u32; 2]>,
-    /// Whether quads that stick out of a target of an odd size answer as all others do.
+    /// True if quads that stick out of a target of an odd size answer as all others do.
     pub odd_sizes: bool,
 }
 
@@ -292,7 +292,7 @@ fn draw(device: &Device, queue: &Queue, text: &str) -> Option<Vec<u8>> {
 /// Bytes of a row as buffers have it.
 const ROW: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
-/// What the pixels say together.
+/// Evaluates the pixels of the probe.
 fn judge(bytes: &[u8], subgroups: bool) -> Quads {
     let word = |x: u32, y: u32, k: u32| {
         let at = (y * ROW + x * 16 + k * 4) as usize;

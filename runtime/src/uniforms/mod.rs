@@ -10,7 +10,7 @@ pub use value::{Component, UniformValue};
 /// The uniform structs of a bound pass, on the device.
 #[derive(Debug)]
 pub(crate) struct Uniforms {
-    /// One for each struct of the plan, in its order.
+    /// Buffers, one for each struct of the plan, in its order.
     buffers: Vec<wgpu::Buffer>,
 }
 
@@ -92,7 +92,7 @@ pub(crate) fn filled(
     Ok(buffer)
 }
 
-/// What the structs of `plan` hold at first. Every field has a value, or it is an error.
+/// Initial bytes of the structs of `plan`. A field without a value is an error.
 fn start(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> {
     let mut blocks: Vec<Vec<u8>> = plan.uniforms.iter().map(|block| vec![0; block.size as usize]).collect();
     let mut missing: Vec<(usize, u32)> = Vec::new();
@@ -168,7 +168,7 @@ fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usiz
     }
 }
 
-/// What can be set, matrices and arrays as one.
+/// Names that can be set; a matrix or an array has one.
 fn names(plan: &Plan) -> Names {
     let mut names: Vec<&str> = plan
         .uniforms

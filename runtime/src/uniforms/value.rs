@@ -26,10 +26,10 @@ enum Words {
 
 /// A number that can be the component of a uniform.
 pub trait Component: Copy {
-    /// What it is in a shader.
+    /// Scalar type of the number in a shader.
     const SCALAR: Scalar;
 
-    /// Its bits, little-endian.
+    /// Returns the bits, little-endian.
     fn word(self) -> [u8; 4];
 }
 

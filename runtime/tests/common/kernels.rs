@@ -78,7 +78,7 @@ pub const RESOLVE: Kernel = Kernel {
         + textureLoad(color, pixel, 2) + textureLoad(color, pixel, 3))",
 };
 
-/// Whether a quarter of the pixel's column is less than `depth`, and the depth itself.
+/// Tests whether a quarter of the pixel's column is less than `depth`, and reads the depth itself.
 pub const SHADOW: Kernel = Kernel {
     name: "shadow",
     bindings: &[

@@ -244,7 +244,7 @@ pub struct Fixture {
     pub wgsl: String,
 }
 
-/// What one emitted body consists of.
+/// The parts of one emitted body.
 pub struct Kernel<'k> {
     pub name: &'k str,
     /// JSON objects of the manifest's `bindings`.

@@ -18,7 +18,7 @@ const PLACES: Kernel = Kernel {
     result: "vec4f(place, shade, 1.0) * params.scale",
 };
 
-/// Its manifest and text; the kernel's own come without varyings.
+/// Manifest and text of [`PLACES`] with its varyings, which `emit` leaves out.
 fn places() -> (String, String) {
     let plain = PLACES.emit(common::Stage::Fragment);
     let manifest = plain.manifest.replacen(
@@ -48,7 +48,7 @@ struct FlatCorner { @builtin(position) clip: vec4f, @location(0) place: vec2f, @
 
 const SIZE: [u32; 2] = [40, 30];
 
-/// Where a point of clip space lies, in pixels.
+/// Converts a point of clip space to pixels.
 fn pixel([x, y]: [f64; 2]) -> [f64; 2] {
     [
         (x + 1.0) / 2.0 * f64::from(SIZE[0]),

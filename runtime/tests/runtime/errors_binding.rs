@@ -272,7 +272,7 @@ fn an_input_that_is_the_target() {
         let image = gpu.target(SIZE);
         let error = refuse(&pass, &[("color", &view(&image))], &view(&image));
         assert_eq!(input_problem(error, "color"), ViewProblem::IsTarget);
-        // The same layer of a stack: wgpu tells.
+        // A layer of a stack that is also the target: wgpu refuses it.
         let usage = READ | TextureUsages::STORAGE_BINDING | TextureUsages::RENDER_ATTACHMENT;
         let stack = gpu.texture(SIZE, 2, TextureFormat::Rgba32Float, usage);
         let layer = stack.create_view(&wgpu::TextureViewDescriptor {

@@ -1,4 +1,4 @@
-//! What is wrong with a shader, its manifest or the device is found when the pass is made, and named.
+//! Errors of a shader, its manifest or the device are found when the pass is made, and name their cause.
 
 use crate::common;
 

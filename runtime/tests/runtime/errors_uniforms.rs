@@ -34,7 +34,7 @@ fn uniforms_that_are_unset_unknown_or_of_another_type() {
     );
     let options = || BindOptions::default().uniform("offset", [0.0; 4]);
     let bound = with(&options()).expect("all uniforms have values");
-    // What is said of a value when a pass is bound, and what is said later.
+    // Binding with a value and writing it later must report the same error.
     let both = |name: &'static str, value: UniformValue| {
         let early = with(&options().uniform(name, value.clone())).expect_err("a refusal");
         let late = bound.write_uniform(&gpu.queue, name, value).expect_err("a refusal");

@@ -106,7 +106,7 @@ fn spans_come_without_waiting() {
         assert_eq!(spans.len(), count);
         assert!(spans.iter().all(|span| *span > Duration::ZERO), "{spans:?}");
     }
-    // What was not submitted is not there, and can be read later.
+    // Timestamps that were not submitted are reported as such and can be read later.
     let mut encoder = gpu.encoder();
     bound.encode_timed(&mut encoder, &mut timer).expect("to encode");
     timer.resolve(&mut encoder).expect("to resolve");
