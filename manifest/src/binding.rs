@@ -1,9 +1,9 @@
-//! What a shader binds: in WebGPU's words, and language by language.
+//! Resources that a shader binds: in WebGPU's words, and language by language.
 
 use crate::{BufferType, Dimension, Element, Extent, REGION, SampleType, SamplerType, Scalar, ValueType};
 use serde::{Deserialize, Serialize};
 
-/// One input resource. Of a function ([`Form::Function`](crate::Form::Function)) nothing is bound: group and number are those
+/// An input resource. Of a function ([`Form::Function`](crate::Form::Function)) nothing is bound: group and number are those
 /// that the entry point would have.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Binding {
@@ -14,13 +14,14 @@ pub struct Binding {
     /// The name in the kernel's source, and in the text unless [`LanguageBinding`] says another; of a uniform buffer, which no
     /// kernel names, the generator's.
     pub name: String,
-    /// What must be bound.
+    /// Kind of resource to bind.
     #[serde(flatten)]
     pub kind: BindingKind,
 }
 
 impl Binding {
-    /// Whether it is the rectangle of a shader that filters one: a uniform buffer called [`REGION`], `region_`, `region_2`, ...
+    /// Returns whether this is the rectangle of a shader that filters one: a uniform buffer called [`REGION`], `region_`,
+    /// `region_2`, ...
     pub fn is_region(&self) -> bool {
         let is_mark = |rest: &str| {
             rest.is_empty()
@@ -33,7 +34,7 @@ impl Binding {
     }
 }
 
-/// What must be bound at a [`Binding`].
+/// Kind of resource that a [`Binding`] needs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 pub enum BindingKind {
@@ -42,7 +43,7 @@ pub enum BindingKind {
         /// `view_dimension`, `2d`, `2d-array`, `3d` or `cube`, and `multisampled`.
         #[serde(flatten)]
         dimension: Dimension,
-        /// How texels are read.
+        /// Sample type, in which texels are read.
         sample_type: SampleType,
         /// Components that the kernel uses, 1 to 4. Any format of the sample type with at least as many will do.
         components: u8,
@@ -51,12 +52,12 @@ pub enum BindingKind {
         layers: u32,
         /// Samples of a texel that the shader can address; 1 unless it is multisampled.
         samples: u32,
-        /// Which size it must have.
+        /// Size that the texture must have.
         extent: Extent,
     },
     /// A sampler.
     Sampler {
-        /// What it is used for.
+        /// Use of the sampler.
         #[serde(rename = "sampler_type")]
         sampler: SamplerType,
     },
@@ -64,7 +65,7 @@ pub enum BindingKind {
     Buffer {
         /// `read-only-storage`, or `storage` of one that the shader writes to.
         buffer_type: BufferType,
-        /// What an element is: in JSON its type, or of a structure its name.
+        /// Type of an element: in JSON its type, or of a structure its name.
         element: Element,
         /// Bytes from one element to the next.
         stride: u32,
@@ -127,11 +128,11 @@ pub struct Part {
     /// Type of the whole.
     #[serde(rename = "type")]
     pub ty: ValueType,
-    /// Which part, from 0.
+    /// Index of the part, from 0.
     pub index: u32,
 }
 
-/// What a shader binds, or takes as a parameter, in one language.
+/// A resource that a shader binds, or a parameter that it takes, in one language.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LanguageBinding {
@@ -139,7 +140,7 @@ pub struct LanguageBinding {
     pub language: String,
     /// Name in the text.
     pub name: String,
-    /// What it is there.
+    /// Kind of the resource or parameter in this language.
     pub kind: LanguageKind,
     /// Descriptor set: `glsl450` only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -168,12 +169,12 @@ pub struct LanguageBinding {
     /// no smaller levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sampler: Option<String>,
-    /// What is to be given, in words, where `of` does not tell.
+    /// Value to give, in words, where `of` does not name it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub what: Option<String>,
 }
 
-/// What a [`LanguageBinding`] is in its language.
+/// Kind of a [`LanguageBinding`] in its language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LanguageKind {

@@ -1,10 +1,10 @@
-//! What kind of text a shader is, and how it counts rows.
+//! Form of a shader's text, and the order of its rows.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Whether a shader is complete or a part of another.
+/// Form of a shader: complete, or a part of another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Form {
@@ -45,7 +45,7 @@ impl FromStr for Form {
     }
 }
 
-/// Where row 0 of every texture, of the target and of positions lies, as the upright picture is seen. A kernel's own rows
+/// Position of row 0 of every texture, of the target and of positions, as the upright picture is seen. A kernel's own rows
 /// always count from above.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -27,7 +27,7 @@ pub enum Format {
     Rgba32Sint,
 }
 
-/// What the components of a texel are.
+/// Number type of a texel's components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // named as everywhere
 pub enum Component {
@@ -98,7 +98,7 @@ impl Format {
         }
     }
 
-    /// What they are.
+    /// Returns the number type of the components.
     pub fn component(self) -> Component {
         match self {
             Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => Component::Uint,

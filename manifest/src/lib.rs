@@ -1,4 +1,4 @@
-//! What an emitted shader needs and offers.
+//! Needs and offers of an emitted shader, as data.
 //!
 //! The generator writes one manifest beside each shader; the runtime, or any other engine, reads it to
 //! bind the shader without looking inside. Fields are plain data and serialise to JSON: the feature `json`.

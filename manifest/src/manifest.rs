@@ -19,20 +19,20 @@ pub struct Manifest {
     pub kernel: String,
     /// The pipeline stage that the shader is for.
     pub stage: Stage,
-    /// How loops were treated: `full`, `none` or `partial(N)`, followed by what was said of single loops.
+    /// Loop policy: `full`, `none` or `partial(N)`, followed by the requests for single loops.
     pub unroll: String,
-    /// What the shader computes in. Uniforms, buffers and textures are the same in every precision.
+    /// Precision of the shader's arithmetic. Uniforms, buffers and textures are the same in every precision.
     #[serde(default, skip_serializing_if = "Precision::is_default")]
     pub precision: Precision,
-    /// Whether the shader is complete, or a function for another.
+    /// Form: a complete shader, or a function for another.
     #[serde(default, skip_serializing_if = "Form::is_default")]
     pub form: Form,
-    /// Where row 0 of textures, target and positions is.
+    /// Position of row 0 of textures, target and positions.
     #[serde(default, skip_serializing_if = "Origin::is_default")]
     pub origin: Origin,
     /// Name of the entry point, or of the function.
     pub entry_point: String,
-    /// Its name in languages that have it under another, by target name: `main` in GLSL.
+    /// Names of the entry point in languages that have it under another, by target name: `main` in GLSL.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub entry_points: BTreeMap<String, String>,
     /// Invocations in a workgroup; compute only.
@@ -42,8 +42,8 @@ pub struct Manifest {
     /// that stick out of the target store what lies inside.
     #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
     pub block: [u32; 2],
-    /// What the device must be able to do besides: `subgroup`, quad operations in the shader's stage; `shader-f16`,
-    /// arithmetic in half precision.
+    /// Further abilities that the device needs: `subgroup`, quad operations in the shader's stage; `shader-f16`, arithmetic in
+    /// half precision.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<String>,
     /// Values that the host's vertex shader gives for interpolation; fragment only. A shader that has some is drawn in a
@@ -58,13 +58,13 @@ pub struct Manifest {
     /// in WGSL too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub language_bindings: Vec<LanguageBinding>,
-    /// Where the results go: in JSON an object where there is one, else a list. A kernel that gives a structure or a tuple has
-    /// an output for each of its fields.
+    /// Targets of the results: in JSON an object where there is one, else a list. A kernel that gives a structure or a tuple
+    /// has an output for each of its fields.
     #[serde(rename = "output", with = "output")]
     pub outputs: Vec<Output>,
     /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
     pub options: BTreeMap<String, String>,
-    /// What one invocation executes.
+    /// Operation counts of one invocation.
     pub counts: Counts,
     /// File of each target that was written, by target name (`wgsl`, `glsl450`, `glsl430`, `glsl330`,
     /// `essl310`, `essl300`, `spirv`, `hlsl`, `msl`).
@@ -96,8 +96,8 @@ pub struct Varying {
     pub location: u32,
 }
 
-/// What one invocation executes, counted on the generated graph. Loops count as often as they run; of the
-/// two sides of a branch the larger counts.
+/// Operation counts of one invocation, taken on the generated graph. Loops count as often as they run; of the two sides of a
+/// branch the larger counts.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
@@ -141,7 +141,7 @@ pub struct Counts {
     /// Scalars alive at once at most, in the order of the text: components of vectors, each element of an array; no booleans, no
     /// constants, no uniforms. Compilers need about as many registers.
     pub max_live: u32,
-    /// Where that is in the source, with the counters of unrolled loops: `kernel.rs:12, tap 3`.
+    /// Place of that maximum in the source, with the counters of unrolled loops: `kernel.rs:12, tap 3`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub max_live_at: String,
 }

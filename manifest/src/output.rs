@@ -1,4 +1,4 @@
-//! Where results go.
+//! Outputs of a shader.
 
 use crate::{Access, Format, Scalar, ValueType, ViewDimension};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -6,7 +6,7 @@ use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
-/// Where a result goes: a storage texture of a compute shader, a colour of a fragment shader, what a function gives.
+/// Target of a result: a storage texture of a compute shader, a colour of a fragment shader, the return value of a function.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
@@ -41,7 +41,7 @@ fn is_colour(ty: &ValueType) -> bool {
     *ty == colour()
 }
 
-/// One output as itself, and any other number of them as a list.
+/// Writes one output as itself, and any other number of them as a list.
 pub(crate) fn serialize<S: Serializer>(outputs: &[Output], to: S) -> Result<S::Ok, S::Error> {
     match outputs {
         [one] => one.serialize(to),

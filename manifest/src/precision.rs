@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// What every float that a shader computes is held in. What a host gives and gets does not change with it.
+/// Precision of every float that a shader computes. The host's inputs and outputs do not change with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
@@ -27,7 +27,7 @@ impl Precision {
         }
     }
 
-    /// Whether this is what a manifest says by saying nothing.
+    /// Returns whether this is the precision that a manifest without the field has.
     pub(crate) fn is_default(&self) -> bool {
         *self == Precision::default()
     }

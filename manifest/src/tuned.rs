@@ -1,4 +1,4 @@
-//! What a search over a kernel's variants left out of a shader, and what that cost.
+//! Terms that a search over a kernel's variants left out of a shader, and their cost.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ pub struct Tuned {
     pub size: [u32; 2],
     /// `psnr`, in dB, or `flip`, the mean of FLIP.
     pub metric: String,
-    /// How much of the best variant's error could be given up, by the metric.
+    /// Budget: error beyond the best variant's that may be accepted, by the metric.
     pub max_error: f64,
     /// The best variant's error.
     pub best: f64,
@@ -20,13 +20,13 @@ pub struct Tuned {
     pub error: f64,
     /// The most general variant's error.
     pub general: f64,
-    /// What it was timed on.
+    /// Adapter on which the shader was timed.
     pub adapter: String,
     /// Speedup over the most general variant: the middle of all rounds.
     pub speedup: f64,
-    /// What the most general variant has and this one has not, and what goes beyond that one and was tried.
+    /// Terms that the most general variant has and this one has not, and terms beyond that variant that were tried.
     pub left_out: Vec<LeftOut>,
-    /// What this one has beyond the most general variant.
+    /// Terms that this variant has beyond the most general one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needed: Vec<LeftOut>,
 }
@@ -35,9 +35,9 @@ pub struct Tuned {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LeftOut {
-    /// What: normals, planes, 16 samples, f32, placing, ...
+    /// Name of the term: normals, planes, 16 samples, f32, placing, ...
     pub term: String,
-    /// What that cost: error without it less error with it, by the metric, a loss being positive.
+    /// Cost of leaving the term out: error without it less error with it, by the metric, a loss being positive.
     pub cost: f64,
 }
 

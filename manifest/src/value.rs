@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// What the components of a value are: 32 bits each.
+/// Type of a value's components: 32 bits each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Scalar {
     /// `f32`.
@@ -71,13 +71,13 @@ impl Scalar {
     serde(into = "String", try_from = "String")
 )]
 pub enum ValueType {
-    /// One number.
+    /// A single number.
     Scalar(Scalar),
     /// A vector.
     Vector {
-        /// What its components are.
+        /// Type of the components.
         of: Scalar,
-        /// How many there are, 2 to 4.
+        /// Number of components, 2 to 4.
         components: u8,
     },
     /// A matrix of `f32`.
@@ -89,11 +89,11 @@ pub enum ValueType {
     },
     /// An array of numbers or vectors.
     Array {
-        /// What the components of its elements are.
+        /// Type of the components of an element.
         of: Scalar,
         /// Components of an element: 1 of a number, 2 to 4 of a vector.
         components: u8,
-        /// How many elements there are, at least 1.
+        /// Number of elements, at least 1.
         count: u32,
     },
 }
@@ -107,7 +107,7 @@ impl ValueType {
         }
     }
 
-    /// What its components are.
+    /// Returns the type of the components.
     pub fn scalar(self) -> Scalar {
         match self {
             ValueType::Scalar(of) | ValueType::Vector { of, .. } | ValueType::Array { of, .. } => of,
@@ -124,7 +124,7 @@ impl ValueType {
         }
     }
 
-    /// How many parts it has: the columns of a matrix, the elements of an array; of all else it is the only one.
+    /// Returns the number of parts: the columns of a matrix, the elements of an array; 1 for all else.
     pub fn parts(self) -> u32 {
         match self {
             ValueType::Scalar(_) | ValueType::Vector { .. } => 1,
@@ -138,7 +138,7 @@ impl ValueType {
         ValueType::of(self.scalar(), self.components())
     }
 
-    /// Whether it is a number or a vector.
+    /// Returns whether this is a number or a vector.
     pub fn is_single(self) -> bool {
         matches!(self, ValueType::Scalar(_) | ValueType::Vector { .. })
     }
@@ -228,7 +228,7 @@ fn side(text: &str) -> Option<(u8, &str)> {
     matches!(first, b'2'..=b'4').then(|| (first - b'0', &text[1..]))
 }
 
-/// What a vector or a matrix is of: `f`, or `<f32>`.
+/// Parses the component type of a vector or a matrix: `f`, or `<f32>`.
 fn component(suffix: &str) -> Option<Scalar> {
     match suffix.strip_prefix('<') {
         Some(name) => Scalar::of(name.strip_suffix('>')?),
@@ -238,7 +238,7 @@ fn component(suffix: &str) -> Option<Scalar> {
     }
 }
 
-/// What the elements of a storage buffer are.
+/// Type of the elements of a storage buffer.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "json",

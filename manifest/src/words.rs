@@ -9,9 +9,9 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Stage {
-    /// One invocation a pixel, result through a storage texture.
+    /// A compute shader: one invocation a pixel, result through a storage texture.
     Compute,
-    /// One fragment a pixel, result at colour location 0. The host draws a triangle over the target.
+    /// A fragment shader: one fragment a pixel, result at colour location 0. The host draws a triangle over the target.
     Fragment,
 }
 
@@ -50,7 +50,7 @@ pub const REGION: &str = "region";
 /// Size in bytes of the uniform buffer [`REGION`].
 pub const REGION_SIZE: u32 = 32;
 
-/// How a buffer is bound, in the words of WebGPU's `GPUBufferBindingType`.
+/// Type of a buffer binding, in the words of WebGPU's `GPUBufferBindingType`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum BufferType {
@@ -62,7 +62,7 @@ pub enum BufferType {
     Storage,
 }
 
-/// How a storage texture is accessed, in the words of WebGPU's `GPUStorageTextureAccess`.
+/// Access to a storage texture, in the words of WebGPU's `GPUStorageTextureAccess`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Access {
@@ -98,7 +98,7 @@ pub enum ViewDimension {
     serde(into = "Shape", try_from = "Shape")
 )]
 pub enum Dimension {
-    /// One 2-D image.
+    /// A single 2-D image.
     D2,
     /// A stack of 2-D images.
     D2Array,
@@ -106,7 +106,7 @@ pub enum Dimension {
     D3,
     /// Six square 2-D images around a point.
     Cube,
-    /// One 2-D image with several samples a texel.
+    /// A single 2-D image with several samples a texel.
     D2Multisampled,
 }
 
@@ -121,13 +121,13 @@ impl Dimension {
         }
     }
 
-    /// Whether a texel has several samples.
+    /// Returns whether a texel has several samples.
     pub fn is_multisampled(self) -> bool {
         self == Dimension::D2Multisampled
     }
 }
 
-/// How the texels of a texture are read, which decides the formats that fit, in the words of WebGPU's `GPUTextureSampleType`.
+/// Sample type of a texture, which decides the formats that fit, in the words of WebGPU's `GPUTextureSampleType`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub enum SampleType {
@@ -148,7 +148,7 @@ pub enum SampleType {
     Uint,
 }
 
-/// What a sampler is used for, in the words of WebGPU's `GPUSamplerBindingType`.
+/// Use of a sampler, in the words of WebGPU's `GPUSamplerBindingType`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum SamplerType {
@@ -160,7 +160,7 @@ pub enum SamplerType {
     Comparison,
 }
 
-/// Which size a texture must have.
+/// Size that a texture must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Extent {

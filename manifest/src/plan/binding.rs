@@ -1,4 +1,4 @@
-//! What is bound, each checked for itself: textures, storage buffers, and the fields of uniform structs.
+//! Checks of single bindings: textures, storage buffers, and the fields of uniform structs.
 
 use super::read::require;
 use super::{BufferPlan, FieldPlan, PartPlan, TexturePlan};
