@@ -53,7 +53,7 @@ fn blocks_of(statement: &Statement) -> Vec<&Block> {
     }
 }
 
-/// One loop: `for (...; counter < limit; counter++)`.
+/// Checks one loop against the form `for (...; counter < limit; counter++)`.
 fn counts(module: &Module, function: &Function, body: &Block, continuing: &Block) -> Result<(), String> {
     let shape = || "a loop that does not begin with `counter < limit`".to_owned();
     let test = body
@@ -119,7 +119,7 @@ fn is_one(function: &Function, expression: Handle<Expression>) -> bool {
     matches!(function.expressions[expression], Expression::Literal(Literal::I32(1)))
 }
 
-/// The local variable that a pointer points into; `None` for all other memory, or if it cannot be told.
+/// Returns the local variable that a pointer points into; `None` for all other memory, or if it is unknown.
 fn root(function: &Function, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
     match function.expressions[pointer] {
         Expression::LocalVariable(variable) => Some(variable),
@@ -128,7 +128,7 @@ fn root(function: &Function, pointer: Handle<Expression>) -> Option<Handle<Local
     }
 }
 
-/// Local variables that statements write; `None` stands for what cannot be told.
+/// Collects the local variables that statements write; `None` stands for unknown memory.
 fn writes(function: &Function, block: &Block, written: &mut Vec<Option<Handle<LocalVariable>>>) {
     for statement in block {
         match statement {
@@ -160,7 +160,7 @@ fn emitted(block: &Block, inside: &mut Vec<Handle<Expression>>) {
     }
 }
 
-/// Whether an expression has one value in all rounds of a loop in which those `inside` are evaluated.
+/// Returns whether an expression has one value in all iterations of a loop in which those `inside` are evaluated.
 fn stays(
     module: &Module,
     function: &Function,
@@ -183,7 +183,7 @@ fn stays(
     }
 }
 
-/// Whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes.
+/// Returns whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes.
 fn is_constant_memory(module: &Module, function: &Function, pointer: Handle<Expression>) -> bool {
     match function.expressions[pointer] {
         Expression::GlobalVariable(global) => module.global_variables[global].space == AddressSpace::Uniform,

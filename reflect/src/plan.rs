@@ -58,7 +58,7 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
     }
 }
 
-/// What has a location in a value that an entry point takes or gives, itself or as members of a structure.
+/// Returns the members with a location of a value that an entry point takes or gives, or the value itself if it has one.
 pub fn located(
     module: &Module,
     binding: &Option<naga::Binding>,
@@ -78,7 +78,7 @@ pub fn located(
         .collect()
 }
 
-/// What a fragment shader has interpolated is what the manifest lists.
+/// Checks that the interpolated inputs of a fragment shader are those that the manifest lists.
 fn varyings(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
     let arguments = entry.function.arguments.iter();
     let found: Vec<_> = arguments.flat_map(|a| located(module, &a.binding, a.ty)).collect();
@@ -236,7 +236,7 @@ fn texture_type(plan: &TexturePlan) -> (TypeInner, String) {
     )
 }
 
-/// Whether `variable` is a storage buffer of `plan`'s elements, atomic ones among them, accessed as `plan` says.
+/// Returns whether `variable` is a storage buffer of `plan`'s elements, atomic ones among them, accessed as `plan` says.
 fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> bool {
     let access = AddressSpace::Storage {
         access: match plan.written {

@@ -10,16 +10,16 @@ use straightline_manifest::plan::{Plan, VaryingPlan};
 pub enum VertexProblem {
     /// The text does not parse.
     Refused(String),
-    /// It has no entry point of that name and of stage vertex.
+    /// The text has no entry point of that name and of stage vertex.
     NoEntryPoint {
         /// Names of those of stage vertex.
         there: Vec<String>,
     },
-    /// It does not return a varying, or returns it otherwise.
+    /// The entry point does not return a varying, or returns it otherwise.
     Varying {
         /// The varying.
         varying: VaryingPlan,
-        /// What it returns there, and what it should.
+        /// Description of the output there, and of the one needed.
         problem: String,
     },
 }
