@@ -22,7 +22,7 @@ pub enum WriteError {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// A file cannot be written.
@@ -30,7 +30,7 @@ pub enum WriteError {
     File {
         /// The file.
         file: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
 }
@@ -115,8 +115,8 @@ pub fn fill<E>(
     fs::rename(scrap.path(), path).map_err(&refused)
 }
 
-/// Whether files can be written into `folder`, which need not be there: tries it, and leaves nothing behind. For commands
-/// that work for long before they write.
+/// Checks that files can be written into `folder`, which need not exist: writes one and removes it. For commands that work for
+/// long before they write.
 ///
 /// # Errors
 ///
@@ -130,7 +130,8 @@ pub fn try_folder(folder: &Path) -> Result<(), WriteError> {
     tried().map_err(WriteError::folder(folder))
 }
 
-/// Whether `path` can be written, as [`try_folder`] for one file; `folders` says whether the folders above it would be made.
+/// Checks that `path` can be written, as [`try_folder`] for one file; `folders` says whether the folders above it would be
+/// made.
 ///
 /// # Errors
 ///
@@ -155,7 +156,7 @@ fn above(path: &Path) -> io::Result<Folders> {
     }
 }
 
-/// Whether the file already has these contents. Anything but a regular file of their length is not read.
+/// Returns whether the file already has these contents. Anything but a regular file of their length is not read.
 fn holds(path: &Path, contents: &[u8]) -> bool {
     let same_length = fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() == contents.len() as u64);
     same_length && fs::read(path).is_ok_and(|present| present == *contents)

@@ -64,7 +64,7 @@ fn kind(_: &Metadata) -> &'static str {
 pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let file = open(path, limit)?;
     let mut bytes = Vec::with_capacity(file.metadata()?.len() as usize);
-    // It may grow while it is read.
+    // A file may grow while it is read.
     file.take(limit + 1).read_to_end(&mut bytes)?;
     match bytes.len() as u64 {
         found if found > limit => Err(too_long(found, limit)),

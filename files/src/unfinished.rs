@@ -1,4 +1,4 @@
-//! What is on the disk before a file or folder is whole, and its removal: on errors, and when the program is interrupted.
+//! Files and folders that are not whole yet, and their removal: on errors, and when the program is interrupted.
 
 use std::fs;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What would be left behind if the program ended now, in the order in which it was made.
+/// Paths that would be left over if the program ended now, in the order in which they were made.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Held while the files of a set are moved to their places.
@@ -22,7 +22,8 @@ pub(super) fn commit() -> MutexGuard<'static, ()> {
 }
 
 /// Removes every unfinished file and folder of this program, once any set that is being moved to its place is there. For a
-/// program that is interrupted and ends at once after this: whoever makes or finishes a file from now on waits for ever.
+/// program that is interrupted and ends at once after this: any thread that makes or finishes a file from now on waits for
+/// ever.
 pub fn abandon() {
     std::mem::forget(lock(&COMMIT));
     let unfinished = lock(&UNFINISHED);
@@ -82,7 +83,7 @@ impl Scrap {
         Ok(Scrap(beside))
     }
 
-    /// Where it is.
+    /// Path of the scrap.
     pub fn path(&self) -> &Path {
         &self.0
     }
