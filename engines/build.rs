@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// What says of a folder that it is an engine.
+/// File that marks a folder as an engine.
 const DESCRIPTION: &str = "engine.toml";
 
 fn main() -> io::Result<()> {
@@ -32,7 +32,7 @@ fn main() -> io::Result<()> {
     fs::write(out.join("templates.rs"), sources + "]\n")
 }
 
-/// What a folder holds, in order of name.
+/// Lists the contents of a folder, in order of name.
 fn sorted(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
     let mut paths = entries.collect::<io::Result<Vec<_>>>()?;

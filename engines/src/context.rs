@@ -1,4 +1,4 @@
-//! What templates are given: a kernel's name, what it binds, and its shaders.
+//! Context of templates: a kernel's name, the resources that it binds, and its shaders.
 
 use crate::fits;
 use crate::spelling;
@@ -36,7 +36,7 @@ pub struct Context {
     pub uniforms: Vec<UniformContext>,
     /// The buffer that uniforms lie in where the language has one.
     pub block: Option<BlockContext>,
-    /// What is given for a pixel.
+    /// Values computed for a pixel.
     pub outputs: Vec<OutputContext>,
     /// Shaders, by the names of `engine.toml`.
     pub shaders: BTreeMap<String, ShaderContext>,
@@ -59,7 +59,7 @@ pub struct TextureContext {
     pub shape: &'static str,
     /// `view_dimension`, as WebGPU has it.
     pub view_dimension: &'static str,
-    /// Whether a texel has several samples.
+    /// True if a texel has several samples.
     pub multisampled: bool,
     /// `sample_type`, as WebGPU has it.
     pub sample_type: &'static str,
@@ -67,7 +67,7 @@ pub struct TextureContext {
     pub holds: &'static str,
     /// Type in HLSL.
     pub hlsl: String,
-    /// Whether it has the output's size.
+    /// True if the texture has the output's size.
     pub framed: bool,
 }
 
@@ -106,7 +106,7 @@ pub struct UniformContext {
     pub offset: u32,
     /// The value until another is set, in every component, as a literal; 0 where the kernel states none.
     pub default: String,
-    /// Whether the kernel states it.
+    /// True if the kernel states the default.
     pub has_default: bool,
     /// Least value, as a literal, where the kernel states it.
     pub min: Option<String>,
@@ -117,7 +117,7 @@ pub struct UniformContext {
 /// The buffer of uniforms.
 #[derive(Clone, Debug, Serialize)]
 pub struct BlockContext {
-    /// Its name: `parameters`, unless the kernel has a use for that.
+    /// Name of the buffer: `parameters`, unless the kernel has a use for that.
     pub name: String,
     /// Number in WGSL.
     pub binding: u32,
@@ -147,7 +147,7 @@ pub struct ShaderContext {
     pub function: String,
     /// Combined samplers of the languages of OpenGL.
     pub combined: Vec<CombinedContext>,
-    /// What a function takes, in order.
+    /// Arguments of a function, in order.
     pub arguments: Vec<ArgumentContext>,
     /// Functions that a template defines before the text, where the shader reads by them.
     pub reads: Vec<ReadContext>,
@@ -172,7 +172,7 @@ pub struct CombinedContext {
     pub glsl: String,
 }
 
-/// What a function takes.
+/// An argument of a function.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArgumentContext {
     /// `texture`, `sampler`, `position`, `varying` or `uniform`.
@@ -186,7 +186,7 @@ pub struct ArgumentContext {
 /// A function by which the shader reads a texture.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReadContext {
-    /// Its name.
+    /// Name of the function.
     pub name: String,
     /// The texture, in the kernel.
     pub texture: String,

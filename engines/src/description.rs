@@ -1,4 +1,4 @@
-//! What `engine.toml` says of an engine.
+//! Description of an engine, read from `engine.toml`.
 
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,12 +10,12 @@ use straightline_manifest::{BindingKind, Manifest};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Description {
-    /// What the engine is called in sentences: `three.js`.
+    /// Name of the engine in sentences: `three.js`.
     pub title: String,
-    /// What is written, in a few words.
+    /// Files that are written, in a few words.
     pub about: String,
-    /// How far it has been tried: `pixels` where the tests compare pixels, `compiled` where a compiler of its language reads the
-    /// text, and `untested`.
+    /// Extent of testing: `pixels` where the tests compare pixels, `compiled` where a compiler of its language reads the text,
+    /// and `untested`.
     #[serde(default)]
     pub tried: Tried,
     /// The shaders that templates put in, by the name that they have there.
@@ -24,14 +24,14 @@ pub struct Description {
     /// `p3d_*` or `*Sampler` for all that begin or end so. Those of the shaders' languages need not be listed.
     #[serde(default)]
     pub words: BTreeSet<String>,
-    /// What the engine can bind.
+    /// Limits of the engine's bindings.
     #[serde(default)]
     pub limits: Limits,
     /// Template and the file that it makes, whose name is a template too.
     pub files: BTreeMap<String, String>,
 }
 
-/// How far an engine has been tried.
+/// Extent to which an engine has been tested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tried {
@@ -52,7 +52,7 @@ pub struct ShaderDescription {
     /// Binding numbers that the engine gives.
     #[serde(default)]
     pub numbers: Option<Numbers>,
-    /// How the shader is written, by the names of the command line: `stage` (a fragment shader by default), `form`, `origin`,
+    /// Options of the emitted text, by the names of the command line: `stage` (a fragment shader by default), `form`, `origin`,
     /// `texels` where a template defines functions that read them, `global-uniforms`, ...
     #[serde(flatten)]
     pub knobs: Overrides,
@@ -150,7 +150,7 @@ impl ShaderDescription {
         self.written(&EmitOptions::new()).stage
     }
 
-    /// How the shader is written for a user who wants `emit`: the engine's choices go before that.
+    /// Returns the emit options for a user who wants `emit`: the engine's choices override those.
     ///
     /// # Errors
     ///
@@ -166,12 +166,12 @@ impl ShaderDescription {
     }
 }
 
-/// What an engine can bind. What is left out is not limited, but for buffers, interpolated values and what not every device
-/// can do, which an engine must name.
+/// Limits of an engine's bindings. An omitted field sets no limit unless its own documentation states one; buffers,
+/// interpolated values and optional device features must be named.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// What the engine gives a shader, for messages: `one picture`.
+    /// Resources that the engine gives a shader, for messages: `one picture`.
     #[serde(default)]
     pub gives: Option<String>,
     /// At most so many textures.
@@ -180,7 +180,7 @@ pub struct Limits {
     /// Shapes of textures: `2d`, `2d-array`, `3d`, `cube`, `multisampled`.
     #[serde(default)]
     pub dimensions: Option<Vec<String>>,
-    /// What textures hold: `float`, `depth`, `sint`, `uint`.
+    /// Types of texels: `float`, `depth`, `sint`, `uint`.
     #[serde(default)]
     pub holds: Option<Vec<String>>,
     /// Samplers: `filtering`, `non-filtering`, `comparison`.
@@ -195,13 +195,13 @@ pub struct Limits {
     /// At most so many outputs; 1 by default.
     #[serde(default)]
     pub outputs: Option<u32>,
-    /// Whether storage buffers can be bound.
+    /// True if storage buffers can be bound.
     #[serde(default)]
     pub buffers: bool,
-    /// Whether the host's vertex shader gives interpolated values.
+    /// True if the host's vertex shader gives interpolated values.
     #[serde(default)]
     pub varyings: bool,
-    /// What not every device can do and this engine asks for: `subgroup`, `shader-f16`.
+    /// Optional device features that this engine asks for: `subgroup`, `shader-f16`.
     #[serde(default)]
     pub features: Vec<String>,
 }

@@ -12,7 +12,7 @@ use straightline_codegen::emit::{Emitted, Target, comment};
 use straightline_codegen::{Compiled, EmitOptions, OptionInfo, Stage};
 use straightline_manifest::Manifest;
 
-/// What is written for an engine.
+/// Input of an engine: a kernel, and how to write it.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
     /// The kernel.
@@ -21,7 +21,7 @@ pub struct Request<'a> {
     pub options: &'a [OptionInfo],
     /// Name of the files, without extension.
     pub name: String,
-    /// How shaders are written; the engine's own choices ([`FIXED`](crate::FIXED)) go before it.
+    /// Options of the emitted text; the engine's own choices ([`FIXED`](crate::FIXED)) override them.
     pub emit: EmitOptions,
 }
 
@@ -42,7 +42,7 @@ impl<'a> Request<'a> {
 pub struct Engine {
     pub(crate) name: String,
     pub(crate) description: Description,
-    /// Those of a folder; a built-in engine's are looked up when they are rendered.
+    /// Templates of a folder; a built-in engine's are looked up when they are rendered.
     pub(crate) templates: Option<BTreeMap<String, String>>,
 }
 
@@ -76,12 +76,12 @@ impl Engine {
         })
     }
 
-    /// Its name: that of its folder.
+    /// Returns the engine's name: that of its folder.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What `engine.toml` says.
+    /// Returns the engine's description: its `engine.toml`.
     pub fn description(&self) -> &Description {
         &self.description
     }
@@ -96,7 +96,7 @@ impl Engine {
         self.render(context.map_err(|e| self.wrong(e.to_string()))?)
     }
 
-    /// What the templates are given of a kernel.
+    /// Returns the context that the templates are given for a kernel.
     ///
     /// # Errors
     ///
@@ -106,14 +106,14 @@ impl Engine {
         Ok(self.context_of(request, shaders))
     }
 
-    /// Whether a kernel fits: every shader can be emitted, and all that it binds can be bound.
+    /// Returns whether a kernel fits: every shader can be emitted, and all that it binds can be bound.
     pub fn fits(&self, request: &Request<'_>) -> bool {
         self.shaders(request).is_ok()
     }
 
     /// The shaders of a kernel, by the names of `engine.toml`.
     fn shaders(&self, request: &Request<'_>) -> Result<BTreeMap<String, Shader>, Unfit> {
-        // What it binds is told before what a language lacks: it is what a user can understand.
+        // Errors of bindings are reported before those of a language: a user can understand them.
         let stage = self.description.shaders.values().next().map(ShaderDescription::stage);
         let probe = EmitOptions::new()
             .stage(stage.unwrap_or(Stage::Fragment))
@@ -155,7 +155,7 @@ impl Engine {
             shader: None,
             changed: Vec::new(),
         };
-        // What is bound is the same for every shader of a kernel.
+        // The bindings are the same for every shader of a kernel.
         if let Some(Shader { manifest, .. }) = first {
             context.generator.clone_from(&manifest.generator);
             context.textures = context::textures(manifest);
@@ -212,7 +212,7 @@ impl Shader {
         let unknown = |why: String| Unfit::Engine(Misfit::new(why));
         let mut options = description.options(&request.emit).map_err(unknown)?;
         options.reserved.clone_from(&engine.words);
-        // A host has one name for a thing, whichever of its shaders runs.
+        // Names are clear of every language of the engine: a host has one name for a resource in all of its shaders.
         let languages = engine.shaders.values().map(|shader| shader.target().map_err(unknown));
         options.clear_of = languages.collect::<Result<_, _>>()?;
         options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));

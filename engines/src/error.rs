@@ -11,7 +11,7 @@ pub enum EngineError {
     /// Neither a built-in engine nor a folder with one.
     #[error("there is no engine `{name}`: one of {known}, or the path of a folder with an `engine.toml`")]
     Unknown {
-        /// What was asked for.
+        /// The name asked for.
         name: String,
         /// Names of the built-in engines.
         known: String,
@@ -21,7 +21,7 @@ pub enum EngineError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// An `engine.toml` that says something wrong.
@@ -29,7 +29,7 @@ pub enum EngineError {
     Description {
         /// The engine.
         engine: String,
-        /// What, and where.
+        /// Description of the error, with its place.
         message: String,
     },
     /// A template that cannot be rendered.
@@ -39,7 +39,7 @@ pub enum EngineError {
         engine: String,
         /// The template.
         template: String,
-        /// What, and where.
+        /// Description of the error, with its place.
         message: String,
     },
     /// Templates of a user's folder that have not ended in time.

@@ -1,11 +1,11 @@
-//! Whether a kernel fits an engine.
+//! Checks whether a kernel fits an engine.
 
 use crate::description::Limits;
 use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
 
 /// Why a kernel does not fit an engine.
 pub struct Misfit {
-    /// What the kernel does, and what the engine gives.
+    /// Statement of what the kernel does, and what the engine gives.
     pub why: String,
     /// Name of the input that does not fit, if it is one.
     pub input: Option<String>,
@@ -144,7 +144,7 @@ fn many(n: u32, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// What `engine.toml` calls a shape.
+/// Name of a shape in `engine.toml`.
 pub fn shape(dimension: Dimension) -> &'static str {
     match dimension {
         Dimension::D2 => "2d",
@@ -155,7 +155,7 @@ pub fn shape(dimension: Dimension) -> &'static str {
     }
 }
 
-/// What `engine.toml` calls the texels of a texture.
+/// Name of a texture's texel type in `engine.toml`.
 pub fn texels(sample_type: SampleType) -> &'static str {
     match sample_type {
         SampleType::Unfilterable | SampleType::Filterable => "float",

@@ -61,7 +61,7 @@ impl Engine {
         let (sender, receiver) = mpsc::channel();
         let engine = self.clone();
         let work = move || {
-            // Nobody waits any more where the time is over.
+            // The receiver is gone where the time is over.
             let _ = sender.send(engine.render_now(&context));
         };
         let started = std::thread::Builder::new().name("templates".to_owned()).spawn(work);

@@ -1,5 +1,5 @@
-//! What a user of an engine drops in: the shader in the engine's dialect, the lines of host code or resource that bind it, and
-//! a README.
+//! Files for users of an engine to drop in: the shader in the engine's dialect, the lines of host code or resource that bind
+//! it, and a README.
 //!
 //! An engine is a folder: `engine.toml` says which shaders it wants of the generator and what it can bind
 //! ([`description`]), and templates of tera write the files around them ([`context`] is what templates are given). The built-in

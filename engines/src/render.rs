@@ -87,7 +87,8 @@ impl Write for Bounded {
     }
 }
 
-/// Whether a name stays in its folder on every system: relative, of plain parts, without backslashes or the colons of drives and streams.
+/// Returns whether a name stays in its folder on every system: relative, of plain parts, without backslashes or the colons of
+/// drives and streams.
 pub(crate) fn is_plain(file: &str) -> bool {
     let mut parts = Path::new(file).components();
     let portable = !file.contains(['\\', ':']) && !file.chars().any(char::is_control);

@@ -1,4 +1,4 @@
-//! How languages spell the types that a manifest names in WGSL's words.
+//! Spelling, by language, of the types that a manifest names in WGSL's words.
 
 use std::collections::BTreeSet;
 use straightline_codegen::emit::is_among;
