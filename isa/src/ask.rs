@@ -35,7 +35,7 @@ pub struct Compiler {
     answers: BufReader<ChildStdout>,
 }
 
-/// Where drivers are listed, by the loader's own rules.
+/// Folders that list drivers, by the loader's own rules.
 const LISTS: [&str; 4] = [
     "/etc/vulkan/icd.d",
     "/usr/local/etc/vulkan/icd.d",

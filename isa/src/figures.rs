@@ -1,28 +1,28 @@
-//! What the compiler reports, and what its machine code holds.
+//! Figures that the compiler reports, and counts of its machine code.
 
 use serde::{Deserialize, Serialize};
 
-/// What a compiler makes of one shader.
+/// A compiler's output for one shader.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Report {
-    /// What it says of it.
+    /// Figures of the shader.
     pub figures: Figures,
     /// The machine code as text; empty where the driver was built without a disassembler.
     pub assembly: String,
 }
 
-/// What a compiler says of one shader. Registers and cycles are of a wave.
+/// A compiler's figures of one shader. Registers and cycles are of a wave.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Figures {
     /// All instructions.
     pub instructions: u64,
-    /// Those on vector registers, a lane each.
+    /// Instructions on vector registers, a lane each.
     pub vector: u64,
-    /// Those on scalar registers, one for the wave; branches and waits are not among them.
+    /// Instructions on scalar registers, one for the wave; branches and waits are not among them.
     pub scalar: u64,
-    /// Those that read or write images, buffers or shared memory a lane each.
+    /// Instructions that read or write images, buffers or shared memory a lane each.
     pub memory: u64,
-    /// Those of them that are on shared memory.
+    /// Memory instructions on shared memory.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub shared: u64,
     /// Jumps, taken or not.
@@ -50,7 +50,7 @@ fn is_zero(n: &u64) -> bool {
 }
 
 impl Figures {
-    /// Each with its name for people, in the order of the fields.
+    /// Names each figure for readers, in the order of the fields; `shared` comes last.
     pub fn named(&self) -> [(&'static str, u64); 14] {
         [
             ("instructions", self.instructions),
@@ -70,7 +70,7 @@ impl Figures {
         ]
     }
 
-    /// Those that fit beside each other on a line.
+    /// Names the figures that fit beside each other on a line.
     pub fn in_short(&self) -> [(&'static str, u64); 8] {
         let all = self.named();
         [0, 1, 3, 4, 5, 8, 11, 12].map(|k| all[k])

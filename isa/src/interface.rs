@@ -1,4 +1,4 @@
-//! What a SPIR-V module binds: read from its words, so that those of any compiler can be asked about.
+//! Bindings of a SPIR-V module: read from its words, so that modules of any compiler can be asked about.
 
 use ash::vk;
 use spirv::{Decoration, ExecutionModel, Op, StorageClass};

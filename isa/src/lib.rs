@@ -1,4 +1,4 @@
-//! What a GPU's compiler makes of a shader, asked without the GPU.
+//! Machine code and figures of a shader by a GPU's compiler, without the GPU.
 //!
 //! Mesa's RADV compiles for AMD GPUs that are not there: instances, devices and pipelines are made as for the real one, and only
 //! submissions are lost. Its compiler reports instructions, registers, occupancy and cycles, and the machine code itself. The

@@ -85,7 +85,7 @@ impl Device {
     }
 }
 
-/// What is destroyed when it goes.
+/// Vulkan objects that are destroyed on drop.
 struct Made<'a> {
     device: &'a ash::Device,
     sets: Vec<vk::DescriptorSetLayout>,

@@ -10,11 +10,11 @@ use std::io::{BufRead, Write};
 pub(crate) struct Request {
     /// The SPIR-V.
     pub words: Vec<u32>,
-    /// Its entry point.
+    /// Name of the entry point.
     pub entry: String,
 }
 
-/// What the process says: first its device's name, then the figures of each request.
+/// Output of the process: first its device's name, then the figures of each request.
 #[derive(Serialize, Deserialize)]
 pub(crate) enum Answer {
     /// The GPU that is compiled for, and the driver's version.
