@@ -10,10 +10,10 @@ use straightline_codegen::interp::{self, Bindings, Image, Interpreter, MOST_ITER
 use straightline_codegen::ir::{Access, Op, Real, Scalar};
 use straightline_kernels::prelude::Frame;
 
-/// What the interpreter computed.
+/// Result of the interpreter.
 #[derive(Clone, Debug)]
 pub struct Interpreted<R> {
-    /// What the first target holds, row by row from the top: a colour, or a value of fewer components, the others 0 and the
+    /// Texels of the first target, row by row from the top: a colour, or a value of fewer components, the others 0 and the
     /// fourth 1.
     pub texels: Vec<[R; 4]>,
     /// Every target.
@@ -24,7 +24,7 @@ pub struct Interpreted<R> {
     pub not_finite: Option<([u32; 2], String)>,
     /// Pixels that had one.
     pub not_finite_pixels: usize,
-    /// The same as `not_finite` for all of them, in order.
+    /// Coordinate and origin, as in `not_finite`, of every pixel that had one, in order.
     pub non_finite_origins: Vec<([u32; 2], String)>,
 }
 
@@ -147,7 +147,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     };
     let numbers = 0..height.div_ceil(down);
     let mut last = interpreter.scratch();
-    // What pixels write they write one after the other, row by row.
+    // Rows run one after the other if pixels write buffers, so that the writes keep their order.
     let rows: Vec<Row<R>> = match compiled.graph.has_effects() {
         true => numbers.map(|number| row(&mut last, number)).collect(),
         false => numbers

@@ -19,16 +19,16 @@ use wgpu::{TextureFormat, TextureUsages};
 pub struct Bench {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
-    /// Whether passes are timed by the device itself.
+    /// True if passes are timed by the device itself.
     pub(super) timestamps: bool,
-    /// What shaders compute in.
+    /// Precision that shaders compute in.
     precision: Precision,
 }
 
 /// Elements of buffers by name, each in as many lanes as it has.
 pub type Buffers = Vec<(String, Vec<[f64; 4]>)>;
 
-/// What a kernel writes: its targets, and its buffers.
+/// Outputs of a kernel: its targets, and its buffers.
 pub type AllWritten = (Vec<Written>, Buffers);
 
 /// A shader's inputs on a device, and its uniforms.
@@ -98,7 +98,7 @@ impl Uploaded {
         resources.collect()
     }
 
-    /// The same with a buffer of the caller's for what is called `name`, to be used elsewhere too.
+    /// Replaces the resource called `name` by a buffer of the caller's, to be used elsewhere too.
     pub fn with_buffer(mut self, name: &str, buffer: &wgpu::Buffer) -> Uploaded {
         self.resources.retain(|(known, _)| known != name);
         self.resources.push((name.to_owned(), Owned::Buffer(buffer.clone())));
@@ -141,13 +141,14 @@ impl Bench {
         }
     }
 
-    /// The same device, with shaders that compute in a precision; half precision needs its feature `SHADER_F16`.
+    /// Sets the precision that shaders compute in; half precision needs the device's feature `SHADER_F16`.
     pub fn precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
         self
     }
 
-    /// How kernels are emitted for this bench: for a stage, writing full floats, whatever half precision loses.
+    /// Returns the options with which this bench emits kernels: for a stage, writing full floats, whatever half precision
+    /// loses.
     pub fn options(&self, stage: Stage) -> EmitOptions {
         let options = EmitOptions::new().stage(stage).precision(self.precision);
         options.accept_loss(true).format(Format::Rgba32Float)
@@ -158,7 +159,7 @@ impl Bench {
         &self.device
     }
 
-    /// Its queue.
+    /// The device's queue.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
     }
@@ -183,7 +184,7 @@ impl Bench {
         Ok((pass, emitted.manifest))
     }
 
-    /// What was emitted, its WGSL among it, as a pass.
+    /// Makes a pass of an emitted shader, by its WGSL.
     ///
     /// # Errors
     ///
@@ -240,7 +241,7 @@ impl Bench {
         })
     }
 
-    /// What a binding is given; nothing if it is a uniform.
+    /// Makes the resource of a binding; nothing if it is a uniform.
     fn resource(&self, binding: &Binding, inputs: &Inputs) -> Result<Option<Owned>, ExecuteError> {
         let missing = |what: &str, name: &str| ExecuteError::Input(format!("no {what} is given for `{name}`"));
         let name = binding.name.as_str();
@@ -263,7 +264,7 @@ impl Bench {
             BindingKind::Sampler { .. } => {
                 let state = find(&inputs.samplers, name).copied().unwrap_or_default();
                 let is = |of| matches!(&binding.kind, BindingKind::Sampler { sampler } if *sampler == of);
-                // One that the generator made, which is not among a kernel's inputs.
+                // A non-filtering sampler is made by the generator, and not among a kernel's inputs.
                 let state = match is(SamplerType::NonFiltering) {
                     true => SamplerState::NEAREST,
                     false => state,
@@ -325,7 +326,7 @@ impl Bench {
         self.written_by(&pass, &uploaded, inputs.size)
     }
 
-    /// What a kernel leaves in the buffers that it writes, by name, and its targets.
+    /// Runs a kernel and returns its targets and the contents of the buffers that it writes, by name.
     ///
     /// # Errors
     ///
@@ -337,7 +338,7 @@ impl Bench {
         Ok((targets, self.buffers(&manifest, &uploaded)?))
     }
 
-    /// What the buffers hold now that a shader writes, by name.
+    /// Reads the current contents of the buffers that a shader writes, by name.
     ///
     /// # Errors
     ///
@@ -382,7 +383,7 @@ impl Bench {
         Ok(mapped.to_vec())
     }
 
-    /// What a pass makes of its inputs, target by target.
+    /// Runs a pass on its inputs and returns its targets.
     ///
     /// # Errors
     ///
@@ -425,7 +426,7 @@ impl Bench {
         }
     }
 
-    /// What a pass that writes one target of full floats makes of its inputs.
+    /// Runs a pass that writes one target of full floats.
     ///
     /// # Errors
     ///

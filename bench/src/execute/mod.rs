@@ -26,7 +26,7 @@ pub use timing::{Clock, Job, Quartiles, Ratio, Timed, Times, timestamps};
 pub use uploads::Uploads;
 pub use work::Work;
 
-/// What a kernel gives for each pixel in one of its targets.
+/// Pixels that a kernel writes to one of its targets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// Name of the target: `destination`, or that of a field of the structure that the kernel gives.
@@ -46,7 +46,7 @@ impl Written {
     }
 }
 
-/// Whether `inputs` have an image, a sampler or a buffer of this name.
+/// Returns whether `inputs` have an image, a sampler or a buffer of this name.
 fn has(inputs: &Inputs, name: &str) -> bool {
     find(&inputs.images, name).is_some()
         || find(&inputs.integers, name).is_some()
@@ -78,9 +78,9 @@ pub enum ExecuteError {
     /// The device failed.
     #[error("{doing}: {message}")]
     Device {
-        /// What was being done.
+        /// Operation that failed.
         doing: &'static str,
-        /// What wgpu said.
+        /// wgpu's message.
         message: String,
     },
 }

@@ -13,7 +13,7 @@ pub struct Shadowed {
     pub size: UVec2,
     /// Corners as the camera sees them; their one varying is a place in the shadow map and the depth to compare there.
     pub corners: Vec<Corner>,
-    /// The same corners; their one varying is the light that they reflect: of the sun in colour, of the sky in alpha.
+    /// Corners at the same places; their one varying is the light that they reflect: of the sun in colour, of the sky in alpha.
     pub shades: Vec<Corner>,
     /// Depths as the sun sees them, 0 to 1.
     pub map: Frame<Vec4>,
@@ -37,7 +37,7 @@ impl Shadowed {
         let sun = Vec3::from(scene.sun.direction).normalize_or(Vec3::Y);
         let to_sun = sun_space(sun, scene.camera.target.into(), radius);
         let to_clip = scene.camera.projection(size, glam::Vec2::ZERO) * scene.camera.view();
-        // What lies at a slant to the sun would shadow itself; a step along the normal keeps it clear.
+        // Surfaces at a slant to the sun would shadow themselves; a step along the normal keeps them clear.
         let step = 6.0 * radius / texels as f32;
         let (mut corners, mut shades, mut seen_by_sun) = (Vec::new(), Vec::new(), Vec::new());
         for index in scene.triangles.iter().flatten() {
@@ -74,7 +74,7 @@ impl Shadowed {
             let (x, y) = (k as u32 % texels, k as u32 / texels);
             x == 0 || y == 0 || x == texels - 1 || y == texels - 1
         };
-        // Where nothing was drawn, and beyond the map, all is light.
+        // Texels where nothing was drawn, and beyond the map, are lit.
         let clear = |(k, texel): (usize, &Vec4)| match texel.x == 0.0 || border(k) {
             true => Vec4::ONE,
             false => Vec4::splat(texel.x),
@@ -97,7 +97,7 @@ impl Shadowed {
         pass_on(gpu, self.size, &self.corners)
     }
 
-    /// What a shadow kernel reads; `coord` for those that read it from an image.
+    /// Returns the inputs of a shadow kernel; `coord` for those that read it from an image.
     ///
     /// # Errors
     ///

@@ -80,7 +80,7 @@ fn layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
     )
 }
 
-/// What is seen at a place of the test card.
+/// The surface at a place of the test card.
 struct Surface {
     depth: f32,
     normal: Vec3,

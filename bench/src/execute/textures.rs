@@ -11,7 +11,7 @@ use wgpu::{TextureFormat, TextureUsages, TextureView, TextureViewDimension};
 /// Samples of a multisampled texel that WebGPU promises.
 const MULTISAMPLES: usize = 4;
 
-/// What the texels of a texture are that is read as integers.
+/// Returns the integer type of the texels of a texture; `None` if they are floats.
 pub(super) fn integers_of(sample_type: SampleType) -> Option<Scalar> {
     match sample_type {
         SampleType::Sint => Some(Scalar::I32),

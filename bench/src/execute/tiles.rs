@@ -11,7 +11,7 @@ use straightline_runtime::Region;
 pub struct Tile {
     /// The rectangle's upper left pixel in the image.
     pub first: UVec2,
-    /// Its size.
+    /// Width and height of the rectangle.
     pub size: UVec2,
     /// Upper left pixel of the inputs: the rectangle's, less the apron where the image goes on.
     pub inputs_first: UVec2,
@@ -36,8 +36,9 @@ pub fn tiles(size: UVec2, side: u32, apron: u32) -> impl Iterator<Item = Tile> {
     })
 }
 
-/// What a tile's shader reads of the whole image's inputs. An image that is a multiple of the frame's size, as a
-/// superresolution buffer, is cut likewise, and a buffer of whole frames; those of another size are taken whole. `origin` tells kernels where the tile lies.
+/// Cuts a tile's inputs out of those of the whole image. An image that is a multiple of the frame's size, as a superresolution
+/// buffer, is cut likewise, and a buffer of whole frames; those of another size are taken whole. `origin` tells kernels where
+/// the tile lies.
 pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
     let cut = |image: &Frame<Vec4>| {
         let scale = image.size() / inputs.size;

@@ -111,7 +111,7 @@ fn quantiles<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f64; N
 /// Times of several shaders that ran in turn, round by round.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timed {
-    /// What they were taken with.
+    /// Clock that took the times.
     pub clock: Clock,
     /// For each shader, the time of each round.
     pub rounds: Vec<Vec<Duration>>,
@@ -129,7 +129,7 @@ impl Timed {
     }
 }
 
-/// What a time was taken with.
+/// Clock that takes a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Clock {
@@ -165,7 +165,7 @@ pub fn timestamps(timer: Option<&mut Timer>, passes: u32) -> Result<Vec<Timestam
 pub struct Job<'a> {
     /// The shader.
     pub pass: &'a Pass,
-    /// Its inputs.
+    /// Resources that the shader reads.
     pub uploaded: &'a Uploaded,
     /// Width and height of its output.
     pub size: UVec2,

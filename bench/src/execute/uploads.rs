@@ -1,4 +1,4 @@
-//! What several shaders read, on the device once.
+//! Inputs of several shaders, on the device once.
 
 use super::{Bench, ExecuteError, Inputs, Uploaded};
 use std::rc::Rc;
@@ -22,7 +22,7 @@ impl<'a> Uploads<'a> {
         }
     }
 
-    /// What a manifest asks for.
+    /// Uploads the inputs that a manifest asks for.
     ///
     /// # Errors
     ///

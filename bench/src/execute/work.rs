@@ -50,7 +50,7 @@ impl Bench {
         })
     }
 
-    /// What records a pass among others.
+    /// Returns a function that records a pass among others.
     ///
     /// # Errors
     ///
@@ -70,7 +70,7 @@ impl Bench {
         Ok(job.uploaded.bind(job.pass, &named[..])?)
     }
 
-    /// What `record` records, to be timed with others: up to `passes` passes, each with a span of the timer around it where
+    /// Makes work of `record`, to be timed with others: up to `passes` passes, each with a span of the timer around it where
     /// there is one. Their times are added up. Repeated as [`timed_for`](Self::timed_for) says.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl Bench {
         })
     }
 
-    /// What passes are timed with.
+    /// Returns the clock that passes are timed with.
     pub fn clock(&self) -> Clock {
         match self.timestamps {
             true => Clock::GpuTimestamps,

@@ -1,4 +1,4 @@
-//! What a capture feeds a shader with: rays in the normals' own space, and several shading samples a pixel.
+//! Inputs of a shader from a capture: rays in the normals' own space, and several shading samples a pixel.
 
 use crate::common;
 
@@ -42,7 +42,7 @@ fn by_planes(capture: &Capture) -> Result<Vec<[f64; 4]>, GBufferError> {
     Ok(resolved.into_iter().map(|pixel| pixel.color).collect())
 }
 
-/// The same with its normals turned into the world's space.
+/// Turns a capture's normals into the world's space.
 fn of_the_world(view: &Capture) -> Capture {
     let turn = Mat3::from_mat4(view.camera.expect("a camera").view()).transpose();
     let turned = |layer: &Frame<Vec3>| Frame::new(layer.size(), layer.texels().iter().map(|n| turn * *n).collect());
