@@ -32,7 +32,7 @@ pub(super) fn shown(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Shown {
         if test.is_finite() && reference.is_finite() {
             shown.test.push(encoded(test));
         } else {
-            // What differs most from it: its neighbours' errors see that too.
+            // The colour that differs most from the reference's, so that the errors of neighbouring pixels see the bad one too.
             shown.test.push(right.map(|value| if value > 0.5 { 0.0 } else { 1.0 }));
             shown.bad.push(index);
         }

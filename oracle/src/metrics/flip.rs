@@ -12,8 +12,8 @@ pub fn flip(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
     map.iter().map(|error| f64::from(*error)).sum::<f64>() / map.len() as f64
 }
 
-/// How visible the difference is at each pixel, row by row from the top, 0 to 1: LDR-FLIP for a display of 3840 pixels in
-/// 0.7 m, seen from 0.7 m, which is the authors' default. 1 where a picture is not finite.
+/// Visibility of the difference at each pixel, row by row from the top, 0 to 1: LDR-FLIP for a display of 3840 pixels in 0.7 m,
+/// seen from 0.7 m, which is the authors' default. 1 where a picture is not finite.
 pub fn flip_map(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Vec<f32> {
     let shown = shown(test, reference);
     let (width, height) = (test.size().x as usize, test.size().y as usize);
@@ -23,8 +23,8 @@ pub fn flip_map(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Vec<f32> {
     };
     let map = image(&shown.reference)
         .and_then(|reference| image(&shown.test).and_then(|test| ldr_flip(&reference, &test, DEFAULT_PPD)));
-    // It refuses pictures of no size, of two sizes, of values that are not finite, and of more than 2^34 sums: a frame has
-    // pixels, `shown` sees to two and three, and no picture that is read or drawn here is so large.
+    // `ldr_flip` refuses pictures of no size, of two sizes, of values that are not finite, and of more than 2^34 sums: a frame
+    // has pixels, `shown` sees to two and three, and no picture that is read or drawn here is so large.
     let mut map = map
         .expect("two pictures of one size and of finite values")
         .into_pixels();

@@ -1,4 +1,4 @@
-//! How far a picture is from its reference.
+//! Metrics of a picture's distance from its reference.
 //!
 //! [`psnr()`] compares linear colour clamped to 0..=1. [`ssim()`] and [`flip()`] compare what a display shows: linear colour
 //! clamped to 0..=1, in the transfer function of sRGB. Alpha is not compared. A pixel with a red, green or blue that is

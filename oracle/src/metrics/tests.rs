@@ -74,7 +74,7 @@ fn what_is_not_finite_is_as_wrong_as_can_be() {
     let map = flip_map(&broken(f32::NAN), &reference);
     assert_eq!(map[10 * 21 + 10], 1.0);
     for value in [f32::NAN, f32::INFINITY] {
-        // As wrong as black on grey or worse, whichever picture it is in; and the window around it counts -1 of 11 x 11.
+        // A bad pixel is as wrong as black on grey or worse, in either picture; and the window around it counts -1 of 11 x 11.
         let black = broken(0.0);
         for (test, right) in [(&broken(value), &reference), (&reference, &broken(value))] {
             assert!(flip(test, right) > flip(&black, &reference), "{value}");

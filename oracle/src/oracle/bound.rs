@@ -1,4 +1,4 @@
-//! How far from the definition a computation in fewer bits may be: an error analysis, pixel by pixel, of the inputs.
+//! Bounds on the error of a computation in fewer bits against the definition: an error analysis, pixel by pixel, of the inputs.
 //!
 //! Nothing here is fitted to what shaders were seen to do. With u the unit roundoff, every number that the filter computes
 //! is followed with the most that it may be off: what is read, the difference of two surfaces, the exponent −τ m, the
@@ -8,8 +8,8 @@
 //! square root 2 ULP, exp2 3 + 2 |x| ULP, in 16 bits 1 + 2 |x|). A number below the smallest normal one may be 0.
 //!
 //! A weighted mean r = Σ w c / Σ w whose weights are off by Δw is off by at most Σ Δw |c − r| / Σ w: taps of the mean's own
-//! colour cannot move it, and nothing moves it out of the range of its colours. So where two surfaces cannot be told apart
-//! in the bits that there are, the bound is as large as their colours differ, and no larger.
+//! colour cannot move it, and nothing moves it out of the range of its colours. So where the bits do not suffice to distinguish
+//! two surfaces, the bound is as large as their colours differ, and no larger.
 
 use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
@@ -19,12 +19,12 @@ use super::{
 use rayon::prelude::*;
 use straightline_scene::inputs::Inputs;
 
-/// What a precision rounds to.
+/// Rounding of a precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounding {
     /// Most that a rounded number is off, as a share of it: half the distance of neighbours.
     pub unit: f64,
-    /// The same of what is read: 0 where inputs are held in as many bits.
+    /// Most that a number read is off, as a share of it: 0 where inputs are held in as many bits.
     pub read: f64,
     /// The smallest normal number: what is below may be 0.
     pub smallest: f64,
@@ -93,7 +93,7 @@ impl Range {
 pub struct Share {
     /// Red, green, blue and alpha, by definition.
     pub color: [f64; 4],
-    /// Its weight, by definition: below 0 in a lobe of a filter.
+    /// Weight, by definition: below 0 in a lobe of a filter.
     pub weight: f64,
     /// Most that the weight may be off.
     pub off: f64,
@@ -103,7 +103,7 @@ pub struct Share {
 /// mean is divided by it. Where so little weight is left that it counts for none, black is possible too.
 pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
     let total: f64 = shares.iter().map(|s| s.weight).sum();
-    // What is weighed positively is so however it is rounded.
+    // A weight of 0 or more stays so however it is rounded.
     let low = |s: &Share| {
         if s.weight < 0.0 {
             s.weight - s.off
@@ -241,7 +241,7 @@ impl Definition<'_> {
         filtered + kept + apart.fold(0.0, f64::max)
     }
 
-    /// Whether it is plain which colours' range a pixel is brought into.
+    /// Returns whether rounding cannot change the colours into whose range a pixel is brought.
     fn is_range_decided(&self, pixel: [i32; 2]) -> bool {
         self.within_range(pixel, [0.0; 4]).1
     }
@@ -270,8 +270,8 @@ impl Definition<'_> {
         reached.collect()
     }
 
-    /// What a sample takes its colour from, `near` or what a search finds, and how far apart colours may be where it is not decided
-    /// which.
+    /// Returns the taps that a sample takes its colour from, `near` or those that a search finds, and how far apart colours may
+    /// be where that choice is not decided.
     fn searched_reach(
         &self,
         pixel: [i32; 2],
@@ -304,7 +304,7 @@ impl Definition<'_> {
                 let lane = |k: usize| {
                     let most = all().map(|tap| tap.color[k]).fold(f64::NEG_INFINITY, f64::max);
                     let least = all().map(|tap| tap.color[k]).fold(f64::INFINITY, f64::min);
-                    // Where some colours do not count, the rest is divided by less: what there is may be all or none of it.
+                    // If some colours do not count, the rest is divided by less: the remaining one may be all or none of it.
                     let kept = near.iter().chain(&around).all(|tap| is_finite(&tap.color));
                     if kept {
                         (most - least).max(0.0)
@@ -325,7 +325,7 @@ impl Definition<'_> {
         }
     }
 
-    /// What the difference of two surfaces may be found to be.
+    /// Returns the range in which the computed difference of two surfaces lies.
     fn range(&self, pixel: [i32; 2], at: ([i32; 2], usize), tap: ([i32; 2], usize), rounding: &Rounding) -> Range {
         let u = rounding.unit;
         let reading = |(away, sample): ([i32; 2], usize)| {
@@ -469,7 +469,7 @@ impl Definition<'_> {
             let rounded = rounding.of_exponential(steep) + 4.0 * rounding.unit + tap.falloff_off;
             let high = tap.falloff * (rounded - tau * (tap.range.low - least)).min(rounded.min(1.0)).exp();
             let low = tap.falloff * (-rounded - tau * (tap.range.high - least)).exp();
-            // What is too small is lost; what is smaller than half of the smallest number of all cannot come back.
+            // Weights too small are lost; rounding never brings back a number smaller than half of the smallest of all.
             let step = 2.0 * rounding.unit * rounding.smallest;
             let high = if high < 0.5 * step { 0.0 } else { high + step };
             ((low - rounding.smallest).max(0.0), high)
@@ -485,7 +485,7 @@ impl Definition<'_> {
             Normalisation::Epsilon => EPSILON,
             Normalisation::Paper | Normalisation::Shifted => 0.0,
         };
-        // Shifted, whichever tap is the nearest as computed is at no distance from itself, and weighs its whole falloff.
+        // Shifted weights: the tap that is the nearest as computed is at no distance from itself, and weighs its whole falloff.
         let nearest_weighs = match self.params.normalisation {
             Normalisation::Shifted => nearest(|tap| tap.falloff),
             Normalisation::Paper | Normalisation::Epsilon => 0.0,

@@ -1,4 +1,4 @@
-//! What the edge filters should give: their formulas, evaluated in double precision without regard to speed.
+//! Definition of the edge filters: their formulas, evaluated in double precision without regard to speed.
 //!
 //! Nothing here is shared with the kernels but the containers that texels are read from. Beyond the border lies the
 //! nearest pixel.
@@ -27,13 +27,13 @@ pub struct Geometry<'a> {
     pub normal: &'a Frame<Vec3>,
 }
 
-/// How much of an edge a pixel is.
+/// Edge weight of a pixel, and its certainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     /// 0 to 1.
     pub weight: f64,
-    /// How close the closest of its decisions was: the smallest difference of two numbers that were compared, relative
-    /// to the larger of those that went into it. Below some 10⁻⁶, 32 bits may decide otherwise.
+    /// Distance of the closest decision: the smallest difference of two numbers that were compared, relative to the larger of
+    /// those that went into it. Below some 10⁻⁶, 32 bits may decide otherwise.
     pub margin: f64,
 }
 
@@ -73,7 +73,7 @@ pub struct TabulaRasa {
 const AXES: [(i32, i32); 4] = [(1, 1), (-1, 1), (1, 0), (0, 1)];
 
 impl Stalker {
-    /// How much of an edge each pixel is, row by row from the top.
+    /// Returns the edge of each pixel, row by row from the top.
     pub fn edges(&self, geometry: &Geometry) -> Vec<Edge> {
         let depth = |p: IVec2| {
             let d = f64::from(geometry.depth.load(p));
@@ -126,7 +126,7 @@ impl Stalker {
 }
 
 impl TabulaRasa {
-    /// How much of an edge each pixel is, row by row from the top.
+    /// Returns the edge of each pixel, row by row from the top.
     pub fn edges(&self, geometry: &Geometry) -> Vec<Edge> {
         let depth = |p: IVec2| bounded(f64::from(geometry.depth.load(p)));
         each(geometry.depth.size(), |p| {
@@ -153,7 +153,7 @@ impl TabulaRasa {
                 let mut edge = g1.max(g2) >= needed;
                 for change in changes.map(|change| change * self.normal_sensibility) {
                     margin = margin.min(decided((change - 0.4).abs() / size));
-                    // What cannot be told is an edge.
+                    // A change that is not a number is an edge.
                     edge |= change >= 0.4 || change.is_nan();
                 }
                 edges += i32::from(edge);

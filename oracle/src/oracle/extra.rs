@@ -3,9 +3,9 @@
 use super::{Definition, OracleError, Placed, SraaParams, Tap};
 use straightline_scene::inputs::Inputs;
 
-/// Where each pixel wants to be shaded once more, row by row from the top: at the first geometry sample that differs by more than
-/// `search-threshold` from what the nine pixels around are shaded at, and, if x and y have an odd sum, from what the four pixels beside want. The
-/// number of samples where it does not.
+/// Returns the sample at which each pixel wants to be shaded once more, row by row from the top: the first geometry sample that
+/// differs by more than `search-threshold` from the surfaces at which the nine pixels around are shaded, and, if x and y have
+/// an odd sum, from those that the four pixels beside want. Else it is the number of samples.
 ///
 /// # Errors
 ///
@@ -36,7 +36,7 @@ impl Definition<'_> {
         Placed { sample, sure }
     }
 
-    /// Whether no pixel around that of a geometry sample is shaded on its surface.
+    /// Returns whether no pixel around that of a geometry sample is shaded on its surface.
     fn is_unseen(&self, pixel: [i32; 2], at: ([i32; 2], usize), sure: &mut bool) -> bool {
         let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
         let nearest = around.map(|step| {
@@ -47,7 +47,7 @@ impl Definition<'_> {
         self.is_apart(nearest.fold(f64::INFINITY, f64::min), sure)
     }
 
-    /// Whether a pixel beside has a first unseen sample on the surface of this one.
+    /// Returns whether a pixel beside has a first unseen sample on the surface of this one.
     fn is_wanted_beside(&self, pixel: [i32; 2], at: ([i32; 2], usize), sure: &mut bool) -> bool {
         let beside = [[0, -1], [-1, 0], [1, 0], [0, 1]];
         let samples = 0..self.samples.len();

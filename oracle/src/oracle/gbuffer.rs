@@ -1,4 +1,4 @@
-//! What the images of a shader's inputs say, decoded in double precision.
+//! Images of a shader's inputs, decoded in double precision.
 
 use super::bound::Rounding;
 use super::{Demodulate, Depth, Layout, Metric, Normals, OracleError, Projection, Shading, SraaParams};
@@ -13,14 +13,14 @@ pub struct Point {
     pub depth: f64,
     /// Unit normal.
     pub normal: [f64; 3],
-    /// Where its ray begins, at depth 0: the eye, or of a parallel projection a place of the picture.
+    /// Origin of the point's ray, at depth 0: the eye, or of a parallel projection a place of the picture.
     pub base: [f64; 3],
     /// From there to depth 1.
     pub ray: [f64; 3],
 }
 
 impl Point {
-    /// Its coordinate along an axis.
+    /// Returns the point's coordinate along an axis.
     pub fn axis(&self, axis: usize) -> f64 {
         self.base[axis] + self.depth * self.ray[axis]
     }
@@ -48,12 +48,12 @@ const MOST_SQUARE: f64 = 2.0;
 const BACKDROP: f64 = 1.0e20;
 const NEAR_FAR: f64 = 0.999;
 
-/// How far a point may be read from where it is.
+/// Bounds on the error with which a point is read.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reading {
     /// Depth as it is stored; 0 where none is read, and infinite where it is not a number.
     pub stored: f64,
-    /// Whether depth is not a number.
+    /// True if depth is not a number.
     pub is_nan: bool,
     /// True if depth is a number so far below 0 that it is taken for the sky.
     pub is_below: bool,
@@ -94,17 +94,17 @@ struct Extra<'a> {
     rest: Option<&'a Frame<Vec4>>,
 }
 
-/// What is known of the light of a shading sample.
+/// Light of a shading sample, as far as it is known.
 #[derive(Clone, Copy)]
 pub struct Light {
     pub color: [f64; 4],
-    /// What the direct light adds to it out of shadow; 0 if that is not known.
+    /// Contribution of the direct light out of shadow; 0 if that is not known.
     pub direct: [f64; 3],
-    /// What of it does not follow the albedo; 0 if that is not known.
+    /// Part of the colour that does not follow the albedo; 0 if that is not known.
     pub rest: [f64; 3],
 }
 
-/// One quantity at all samples.
+/// A quantity at all samples.
 struct Stored<'a> {
     images: Cow<'a, [Frame<Vec4>]>,
     centre: Option<&'a Frame<Vec4>>,
@@ -157,7 +157,7 @@ impl<'a> GBuffer<'a> {
             }
         };
         let rays = match params.metric {
-            // Where the picture lies makes no difference of a parallel projection.
+            // The picture's place makes no difference in a parallel projection.
             Metric::PlanesNormals => Some([
                 match params.projection {
                     Projection::Perspective => vector(inputs, "ray_corner")?,
@@ -274,8 +274,8 @@ impl<'a> GBuffer<'a> {
         }
     }
 
-    /// Where the ray through a place of these inputs, in pixels from their corner, begins, and the way from there to depth 1; 0 where no
-    /// metric asks.
+    /// Returns the origin of the ray through a place of these inputs, in pixels from their corner, and the way from there to
+    /// depth 1; 0 where no metric asks.
     pub(super) fn ray(&self, place: [f64; 2]) -> [[f64; 3]; 2] {
         let through = self.rays.map_or([0.0; 3], |[corner, right, down]| {
             let at = [0, 1].map(|axis| place[axis] + self.origin[axis]);
@@ -295,7 +295,7 @@ impl<'a> GBuffer<'a> {
         }
     }
 
-    /// Whether a surface is drawn at a geometry sample, by a metric that measures from planes.
+    /// Returns whether a surface is drawn at a geometry sample, by a metric that measures from planes.
     pub(super) fn is_drawn(&self, point: &Point) -> bool {
         let square: f64 = point.normal.iter().map(|axis| axis * axis).sum();
         let params = self.params;
@@ -339,7 +339,7 @@ impl<'a> GBuffer<'a> {
         }
     }
 
-    /// How far a filter in less than `f64` may read a point from where it is.
+    /// Returns how far off a filter in less than `f64` may read a point.
     pub fn reading(&self, pixel: [i32; 2], sample: usize, rounding: &Rounding) -> Reading {
         let pixel = self.inside(pixel);
         let (unit, read) = (rounding.unit, rounding.read);
@@ -347,7 +347,7 @@ impl<'a> GBuffer<'a> {
         if let Some(stored) = &self.depth {
             let value = self.stored_depth(self.texel(stored, pixel, sample));
             reading.is_nan = value.is_nan();
-            // What is taken for the same depth is the same number.
+            // Stored numbers that are taken for the same depth become the same number.
             reading.stored = match self.params.depth {
                 // `max` gives the number of a number and a NaN.
                 Depth::ReversedInfinite => value.max(SHORTEST),

@@ -8,17 +8,17 @@ use straightline_scene::inputs::Inputs;
 /// No surface moves farther, by definition of the filter.
 const FARTHEST: f64 = 16384.0;
 
-/// What the inputs say of earlier frames.
+/// Inputs of earlier frames.
 pub(super) struct History<'a> {
-    /// Where in its pixel this frame is shaded.
+    /// Position in its pixel at which this frame is shaded.
     pub(super) jitter: [f64; 2],
     frames: Vec<Earlier<'a>>,
 }
 
-/// One of them.
+/// An earlier frame.
 struct Earlier<'a> {
     color: &'a Frame<Vec4>,
-    /// What of the colour does not follow the albedo, where that is known.
+    /// Part of the colour that does not follow the albedo, where that is known.
     rest: Option<&'a Frame<Vec4>>,
     surface: &'a Frame<Vec4>,
     motion: &'a Frame<Vec4>,
@@ -89,7 +89,7 @@ impl Definition<'_> {
             let size = frame.color.size().as_ivec2();
             for row in 0..size.y {
                 for column in 0..size.x {
-                    // Where it is now, from the centre of the pixel.
+                    // The sample's present place, from the centre of the pixel.
                     let now = [f64::from(column - pixel[0]) - x, f64::from(row - pixel[1]) - y];
                     let falloff = falloff([now[0] - place[0], now[1] - place[1]]);
                     if !(now.iter().all(|axis| *axis > -reach && *axis <= reach) && falloff > 0.0) {

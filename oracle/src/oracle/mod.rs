@@ -1,4 +1,4 @@
-//! What SRAA should give: the definition, evaluated in double precision without regard to speed.
+//! Definition of SRAA, evaluated in double precision without regard to speed.
 //!
 //! Nothing here is shared with the kernel but the names of options and bindings. Where the kernel adds up weights over
 //! all samples and applies them once, this reconstructs the colour of each geometry sample as a weighted mean of shading
@@ -45,13 +45,13 @@ pub use params::{
 };
 pub use place::{Placed, place};
 
-/// What the definition gives for a pixel.
+/// Result of the definition for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolved {
     /// The colour.
     pub color: [f64; 4],
-    /// Whether 32 bits decide as 64 do. They need not where [`Normalisation::Paper`] has weights that 32 bits cannot hold,
-    /// and where the mask's threshold is all but met.
+    /// True if 32 bits decide as 64 do. They need not where [`Normalisation::Paper`] has weights that 32 bits cannot hold, and
+    /// where the mask's threshold is all but met.
     pub sure: bool,
 }
 
@@ -88,14 +88,14 @@ pub fn sraa(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Resolved>, Oracl
 
 /// A shading sample within reach of a geometry sample.
 struct Tap {
-    /// Its pixel from the one that is filtered, and the geometry sample at which it is shaded.
+    /// Pixel of the tap, relative to the one that is filtered, and the geometry sample at which it is shaded.
     at: ([i32; 2], usize),
     /// Weight by distance on the screen, above 0.
     falloff: f64,
     /// Difference of the two surfaces, 0 or more.
     difference: f64,
     color: [f64; 4],
-    /// Whether it was shaded in an earlier frame.
+    /// True if the tap was shaded in an earlier frame.
     is_earlier: bool,
 }
 
@@ -149,7 +149,7 @@ impl<'a> Definition<'a> {
         Resolved { color, sure }
     }
 
-    /// Whether the mask compares a tap with a geometry sample.
+    /// Returns whether the mask compares a tap with a geometry sample.
     fn is_looked_at(&self, (pixel, _): ([i32; 2], usize), tap: &Tap) -> bool {
         match self.params.variation {
             Variation::Around => true,
@@ -288,7 +288,7 @@ impl<'a> Definition<'a> {
                 add(&mut color, tap.color, *weight);
             }
         }
-        // Where no weight is left, 0/0.
+        // 0/0 if no weight is left.
         let color = color.map(|axis| axis / total);
         let lost = self.params.normalisation == Normalisation::Paper && weights.iter().all(|w| *w < SMALLEST_NORMAL);
         (color, !lost)
@@ -374,7 +374,8 @@ impl<'a> Definition<'a> {
         [onto(0), onto(1), onto(2), color[3]]
     }
 
-    /// Those that a geometry sample takes its colour from: `near`, or what a search finds; and whether 32 bits decide so too.
+    /// Returns the taps that a geometry sample takes its colour from: `near`, or those that a search finds; and whether 32 bits
+    /// decide so too.
     fn searched(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
         if self.params.search == Search::None && !self.params.extra && !self.takes_less_by_other_surfaces() {
             return (near, true);
@@ -400,7 +401,7 @@ impl<'a> Definition<'a> {
         }
     }
 
-    /// Whether the filter knows which samples no tap shows.
+    /// Returns whether the filter knows which samples no tap shows.
     fn takes_less_by_other_surfaces(&self) -> bool {
         let params = self.params;
         params.demodulate != Demodulate::None
@@ -454,7 +455,7 @@ impl<'a> Definition<'a> {
         }
     }
 
-    /// How different the surface at a tap is from that at a geometry sample.
+    /// Returns the difference of the surface at a tap from that at a geometry sample.
     fn difference(&self, sample: &Point, tap: &Point) -> f64 {
         let per_depth = match self.params.difference {
             Difference::Absolute => 1.0,
@@ -491,8 +492,8 @@ impl<'a> Definition<'a> {
     }
 }
 
-/// How far apart the normal `b` is from that of a sample, `a`; by cosine no more than 0 from a sample of which the normal is 0, as where
-/// nothing is drawn.
+/// Returns the distance of the normal `b` from that of a sample, `a`; by cosine no more than 0 from a sample of which the
+/// normal is 0, as where nothing is drawn.
 fn turned(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
     if params.by_cosine() {
         (0..3).map(|axis| a[axis] * (a[axis] - b[axis])).sum()
@@ -501,12 +502,12 @@ fn turned(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
     }
 }
 
-/// At most [`FAR`], which is also how far is what cannot be told.
+/// Limits a difference to [`FAR`], which also stands for one that is not a number.
 fn bounded(difference: f64) -> f64 {
     if difference < FAR { difference } else { FAR }
 }
 
-/// What a tent gives no more than counts as nothing, where it is known beforehand.
+/// Greatest weight of a tent that counts as nothing, where it is known beforehand.
 const LEAST: f64 = 1.0e-6;
 
 fn mitchell(x: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! What an SRAA filter is made of, by the names that the kernel's options have.
+//! Parameters of an SRAA filter, by the names that the kernel's options have.
 
 use std::fmt::Display;
 use straightline_kernels::{OptionValue, OptionValues};
@@ -23,7 +23,7 @@ macro_rules! choices {
 }
 
 choices! {
-    /// Where in a pixel geometry is sampled.
+    /// Geometry samples of a pixel.
     Pattern {
         /// A regular 2×2 grid, row by row.
         Ordered4 = "ordered4",
@@ -43,7 +43,7 @@ choices! {
 }
 
 choices! {
-    /// Where in a pixel shading is sampled.
+    /// Shading samples of a pixel.
     Shading {
         /// At the first geometry sample.
         Sample0 = "sample0",
@@ -51,13 +51,13 @@ choices! {
         Centre = "centre",
         /// At the geometry samples listed.
         Listed = "listed",
-        /// Where an image says, at a geometry sample or at the pixel's centre.
+        /// At the geometry sample or the pixel's centre that an image names.
         Placed = "placed",
     }
 }
 
 choices! {
-    /// What tells two surfaces apart.
+    /// Metric by which two surfaces differ.
     Metric {
         /// The larger of the distance from the sample's plane and the difference in normal.
         PlanesNormals = "planes-normals",
@@ -71,11 +71,11 @@ choices! {
 }
 
 choices! {
-    /// What a difference in depth counts as.
+    /// Measure of a difference in depth.
     Difference {
         /// Itself.
         Absolute = "absolute",
-        /// Its share of the sample's depth.
+        /// Share of the sample's depth.
         Relative = "relative",
     }
 }
@@ -91,7 +91,7 @@ choices! {
 }
 
 choices! {
-    /// How the camera projects.
+    /// Projection of the camera.
     Projection {
         /// From an eye.
         Perspective = "perspective",
@@ -101,7 +101,7 @@ choices! {
 }
 
 choices! {
-    /// How depth is held.
+    /// Encoding of depth.
     Depth {
         /// Along the view direction, in scene units.
         Linear = "linear",
@@ -115,7 +115,7 @@ choices! {
 }
 
 choices! {
-    /// How normals are held.
+    /// Encoding of normals.
     Normals {
         /// Three numbers.
         Float = "float",
@@ -129,7 +129,7 @@ choices! {
 }
 
 choices! {
-    /// How the samples of a pixel are held.
+    /// Layout of a pixel's samples.
     Layout {
         /// A layer each.
         Layers = "layers",
@@ -143,7 +143,7 @@ choices! {
 }
 
 choices! {
-    /// How a tap's weight falls with its distance on the screen.
+    /// Falloff of a tap's weight with its distance on the screen.
     Falloff {
         /// Not at all up to the radius on each axis.
         None = "none",
@@ -155,7 +155,7 @@ choices! {
 }
 
 choices! {
-    /// How far apart two normals are.
+    /// Distance of two normals.
     Turn {
         /// a·a - a·b, of unit vectors 1 - a·b.
         Cosine = "cosine",
@@ -165,19 +165,20 @@ choices! {
 }
 
 choices! {
-    /// How the weights of a sample are made to sum to one. The same number in exact arithmetic where there is any weight.
+    /// Normalisation of a sample's weights to a sum of one. All give the same number in exact arithmetic where there is any
+    /// weight.
     Normalisation {
         /// w / Σw: 0/0, and so NaN, where every weight is below the smallest number.
         Paper = "paper",
         /// w / max(Σw, 1e-30).
         Epsilon = "epsilon",
-        /// The same with the smallest difference subtracted first: Σw is never 0.
+        /// w / Σw with the smallest difference subtracted first: Σw is never 0.
         Shifted = "shifted",
     }
 }
 
 choices! {
-    /// How the reconstructed samples make up the pixel.
+    /// Filter that makes the pixel of the reconstructed samples.
     Resolve {
         /// The mean of the pixel's own.
         Box = "box",
@@ -193,7 +194,7 @@ choices! {
 }
 
 choices! {
-    /// Where a mask looks for variation.
+    /// Samples among which a mask looks for variation.
     Variation {
         /// Among a pixel's samples and all shading samples within their reach.
         Around = "around",
@@ -203,7 +204,7 @@ choices! {
 }
 
 choices! {
-    /// Whether pixels without geometric variation keep their colour.
+    /// Mask by which pixels without geometric variation keep their colour.
     Mask {
         /// No.
         None = "none",
@@ -215,7 +216,7 @@ choices! {
 }
 
 choices! {
-    /// How far the surface of a sample is searched for that no tap shows.
+    /// Area in which the surface of a sample is searched for if no tap shows it.
     Search {
         /// Not at all.
         None = "none",
@@ -227,7 +228,7 @@ choices! {
 }
 
 choices! {
-    /// What is known at every geometry sample and not borrowed.
+    /// Quantities that are known at every geometry sample and not borrowed.
     Demodulate {
         /// Nothing.
         None = "none",
@@ -239,88 +240,88 @@ choices! {
 }
 
 choices! {
-    /// What a colour that is not finite does.
+    /// Treatment of a colour that is not finite.
     NonFinite {
-        /// It counts.
+        /// The colour counts.
         Spread = "spread",
-        /// It is left out.
+        /// The colour is left out.
         Skip = "skip",
     }
 }
 
-/// What an SRAA filter is made of. The default is the kernel's.
+/// Parameters of an SRAA filter. The default is the kernel's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SraaParams {
-    /// Where in a pixel geometry is sampled.
+    /// Geometry samples of a pixel.
     pub pattern: Pattern,
     /// x and y of each sample of [`Pattern::Listed`].
     pub offsets: Vec<f64>,
-    /// Where in a pixel shading is sampled.
+    /// Shading samples of a pixel.
     pub shading: Shading,
     /// Samples that [`Shading::Listed`] names.
     pub shaded: Vec<f64>,
-    /// What tells two surfaces apart.
+    /// Metric by which two surfaces differ.
     pub metric: Metric,
-    /// What a difference in depth counts as.
+    /// Measure of a difference in depth.
     pub difference: Difference,
-    /// How the camera projects.
+    /// Projection of the camera.
     pub projection: Projection,
-    /// How depth is held.
+    /// Encoding of depth.
     pub depth: Depth,
-    /// How normals are held.
+    /// Encoding of normals.
     pub normals: Normals,
-    /// How the samples of a pixel are held.
+    /// Layout of a pixel's samples.
     pub layout: Layout,
-    /// How a tap's weight falls with its distance on the screen.
+    /// Falloff of a tap's weight with its distance on the screen.
     pub falloff: Falloff,
     /// Standard deviation of [`Falloff::Gaussian`], in pixels.
     pub sigma: f64,
     /// The power of a tent.
     pub sharpness: f64,
-    /// How far a tap may lie from its sample on each axis, in pixels, from 1 to 2.
+    /// Greatest distance of a tap from its sample on each axis, in pixels, from 1 to 2.
     pub radius: f64,
     /// Of the planes: from whose a distance is measured.
     pub plane: Plane,
-    /// How the weights of a sample are made to sum to one.
+    /// Normalisation of a sample's weights to a sum of one.
     pub normalisation: Normalisation,
-    /// How the reconstructed samples make up the pixel.
+    /// Filter that makes the pixel of the reconstructed samples.
     pub resolve: Resolve,
-    /// How far from the centre that ends on each axis, in pixels, except for a box.
+    /// Radius of that filter on each axis, from the centre, in pixels, except for a box.
     pub resolve_radius: f64,
-    /// Whether some pixels have a further shading sample.
+    /// True if some pixels have a further shading sample.
     pub extra: bool,
-    /// How far the surface of a sample is searched for that no tap shows.
+    /// Area in which the surface of a sample is searched for if no tap shows it.
     pub search: Search,
     /// The largest difference of what shows a sample's surface, for a search.
     pub search_threshold: f64,
-    /// The same for where a pixel is shaded.
+    /// The largest difference of what shows a sample's surface, for placing the shading of a pixel.
     pub unseen: f64,
-    /// What is known at every geometry sample and not borrowed.
+    /// Quantities that are known at every geometry sample and not borrowed.
     pub demodulate: Demodulate,
     /// The least albedo, a channel.
     pub albedo_floor: f64,
-    /// The same of taps on other surfaces than the sample's own.
+    /// The least albedo, a channel, of taps on other surfaces than the sample's own.
     pub unseen_floor: f64,
-    /// Whether what does not follow the albedo is known.
+    /// True if the part of the colour that does not follow the albedo is known.
     pub rest: bool,
-    /// How many earlier frames give shading samples too.
+    /// Number of earlier frames that give shading samples too.
     pub history: usize,
-    /// Whether pixels without geometric variation keep their colour.
+    /// Mask by which pixels without geometric variation keep their colour.
     pub mask: Mask,
-    /// Where there must be none.
+    /// Samples among which there must be no variation.
     pub variation: Variation,
     /// The largest difference that is no variation.
     pub mask_threshold: f64,
-    /// What a colour that is not finite does.
+    /// Treatment of a colour that is not finite.
     pub non_finite: NonFinite,
-    /// How far apart two normals are.
+    /// Distance of two normals.
     pub turn: Turn,
-    /// Whether normals of [`Normals::Unorm`] are made as long as 1.
+    /// True if normals of [`Normals::Unorm`] are made as long as 1.
     pub renormalise: bool,
     /// True if a depth or a normal that is not a number may go unnoticed, so that the other of the two decides, and a depth
     /// below -1e30 may stay what it is, which is else taken for the sky.
     pub escapes: bool,
-    /// How sharply a weight falls as surfaces differ; 0 or more.
+    /// Steepness with which a weight falls as surfaces differ; 0 or more.
     pub tau: f64,
     /// Difference per unit of depth; 0 or more.
     pub depth_scale: f64,
@@ -375,15 +376,15 @@ pub enum OracleError {
     /// There is no such option.
     #[error("the oracle of SRAA knows no option `{option}`")]
     UnknownOption {
-        /// What was asked for.
+        /// The option asked for.
         option: String,
     },
     /// An image or a number is missing or does not fit.
     #[error("the oracle of SRAA needs `{name}`: {needed}")]
     Input {
-        /// Its name.
+        /// Name of the image or number.
         name: String,
-        /// What is needed.
+        /// Description of the image or number needed.
         needed: String,
     },
     /// The option has no such value.
@@ -391,9 +392,9 @@ pub enum OracleError {
     BadValue {
         /// The option.
         option: String,
-        /// What it was set to.
+        /// The value that it was set to.
         value: String,
-        /// What it can be set to.
+        /// Description of its possible values.
         expected: String,
     },
 }
@@ -421,7 +422,7 @@ impl SraaParams {
         match option {
             "pattern" => self.pattern = choice(option, value, Pattern::ALL, Pattern::name)?,
             "offsets" => self.offsets = numbers(option, value)?,
-            // Whether a pattern is a Latin square changes nothing of what it gives.
+            // A pattern's being a Latin square does not change the result.
             "latin" => {}
             "shading" => self.shading = choice(option, value, Shading::ALL, Shading::name)?,
             "shaded" => self.shaded = numbers(option, value)?,
@@ -454,7 +455,7 @@ impl SraaParams {
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
             "turn" => self.turn = choice(option, value, Turn::ALL, Turn::name)?,
             "renormalise" => self.renormalise = flag(option, value)?,
-            // How what is no number is found changes nothing of what comes of it, but that some of it may escape.
+            // The kind of guard does not change the result, except that some numbers that are not finite may escape.
             "guards" => self.escapes = value.choice() != Some("inline"),
             "tau" => self.tau = number(option, value)?,
             "depth-scale" => self.depth_scale = number(option, value)?,
@@ -472,7 +473,7 @@ impl SraaParams {
         self.tau.min(1.0e7 / std::f64::consts::LOG2_E)
     }
 
-    /// How many pixels the square on each side of a pixel reaches that is searched.
+    /// Reach of the searched square from its pixel on each side, in pixels.
     pub(super) fn search_radius(&self) -> i32 {
         match self.search {
             Search::None => 0,
@@ -481,17 +482,17 @@ impl SraaParams {
         }
     }
 
-    /// Whether normals that are stored as 0.5 + 0.5 n are compared as they are.
+    /// Returns whether normals that are stored as 0.5 + 0.5 n are compared as they are.
     pub(super) fn as_stored(&self) -> bool {
         self.normals == Normals::Unorm && !self.renormalise
     }
 
-    /// Whether normals are compared by a·a - a·b.
+    /// Returns whether normals are compared by a·a - a·b.
     pub(super) fn by_cosine(&self) -> bool {
         self.turn == Turn::Cosine && self.metric != Metric::Normals && !self.as_stored()
     }
 
-    /// Whether samples may count less than nothing.
+    /// Returns whether samples may have negative weights.
     pub(super) fn has_lobes(&self) -> bool {
         matches!(self.resolve, Resolve::Mitchell | Resolve::Lanczos)
     }

@@ -1,20 +1,20 @@
-//! Where each pixel is shaded, by definition: see the kernel `sraa_place`.
+//! Placement of each pixel's shading, by definition: see the kernel `sraa_place`.
 
 use super::{Definition, OracleError, Shading, SraaParams};
 use straightline_scene::inputs::Inputs;
 
-/// Where a pixel is shaded.
+/// Placement of a pixel's shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
     /// The number of a geometry sample, or the number of samples for the pixel's centre.
     pub sample: usize,
-    /// Whether 32 bits decide as 64 do: no difference that was compared is all but `unseen`.
+    /// True if 32 bits decide as 64 do: no difference that was compared is all but `unseen`.
     pub sure: bool,
 }
 
-/// Where each pixel is shaded, row by row from the top: at the first geometry sample that differs by more than `unseen` from what
-/// lies at the nine pixels' centres around, if x and y have an even sum, and one of the four neighbours' centres does not differ
-/// by more from the pixel's own; else at the pixel's centre.
+/// Returns the placement of each pixel's shading, row by row from the top: at the first geometry sample that differs by more
+/// than `unseen` from what lies at the nine pixels' centres around, if x and y have an even sum, and one of the four
+/// neighbours' centres does not differ by more from the pixel's own; else at the pixel's centre.
 ///
 /// # Errors
 ///

@@ -132,7 +132,7 @@ fn a_gaussian_weighs_by_the_square_of_the_distance() {
 
 #[test]
 fn weights_fall_with_the_difference_of_surfaces() {
-    // One row, shading at sample 0, no falloff. All of layer 0 is at depth 1 but the right pixel, at 1.002.
+    // A single row, shading at sample 0, no falloff. All of layer 0 is at depth 1 but the right pixel, at 1.002.
     // tau·m = 500·0.002 = 1, so that pixel weighs 1/e where the others weigh 1.
     let inputs = inputs(
         uvec2(3, 1),
@@ -194,7 +194,7 @@ fn the_larger_of_both_differences_counts() {
     assert!(!flushed(1.748e6, 0.0, Metric::Depth));
 }
 
-/// One pixel of which no sample lies on a surface that a tap has.
+/// An image in which no sample of the middle pixel lies on a surface that a tap has.
 fn alone() -> Inputs {
     inputs(
         uvec2(3, 3),
@@ -204,7 +204,7 @@ fn alone() -> Inputs {
     )
 }
 
-/// One pixel whose sample 1 lies on a surface that no tap has.
+/// Sample 1 of the middle pixel lies on a surface that no tap has.
 #[test]
 fn a_lonely_sample_is_lost_in_the_listing_only() {
     let inputs = inputs(

@@ -1,4 +1,4 @@
-//! What filters of quads are to give, by definition: pixel by pixel, in `f64`, without quads, lanes or messages.
+//! Definition of the filters of quads: pixel by pixel, in `f64`, without quads, lanes or messages.
 
 mod shadow;
 mod surface;
@@ -154,7 +154,7 @@ pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x,
     ]
 }
 
-/// What tells surfaces apart in upsampling.
+/// Inputs of upsampling, with the parameters by which surfaces differ.
 pub struct Upsampled<'a> {
     /// Pixels to one of low resolution.
     pub factor: i64,
@@ -168,7 +168,7 @@ pub struct Upsampled<'a> {
     pub normal: &'a Picture,
     /// Difference of depths at a weight of exp(-1/2).
     pub depth_sigma: f64,
-    /// The same of 1 less the cosine of normals, if they count.
+    /// Difference of 1 less the cosine of normals at a weight of exp(-1/2), if normals count.
     pub normal_sigma: Option<f64>,
     /// Distance on the screen, in texels of low resolution, at a weight of exp(-1/2), of a Gaussian; `None` of a tent.
     pub screen_sigma: Option<f64>,
@@ -177,17 +177,17 @@ pub struct Upsampled<'a> {
 /// A texel of low resolution as a pixel sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tap {
-    /// Its colour; black if that does not count.
+    /// Colour; black if the texel does not count.
     pub color: [f64; 4],
-    /// Its weight by distance on the screen.
+    /// Weight by distance on the screen.
     pub screen: f64,
-    /// How far its depth is from the pixel's.
+    /// Distance of the texel's depth from the pixel's.
     pub away: f64,
-    /// One less the cosine between normals, in units of its sigma; 0 if normals do not count.
+    /// 1 less the cosine between normals, in units of its sigma; 0 if normals do not count.
     pub turned: f64,
     /// Sum of the sizes of the cosine's products; 0 where they tell nothing.
     pub products: f64,
-    /// What its weight is exp(-1/2) to the power of.
+    /// Exponent of exp(-1/2) in the weight by difference of surfaces.
     pub exponent: f64,
 }
 
@@ -218,7 +218,7 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
             products = 1.0 + (0..3).map(|k| (surface[k] * normal[k]).abs()).sum::<f64>();
             products = if cosine.is_nan() { 0.0 } else { products };
             turned = (1.0 - cosine) / sigma;
-            // What is no number tells nothing.
+            // A cosine that is not a number does not count.
             turned = if turned.is_nan() { 0.0 } else { turned };
         }
         Tap {

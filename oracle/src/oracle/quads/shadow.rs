@@ -23,7 +23,7 @@ impl Shadow {
         if reference <= self.depth(x, y) { 1.0 } else { 0.0 }
     }
 
-    /// How much passes at a place in texels, by a filter that weighs the four around it.
+    /// Returns the share of light that passes at a place in texels, by a filter that weighs the four texels around it.
     pub fn bilinear(&self, [x, y]: [f64; 2], reference: f64) -> f64 {
         let (x, y) = (x - 0.5, y - 0.5);
         let (i, j) = (x.floor() as i64, y.floor() as i64);
@@ -64,7 +64,7 @@ const FARTHEST: f64 = 1.0e20_f32 as f64;
 pub struct Counted {
     /// Place and depth.
     pub coord: [f64; 3],
-    /// Whether they say where the quad is.
+    /// True if they say where the quad is.
     pub counts: bool,
 }
 
@@ -127,8 +127,8 @@ pub fn pcf_around(shadow: &Shadow, texels: i64, centre: [f64; 2], from: [f64; 2]
     sum / total
 }
 
-/// Where between texels `first` and `first + 1`, counted from the one at the upper left of the centre, one comparison weighs
-/// both as the filter does: from the centre, whose fraction is `a`.
+/// Returns the place between texels `first` and `first + 1`, counted from the one at the upper left of the centre, at which one
+/// comparison weighs both as the filter does: from the centre, whose fraction is `a`.
 fn between(shadow: &Shadow, a: f64, first: f64) -> f64 {
     let at = first - a;
     match shadow.weights.as_str() {

@@ -3,7 +3,7 @@
 use super::{DEEPEST, Picture};
 use crate::oracle::bound::{Rounding, Share, of_mean};
 
-/// How occlusion is estimated; see the kernel's options of the same names.
+/// Parameters of ambient occlusion; see the kernel's options of the same names.
 #[allow(missing_docs)]
 pub struct Ao {
     pub taps: usize,
@@ -53,7 +53,7 @@ fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// How much what is seen at `there` hides from `from`.
+/// Returns the occlusion of `from` by the surface at `there`.
 fn occlusion(ao: &Ao, from: [f64; 3], there: [f64; 3], n: [f64; 4]) -> Light {
     let unit = Rounding::SINGLE.unit;
     let way = [0, 1, 2].map(|k| there[k] - from[k]);
@@ -137,7 +137,7 @@ pub fn ssao(ao: &Ao, depth: &Picture, normal: &Picture, quad: bool, at: [i64; 2]
     ssao_between(ao, depth, normal, quad, at).value
 }
 
-/// The same, with the least and the most that roundings make of it.
+/// Returns the occlusion of [`ssao`] with the least and the most that roundings make of it.
 pub fn ssao_between(ao: &Ao, depth: &Picture, normal: &Picture, quad: bool, [x, y]: [i64; 2]) -> Light {
     let unit = Rounding::SINGLE.unit;
     let occluded = if quad {
