@@ -153,7 +153,7 @@ impl Dxc {
     }
 
     fn compile(&self, text: &str, arguments: &[&str]) -> Result<Vec<u8>, String> {
-        // Its strings have characters of four bytes and end with a zero.
+        // DXC's strings have characters of four bytes and end with a zero.
         let wide = |argument: &&str| argument.chars().chain(['\0']).map(u32::from).collect::<Vec<_>>();
         let wide: Vec<Vec<u32>> = arguments.iter().map(wide).collect();
         let pointers: Vec<*const u32> = wide.iter().map(|argument| argument.as_ptr()).collect();

@@ -284,7 +284,7 @@ impl Frame {
     }
 }
 
-/// The same pass, hand-written without a runtime.
+/// Hand-written version of the same pass, without a runtime.
 struct Handwritten {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,

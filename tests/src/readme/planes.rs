@@ -14,7 +14,7 @@ const METHODS: [(&str, &str); 6] = [
     ("Nx", "supersampling"),
 ];
 
-/// Columns for even regions.
+/// Methods of the table of even regions, with the names of their columns.
 const EVEN: [(&str, &str); 5] = [
     ("SRAA N", "SRAA"),
     ("SRAA N, placed and searched by planes", "placed, searched by planes"),

@@ -121,10 +121,10 @@ fn every_form_gives_what_the_definition_says() {
     assert!(in_f64 < 1.0e-5 && in_f32 < 1.0e-4 && on_device < 1.0e-4);
 }
 
-/// What albedo and visibility cannot be, and counts as little or nothing.
+/// Values that albedo and visibility cannot have, and that count as little or nothing.
 const SMALL: [f32; 6] = [f32::NAN, f32::NEG_INFINITY, 0.0, -1.0, 1.0e-30, f32::MIN_POSITIVE];
 
-/// What is brighter than any paint.
+/// Values brighter than any paint.
 const LARGE: [f32; 4] = [f32::INFINITY, 7.0, 1.0e30, f32::MAX];
 
 /// With `bad` numbers here and there in albedo and visibility, and light that is not finite.
@@ -359,7 +359,7 @@ fn light_of_other_surfaces_costs_nothing() {
     }
 }
 
-/// What a renderer gives: its picture is what the sun adds where it shines, and a rest that shadow leaves as it is.
+/// A renderer's picture is the sun's share, where it shines, and a rest that shadow does not change.
 #[test]
 fn colours_are_a_rest_and_the_suns_share() {
     let scene = Scene::named("awning").expect("a scene");

@@ -368,8 +368,8 @@ fn fxaa() {
     }
     println!("fxaa: {changed} pixels are changed, {off} of them not as the reference has them, by at most {worst:.2e}");
     assert!(changed > 1000, "{changed} pixels are changed");
-    // Where the brightness at an edge's end is the threshold but for its last bit: in half of them the definition in f64 is with
-    // the reference, in the other half with the kernel.
+    // Pixels at which the brightness at an edge's end equals the threshold but for its last bit: in half of them the definition in f64
+    // agrees with the reference, in the other half with the kernel.
     assert!(
         off <= 20 && worst <= 0.01,
         "{off} pixels are not the reference's, by at most {worst}"
@@ -487,7 +487,7 @@ fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
     let emit = |target: &Target| {
         let options = EmitOptions::new().stage(stage).form(form).targets([*target]);
         let emitted = match compiled.emit(&options) {
-            // What gives nothing and writes is no fragment and no function.
+            // A kernel without values that only writes is no fragment shader and no function.
             Err(errors)
                 if matches!(
                     errors.code(),

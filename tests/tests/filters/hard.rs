@@ -47,7 +47,7 @@ fn promised_results_are_finite_and_within_their_bounds_and_printed_ones_are_not(
     let [promised, printed] = record.non_finite();
     assert_eq!(promised, 0);
     println!("pixels that are not finite as printed: {printed}");
-    // What the listing gives where all weights underflow is 0/0: the net catches it, and says where.
+    // The listing computes 0/0 where all weights underflow: the net catches that, and reports the place.
     let lost = record
         .cases
         .iter()
@@ -135,7 +135,7 @@ fn half_precision_keeps_to_its_analysis() {
     let mut compared = 0;
     for case in &record.cases {
         for r in case.results.iter().filter(|r| r.refused.is_none()) {
-            // Where nothing is lost by underflow.
+            // Only cases in which nothing is lost by underflow are analysed.
             let Some(most) = r.analysed else { continue };
             let off = r.difference.unwrap_or(0.0);
             assert!(
@@ -199,7 +199,7 @@ fn half_precision_is_allowed_where_it_cannot_be_seen() {
     assert!(matches!(error, HardError::NotStudied(_)), "{error}");
 }
 
-/// What `emit` and `build.rs` go by is what the cases show, option by option.
+/// The statements that `emit` and `build.rs` use agree with the results of the cases, option by option.
 #[test]
 fn the_catalogue_says_of_half_precision_what_the_cases_show() {
     for entry in CATALOGUE {
@@ -231,7 +231,7 @@ fn the_catalogue_says_of_half_precision_what_the_cases_show() {
             };
             let said = compiled.half_precision();
             match (hard::half_precision_verdict(entry.name, &set), said) {
-                // What weights lose they lose whatever the colours are.
+                // Weights are lost whatever the colours are.
                 (Err(HardError::NotStudied(_)), HalfPrecision::Lost(_)) if entry.name == "sraa" => {}
                 (Err(HardError::NotStudied(_)), said) => assert_eq!(said, HalfPrecision::Unstudied, "{}", entry.name),
                 (Ok(found), HalfPrecision::Kept) if found.reason.is_none() => {}

@@ -14,7 +14,7 @@ use straightline_study::quality::{Kind, Method, Shot, methods};
 
 const SIZE: UVec2 = UVec2::new(96, 54);
 
-/// Those of the methods that a kernel resolves, and what each reads of a scene.
+/// Methods that a kernel resolves, and the inputs of each from a scene.
 fn shots(scene: &str) -> (Vec<Method>, Shot) {
     let resolved: Vec<Method> = methods(true)
         .into_iter()
@@ -56,7 +56,7 @@ fn pictures_are_those_of_the_definitions() {
                     |(a, b): (&Vec4, &[f64; 4])| (0..4).map(|c| (f64::from(a[c]) - b[c]).abs()).fold(0.0, f64::max);
                 let mut off: Vec<f64> = texels.map(off).collect();
                 off.sort_by(f64::total_cmp);
-                // A pixel whose value and reference lie on either side of a threshold is resolved differently.
+                // A threshold between the two values resolves the pixel in another way.
                 let beyond = off.iter().filter(|off| **off > 2.0e-5).count();
                 println!(
                     "{scene}, {}, {by}: {beyond} pixels, {:.1e} at most",
@@ -95,7 +95,7 @@ fn aggregates_are_those_of_the_definition() {
                         };
                         read(texels("geometry"), texels("paint"))
                     });
-                    // Which of the two comes first is as it is; samples that are as near to one as to the other go either way.
+                    // The order of the two is free; samples that are as near to one as to the other go either way.
                     let same = (0..2).all(|which| is_near(&found[which], &pixel[which]));
                     beyond += usize::from(!same);
                 }

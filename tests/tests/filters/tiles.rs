@@ -86,7 +86,7 @@ fn rectangles_of_one_picture_fill_it() {
         let parts = bench.download(&target).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(parts, whole, "{stage:?}");
 
-        // What leaves the picture is refused by name.
+        // A region outside of the picture is refused by name.
         let refused = |region| match uploaded.bind_region(&pass, &view, region) {
             Err(error @ Error::Region { .. }) => error.to_string(),
             other => panic!("{other:?}"),

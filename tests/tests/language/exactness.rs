@@ -110,7 +110,7 @@ fn check(bench: &Bench, name: &str, kernel: &str, math: Math) {
                 .run(&compiled, stage, &inputs)
                 .unwrap_or_else(|e| panic!("{what}: {e}"));
             same(&format!("{what}, {stage:?} wgsl"), &bits(&found), &expected);
-            // One stage is enough to see what compilers of the languages and drivers make of the body.
+            // A single stage is enough to test how compilers of the languages and drivers treat the body.
             for target in PAST_WGPU.into_iter().filter(|_| stage == Stage::Compute) {
                 let what = format!("{what}, {stage:?} {target}");
                 let found =
@@ -231,7 +231,7 @@ fn nothing_is_marked_where_nothing_hangs_on_an_order() {
 fn every_language_says_what_is_exact() {
     let compiled = compiled(ORDERED[0].1, Unroll::None, Math::Exact);
     let emitted = compiled.emit(&EmitOptions::new().targets(Target::ALL.into_iter().filter(|target| {
-        // Those have fragment shaders alone.
+        // Languages without compute shaders.
         !matches!(target, Target::Glsl330 | Target::Essl300)
     })));
     let emitted = emitted.unwrap_or_else(|e| panic!("{e}"));

@@ -1,5 +1,5 @@
-//! What becomes of loops that are asked to be left in the shader: those that can be are, others say why, and every form
-//! computes what rustc's own code does.
+//! Loops that are requested to be left in the shader: those that can be are, the others say why, and every form computes the values of
+//! rustc's own code.
 
 use crate::common;
 #[path = "kept/kernels.rs"]
@@ -209,7 +209,7 @@ fn a_loop_asked_for_by_name_is_left_in_the_shader_or_refused() {
         &Settings::default(),
     );
     assert!(runtime.contains("cannot be unrolled"), "{runtime}");
-    // What is wrong however the loop is evaluated is told as it is.
+    // Errors that do not depend on the loop's evaluation are reported as they are.
     let wrong = refused("    for i in 0..4 { s += missing(i); }", &named);
     assert!(wrong.contains("missing") && !wrong.contains(left), "{wrong}");
     let wrong = refused("    for i in 0..4 { s += 1.0; }\n    s += missing(1);", &named);

@@ -31,7 +31,7 @@ fn kernels() -> Vec<Kernel> {
     all
 }
 
-/// Those whose loops are all unrolled: of `sraa_place` and `sraa_extra` some stay, and how often they read is not known.
+/// Kernels whose loops are all unrolled: some of `sraa_place` and `sraa_extra` stay, and the number of their reads is not known.
 fn kernels_with_a_floor() -> Vec<Kernel> {
     let (with, without): (Vec<Kernel>, Vec<Kernel>) = kernels()
         .into_iter()
@@ -127,8 +127,8 @@ fn tampered(compiled: &Compiled, inputs: &Inputs, tampered: usize) -> (Vec<[f32;
     (colours, reads.load(Ordering::Relaxed))
 }
 
-/// Whichever texel of whichever read changes, the result does: no driver can drop a read. Of texels that a filter weighs, one
-/// of weight 0 may do nothing, so that as many reads must count as there are.
+/// Every texel of every read changes the result: no driver can drop a read. Of texels that a filter interpolates, one of weight 0 may have
+/// no effect, so that as many reads must count as there are.
 #[test]
 fn no_read_of_the_floor_can_be_dropped() {
     for kernel in kernels_with_a_floor() {
@@ -167,7 +167,7 @@ fn reads_that_are_not_shared_change_no_bit() {
     assert!(more >= 5, "only {more} kernels read something twice");
 }
 
-/// What was written by hand gives what the kernel gives: bit for bit where the order of operations was kept.
+/// Hand-optimised kernels agree with the generated ones: bit for bit where the order of operations was kept.
 #[test]
 fn kernels_by_hand_agree() {
     let mut checked = 0;
@@ -320,7 +320,7 @@ fn every_form_is_there_or_says_why_not() {
             );
             // FXAA filters texels, which a GPU weighs in steps of 1/256.
             let bound = match (form.kind, kernel.kernel.as_str()) {
-                // How far it is off is what is asked; `hard` says where that is too much.
+                // Measures the error; `hard` says where it is too large.
                 (FormKind::FullHalf, _) => 1.0,
                 (_, "fxaa") => 2.0e-2,
                 _ => 1.0e-4,

@@ -67,7 +67,7 @@ fn random_kernels_have_every_construct() {
     assert_eq!(missing, Missing::default());
 }
 
-/// What `tests/mutants/run` puts defects into: each line stands once in its file.
+/// Each line in which `tests/mutants/run` puts a defect stands once in its file.
 #[test]
 fn lines_of_mutants_stand_once() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

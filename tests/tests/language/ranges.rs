@@ -27,7 +27,7 @@ const ADAPTERS: [&str; 7] = [
 /// Counters that a native loop gives, more of them than a test needs cut off.
 const LONGEST: usize = 300;
 
-/// What a kernel makes of the counters, natively.
+/// Result of a kernel for the counters, natively.
 fn told(counters: &[u32]) -> [f32; 4] {
     let hash = counters
         .iter()

@@ -197,7 +197,7 @@ fn cases() -> Vec<Case> {
     }
 }
 
-/// The same, or off by no more than `bound`; a NaN is a NaN, and an infinity the same one.
+/// Returns whether values differ by no more than `bound`; a NaN equals a NaN, and an infinity the same one.
 fn close(found: Vec4, expected: Vec4, bound: f32) -> bool {
     found
         .to_array()
@@ -238,7 +238,7 @@ fn ones(pixels: usize) -> Inputs {
     Inputs::new(uvec2(pixels as u32, 1)).uniform("one", &[1.0])
 }
 
-/// What drivers make of a kernel in each language, against what each pixel must be; all that differ are named.
+/// Runs a kernel on drivers in each language, and names all pixels that differ from the expected ones.
 fn on_drivers(kernel: &Kernel, forms: &[Form], expected: &[(&str, Vec4)]) {
     let inputs = ones(expected.len());
     let mut wrong = Vec::new();

@@ -96,7 +96,7 @@ fn other_languages_run_by_the_numbers_too() {
             };
             same_bits(&picture(&moved), &picture(&plain)).unwrap_or_else(|e| panic!("{target} {stage:?}: {e}"));
         }
-        // What reaches the driver as it is has to have the numbers that wgpu gives.
+        // Languages that reach the driver directly need the binding numbers that wgpu assigns.
         let holes = emit(&bench.options(stage).targets(languages).binding("color", 9));
         let error = passthrough::run(&bench, &holes, Target::Spirv, &inputs).expect_err("holes");
         assert!(
@@ -207,7 +207,7 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
         cache: None,
     });
 
-    // What is bound is the bench's; where, the words say.
+    // Resources are the bench's; their places follow the manifest.
     let uploaded = bench
         .upload(&emitted.manifest, &inputs(&compiled))
         .unwrap_or_else(|e| panic!("{e}"));
@@ -263,7 +263,7 @@ fn a_text_of_another_hash_is_refused() {
         .unwrap_or_else(|e| panic!("{e}"));
     let wgsl = String::from_utf8(emitted.files[&Target::Wgsl].clone()).expect("text");
     let made = |wgsl: &str| Pass::new(bench.device(), &emitted.manifest, wgsl);
-    // It binds the same, and computes something else.
+    // Binds the same resources, and computes something else.
     let edited = wgsl.replacen(" * ", " + ", 1);
     assert_ne!(edited, wgsl);
     let error = made(&edited).expect_err("another text");

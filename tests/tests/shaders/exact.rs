@@ -1,4 +1,4 @@
-//! One source, three forms: the native kernel, the looped graph and the unrolled graph agree bit for bit.
+//! A single source, three forms: the native kernel, the looped graph and the unrolled graph agree bit for bit.
 
 use crate::common;
 
@@ -153,7 +153,7 @@ fn off(fast: &Compiled, exact: &Compiled, inputs: &Inputs) -> f64 {
     lanes.map(|(a, b)| (f64::from(a) - b).abs()).fold(0.0, f64::max)
 }
 
-/// What fast mathematics gives is as far from `f64` as what changes no bit is, but for some roundings.
+/// Fast mathematics is as far from `f64` as exact mathematics, but for some roundings.
 #[test]
 fn fast_mathematics_changes_roundings_and_no_more() {
     let filter = |name: &str| {

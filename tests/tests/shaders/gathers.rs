@@ -35,7 +35,7 @@ const MIXED: &str = "
     }
 ";
 
-/// What lies at the pixel and around it, each texel a component of its own.
+/// Kernel that reads the texels at the pixel and around it, each into a component of its own.
 const AROUND: &str = "
     pub fn around(height: &Frame<f32>, pixel: IVec2) -> Vec4 {
         vec4(

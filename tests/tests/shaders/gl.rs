@@ -142,7 +142,7 @@ fn computes_write_images() {
     }
 }
 
-/// What each format makes of a value, in both stages.
+/// Conversion of a value by each format, in both stages.
 #[test]
 fn pictures_of_every_format() {
     let third = 1.0 / 3.0;
@@ -284,7 +284,7 @@ fn varyings_are_interpolated() {
     }
 }
 
-/// What fails says what and where.
+/// Errors name the problem and its place.
 #[test]
 fn refusals_quote_the_text() {
     let context = desktop();

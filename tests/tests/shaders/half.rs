@@ -36,12 +36,12 @@ fn half_bench() -> Bench {
     gpu.precision(Precision::F16)
 }
 
-/// Whether the driver is known to round as IEEE 754 has it, and to contract nothing.
+/// Returns whether the driver is known to round as IEEE 754 defines it, and to contract nothing.
 fn rounds_exactly(gpu: &Bench) -> bool {
     gpu.device().adapter_info().driver == "llvmpipe"
 }
 
-/// What the shader and what the interpreter make of a kernel in half precision.
+/// Pictures of a kernel in half precision by the shader and by the interpreter.
 fn both(gpu: &Bench, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> [Frame<Vec4>; 2] {
     let shown = gpu.run(compiled, stage, inputs);
     let found = interpret::<F16>(compiled, inputs, false);

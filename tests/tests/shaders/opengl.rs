@@ -1,4 +1,4 @@
-//! What is emitted for OpenGL and OpenGL ES, run on Mesa's software driver without a display, against the interpreter.
+//! Shaders emitted for OpenGL and OpenGL ES, run on Mesa's software driver without a display, against the interpreter.
 
 use straightline_bench::execute::{Inputs, interpret, test_inputs};
 use straightline_codegen::diagnostic::Code;

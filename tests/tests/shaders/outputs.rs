@@ -134,7 +134,7 @@ const KERNELS: [Case; 4] = [
     ),
 ];
 
-/// What rustc's code gives, target by target.
+/// Values of rustc's code, target by target.
 fn native(kernel: Native, targets: usize) -> Vec<Vec<[f64; 4]>> {
     let color = color();
     let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
@@ -310,7 +310,7 @@ fn regions_and_rows_from_below_hold_for_every_target() {
     }
 }
 
-/// What a pass writes of a region, read back by way of the bench.
+/// Texels that a pass writes in a region, read back by way of the bench.
 fn written(
     bench: &Bench,
     pass: &straightline_runtime::Pass,

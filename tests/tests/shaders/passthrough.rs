@@ -1,5 +1,4 @@
-//! What glslang makes of the GLSL and the HLSL that are emitted, and the SPIR-V as it is, on a Vulkan driver, compared with the
-//! interpreter.
+//! Emitted GLSL and HLSL, compiled by glslang, and the SPIR-V as it is, on a Vulkan driver, compared with the interpreter.
 
 use crate::common;
 

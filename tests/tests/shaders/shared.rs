@@ -370,7 +370,7 @@ fn what_is_not_shared_is_told() {
     assert_eq!(apart, expected);
 }
 
-/// Those that save the fewest reads are left out where all do not fit.
+/// Tiles that save the fewest reads are left out if not all fit.
 #[test]
 fn tiles_fit_into_the_memory_that_devices_have() {
     let text = "pub fn k(a: &Frame<Vec4>, b: &Frame<Vec4>, c: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

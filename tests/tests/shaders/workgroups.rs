@@ -147,7 +147,7 @@ fn color() -> Frame<Vec4> {
     texels(SIZE, 5)
 }
 
-/// What every kernel is run on.
+/// Inputs of every kernel.
 fn inputs() -> Inputs {
     Inputs::new(SIZE)
         .image("color", color())
@@ -156,7 +156,7 @@ fn inputs() -> Inputs {
         .uniform("steps", &[f64::from(STEPS)])
 }
 
-/// What a kernel gives of each target, and each buffer that it writes.
+/// Values of each target, and contents of each buffer that a kernel writes.
 #[derive(PartialEq)]
 struct Given {
     targets: Vec<Vec<[f64; 4]>>,

@@ -154,7 +154,7 @@ fn numbers(count: usize, first: f64) -> Vec<[f64; 4]> {
     (0..count).map(|k| [first + k as f64, 0.0, 0.0, 0.0]).collect()
 }
 
-/// What every kernel is run on.
+/// Inputs of every kernel.
 fn inputs() -> Inputs {
     Inputs::new(SIZE)
         .image("color", color())
@@ -184,7 +184,7 @@ impl World {
         }
     }
 
-    /// What a buffer holds, as the interpreter and a bench give it.
+    /// Contents of a buffer, as the interpreter and a bench return them.
     fn buffer(&self, name: &str) -> Vec<[f64; 4]> {
         let one = |x: f64| [x, 0.0, 0.0, 0.0];
         match name {

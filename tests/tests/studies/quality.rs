@@ -136,7 +136,7 @@ fn methods_of_the_users_own() {
     let [scene] = &outcome.scenes[..] else {
         panic!("one scene, not {}", outcome.scenes.len());
     };
-    // Those named, and the user's.
+    // The named methods, and the user's.
     assert_eq!(scene.methods.len(), 3 + 5);
     let of = |name: &str| {
         let found = scene.methods.iter().find(|method| method.method == name);
@@ -192,7 +192,7 @@ fn methods_on_a_scene() {
         method("SRAA 4").picture.as_deref(),
         Some("pictures/railings/sraa-4.png")
     );
-    // What must be so whatever the scene.
+    // Invariants of every scene.
     assert_eq!(
         (method("1x").gap_closed, method("16x").gap_closed),
         (Some(0.0), Some(1.0))

@@ -30,7 +30,7 @@ fn tables_are_what_their_records_say() {
     assert!(tables >= 15, "the documents cite {tables} records");
 }
 
-/// What `docs/sraa.md` says of roundings.
+/// Statements of `docs/sraa.md` on roundings.
 #[test]
 fn what_is_said_of_roundings_is_so() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -73,7 +73,7 @@ fn what_is_said_of_roundings_is_so() {
     assert_eq!(largest(&scenes, "pixels_beyond_their_bound"), 0.0);
 }
 
-/// What `docs/study.md` and `docs/sraa.md` say in words.
+/// Statements in words of `docs/study.md` and `docs/sraa.md`.
 #[test]
 fn what_is_said_of_sraa_is_so() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../study/records/error-lavapipe.json");

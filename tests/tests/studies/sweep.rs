@@ -1,4 +1,4 @@
-//! What is published of sweeps: the schema of their records, and records that follow it.
+//! Published parts of sweeps: the schema of their records, and records that follow it.
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

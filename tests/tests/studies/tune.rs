@@ -140,7 +140,7 @@ fn reads(manifest: &Manifest, what: &str) -> bool {
     manifest.bindings.iter().any(|binding| binding.name.contains(what))
 }
 
-/// Whether a variant that reads no normals is within the budget: whether it is also the fastest is for a clock to say, and no test's.
+/// Returns whether a variant that reads no normals is within the budget: only a clock can say whether it is also the fastest.
 fn does_without_normals(record: &TuneRecord) -> bool {
     record.candidates.iter().any(|candidate| {
         let metric = candidate.options.iter().find(|(name, _)| name == "metric");

@@ -123,7 +123,7 @@ fn reached(source: &str) -> String {
     }
 }
 
-/// Whether something besides the trait itself and its implementations, a line each, mentions the trait or its functions.
+/// Returns whether a line mentions the trait or its functions, other than the trait itself and its implementations, a line each.
 fn calls_the_trait(lines: &[&str]) -> bool {
     let own = |line: &str| {
         let start = line.trim_start();
@@ -218,7 +218,7 @@ fn changed(source: &str, random: &mut Random) -> Option<(String, String)> {
         let start = text[..at].rfind('\n').map_or(0, |k| k + 1);
         let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
         let line = text[start..end].trim().to_owned();
-        // What stands before the kernel's own items has no meaning to the generator.
+        // Lines before the kernel's own items mean nothing to the generator.
         if line.starts_with("pub fn k(")
             || line.starts_with("#[derive")
             || line.starts_with("///")

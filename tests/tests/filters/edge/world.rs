@@ -11,7 +11,7 @@ pub struct World {
     pub depth: Frame<f32>,
     /// Unit vectors.
     pub normal: Frame<Vec3>,
-    /// The same as the texture has them.
+    /// `normals` as the texture stores them.
     pub stored: Frame<Vec3>,
     pub color: Frame<Vec4>,
 }
@@ -44,7 +44,7 @@ impl World {
         })
     }
 
-    /// The same with normals of 8 bits, if they are not floats.
+    /// Returns the same world with normals of 8 bits, if they are not floats.
     pub fn storing(&self, normals: Normals) -> World {
         let encoding = match normals {
             Normals::Float => NormalEncoding::Float,

@@ -12,7 +12,7 @@ fn position(w: &World, depth: &Picture, x: i64, y: i64, beyond: (i64, i64)) -> D
     (centre * z / w.number("focal")).extend(z)
 }
 
-/// What each slice of the sky sends, summed up in small steps of angle.
+/// Light from each slice of the sky, summed up in small steps of angle.
 pub fn gtao(w: &World, x: i64, y: i64) -> DVec4 {
     let (depth, normals) = (w.picture("depth"), w.picture("normal"));
     let here = position(w, &depth, x, y, (x, y));
@@ -131,7 +131,7 @@ pub fn screen_space_reflections(w: &World, x: i64, y: i64) -> DVec4 {
         if part > 1.0 || !inside {
             break;
         }
-        // How far along the ray in space, of what is `part` of the way on the screen.
+        // Fraction of the ray in space at `part` of its length on the screen.
         let along = part * start.z / mix(end.z, start.z, part);
         let behind = start.lerp(end, along).z - depth.r(at.x as i64, at.y as i64);
         if behind > 0.02 && behind < 0.35 {

@@ -66,7 +66,7 @@ pub fn bokeh(w: &World, x: i64, y: i64) -> DVec4 {
 
 pub fn taa(w: &World, x: i64, y: i64) -> DVec4 {
     let (colour, history, velocities) = (w.picture("color"), w.picture("history"), w.picture("velocities"));
-    // Its rows are luma and two differences; back by the inverse.
+    // The rows are luma and two differences; the way back is the inverse.
     let to = DMat3::from_cols(
         DVec3::new(0.25, 0.5, -0.25),
         DVec3::new(0.5, 0.0, 0.5),

@@ -62,7 +62,7 @@ fn reads_are_the_chapters() {
     let settings = Settings::new().block(8, 2);
     let row = Kernel::builtin("quad_convolution").and_then(|kernel| kernel.compile(&settings));
     assert_eq!(row.expect("whole quads").counts.texture_reads, 40);
-    // What the chapter names and does not count.
+    // Named in the chapter, but not counted there.
     let shadow = &["shadow"][..];
     assert_eq!(reads("pcf", &[("width", "twelve")], shadow), 9);
     assert_eq!(reads("pcf", &[("width", "sixteen")], shadow), 16);

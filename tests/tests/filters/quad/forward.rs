@@ -37,7 +37,7 @@ fn triangles(size: UVec2) -> Vec<Corner> {
         .collect()
 }
 
-/// What was emitted as text, and its manifest without the hash, so that another text can be drawn by it.
+/// Text of the emitted shader, and its manifest without the hash, so that another text can be drawn by it.
 fn text_of(emitted: &Emitted) -> (Manifest, String) {
     let mut manifest = emitted.manifest.clone();
     manifest.hashes.clear();

@@ -298,7 +298,7 @@ fn tables_without_weights_give_light() {
                 found.iter().flatten().all(|light| (0.0..=1.0).contains(light)),
                 "{value}"
             );
-            // What is infinite in a texel is so between texels, too, on a device or not.
+            // An infinite texel is infinite between texels, too, on a device or not.
             let words = format!("a table of {value}");
             same_everywhere(
                 &gpu,
@@ -422,7 +422,7 @@ fn every_hard_case_is_finite_by_every_transport() {
                     found.texels.iter().flatten().all(|c| c.is_finite()),
                     "{what}: interpreted"
                 );
-                // Where the light of what is compared hangs on the last bit, some pixels may differ.
+                // Some pixels may differ if their light hangs on the last bit of the comparison.
                 if is_shadow && case.name != "on-texels" {
                     let image = found.texels.iter().zip(shown.texels());
                     let off = image.filter(|(a, b)| (a[0] - b.x).abs() > 0.06).count();

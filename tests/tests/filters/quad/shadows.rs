@@ -72,7 +72,7 @@ pub(super) fn map() -> Frame<Vec4> {
     Frame::new(MAP, (0..MAP.x * MAP.y).map(texel).collect())
 }
 
-/// Its word, and texels on an axis.
+/// Word for the width, and texels on an axis.
 fn texels_of(width: Width) -> (&'static str, i64) {
     match width {
         Width::Four => ("four", 4),

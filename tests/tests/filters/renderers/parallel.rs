@@ -34,7 +34,7 @@ fn roof(at: Vec2) -> (f32, Vec3) {
     }
 }
 
-/// Its capture, with normals in a space.
+/// Capture of the scene, with normals in a space.
 fn captured(set: &Options, space: NormalSpace) -> Capture {
     let camera = Camera {
         position: [3.0, 2.0, 1.0],

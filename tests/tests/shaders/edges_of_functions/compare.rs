@@ -1,9 +1,9 @@
-//! What a driver computes, against what rustc does.
+//! Comparison of a driver's results with those of rustc.
 
 use crate::edges_of_functions::functions::{Accuracy, Function};
 use straightline_tests::bare::SENTINEL;
 
-/// How a value is not what rustc computes.
+/// Kind of a difference from rustc's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// The texel holds what it held before.
@@ -18,7 +18,7 @@ pub enum Verdict {
     SignOfZero,
     /// Another number than is near enough.
     Off,
-    /// What it is where subnormal numbers are zero.
+    /// Equals the value with subnormal numbers as zero.
     Flushed,
 }
 
@@ -45,15 +45,15 @@ pub struct Mismatch {
     pub function: String,
     /// The road that it was found on.
     pub road: String,
-    /// How it differs.
+    /// Kind of the difference.
     pub verdict: Verdict,
-    /// Its arguments.
+    /// Arguments of the function.
     pub arguments: Vec<f32>,
-    /// Those of its arguments that are constants.
+    /// Arguments that are constants.
     pub constants: Vec<f32>,
-    /// What rustc computes.
+    /// Value by rustc.
     pub expected: f32,
-    /// What was found.
+    /// Value of the driver.
     pub found: f32,
 }
 
@@ -90,7 +90,7 @@ pub fn on_driver(function: &Function, arguments: [f32; 3], found: f32) -> Option
 /// Most that a sum of a few numbers may be off where subnormal ones are zero.
 const FLUSHED: f32 = 4.0 * f32::MIN_POSITIVE;
 
-/// Whether a value is right where some subnormal arguments, what is computed on the way, or the result are zero.
+/// Returns whether a value is right if some subnormal arguments, intermediate values, or the result are zero.
 fn flushed(function: &Function, arguments: [f32; 3], found: f32) -> bool {
     (0..8u32).any(|which| {
         let [x, y, z] = std::array::from_fn(|k| match which >> k & 1 {

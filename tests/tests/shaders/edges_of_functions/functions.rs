@@ -12,15 +12,15 @@ pub struct Function {
     pub text: &'static str,
     /// The number of arguments that it has, of `x`, `y` and `z`.
     pub arity: usize,
-    /// The same as rustc compiles it.
+    /// The function as rustc compiles it.
     pub native: fn(f32, f32, f32) -> f32,
-    /// How far a driver may be off.
+    /// Largest error of a driver.
     pub accuracy: Accuracy,
-    /// Whether it is tried with one constant argument, too.
+    /// `true` if it is also tried with one constant argument.
     pub constants: bool,
 }
 
-/// How far a driver may be off a finite value.
+/// Largest error of a driver for a finite value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Accuracy {
     /// Not at all.

@@ -33,7 +33,7 @@ impl Column {
         }
     }
 
-    /// Its text as a block of the kernel.
+    /// Text as a block of the kernel.
     fn block(&self) -> String {
         let given = ["x", "y", "z"].iter().zip(self.constants);
         let lets = given.filter_map(|(name, c)| Some(format!("let {name} = {}; ", literal(c?))));
@@ -66,11 +66,11 @@ pub struct Table {
 pub struct Made<'t> {
     /// The kernel.
     pub compiled: Compiled,
-    /// Its texts.
+    /// Texts of the shader.
     pub emitted: Emitted,
     /// The texts that are run without wgpu, in the order of `LANGUAGES`.
     pub shaders: Vec<Shader>,
-    /// Its arguments.
+    /// Inputs of the shader.
     pub inputs: &'t Inputs,
 }
 
@@ -188,12 +188,12 @@ impl Table {
         self.inputs.images[0].1[0].texels()
     }
 
-    /// Where pictures of the targets are not what rustc computes.
+    /// Differences between pictures of the targets and rustc's values.
     pub fn mismatches(&self, road: &str, pictures: &[Frame<Vec4>]) -> Vec<Mismatch> {
         self.compared(road, pictures, compare::on_driver)
     }
 
-    /// Where the interpreter is not what rustc computes, bit by bit.
+    /// Differences between the interpreter's and rustc's values, bit by bit.
     ///
     /// # Errors
     ///

@@ -1,17 +1,17 @@
-//! What differs, function by function.
+//! Report of the differences, function by function.
 
 use crate::edges_of_functions::compare::{Mismatch, Verdict};
 use crate::edges_of_functions::rights;
 use std::collections::BTreeMap;
 
-/// What was found on all roads.
+/// Results of all roads.
 #[derive(Default)]
 pub struct Report {
     /// Values that a driver has a right to, by the reason.
     rights: BTreeMap<&'static str, usize>,
     /// Values that none has, by function and how it differs: how many on each road, and the first.
     wrong: BTreeMap<(String, Verdict), (BTreeMap<String, usize>, String)>,
-    /// What could not be compiled or run.
+    /// Kernels that could not be compiled or run.
     broken: Vec<String>,
 }
 

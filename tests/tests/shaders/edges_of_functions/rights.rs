@@ -1,4 +1,4 @@
-//! What drivers have a right to, with the reason. Each is a row of *On a GPU* in docs/semantics.md.
+//! Deviations to which drivers have a right, with the reason. Each is a row of *On a GPU* in docs/semantics.md.
 
 use crate::edges_of_functions::compare::{Mismatch, Verdict};
 use crate::edges_of_functions::roads::INTERPRETER;
@@ -6,7 +6,7 @@ use crate::edges_of_functions::roads::INTERPRETER;
 /// Values that a driver has a right to.
 struct Right {
     reason: &'static str,
-    /// Whether a value is one of them.
+    /// Returns whether a value is one of them.
     covers: fn(&Mismatch) -> bool,
 }
 
@@ -69,7 +69,7 @@ const RIGHTS: &[Right] = &[
     },
 ];
 
-/// Whether the function's text has one of these.
+/// Returns whether the function's text has one of these.
 fn has(mismatch: &Mismatch, parts: &[&str]) -> bool {
     parts.iter().any(|part| mismatch.text.contains(part))
 }
@@ -78,7 +78,7 @@ fn of_nan(mismatch: &Mismatch) -> bool {
     mismatch.arguments.iter().any(|x| x.is_nan())
 }
 
-/// Whether a number's square is not finite.
+/// Returns whether a number's square is not finite.
 fn overflows(x: f32) -> bool {
     !(x * x).is_finite()
 }

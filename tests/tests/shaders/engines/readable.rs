@@ -58,7 +58,7 @@ pub fn check(engine: &str, files: &Files) -> Result<usize, String> {
     Ok(1)
 }
 
-/// What stands between two texts, the last of which ends it first.
+/// Text between two others, the last of which ends it first.
 fn between(text: &str, before: &str, behind: &str) -> Result<String, String> {
     let rest = text.split_once(before).ok_or(format!("no `{before}`"))?.1;
     let found = rest.split_once(behind).ok_or(format!("no `{behind}`"))?.0;
@@ -141,7 +141,7 @@ fn python(text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// What mpv and libplacebo define, and their `main`.
+/// Compiles a text with the definitions of mpv and libplacebo, and their `main`.
 fn mpv(text: &str) -> Result<(), String> {
     let hook = text.split_once("//!HOOK MAIN").ok_or("no hook")?.1;
     let parameters = text.lines().filter_map(|line| line.strip_prefix("//!PARAM "));
@@ -228,7 +228,7 @@ fn unreal(text: &str) -> Result<(), String> {
     compilers::compiled_hlsl(&format!("{around}{body}{main}"), Stage::Fragment, "node").map(drop)
 }
 
-/// What Shadertoy puts around an image.
+/// Compiles a text with the code that Shadertoy puts around an image.
 ///
 /// # Errors
 ///

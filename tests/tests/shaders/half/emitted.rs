@@ -36,7 +36,7 @@ fn every_kernel_emits_in_every_language_but_glsl() {
         for stage in [Stage::Compute, Stage::Fragment] {
             let emitted = match compiled.emit(&options(stage).targets(targets.clone())) {
                 Ok(emitted) => emitted,
-                // It asks for the frame's size, in every precision.
+                // The kernel needs the frame's size, in every precision.
                 Err(error)
                     if error.code() == Some(Code::FrameSize)
                         && compiled.kernel == "catmull_rom"
@@ -131,7 +131,7 @@ fn directives_come_first() {
     assert_eq!(emitted.manifest.features, ["subgroup", "shader-f16"]);
 }
 
-/// Those of full precision say nothing of it, and are read as they always were.
+/// Manifests of full precision do not mention it, and are read as before.
 #[test]
 fn manifests_of_before_are_read() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders-out");
@@ -175,7 +175,7 @@ fn a_device_without_half_precision_is_refused() {
     assert!(error.contains("f16"), "{error}");
 }
 
-/// What a host gives is the same in every precision: its struct, its setters, its sizes.
+/// The host's side is the same in every precision: struct, setters, sizes.
 #[test]
 fn bindings_stay_as_they_are() {
     let text = |precision: Precision| {

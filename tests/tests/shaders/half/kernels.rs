@@ -11,12 +11,12 @@ const EPSILON: f32 = 1.0 / 1024.0;
 
 struct Case {
     name: &'static str,
-    /// How far the shader may be off the interpreter, in epsilons: 0 where there is nothing but what IEEE 754 rounds; more
-    /// where there are exponentials, or filtered texels, which are rounded as they come in.
+    /// Largest difference between shader and interpreter, in epsilons: 0 if all operations are rounded by IEEE 754; more for exponentials,
+    /// or for filtered texels, which are rounded when they are read.
     off: f32,
     /// Share of pixels that may be off by more: those on which a decision hangs on the last bit.
     unsure: f64,
-    /// How far 99 % of the pixels may be off `f64`, in epsilons.
+    /// Largest difference of 99 % of the pixels from `f64`, in epsilons.
     cost: f32,
 }
 
@@ -75,7 +75,7 @@ pub fn compiled() -> Vec<Compiled> {
     all.map(|compiled| compiled.unwrap_or_else(|e| panic!("{e}"))).collect()
 }
 
-/// How far two pictures are apart, in epsilons, pixel by pixel, the closest first.
+/// Differences between two pictures, in epsilons, pixel by pixel, the smallest first.
 fn apart(a: &Frame<Vec4>, b: &Frame<Vec4>) -> Vec<f32> {
     let pixel = |(a, b): (&Vec4, &Vec4)| {
         // Of what is larger than 1, in steps as large.

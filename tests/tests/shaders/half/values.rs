@@ -3,7 +3,7 @@
 use super::*;
 use straightline_bench::execute::SamplerState;
 
-/// One row of texels.
+/// A row of texels.
 fn row(texels: &[Vec4]) -> Inputs {
     let size = uvec2(texels.len() as u32, 1);
     Inputs::new(size).image("value", Frame::new(size, texels.to_vec()))
@@ -127,7 +127,7 @@ fn uniforms_and_buffers_are_rounded_once() {
     let gpu = half_bench();
     let [_, found] = both(&gpu, &compiled, Stage::Compute, &inputs);
     assert_eq!(found.texels(), wanted);
-    // In whichever direction a driver rounds, it is one step at most, and in a product two.
+    // Rounding in either direction is a step at most, and in a product two.
     let [shown, _] = both(&gpu, &compiled, Stage::Compute, &inputs);
     for (shown, wanted) in shown.texels().iter().zip(wanted) {
         assert!(
