@@ -163,7 +163,7 @@ fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(T
     texts
 }
 
-/// Returns whether an error is a feature that a language or a stage lacks, whatever the kernel.
+/// Returns whether the kernel is refused because a language or a stage has no such shaders, whatever it computes.
 fn has_no_such_text(error: &Errors) -> bool {
     matches!(
         error.code(),

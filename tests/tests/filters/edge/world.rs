@@ -11,7 +11,7 @@ pub struct World {
     pub depth: Frame<f32>,
     /// Unit vectors.
     pub normal: Frame<Vec3>,
-    /// `normals` as the texture stores them.
+    /// `normal` as the texture stores it.
     pub stored: Frame<Vec3>,
     pub color: Frame<Vec4>,
 }
