@@ -24,6 +24,12 @@ struct Panel {
     plot: String,
 }
 
+/// Methods that all have their names beside them.
+const FEW: usize = 16;
+
+/// Errors are shown in thousandths, which have short labels.
+const THOUSANDTHS: f64 = 1000.0;
+
 pub(super) fn section(record: &FrameRecord) -> Result<Frames, ReportError> {
     let panels = record.shading_ms.iter().enumerate().map(|(k, ms)| {
         Ok(Panel {
@@ -52,13 +58,13 @@ pub fn plot(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<Strin
     let mut front: Vec<(f64, f64)> = shown
         .iter()
         .filter(|m| m.frames[cost].is_best)
-        .map(|m| (m.frames[cost].ms, m.error))
+        .map(|m| (m.frames[cost].ms, THOUSANDTHS * m.error))
         .collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Those on the front and what people know have names; others say theirs when they are pointed at.
-    let is_named = |m: &FrameMethod| m.frames[cost].is_best || m.options.is_empty();
+    // Of many methods those on the front and those that people know have names; others say theirs when they are pointed at.
+    let is_named = |m: &FrameMethod| shown.len() <= FEW || m.frames[cost].is_best || m.options.is_empty();
     let dots = shown.iter().map(|m| Dot {
-        at: (m.frames[cost].ms, m.error),
+        at: (m.frames[cost].ms, THOUSANDTHS * m.error),
         spread: None,
         color: color(m.family),
         label: is_named(m).then(|| m.method.clone()),
@@ -68,7 +74,7 @@ pub fn plot(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<Strin
         size,
         axes: (
             "time of the frame in ms".to_owned(),
-            "error: RMS difference to 256 samples a pixel".to_owned(),
+            "RMS error in thousandths of white".to_owned(),
         ),
         scales: (Scale::Log, Scale::Log),
         across: true,
