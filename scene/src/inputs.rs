@@ -5,14 +5,14 @@ use straightline_kernels::prelude::Frame;
 
 pub use straightline_kernels::prelude::{Address, Comparison};
 
-/// How a sampler reads.
+/// Filter and address modes of a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerState {
-    /// Whether the four texels around a place are weighed; else the nearest counts alone.
+    /// True if the four texels around a place are weighed; else the nearest counts alone.
     pub linear: bool,
-    /// What lies beyond the border.
+    /// Address mode beyond the border.
     pub address: Address,
-    /// Whether the two levels between which one falls are weighed; else the nearest counts alone.
+    /// True if the two levels between which one falls are weighed; else the nearest counts alone.
     pub linear_mip: bool,
     /// For a comparison sampler, when a texel passes.
     pub comparison: Comparison,
@@ -39,7 +39,7 @@ impl Default for SamplerState {
     }
 }
 
-/// What a kernel is run on, by the names that it calls them.
+/// Inputs of a kernel, by the names that it calls them.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
     /// Width and height of the output.

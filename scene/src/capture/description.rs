@@ -13,7 +13,7 @@ pub const SCHEMA: u32 = 1;
 /// The only encoding of depth so far.
 const LINEAR: &str = "linear";
 
-/// Where in a pixel shading was sampled.
+/// Position in a pixel at which shading was sampled.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ShadingSample {
@@ -31,7 +31,7 @@ pub enum ShadingSample {
 /// Numbers of shading samples that can be listed: what SRAA reads.
 pub const SEVERAL: [usize; 2] = [2, 4];
 
-/// What directions normals are given by.
+/// Space in which normals are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum NormalSpace {
@@ -222,7 +222,7 @@ impl Description {
     }
 }
 
-/// Where errors say that sizes and counts are stated.
+/// File that errors name as the one that states sizes and counts.
 pub(super) const STATED_BY: &str = DESCRIPTION;
 
 #[cfg(test)]

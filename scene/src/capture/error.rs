@@ -18,7 +18,7 @@ pub enum CaptureError {
     MissingFile {
         /// The file.
         path: PathBuf,
-        /// What it should hold.
+        /// Contents that the file should have.
         contents: String,
     },
     /// `capture.json` is not JSON, or lacks something, or has something unknown.
@@ -26,7 +26,7 @@ pub enum CaptureError {
     Json {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and in which line and column.
+        /// Description of the error, with line and column.
         source: serde_json::Error,
     },
     /// A layout of another time.
@@ -52,7 +52,7 @@ pub enum CaptureError {
         path: PathBuf,
         /// The field of `capture.json`.
         field: &'static str,
-        /// What is wrong and what would do.
+        /// Description of the problem, and of a value that would do.
         problem: String,
     },
     /// More or fewer layers than there are samples.
@@ -60,7 +60,7 @@ pub enum CaptureError {
     Layers {
         /// The file.
         path: PathBuf,
-        /// What layers there are.
+        /// Description of the layers found.
         problem: String,
         /// Samples in `capture.json`.
         samples: usize,
@@ -78,7 +78,7 @@ pub enum CaptureError {
         /// A file or folder in it.
         entry: String,
     },
-    /// One of the files could not be read or written.
+    /// A picture of the capture could not be read or written.
     #[error(transparent)]
     Picture(#[from] PictureError),
 }

@@ -56,15 +56,15 @@ pub struct Capture {
     pub size: UVec2,
     /// Offset of each geometry sample from the pixel's centre, in pixels, y down, each axis in -0.5..=0.5.
     pub samples: Vec<Vec2>,
-    /// Where in the pixel shading was sampled.
+    /// Position in the pixel at which shading was sampled.
     pub shading: ShadingSample,
-    /// What directions the normals are given by; of no meaning without them.
+    /// Space of the normals; of no meaning without them.
     pub normal_space: NormalSpace,
-    /// What the scene was seen with: metrics that compare planes, and projected depths, need it.
+    /// Camera that saw the scene: metrics that compare planes, and projected depths, need it.
     pub camera: Option<Camera>,
     /// Linear colour of each pixel: of its shading sample, or the mean of several.
     pub color: Frame<Vec4>,
-    /// Where there are several shading samples a pixel, linear colour at each, in the order of `shading`; else none.
+    /// Linear colour at each shading sample, in the order of `shading`, if a pixel has several; else none.
     pub colors: Vec<Frame<Vec4>>,
     /// With [`ShadingSample::Placed`], the layer of `depth` and `normal` in whose place each pixel is shaded; else none.
     pub place: Option<Frame<u32>>,

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use straightline_files::{self as files, shorten};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
-/// What a layer of colours has.
+/// Channels of a layer of colours.
 const RGB: &str = "channels R, G and B";
 
 /// Longest `capture.json` that is read, in bytes.
@@ -252,7 +252,7 @@ impl Layout<'_> {
         let plane = source.find(PLACE_LAYER, PLACE_CHANNEL, wanted)?;
         source.check(plane, "layer `place`", self.size(), STATED_BY)?;
         let values = source.read(&[plane])?.pop().unwrap_or_default();
-        // What is no such number becomes one that there is not.
+        // A value that is not such a number becomes a number that does not occur.
         let number = |value: f32| {
             if value.fract() == 0.0 && value >= 0.0 {
                 value as u32
@@ -295,8 +295,8 @@ impl Layout<'_> {
         Ok(FrameLayers::new(frames.collect()))
     }
 
-    /// A layer that `capture.json` does not ask for is a sign that the two do not belong together, and of two layers of one
-    /// name nobody can tell which is meant.
+    /// Refuses surplus layers: a layer that `capture.json` does not ask for is a sign that the two do not belong together, and
+    /// two layers of one name are ambiguous.
     fn refuse_surplus(&self, path: &Path, source: &Source, expected: &[String]) -> Result<(), CaptureError> {
         let found = source.layer_channels();
         let mut seen = BTreeSet::new();

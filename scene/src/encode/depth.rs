@@ -1,6 +1,6 @@
 //! Depth in the forms that projections give it.
 
-/// How depth is stored. `near` and `far` are linear depths, 0 < `near` < `far`.
+/// Encoding of stored depth. `near` and `far` are linear depths, 0 < `near` < `far`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DepthEncoding {
     /// As it is: distance along the view direction.
@@ -12,7 +12,7 @@ pub enum DepthEncoding {
         /// Linear depth of 1.
         far: f64,
     },
-    /// The same the other way round: 1 at `near`, 0 at `far`.
+    /// A perspective projection's z/w reversed: 1 at `near`, 0 at `far`.
     Reversed {
         /// Linear depth of 1.
         near: f64,
@@ -31,7 +31,7 @@ pub enum DepthEncoding {
         /// Linear depth of 1.
         far: f64,
     },
-    /// The same the other way round.
+    /// Reversed depth of a parallel projection: 1 at `near`, 0 at `far`.
     ParallelReversed {
         /// Linear depth of 1.
         near: f64,
@@ -52,8 +52,8 @@ pub enum DepthStorage {
 }
 
 impl DepthEncoding {
-    /// What is stored for a linear depth above 0. All but linear depth is kept in 0..=1: what is nearer than `near` or
-    /// farther than `far`, such as the sky, is stored as if it lay there.
+    /// Returns the number that is stored for a linear depth above 0. All but linear depth is kept in 0..=1: depths nearer than
+    /// `near` or farther than `far`, such as the sky's, are clamped to these.
     pub fn encode(self, depth: f64) -> f64 {
         match self {
             DepthEncoding::Linear => depth,
@@ -116,7 +116,7 @@ mod tests {
         for encoding in all() {
             for depth in depths() {
                 let back = encoding.decode(encoding.encode(depth));
-                // What perspective loses near 1 in double precision.
+                // Perspective loses as much near 1 in double precision.
                 assert!(
                     (back / depth - 1.0).abs() < 1.0e-11,
                     "{encoding:?}: {depth} came back as {back}"
@@ -162,7 +162,7 @@ mod tests {
         }
     }
 
-    /// How far a depth may come back from where it was, as a share of it.
+    /// Greatest relative error of a depth that was stored.
     #[test]
     fn precision_of_storage() {
         let worst = |encoding: DepthEncoding, storage: DepthStorage, most: f64| {

@@ -51,7 +51,7 @@ fn pack(normal: Vec3, depth: f32, encoding: DepthEncoding) -> Vec4 {
     Vec4::from_array([f16::from_f64(x), f16::from_f64(y), coarse, fine].map(f16::to_f32))
 }
 
-/// The same in 16-bit floats, which every device can multisample.
+/// Rounds texels to 16-bit floats, which every device can multisample.
 pub fn halved(texels: &FrameLayers<Vec4>) -> FrameLayers<Vec4> {
     let half = |texel: Vec4| Vec4::from_array(texel.to_array().map(|c| f16::from_f32(c).to_f32()));
     each(texels, half)

@@ -1,6 +1,6 @@
 //! Unit normals in fewer bits.
 
-/// How a unit normal is stored.
+/// Encoding of a stored unit normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NormalEncoding {
     /// Three floats.
@@ -9,7 +9,7 @@ pub enum NormalEncoding {
     Rgb8,
     /// On an octahedron unfolded into a square (Cigolle et al. 2014), eight bits on each axis.
     Octahedral8,
-    /// The same in sixteen bits on each axis.
+    /// On the unfolded octahedron, sixteen bits on each axis.
     Octahedral16,
     /// Ten bits each of ½n + ½; made a unit vector again.
     Rgb10A2,
@@ -146,7 +146,7 @@ mod tests {
         }
     }
 
-    /// What was stored once is stored as the same numbers again, but where two texels mean one normal: at the folded
+    /// A decoded normal is encoded as the same numbers again, except where two texels mean one normal: at the folded
     /// octahedron's rim.
     #[test]
     fn a_decoded_normal_is_encoded_as_before() {

@@ -1,4 +1,4 @@
-//! Whether depth is held in steps that a metric takes for edges.
+//! Detects depth that is held in steps which a metric takes for edges.
 
 use super::{choice, depth_encoding, planes};
 use crate::capture::Capture;
@@ -20,7 +20,8 @@ pub struct Coarse {
     pub least: f64,
 }
 
-/// How often a depth occurs on average at least, where depths lie in steps: of those in whole floats nearly all are different.
+/// Least number of times that a depth occurs on average if depths lie in steps: of depths in whole floats nearly all are
+/// different.
 const REPEATED: usize = 2;
 
 /// Ground is even where neighbours are no farther off than this share of the depth.
@@ -29,8 +30,8 @@ const EVEN: f64 = 0.05;
 /// Share of the samples from which on it is worth a word: steps put about half of them off, edges between close surfaces a fifth.
 const MANY: f64 = 0.35;
 
-/// Whether depths, as a shader with these options reads them, lie in steps that its metric takes for more than its smallest threshold in
-/// many samples; `None` if not, and of a metric that reads none.
+/// Detects depths that, as a shader with these options reads them, lie in steps which its metric takes for more than its
+/// smallest threshold in many samples; `None` if there are none, and of a metric that reads no depth.
 pub fn coarse(capture: &Capture, options: &OptionValues) -> Option<Coarse> {
     if choice(options, "metric", "depth-normals") == "normals" {
         return None;
@@ -59,7 +60,7 @@ pub fn coarse(capture: &Capture, options: &OptionValues) -> Option<Coarse> {
     })
 }
 
-/// Whether the same depths occur again and again.
+/// Returns whether depths repeat as often as they do in steps.
 fn in_steps(layers: &[Vec<f64>]) -> bool {
     let drawn = layers.iter().flatten().filter(|depth| depth.is_finite());
     let mut depths: Vec<u64> = drawn.map(|depth| depth.to_bits()).collect();

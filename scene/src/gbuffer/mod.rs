@@ -1,4 +1,4 @@
-//! What an SRAA shader reads, made from a capture: the G-buffer in the layout and the encodings that its options name.
+//! Inputs of an SRAA shader, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
 mod coarse;
 mod offsets;
@@ -25,11 +25,11 @@ pub enum GBufferError {
     /// The capture lacks what the options need.
     #[error("the capture has no {what}, which {option} needs: {help}")]
     Missing {
-        /// What it lacks.
+        /// Part that the capture lacks.
         what: &'static str,
         /// The option that needs it.
         option: String,
-        /// What to do instead.
+        /// Advice for another choice.
         help: &'static str,
     },
     /// Normals are in another space than the capture says.
@@ -58,9 +58,9 @@ pub enum GBufferError {
     /// The options ask for samples that the capture does not have.
     #[error("the shader needs {needed} geometry samples a pixel, and the capture has {found}")]
     Samples {
-        /// How many are needed.
+        /// Number of samples needed.
         needed: usize,
-        /// How many there are.
+        /// Number of samples found.
         found: usize,
     },
 }
@@ -166,7 +166,7 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
     }
     let apart = capture.layer_count() > capture.samples.len();
     for (name, stack) in images {
-        // What every device can multisample: a single component in whole floats, more in half.
+        // Formats that every device can multisample: a single component in whole floats, more in half.
         let stack = if layout == "multisampled" && name != "depth" {
             encode::halved(&stack)
         } else {
@@ -201,13 +201,13 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
     })
 }
 
-/// Where each pixel is shaded, as the binding `place` has it.
+/// Encodes the shading position of each pixel for the binding `place`.
 pub fn places(place: &Frame<u32>) -> Frame<UVec4> {
     let texels = place.texels().iter().map(|layer| UVec4::new(*layer, 0, 0, 1));
     Frame::new(place.size(), texels.collect())
 }
 
-/// What taking light apart needs of a capture.
+/// Returns a part of the capture that demodulated light needs.
 fn needed_of<T: Clone>(found: &Option<T>, what: &'static str, demodulate: &str) -> Result<T, GBufferError> {
     found.clone().ok_or_else(|| GBufferError::Missing {
         what,

@@ -1,4 +1,4 @@
-//! Whether a capture was sampled where it says: depths of even ground at each sample tell.
+//! Checks that a capture was sampled at the places that it states, by depths of even ground at each sample.
 
 use crate::capture::Capture;
 use crate::scene::SKY_DEPTH;
@@ -25,7 +25,7 @@ impl Misplaced {
         Misplaced::Exchanged,
     ];
 
-    /// Where a sample is that is stated to be at `offset`.
+    /// Returns the true offset of a sample whose stated offset is `offset`.
     fn of(self, offset: Vec2) -> Vec2 {
         match self {
             Misplaced::FlippedY => Vec2::new(offset.x, -offset.y),
@@ -35,7 +35,7 @@ impl Misplaced {
         }
     }
 
-    /// What is wrong, and what to do, for people.
+    /// Returns the problem and its remedy, in words.
     pub fn words(self) -> &'static str {
         match self {
             Misplaced::FlippedY => {
@@ -57,24 +57,24 @@ impl Misplaced {
     }
 }
 
-/// How far values may be from those of a plane at three pixels in a row, as a share of how much they change.
+/// Greatest distance of values from a plane's at three pixels in a row, as a share of their change.
 const BENT: f32 = 0.03;
 
-/// How much they must change from pixel to pixel at least, as a share of themselves: roundings of 32 bits are far below.
+/// Least change of values from pixel to pixel, as a share of themselves: roundings of 32 bits are far below.
 const STEEP: f32 = 2.0e-5;
 
 /// Samples that are compared at least.
 const FEWEST: usize = 60;
 
-/// How far a sample is from its plane at most to fit it, as a share of how much the plane changes from pixel to pixel.
+/// Greatest distance of a sample from its plane to fit it, as a share of the plane's change from pixel to pixel.
 const FITS: f32 = 0.05;
 
 /// Share of the samples that must fit where they should not be, and how many times more than where they should.
 const MANY: f32 = 0.4;
 const MORE: f32 = 2.0;
 
-/// How the sample offsets of a capture are stated wrongly, if the depths of even ground show it: they fit planes there much better than
-/// as it is stated. `None` also where too little is even, or where nothing fits.
+/// Finds the way in which the sample offsets of a capture are stated wrongly, if the depths of even ground show it: they fit
+/// planes much better in that way than as stated. `None` also where too little is even, or where nothing fits.
 pub fn misplaced(capture: &Capture) -> Option<Misplaced> {
     let layer = *capture.shaded_layers().first()?;
     let origin = capture.samples.get(layer).copied().unwrap_or(Vec2::ZERO);
@@ -121,7 +121,7 @@ pub fn misplaced(capture: &Capture) -> Option<Misplaced> {
                 let stated = expected(*offset, origin);
                 for (count, way) in counts.iter_mut().zip(Misplaced::ALL) {
                     let other = expected(way.of(*offset), way.of(origin));
-                    // Where the two are told apart.
+                    // Count only samples for which the two ways differ clearly.
                     if (other - stated).abs() > 2.5 * FITS * whole {
                         count.all += 1;
                         count.stated += fits(stated);
@@ -139,7 +139,7 @@ pub fn misplaced(capture: &Capture) -> Option<Misplaced> {
     best.map(|(_, way)| way)
 }
 
-/// Samples that are told apart, and how many of them fit where they are stated to be, and where they would be otherwise.
+/// Samples for which two ways of stating offsets differ, and how many of them fit at the stated place, and at the other one.
 #[derive(Clone, Copy, Default)]
 struct Count {
     all: usize,

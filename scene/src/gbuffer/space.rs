@@ -1,4 +1,5 @@
-//! Whether a capture's normals are in the space that it says: they should stand on the planes that depths make.
+//! Checks that a capture's normals are in the space that it states: they should be perpendicular to the planes that depths
+//! make.
 
 use super::GBufferError;
 use crate::capture::{Capture, NormalSpace};
@@ -14,11 +15,11 @@ const MANY: f64 = 0.05;
 /// The least share at which normals are taken for those of shading.
 const BENT: f64 = 0.15;
 
-/// How many times fewer normals must be off in the other space to be taken for those of that.
+/// Factor by which fewer normals must be off in the other space to be taken for normals of that space.
 const FEWER: f64 = 2.0;
 
-/// How far depths may be from those of a plane at three pixels in a row: of their inverses, as a share of the middle one's, and of how much
-/// they change.
+/// Greatest distance of depths from a plane's at three pixels in a row: of their inverses, as a share of the middle one's, and
+/// of their change.
 const EVEN: [f32; 2] = [1.0e-4, 0.01];
 
 /// Refuses normals that are off the planes of the depths in the space that the capture says, and far less so in the other one. Normals
@@ -55,7 +56,7 @@ pub fn bent_normals(capture: &Capture) -> Option<f64> {
     (own > BENT).then_some(own)
 }
 
-/// Whether planes can be told from depths and normals: both are there, with a camera, and in the space that the capture says.
+/// Returns whether depths and normals give planes: both are there, with a camera, and in the space that the capture says.
 pub fn has_planes(capture: &Capture) -> bool {
     capture.camera.is_some() && capture.normal.is_some() && check(capture).is_ok()
 }
@@ -91,7 +92,7 @@ fn off_planes(capture: &Capture) -> Option<[f64; 2]> {
     for y in 1..height.saturating_sub(1) {
         for x in 1..width.saturating_sub(1) {
             let at = place(x, y);
-            // Where nothing is drawn, or no normal is known, there is none that could be off.
+            // No normal can be off where nothing is drawn, or none is known.
             if normals[at].length_squared() < 0.25 {
                 continue;
             }

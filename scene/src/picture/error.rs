@@ -10,7 +10,7 @@ pub enum PictureError {
     /// The operating system refused.
     #[error("cannot {action} {}: {source}{}", .path.display(), advice(.source.kind()))]
     Io {
-        /// What was attempted: `read`, `write`, ...
+        /// Operation that failed: `read`, `write`, ...
         action: &'static str,
         /// File or folder.
         path: PathBuf,
@@ -28,7 +28,7 @@ pub enum PictureError {
     NotBuilt {
         /// The file.
         path: PathBuf,
-        /// What the file is.
+        /// Format of the file.
         format: &'static str,
         /// The feature of the crate that has them.
         feature: &'static str,
@@ -38,9 +38,9 @@ pub enum PictureError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What it should be.
+        /// Format that the file should have.
         format: &'static str,
-        /// What the decoder met.
+        /// Problem that the decoder met.
         problem: String,
     },
     /// A sound file that is outside what can be used.
@@ -48,7 +48,7 @@ pub enum PictureError {
     Unusable {
         /// The file.
         path: PathBuf,
-        /// What stands in the way, and what would do.
+        /// Description of the obstacle, and of a file that would do.
         problem: String,
     },
     /// An EXR file lacks a layer.
@@ -104,11 +104,11 @@ pub enum PictureError {
         path: PathBuf,
         /// The layer, in words.
         layer: String,
-        /// Its size.
+        /// Size of the layer.
         found: UVec2,
         /// The size that it must have.
         expected: UVec2,
-        /// Where that size is stated.
+        /// File or picture that states that size.
         expected_by: String,
     },
 }

@@ -143,7 +143,7 @@ pub(crate) fn read_layer(path: &Path, layer: &str) -> Result<Frame<Vec4>, Pictur
     Ok(Frame::new(size, (0..values[0].len()).map(texel).collect()))
 }
 
-/// Where one channel of one layer is found in a file.
+/// Location of one channel of one layer in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Plane {
     part: usize,
@@ -370,7 +370,7 @@ impl Source {
     }
 }
 
-/// One channel while it is read.
+/// A channel while it is read.
 struct Target {
     plane: Plane,
     width: usize,

@@ -49,7 +49,7 @@ pub fn detail(frame: &Frame<Vec4>, x: u32, y: u32, width: u32, height: u32, zoom
     Frame::new(enlarged, texels)
 }
 
-/// The same square of several pictures of one size, enlarged, side by side under their names.
+/// Enlarges one square of several pictures of one size, side by side under their names.
 pub fn details(pictures: &[(&str, &Frame<Vec4>)], corner: UVec2, side: u32, zoom: u32) -> Frame<Vec4> {
     let of = |frame: &Frame<Vec4>| detail(frame, corner.x, corner.y, side, side, zoom);
     let details: Vec<(&str, Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, of(frame))).collect();
@@ -57,8 +57,8 @@ pub fn details(pictures: &[(&str, &Frame<Vec4>)], corner: UVec2, side: u32, zoom
     montage(&columns)
 }
 
-/// Where antialiasing has most to do: the corner of the square in which a plain picture is farthest from the reference. Squares begin
-/// every 16 texels.
+/// Finds the square in which antialiasing has most to do: returns the corner of the one in which a plain picture is farthest
+/// from the reference. Squares begin every 16 texels.
 pub fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>, side: u32) -> UVec2 {
     let size = plain.size();
     let side = UVec2::splat(side).min(size);

@@ -34,7 +34,7 @@ pub const EXTENSIONS: [&str; 2] = ["png", "exr"];
 /// Longest file of a picture that is read, in bytes.
 pub(crate) const MAX_BYTES: u64 = 1 << 34;
 
-/// What the system says when `path` cannot be written.
+/// Makes the error of the system's refusal to write `path`.
 pub(crate) fn refused(path: &Path) -> impl Fn(std::io::Error) -> PictureError + '_ {
     |source| PictureError::Io {
         action: "write",
@@ -118,7 +118,8 @@ pub fn read(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     }
 }
 
-/// The same, but the numbers of a PNG are taken as they are, 0 to 1: as of data, such as depths and normals, not of colours.
+/// Reads a picture like [`read`], but takes the numbers of a PNG as they are, 0 to 1: as of data, such as depths and normals,
+/// not of colours.
 ///
 /// # Errors
 ///
@@ -130,7 +131,7 @@ pub fn read_linear(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     }
 }
 
-/// Whether a file is read as sRGB by [`read`], and as it is by [`read_linear`].
+/// Returns whether a file is read as sRGB by [`read`], and as it is by [`read_linear`].
 pub fn is_png(path: &Path) -> bool {
     matches!(Format::of(path), Ok(Format::Png))
 }
@@ -163,7 +164,8 @@ pub fn layers(path: &Path) -> Result<Vec<String>, PictureError> {
     }
 }
 
-/// One layer of an EXR file: its channels R, G and B or X, Y and Z, or its only one (Z, Y or any other) in all components.
+/// Reads one layer of an EXR file: its channels R, G and B or X, Y and Z, or its only one (Z, Y or any other) in all
+/// components.
 ///
 /// # Errors
 ///

@@ -135,7 +135,7 @@ pub(super) fn to_srgb8(texel: Vec4) -> [u8; 4] {
     [color(texel.x), color(texel.y), color(texel.z), byte(texel.w)]
 }
 
-/// What [`decode`] gives of what [`encode`] writes.
+/// Returns the texel that [`decode`] reads from the one that [`encode`] writes.
 pub(super) fn rounded(texel: Vec4) -> Vec4 {
     from_srgb(Vec4::from_array(to_srgb8(texel).map(|byte| f32::from(byte) / 255.0)))
 }

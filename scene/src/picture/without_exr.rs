@@ -1,4 +1,4 @@
-//! What stands for EXR files in a build without them: every attempt is an error that names the feature.
+//! Replacement for EXR files in a build without them: every attempt is an error that names the feature.
 
 use super::PictureError;
 use glam::{UVec2, Vec4};

@@ -17,13 +17,13 @@ const ALIKE: f32 = 0.1;
 /// Samples of a pixel that are shaded once.
 #[derive(Clone, Copy, Debug)]
 pub struct Aggregate {
-    /// How many there are.
+    /// Number of samples.
     pub members: usize,
-    /// Where it is shaded, in pixels from the pixel's centre.
+    /// Place of shading, in pixels from the pixel's centre.
     pub place: Vec2,
-    /// What is shaded.
+    /// Surface that is shaded.
     pub surface: Surface,
-    /// Its linear colour.
+    /// Linear colour of the surface.
     pub color: Vec3,
 }
 
@@ -32,7 +32,7 @@ pub struct Aggregate {
 pub struct Aggregated {
     /// Width and height in pixels.
     pub size: UVec2,
-    /// What its samples see: a layer for each, row by row from the top.
+    /// Surfaces that the samples see: a layer for each, row by row from the top.
     pub samples: Vec<Vec<Surface>>,
     /// The aggregates of each pixel, row by row from the top; the second has no members where all samples are alike.
     pub pixels: Vec<[Aggregate; 2]>,
@@ -86,7 +86,7 @@ pub fn aggregated(renderer: &dyn Renderer, offsets: &[Vec2]) -> Result<Aggregate
     })
 }
 
-/// How much two surfaces differ; what cannot be averaged differs by all that there is.
+/// Difference of two surfaces; the greatest of all if they cannot be averaged.
 fn apart(a: &Surface, b: &Surface) -> f32 {
     let is_sky = |surface: &Surface| surface.depth >= SKY_DEPTH;
     match (is_sky(a), is_sky(b)) {

@@ -6,8 +6,8 @@ use crate::gbuffer;
 use glam::Vec2;
 use straightline_kernels::prelude::FrameLayers;
 
-/// What a filter gets: colour shaded once a pixel, or at each of several samples, and geometry at each of `samples` (and, with
-/// [`ShadingSample::Centre`] and [`ShadingSample::Placed`], once more at the pixel's centre).
+/// Draws the inputs of a filter: colour shaded once a pixel, or at each of several samples, and geometry at each of `samples`
+/// (and, with [`ShadingSample::Centre`] and [`ShadingSample::Placed`], once more at the pixel's centre).
 ///
 /// Shading is placed by depths: see [`capture_placed`].
 ///
@@ -22,7 +22,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
     captured(renderer, samples, shading, PlacedBy::Depths)
 }
 
-/// The same with [`ShadingSample::Placed`], by the kernel `sraa_place` with the options of `by`.
+/// Draws the inputs of a filter with [`ShadingSample::Placed`], by the kernel `sraa_place` with the options of `by`.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! What a filter reads that borrows light apart from paint and from shadow.
+//! Inputs of a filter that borrows light apart from paint and from shadow.
 
 use super::{RenderError, Renderer, Surface, placed};
 use crate::capture::{Capture, ShadingSample};
@@ -23,7 +23,7 @@ pub fn add_albedo(capture: &mut Capture, renderer: &dyn Renderer) -> Result<(), 
     Ok(())
 }
 
-/// What is drawn where each pixel is shaded, if that is once.
+/// Draws every pixel at its place of shading, if it has only one.
 fn once_a_pixel(
     capture: &Capture,
     places: &[Vec2],
@@ -40,7 +40,7 @@ fn once_a_pixel(
     }
 }
 
-/// What `of` makes of each pixel's surface, seen `offset` from its centre.
+/// Draws a picture of what `of` returns for each pixel's surface, seen `offset` from its centre.
 pub(super) fn frame<R: Renderer + ?Sized>(
     renderer: &R,
     offset: Vec2,

@@ -27,7 +27,7 @@ pub enum RenderError {
         most: u64,
         /// Bytes that are needed.
         needed: u64,
-        /// What to make smaller.
+        /// Part of the input to make smaller.
         smaller: &'static str,
     },
     /// An offset that is not a place.
@@ -44,7 +44,7 @@ pub enum RenderError {
     ShadingSample {
         /// The index of the sample.
         sample: usize,
-        /// How many samples there are.
+        /// Number of samples.
         samples: usize,
     },
     /// Samples of which it is not known where they lie on a surface's plane.
@@ -53,7 +53,7 @@ pub enum RenderError {
          depths"
     )]
     Unnamed {
-        /// How many samples there are.
+        /// Number of samples.
         samples: usize,
     },
     /// A picture of which no pixel can be shaded once more.
@@ -65,9 +65,9 @@ pub enum RenderError {
     /// The device has too little memory, does not do what it was asked, or is gone.
     #[error("the GPU failed while {doing}: {description}")]
     Device {
-        /// What it was doing.
+        /// Operation that failed.
         doing: &'static str,
-        /// What it said.
+        /// The device's message.
         description: String,
     },
 }

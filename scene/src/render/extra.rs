@@ -17,11 +17,11 @@ pub struct Extra {
     pub sample: Frame<u32>,
     /// Linear colour of those that are; 0 of all others.
     pub color: Frame<Vec4>,
-    /// How many pixels are.
+    /// Number of pixels that are shaded once more.
     pub listed: usize,
-    /// How many would be if the budget were large enough.
+    /// Number of pixels that would be if the budget were large enough.
     pub wanted: usize,
-    /// How many could be.
+    /// Number of pixels that could be.
     pub budget: usize,
 }
 
@@ -49,7 +49,7 @@ impl Extra {
     }
 }
 
-/// What `extra_counts` holds before: no workgroups in x, one in y and z, and no pixels.
+/// Initial contents of `extra_counts`: no workgroups in x, one in y and z, and no pixels.
 const COUNTS: [u32; 4] = [0, 1, 1, 0];
 
 /// Options of `sraa_extra` for a filter with `options`: those of [`PlacedBy::Planes`], but with the default `search-threshold`. What differs

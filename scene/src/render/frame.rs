@@ -1,4 +1,4 @@
-//! What is the same for every pass of one scene at one size, in the form that shaders read.
+//! Uniforms of a scene's passes at one size, in the form that shaders read.
 
 use crate::scene::{Camera, Scene};
 use bytemuck::{Pod, Zeroable};
@@ -50,7 +50,7 @@ impl Lighting {
     }
 }
 
-/// One pass. Laid out as `Pass` in the shaders.
+/// Uniforms of one pass. Laid out as `Pass` in the shaders.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Pass {
@@ -63,7 +63,7 @@ pub(super) struct Pass {
     pub offset: Vec2,
     /// 1 to add to what is there, 0 to replace it.
     pub keep: f32,
-    /// How often each sample is shaded, where [`FramePasses`](super::FramePasses) shades it.
+    /// Number of times that each sample is shaded, where [`FramePasses`](super::FramePasses) shades it.
     pub evaluations: u32,
     /// Size of a pixel at depth 1.
     pub pixel_angle: f32,

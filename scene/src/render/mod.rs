@@ -46,7 +46,7 @@ pub trait Renderer {
     /// Width and height of what is drawn, in pixels.
     fn size(&self) -> UVec2;
 
-    /// What the scene is seen with.
+    /// Returns the camera that sees the scene.
     fn camera(&self) -> Camera;
 
     /// Geometry seen `offset` from each pixel's centre: linear depth along the view direction in scene units, and
@@ -78,8 +78,9 @@ pub trait Renderer {
     /// it.
     fn shade(&self, surface: &Surface, place: Vec2) -> Vec3;
 
-    /// What a filter that takes light apart from paint and shadow is given of a surface that is seen `place` pixels from the
-    /// picture's upper left corner: see [`albedo`](Self::albedo).
+    /// Returns the albedo, and the share of the sun's light in alpha, of a surface that is seen `place` pixels from the
+    /// picture's upper left corner: see [`albedo`](Self::albedo). Filters that take light apart from paint and shadow read
+    /// these.
     fn paint(&self, surface: &Surface, place: Vec2) -> Vec4;
 
     /// Linear RGB that the sun adds to [`shade`](Self::shade) of a surface where no shadow falls.
@@ -95,7 +96,7 @@ pub trait Renderer {
         demodulated::frame(self, offset, |surface, place| self.paint(surface, place))
     }
 
-    /// What the sun adds to [`shaded`](Self::shaded) at `offset` where no shadow falls: linear RGB, alpha 0.
+    /// Draws the light that the sun adds to [`shaded`](Self::shaded) at `offset` where no shadow falls: linear RGB, alpha 0.
     ///
     /// # Errors
     ///
@@ -119,7 +120,7 @@ pub trait Renderer {
         }
     }
 
-    /// What of [`shaded`](Self::shaded) at `offset` does not follow the albedo: linear RGB, alpha 0.
+    /// Draws the part of [`shaded`](Self::shaded) at `offset` that does not follow the albedo: linear RGB, alpha 0.
     ///
     /// # Errors
     ///

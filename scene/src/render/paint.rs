@@ -1,4 +1,4 @@
-//! What textures give to a surface. `paint.wgsl` says the same line by line.
+//! Colours that textures give to a surface. `paint.wgsl` says the same line by line.
 
 use crate::scene::{Image, Textures, decoded};
 use glam::{Vec2, Vec4, uvec2};

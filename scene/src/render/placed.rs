@@ -20,7 +20,7 @@ static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
     offsets
 };
 
-/// What tells surfaces apart where shading is placed, or done once more.
+/// Metric by which surfaces differ where shading is placed, or done once more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlacedBy {
     /// Depths and normals. A step of a third of the depth is between unrelated surfaces.
@@ -31,7 +31,7 @@ pub enum PlacedBy {
 }
 
 impl PlacedBy {
-    /// What goes with the options of a filter.
+    /// Returns the metric that goes with the options of a filter.
     pub fn of(options: &OptionValues) -> PlacedBy {
         match options.choice("metric") {
             Some("planes-normals") => PlacedBy::Planes,
@@ -69,7 +69,7 @@ impl PlacedBy {
         others.cloned().chain(own).collect()
     }
 
-    /// The same of the kernels as rustc compiles them.
+    /// Settings of the kernels as rustc compiles them.
     fn settings(self) -> Sraa {
         let relative = Sraa {
             difference: Difference::Relative,
@@ -89,7 +89,7 @@ impl PlacedBy {
     }
 }
 
-/// What the kernels that say where to shade are given of a G-buffer.
+/// Inputs, from a G-buffer, of the kernels that place shading.
 pub(super) struct Surfaces {
     pub(super) cfg: Sraa,
     pub(super) gbuffer: GBuffer,
@@ -136,7 +136,7 @@ impl Surfaces {
     }
 }
 
-/// What is shaded once a pixel, where the kernel `sraa_place` says.
+/// Pixels shaded once, where the kernel `sraa_place` places them.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// Of each pixel the number of the geometry sample at which it is shaded, or the number of samples for its centre.
@@ -145,12 +145,13 @@ pub struct Placed {
     pub color: Frame<Vec4>,
     /// The direct light there as it would be without a shadow, if the capture has that.
     pub direct: Option<Frame<Vec4>>,
-    /// What does not follow the albedo there, if the capture has that.
+    /// Part of the colour there that does not follow the albedo, if the capture has that.
     pub rest: Option<Frame<Vec4>>,
 }
 
-/// What `renderer` drew for a capture that is shaded at the pixels' centres, shaded where the kernel `sraa_place` says instead. `None`
-/// of a capture without normals, and by planes of one without a camera or of samples that lie at no pattern that has a name.
+/// Shades the pixels of a capture that `renderer` drew, and that is shaded at their centres, where the kernel `sraa_place` says
+/// instead. `None` of a capture without normals, and by planes of one without a camera or of samples that lie at no pattern
+/// that has a name.
 ///
 /// # Errors
 ///

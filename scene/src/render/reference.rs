@@ -1,4 +1,4 @@
-//! What a perfect filter would give: many shaded samples in each pixel, averaged.
+//! Reference picture of a perfect filter: many shaded samples in each pixel, averaged.
 
 use super::{RenderError, Renderer};
 use glam::{DVec4, Vec2, Vec4, uvec2};
@@ -10,8 +10,8 @@ pub fn grid(side: u32) -> Vec<Vec2> {
     (0..side).flat_map(|y| (0..side).map(move |x| place(x, y))).collect()
 }
 
-/// The scene supersampled: each pixel the mean of `side` × `side` shaded samples on a regular grid. A side of 4 is
-/// 16×, of 16 is 256×. `progress` is told, after each row of the grid, how many samples of how many are done.
+/// The scene supersampled: each pixel the mean of `side` × `side` shaded samples on a regular grid. A side of 4 is 16×, of 16
+/// is 256×. `progress` is called after each row of the grid with the number of samples done and of all samples.
 ///
 /// # Errors
 ///

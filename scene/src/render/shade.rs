@@ -4,7 +4,7 @@ use super::frame::Lighting;
 use crate::scene::{EMISSION, Material, SKY_DEPTH};
 use glam::{Vec2, Vec3, Vec3Swizzles, Vec4, vec2, vec3};
 
-/// What one sample of a G-buffer holds.
+/// A sample of a G-buffer.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     /// Unit normal in view space.
@@ -18,7 +18,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Where there is no geometry.
+    /// Surface of the sky, where there is no geometry.
     pub const SKY: Surface = Surface {
         normal: Vec3::Z,
         depth: SKY_DEPTH,
@@ -32,14 +32,14 @@ pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     shaded(lighting, surface, ray, visibility(lighting, surface, ray))
 }
 
-/// What the sun adds to that where no shadow falls.
+/// Returns the light that the sun adds to a shaded surface where no shadow falls.
 pub(super) fn direct(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     shaded(lighting, surface, ray, 1.0) - shaded(lighting, surface, ray, 0.0)
 }
 
-/// What a filter that takes light apart from paint and shadow is given of a surface: its albedo, as a sample of a G-buffer has it, and
-/// in the fourth component whether the sun reaches it, 1 or 0. Of what shines by itself the albedo is what it shines with; of
-/// the sky 1.
+/// Returns a surface's inputs of a filter that takes light apart from paint and shadow: its albedo, as a sample of a G-buffer
+/// has it, and in the fourth component whether the sun reaches it, 1 or 0. Of an emissive surface the albedo is the light that
+/// it emits; of the sky 1.
 pub(super) fn paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec4 {
     if surface.depth >= SKY_DEPTH {
         return Vec4::ONE;
@@ -51,7 +51,7 @@ pub(super) fn paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec4 {
     reflected.extend(visibility(lighting, surface, ray))
 }
 
-/// Where a surface lies in the world.
+/// Returns the place of a surface in the world.
 fn place(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     (lighting.to_world * (ray * surface.depth).extend(1.0)).truncate()
 }
@@ -130,7 +130,7 @@ fn slats(place: Vec3, towards_sun: Vec3) -> f32 {
     if share - share.floor() < 0.45 { 0.0 } else { 1.0 }
 }
 
-/// What is painted on a surface: dark blue balls in a grid of them, cut by it. Not averaged over a pixel: an edge of shading alone.
+/// Paint on a surface: dark blue balls in a grid of them, cut by it. Not averaged over a pixel: an edge of shading alone.
 fn dots(place: Vec3) -> Vec3 {
     let cell = place * 3.0 + 0.4;
     let away = cell - cell.floor() - 0.5;
@@ -141,8 +141,8 @@ fn dots(place: Vec3) -> Vec3 {
     }
 }
 
-/// Whether a place on a [`Material::ChainLink`] is one of its wires, which cross at right angles. `geometry.wgsl` says the
-/// same.
+/// Returns whether a place on a [`Material::ChainLink`] is one of its wires, which cross at right angles. `geometry.wgsl` says
+/// the same.
 pub(super) fn is_wire(place: Vec3) -> bool {
     let along = place.x + place.z;
     let wire = |across: f32| {

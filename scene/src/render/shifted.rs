@@ -7,9 +7,9 @@ use straightline_kernels::prelude::Frame;
 
 /// Draws with the camera turned by some pixels.
 pub struct Shifted<'a> {
-    /// Who draws.
+    /// Renderer that draws.
     pub renderer: &'a dyn Renderer,
-    /// By how much, in pixels, y down.
+    /// Offset in pixels, y down.
     pub by: Vec2,
 }
 

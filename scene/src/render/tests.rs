@@ -71,7 +71,7 @@ fn depth_and_normal_are_those_of_the_plane() {
             let (depth, normal) = renderer.geometry(offset).expect("geometry");
             for pixel in pixels(size) {
                 let y = pixel.y as f32 + 0.5 + offset.y;
-                // How far the sample's ray falls in one unit ahead, from the camera one unit above the floor.
+                // Fall of the sample's ray in one unit ahead, from the camera one unit above the floor.
                 let fall = (2.0 * y / size.y as f32 - 1.0) * 0.5_f32.tan();
                 // Half of the coarsest step that Vulkan lets a driver round corners to, a sixteenth of a pixel.
                 let rounding = 2.0 * 0.5_f32.tan() / size.y as f32 / 32.0;
@@ -115,7 +115,7 @@ fn both_sides_are_seen_with_normals_towards_the_viewer() {
     }
 }
 
-/// Where two surfaces are too far apart for rounding: a sample close to an edge fell on its other side.
+/// Returns whether two surfaces are too far apart for rounding: a sample close to an edge fell on its other side.
 fn differs(a: (f32, Vec3), b: (f32, Vec3)) -> bool {
     (a.0 / b.0 - 1.0).abs() > 2.0e-3 || (a.1 - b.1).length() > 2.0e-3
 }
@@ -302,7 +302,7 @@ fn textures_are_seen_at_pixels_and_averaged_from_afar() {
     }
 }
 
-/// Where a texture's alpha is low there is a hole, in every pass alike.
+/// Low alpha of a texture makes a hole, in every pass alike.
 #[test]
 fn alpha_makes_holes() {
     let half = std::array::from_fn(|k| [200, 150, 100, if k % 4 < 2 { 255 } else { 0 }]);
@@ -327,7 +327,7 @@ fn alpha_makes_holes() {
     );
 }
 
-/// One multisampled pass gives what four shifted passes give.
+/// A multisampled pass gives the results of four shifted passes.
 #[test]
 fn a_multisampled_pass_is_four_shifted_ones() {
     let size = uvec2(320, 180);
@@ -347,8 +347,8 @@ fn a_multisampled_pass_is_four_shifted_ones() {
             let off = pixels(size).filter(off).count();
             let share = off as f64 / f64::from(size.element_product());
             println!("{name}, sample {sample}: {:.3} % of the pixels differ", 100.0 * share);
-            // Where a sample lies within rounding of an edge, it may fall on either side: on lavapipe 0.02 %, and on
-            // SwiftShader, which rounds corners to a sixteenth of a pixel, 5 %.
+            // A sample within rounding of an edge may fall on either side: on lavapipe 0.02 %, and on SwiftShader, which rounds
+            // corners to a sixteenth of a pixel, 5 %.
             assert!(share < 0.06, "{name}, sample {sample}: {off} pixels");
             distinct += pixels(size)
                 .filter(|pixel| (depth.load(*pixel, sample) / depth.load(*pixel, 0) - 1.0).abs() > 2.0e-3)
@@ -374,7 +374,7 @@ fn a_whole_offset_shifts_the_picture() {
                 (here.0.load(from), here.1.load(from)),
             )
         });
-        // Where an edge passes a sample within rounding, the shifted one may lie on the other side.
+        // Rounding may put the shifted sample on the other side of an edge that passes close to it.
         let moved = moved.count();
         assert!(moved < 160 * 90 / 500, "{moved} pixels");
     }

@@ -1,4 +1,4 @@
-//! Where a scene is seen from.
+//! Camera of a scene, and its place.
 
 use super::SKY_DEPTH;
 use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
@@ -36,7 +36,7 @@ impl Camera {
     /// pixel's centre. z/w is 1 at `near` and falls to 0 at infinity; w is linear depth.
     pub fn projection(&self, size: UVec2, offset: Vec2) -> Mat4 {
         let aspect = size.x as f32 / size.y as f32;
-        // What lies right of the centre by `offset` must come to lie on it.
+        // The shift moves points that lie right of the centre by `offset` onto it.
         let shift = vec2(-offset.x, offset.y) * 2.0 / size.as_vec2();
         Mat4::from_translation(shift.extend(0.0)) * perspective_infinite_reverse(self.vertical_fov, aspect, self.near)
     }
@@ -55,7 +55,7 @@ impl Camera {
     ///
     /// `vertical_fov` is the angle between the picture's upper and lower edge in radians, above 0 and below π.
     pub fn framing(min: Vec3, max: Vec3, vertical_fov: f32) -> Camera {
-        // How much of the picture the box may fill, so that it does not touch the edges.
+        // Share of the picture that the box may fill, so that it does not touch the edges.
         let tangent = 0.95 * (0.5 * vertical_fov).tan();
         let centre = 0.5 * (min + max);
         // A point has a picture too.
@@ -80,7 +80,7 @@ impl Camera {
         }
     }
 
-    /// What makes this camera useless, if anything does.
+    /// Returns the defect that makes this camera useless, if it has one.
     pub(super) fn check(&self) -> Result<(), String> {
         let (position, target, up) = (Vec3::from(self.position), Vec3::from(self.target), Vec3::from(self.up));
         if !(position.length() < 0.5 * SKY_DEPTH && target.is_finite() && up.is_finite()) {
@@ -122,7 +122,7 @@ impl Camera {
     }
 }
 
-/// Where a scene is to be seen from, as far as it matters to whoever asks.
+/// Viewpoint of a scene, as far as the caller cares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
     /// The pinhole; by default where all of the scene is seen.
@@ -137,8 +137,8 @@ impl Viewpoint {
     /// The angle of cameras that frame a model, in radians.
     pub const FOV: f32 = 35.0 * std::f32::consts::PI / 180.0;
 
-    /// The camera of `by_default`, which is told the angle to use, with what is asked for; `place` says where a point that is asked for
-    /// is in the scene. Up is the world's y, but straight up or down from `eye` it is -z.
+    /// Returns the camera of `by_default`, which is given the angle to use, changed as requested; `place` converts a requested
+    /// point to the scene. Up is the world's y, but straight up or down from `eye` it is -z.
     pub fn camera(&self, by_default: impl Fn(f32) -> Camera, place: impl Fn(Vec3) -> Vec3) -> Camera {
         let mut camera = by_default(self.vertical_fov.unwrap_or(Self::FOV));
         if let Some(eye) = self.eye {
@@ -177,7 +177,7 @@ mod tests {
         let clip = CAMERA.projection(size, Vec2::ZERO) * CAMERA.view() * vec3(1.5, 2.5, -1.0).extend(1.0);
         assert!((clip.w - 4.0).abs() < 1.0e-5);
         let moved = CAMERA.projection(size, vec2(1.0, 0.5)) * CAMERA.view() * vec3(1.5, 2.5, -1.0).extend(1.0);
-        // One pixel to the left of 200, half a pixel up of 100, in a range of 2.
+        // Moved by a pixel to the left of 200, half a pixel up of 100, in a range of 2.
         assert!((moved.x / moved.w - (clip.x / clip.w - 0.01)).abs() < 1.0e-6);
         assert!((moved.y / moved.w - (clip.y / clip.w + 0.01)).abs() < 1.0e-6);
     }

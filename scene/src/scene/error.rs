@@ -29,7 +29,7 @@ pub enum SceneError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// The file is damaged, or uses what is not supported.
@@ -37,7 +37,7 @@ pub enum SceneError {
     Malformed {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and where in the file.
+        /// Description of the error, with its place in the file.
         problem: String,
     },
     /// The file is well-formed and there is nothing to draw in it.
@@ -49,7 +49,7 @@ pub enum SceneError {
     /// No renderer could draw it.
     #[error("the scene cannot be drawn: {problem}")]
     Unusable {
-        /// What is wrong, and with which vertex, triangle or camera.
+        /// Description of the error, with its vertex, triangle or camera.
         problem: String,
     },
 }

@@ -43,7 +43,7 @@ impl Mesh {
 
     /// [`polygon`](Self::polygon) of a material.
     pub fn patch(&mut self, corners: &[Vec3], color: Vec3, material: Material) {
-        // Newell's sum: twice the area along the normal, whichever corners coincide.
+        // Newell's sum: twice the area along the normal, also if corners coincide.
         let next = |i: usize| corners[(i + 1) % corners.len()];
         let area = (0..corners.len()).fold(Vec3::ZERO, |sum, i| sum + corners[i].cross(next(i)));
         if let Some(normal) = area.try_normalize() {

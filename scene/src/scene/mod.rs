@@ -1,4 +1,4 @@
-//! What the testbed draws: triangles with materials, a sun, a sky and a camera.
+//! Scenes that the testbed draws: triangles with materials, a sun, a sky and a camera.
 //!
 //! A [`Scene`] is plain data that every renderer reads alike. [`Scene::named`] makes one of [`NAMES`] without any file;
 //! [`load()`] reads a model, with the feature `models`. World space is right-handed with y up; lengths are in scene units.
@@ -39,17 +39,17 @@ pub struct Scene {
     pub vertices: Vec<Vertex>,
     /// Three indices into `vertices` for each triangle, counter-clockwise seen from the side its normals point to.
     pub triangles: Vec<[u32; 3]>,
-    /// What vertices name by number.
+    /// Textures, which vertices name by number.
     pub textures: Textures,
     /// The one light with a direction.
     pub sun: Sun,
     /// Background, and light from all around.
     pub sky: Sky,
-    /// Where the scene is seen from.
+    /// Camera that sees the scene.
     pub camera: Camera,
 }
 
-/// One corner of a triangle. Renderers interpolate position, normal, colour and place in a texture across it.
+/// A corner of a triangle. Renderers interpolate position, normal, colour and place in a texture across it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
@@ -70,7 +70,7 @@ pub struct Vertex {
     pub density: f32,
 }
 
-/// What a surface is made of, beyond its vertices' colour.
+/// Material of a surface, beyond its vertices' colour.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Material {
@@ -104,7 +104,7 @@ pub struct Sun {
     pub color: [f32; 3],
 }
 
-/// What is seen where there is no geometry, and the light that comes from there. Linear RGB.
+/// Background where there is no geometry, and the light that comes from there. Linear RGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sky {
     /// Straight up.

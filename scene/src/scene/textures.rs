@@ -7,23 +7,23 @@ use glam::{UVec2, Vec3, Vec4, uvec2};
 /// Images that repeat over surfaces, each with all its smaller levels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Textures {
-    /// Where each image lies, and from which alpha on its surface is there.
+    /// Location of each image, and the alpha from which on its surface is there.
     pub images: Vec<Image>,
     /// sRGB and alpha of 8 bits each, red in the lowest: row by row, level by level, image by image.
     pub texels: Vec<u32>,
 }
 
-/// One image. Laid out as `Image` in `paint.wgsl`.
+/// An image's place among the texels. Laid out as `Image` in `paint.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Image {
-    /// Its first texel.
+    /// Index of the first texel.
     pub first: u32,
     /// Texels across and down, of the largest level.
     pub size: [u32; 2],
     /// Each is half as wide and as high as the one before, rounded down, and at least 1.
     pub levels: u32,
-    /// Where alpha is less, there is no surface; 0 of what has no holes.
+    /// Alpha below which there is no surface; 0 of an image without holes.
     pub cutoff: f32,
 }
 
@@ -75,7 +75,7 @@ impl Textures {
                 };
                 let four = [0, 1, 2, 3].map(texel);
                 let alpha = four.iter().map(|t| t.w).sum::<f32>() * 0.25;
-                // What is not there has no colour; where nothing is, any will do.
+                // Absent texels have no colour; where all four are absent, any colour will do.
                 let weights = four.map(|t| t.w.max(1.0e-3));
                 let weighed = four.iter().zip(weights).map(|(t, w)| t.truncate() * w);
                 let color = weighed.sum::<Vec3>() / weights.iter().sum::<f32>();

@@ -1,4 +1,4 @@
-//! What stands for reading models in a build without that: every attempt is an error that names the feature.
+//! Replacement for reading models in a build without it: every attempt is an error that names the feature.
 
 use super::{EXTENSIONS, Scene, SceneError, Viewpoint};
 use std::path::Path;

@@ -11,8 +11,8 @@ use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 
-/// Where frames are shaded, one after the other and then again from the first, in pixels from the centre: four places that share no
-/// row and no column of four.
+/// Shading places of frames, one after the other and then again from the first, in pixels from the centre: four places that
+/// share no row and no column of four.
 pub const PLACES: [Vec2; 4] = [
     vec2(-0.125, -0.375),
     vec2(0.125, 0.375),
@@ -23,7 +23,7 @@ pub const PLACES: [Vec2; 4] = [
 /// The least albedo that light is what colours are divided by: the kernel's default of `albedo-floor`.
 const ALBEDO_FLOOR: f32 = 0.04;
 
-/// One frame.
+/// A frame of the sequence.
 pub struct Moment {
     renderer: CpuRenderer,
     scene: Scene,
@@ -61,7 +61,8 @@ impl Moment {
         })
     }
 
-    /// The same with albedo, and what does not follow it: of earlier frames that are, a filter is given light.
+    /// Adds albedo, and the part of the colour that does not follow it: a filter is given light of earlier frames that have
+    /// them.
     ///
     /// # Errors
     ///
@@ -78,12 +79,12 @@ impl Moment {
         Ok(self)
     }
 
-    /// Who draws it.
+    /// Returns the renderer of the frame.
     pub fn renderer(&self) -> &CpuRenderer {
         &self.renderer
     }
 
-    /// What a filter reads of this frame alone.
+    /// Returns the inputs of a filter from this frame alone.
     pub fn capture(&self) -> &Capture {
         &self.capture
     }
@@ -115,7 +116,7 @@ impl Moment {
         chosen.map_or(centre, |chosen| chosen.texels()[k] as usize)
     }
 
-    /// Its colours, or light if its albedo is known.
+    /// Colours of the frame, or light if its albedo is known.
     fn kept(&self) -> Frame<Vec4> {
         let Capture {
             albedo, rest, color, ..
@@ -153,8 +154,9 @@ impl Moment {
     }
 }
 
-/// Where the surface at each pixel's shading sample was: x and y in pixels of the raster of `then`, less where it is now in the
-/// raster without jitter; in z the linear depth of then less that of now, and in w 0. Not a number of what then lay behind the camera.
+/// Returns the motion of the surface at each pixel's shading sample: in x and y its place in pixels of the raster of `then`,
+/// less its place now in the raster without jitter; in z the linear depth of then less that of now, and in w 0. Not a number of
+/// a surface that then lay behind the camera.
 ///
 /// Both moments have the same vertices, in the same order, at other places.
 ///
@@ -180,7 +182,7 @@ pub fn motion(now: &Moment, then: &Moment) -> Result<Frame<Vec4>, RenderError> {
     }
 }
 
-/// The same of what is seen `place` from each pixel's centre. The colours of `carried` are the way back.
+/// Returns the motion of the surfaces seen `place` from each pixel's centre. The colours of `carried` are the way back.
 fn motion_at(carried: &CpuRenderer, now: &Moment, then: &Moment, place: Vec2) -> Result<Frame<Vec4>, RenderError> {
     let size = carried.size();
     let surfaces = carried.surfaces(place)?;

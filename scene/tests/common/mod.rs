@@ -11,7 +11,7 @@ impl Scratch {
     /// `name` must be unique among the tests of the crate.
     pub fn new(name: &str) -> Self {
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // What an interrupted run left behind.
+        // An interrupted run may have left files.
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).unwrap();
         Scratch(path)

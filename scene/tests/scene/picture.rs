@@ -69,7 +69,7 @@ fn at_eight_bits_is_what_a_png_gives_back() {
     let frame = gradient(uvec2(40, 30));
     picture::write(&path, &frame).unwrap();
     assert_eq!(picture::read(&path).unwrap(), picture::at_eight_bits(&frame));
-    // What no PNG holds is not made black.
+    // Values that no PNG holds are not made black.
     let spoilt = Frame::new(
         uvec2(2, 1),
         vec![vec4(f32::NAN, 0.5, 0.5, 1.0), vec4(0.5, 0.5, f32::INFINITY, 1.0)],

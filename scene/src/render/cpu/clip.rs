@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3, UVec2, Vec3, Vec4, dvec3};
 /// the same numbers, and no pixel between them is lost or drawn twice.
 pub(super) const STEPS: i32 = 256;
 
-/// How far beyond the picture's edges triangles may reach, in half sizes: farther ones are cut, so that screen
+/// Distance to which triangles may reach beyond the picture's centre, in half sizes: they are cut there, so that screen
 /// coordinates of any picture stay small.
 const GUARD: f32 = 8.0;
 
@@ -17,7 +17,7 @@ pub(super) struct ScreenTriangle {
     pub corners: [[i32; 2]; 3],
     /// Of the whole triangle: the scene's.
     pub source: u32,
-    /// Whether the side is seen that normals point to.
+    /// True if the side that normals point to is seen.
     pub front: bool,
     /// Linear depth at the whole triangle's corners.
     pub depths: Vec3,
@@ -31,7 +31,7 @@ pub(super) struct ScreenTriangle {
 }
 
 impl ScreenTriangle {
-    /// How much of each of the whole triangle's corners there is at the centre of `pixel`; together 1.
+    /// Returns the shares of the whole triangle's corners at the centre of `pixel`; their sum is 1.
     pub fn shares(&self, pixel: UVec2, size: UVec2) -> DVec3 {
         let shares = (self.to_shares * place(pixel.as_dvec2().to_array(), size)).max(DVec3::ZERO);
         let sum = shares.element_sum();

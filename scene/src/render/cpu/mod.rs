@@ -136,7 +136,7 @@ impl CpuRenderer {
             .collect()
     }
 
-    /// What is seen of `triangle` at `pixel`.
+    /// Returns the surface of `triangle` at `pixel`.
     fn surface(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2) -> Surface {
         let shares = triangle.shares(pixel, self.size).as_vec3();
         let corners = self.corners(triangle);
@@ -151,7 +151,7 @@ impl CpuRenderer {
     }
 }
 
-/// What corners have, by how much of each there is.
+/// Interpolates attributes of corners by their shares.
 fn mix([a, b, c]: [[f32; 3]; 3], shares: Vec3) -> Vec3 {
     Vec3::from(a) * shares.x + Vec3::from(b) * shares.y + Vec3::from(c) * shares.z
 }

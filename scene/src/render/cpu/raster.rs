@@ -1,4 +1,4 @@
-//! Which triangle each pixel of a band of rows shows.
+//! Finds the triangle that each pixel of a band of rows shows.
 
 use super::clip::{STEPS, ScreenTriangle};
 use glam::{UVec2, uvec2};

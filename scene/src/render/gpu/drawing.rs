@@ -70,11 +70,11 @@ impl Drawn<'_> {
     }
 }
 
-/// What a pass draws into.
+/// Target that a pass draws into.
 pub(super) struct Target<'a> {
     view: &'a TextureView,
     clear: wgpu::Color,
-    /// Where the mean of each pixel's samples goes, which then are not kept.
+    /// Texture for the mean of each pixel's samples, which then are not kept.
     resolved: Option<&'a TextureView>,
 }
 
@@ -88,7 +88,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// The same, with the mean of its samples in `mean`.
+    /// Writes the mean of the target's samples to `mean`.
     pub fn resolved(self, mean: &'a TextureView) -> Self {
         Target {
             resolved: Some(mean),

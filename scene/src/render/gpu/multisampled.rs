@@ -1,4 +1,4 @@
-//! One 4× multisampled pass instead of four shifted ones (paper §3.4).
+//! A 4× multisampled pass instead of four shifted ones (paper §3.4).
 
 use super::drawing::{Drawing, Drawn, Target, view};
 use super::guard::guarded;
@@ -21,7 +21,7 @@ pub(super) const DEPTH: TextureFormat = TextureFormat::R32Float;
 /// Unit normals in view space, to eleven bits: no wider format can be multisampled on every device.
 pub(super) const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
 
-/// What depths are where nothing is drawn.
+/// Depth where nothing is drawn.
 pub(super) const SKY_AT: wgpu::Color = wgpu::Color {
     r: SKY_DEPTH as f64,
     g: 0.0,
@@ -29,7 +29,7 @@ pub(super) const SKY_AT: wgpu::Color = wgpu::Color {
     a: 0.0,
 };
 
-/// What normals are there.
+/// Normal where nothing is drawn.
 pub(super) const SKY_FACING: wgpu::Color = wgpu::Color {
     r: 0.0,
     g: 0.0,
@@ -208,7 +208,7 @@ impl Multisampled {
         drawing.record(encoder, resources);
     }
 
-    /// What was drawn.
+    /// Returns the geometry that was drawn.
     pub fn geometry(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> MultisampledGeometry {
         MultisampledGeometry {
             device: device.clone(),

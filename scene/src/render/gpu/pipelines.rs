@@ -11,7 +11,7 @@ pub(super) const WORKGROUP: u32 = 8;
 
 #[derive(Debug)]
 pub(super) struct Pipelines {
-    /// What the text of every shader that draws the scene begins with.
+    /// Beginning of the text of every shader that draws the scene.
     pub geometry_text: String,
     geometry: wgpu::RenderPipeline,
     shading: wgpu::ComputePipeline,

@@ -85,7 +85,7 @@ fn read(
         copy(&mut encoder, &staging);
         queue.submit([encoder.finish()]);
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            // Nobody listens any more only if waiting failed, which is reported already.
+            // The receiver is gone only if waiting failed, which is reported already.
             let _ = sender.send(result);
         });
         staging

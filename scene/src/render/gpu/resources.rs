@@ -52,7 +52,7 @@ pub(super) fn check_limits(device: &wgpu::Device, scene: &Scene, size: UVec2) ->
         ("storage buffers", storage, texels, "scene"),
         ("storage buffers", storage, sums, "picture"),
         ("buffers", limits.max_buffer_size, vertices, "scene"),
-        // Its number of indices is 32 bits, too.
+        // The number of indices is 32 bits, too.
         ("buffers", limits.max_buffer_size.min(4 << 32), indices, "scene"),
     ];
     for (what, most, needed, smaller) in checks {
@@ -133,7 +133,7 @@ impl Resources {
     }
 }
 
-/// What a scene has, or of a scene without textures what nobody reads: no buffer is empty.
+/// Returns the scene's data, or some unread bytes if a scene without textures has none: no buffer is empty.
 fn some(bytes: &[u8]) -> &[u8] {
     match bytes {
         [] => &[0; 32],

@@ -16,7 +16,7 @@ const RIDGE: f32 = 6.1;
 const PLINTH: f32 = 0.42;
 /// Lower edges of the windows in either gable wall: how far right of its middle, and how high.
 const GABLE_WINDOWS: [[f32; 2]; 4] = [[-1.3, 0.95], [1.3, 0.95], [-1.3, 2.55], [1.3, 2.55]];
-/// How far the roof reaches beyond the walls.
+/// Distance by which the roof reaches beyond the walls.
 const OVERHANG: f32 = 0.45;
 
 pub(super) fn add(mesh: &mut Mesh) {
@@ -246,7 +246,7 @@ fn roof(mesh: &mut Mesh) {
     );
 }
 
-/// One slope from its upper to its lower edge, `reach` to both sides: rows of tiles, each over the next lower one.
+/// A slope from its upper to its lower edge, `reach` to both sides: rows of tiles, each over the next lower one.
 fn slope(mesh: &mut Mesh, top: Vec3, low: Vec3, reach: f32, side: f32) {
     const ROWS: u32 = 13;
     const COLUMNS: u32 = 40;

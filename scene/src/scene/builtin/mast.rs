@@ -4,7 +4,7 @@ use super::paint;
 use crate::scene::mesh::Mesh;
 use glam::{Vec3, vec3};
 
-/// Where the mast stands.
+/// Foot of the mast.
 const FOOT: Vec3 = vec3(22.5, 0.0, -17.0);
 const HEIGHT: f32 = 15.0;
 

@@ -6,8 +6,8 @@ use crate::scene::mesh::Mesh;
 use glam::{Affine3A, Vec3, vec3};
 use std::f32::consts::{PI, TAU};
 
-/// Where the ground is cut along x and z, from the camera's surroundings to where haze has taken it. One large patch
-/// would do for exact arithmetic; drivers lose digits on triangles that pass the camera and reach the horizon.
+/// Cuts of the ground along x and z, from the camera's surroundings to where haze has taken it. One large patch would do for
+/// exact arithmetic; drivers lose digits on triangles that pass the camera and reach the horizon.
 const CUTS: [f32; 15] = [
     -1500.0, -400.0, -120.0, -48.0, -24.0, -12.0, -6.0, 0.0, 6.0, 12.0, 24.0, 48.0, 120.0, 400.0, 1500.0,
 ];

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
 
 /// A stretch of triangles as a file gives them, in the file's world space. Nothing of it is trusted.
 pub(super) struct Part {
-    /// What the file calls it, for messages.
+    /// Name in the file, for messages.
     pub name: String,
     pub positions: Vec<Vec3>,
     pub normals: Normals,
@@ -19,16 +19,16 @@ pub(super) struct Part {
 
 /// A texture on a part.
 pub(super) struct Paint {
-    /// One for each position.
+    /// Coordinates in the texture, one for each position.
     pub uvs: Vec<Vec2>,
     /// Number of the image, and its size.
     pub image: u32,
     pub size: UVec2,
 }
 
-/// Where a part's normals come from.
+/// Source of a part's normals.
 pub(super) enum Normals {
-    /// One for each position, of any length above 0.
+    /// Normals of the file, one for each position, of any length above 0.
     Given(Vec<Vec3>),
     /// Each face's own.
     Flat,
@@ -40,11 +40,11 @@ pub(super) enum Normals {
 pub(super) struct Assembled {
     pub vertices: Vec<Vertex>,
     pub triangles: Vec<[u32; 3]>,
-    /// Where things of the file have come to lie.
+    /// Transform from the file's world space to the scene.
     pub place: Place,
 }
 
-/// How a file's world space was moved and scaled.
+/// Move and scale of a file's world space.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     centre: DVec3,
@@ -52,7 +52,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Where a point of the file's world space is in the scene.
+    /// Converts a point of the file's world space to the scene.
     pub fn of(&self, point: Vec3) -> Vec3 {
         ((point.as_dvec3() - self.centre) * self.scale).as_vec3()
     }

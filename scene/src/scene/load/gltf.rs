@@ -59,7 +59,7 @@ fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) 
     Ok(all)
 }
 
-/// What a URI stands for: data in itself, or a file beside the model.
+/// Reads the contents of a URI: data in itself, or a file beside the model.
 fn resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
     let shown = || shorten(uri);
     let path = match uri.split_once(':') {
@@ -194,7 +194,7 @@ impl Model<'_> {
                 .and_then(|picture| library.add(source.index(), &picture, 0.0))
                 .map_err(|problem| format!("image {}: {problem}", source.index()))?,
         };
-        // What is blended is there or not: nothing is drawn through anything.
+        // Blended surfaces are there or not: nothing is drawn through anything.
         let of_texture = |cutoff: f32| cutoff / base.base_color_factor()[3].max(1.0e-6);
         let cutoff = match material.alpha_mode() {
             AlphaMode::Opaque => 0.0,

@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use tobj::{LoadError, Material, Mesh};
 
-/// What has no material, or a material without a colour: a light grey.
+/// Colour of faces without a material, or with a material that has no colour: a light grey.
 const PLAIN: Vec3 = Vec3::splat(0.6);
 
 const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
@@ -73,7 +73,7 @@ fn read_library(path: &Path) -> Result<tobj::MTLLoadResult, (LoadError, SceneErr
     }
 }
 
-/// Most corners of a face. A polygon of more is no surface that somebody modelled.
+/// Most corners of a face. No modelled surface has a polygon of more.
 const MAX_CORNERS: usize = 1 << 16;
 
 /// Refuses faces that the parser would take too long for, or compute places beyond any list of.

@@ -17,8 +17,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), String>
     Ok((document, blob))
 }
 
-/// Whether a file that cannot be read is one of glTF 1.0: by its header or its own word, or by its meshes, which have names there
-/// and numbers from 2.0 on.
+/// Returns whether a file that cannot be read is glTF 1.0: by its header or its own word, or by its meshes, which have names
+/// there and numbers from 2.0 on.
 fn is_first(bytes: &[u8]) -> bool {
     if let Some(version) = bytes.strip_prefix(b"glTF") {
         return version.starts_with(&1u32.to_le_bytes());
@@ -62,7 +62,7 @@ fn check(json: &Root) -> Result<(), String> {
     }
 }
 
-/// Whether `uri` is text once its percent escapes are resolved.
+/// Returns whether `uri` is text once its percent escapes are resolved.
 fn is_text(uri: &str) -> bool {
     String::from_utf8(unescaped(uri)).is_ok()
 }

@@ -135,7 +135,7 @@ fn textures_lie_on_surfaces() {
     );
     for vertex in &scene.vertices {
         assert_eq!((vertex.texture, vertex.color), (1, [1.0, 0.5, 1.0]));
-        // One repetition of 1×2 texels a unit of the file, whose diagonal of 4√2 is 10 here.
+        // A repetition of 1×2 texels a unit of the file, whose diagonal of 4√2 is 10 here.
         let unit = 10.0 / (4.0 * 2.0f32.sqrt());
         assert!(
             (vertex.density * unit - 2.0f32.sqrt()).abs() < 1.0e-5,

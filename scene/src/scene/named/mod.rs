@@ -54,8 +54,8 @@ pub const NAMES: [(&str, &str); 11] = [
     ),
 ];
 
-/// Scenes whose edges are those of paint and of shadow, which filters of geometry leave as they are unless they are told of these.
-/// Studies draw them where they are asked for.
+/// Scenes whose edges are those of paint and of shadow, which filters of geometry leave as they are unless they know of these.
+/// Studies draw them on request.
 pub const OF_SHADING: [(&str, &str); 2] = [
     (
         "posters",

@@ -12,10 +12,10 @@ use glam::{UVec2, Vec2};
 use resources::{Forward, Mean, Place, Targets};
 use wgpu::CommandEncoder;
 
-/// How many samples of each pixel a pass has, and where.
+/// Number and places of a pass's samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Samples {
-    /// One, in the pixel's centre.
+    /// A single sample, in the pixel's centre.
     One,
     /// Three: those of the four but the first. Where shading is at the first, the main G-buffer has it.
     Three,
@@ -29,7 +29,7 @@ impl Samples {
     /// All, from the fewest.
     pub const ALL: [Samples; 4] = [Samples::One, Samples::Three, Samples::Four, Samples::Sixteen];
 
-    /// How many there are.
+    /// Returns the number of samples.
     pub fn count(self) -> u32 {
         match self {
             Samples::One => 1,
@@ -39,7 +39,7 @@ impl Samples {
         }
     }
 
-    /// Where they are: in pixels from the pixel's centre, y down.
+    /// Returns the places of the samples: in pixels from the pixel's centre, y down.
     pub fn offsets(self) -> Vec<Vec2> {
         match self {
             Samples::One => vec![Vec2::ZERO],
@@ -57,7 +57,7 @@ pub enum FramePass {
     Geometry(Samples),
     /// Depth and normal alone, drawn once for each sample: what SRAA reads.
     Auxiliary(Samples),
-    /// The same at four samples, drawn once, multisampled.
+    /// Depth and normal alone at four samples, drawn once, multisampled.
     AuxiliaryMultisampled,
     /// Deferred shading of the G-buffer, once for each sample, to halves.
     Shading(Samples),
@@ -174,7 +174,7 @@ impl FramePasses {
         }
     }
 
-    /// One sample of a pass that has several.
+    /// Encodes one sample of a pass that has several.
     fn encode_sample(
         &self,
         pass: FramePass,

@@ -1,4 +1,4 @@
-//! What the passes make, read back: nobody needs it to time them, but what is timed should be right.
+//! Pictures that the passes make, read back: timing needs none of them, but what is timed should be right.
 
 use super::{FramePass, FramePasses, Samples};
 use crate::render::gpu::{guarded, multisampled, read};
@@ -46,7 +46,7 @@ impl FramePasses {
         Ok((FrameLayers::new(depths), FrameLayers::new(normals)))
     }
 
-    /// The same at four samples from one multisampled pass.
+    /// Reads depth and normal back at four samples from one multisampled pass.
     ///
     /// # Errors
     ///

@@ -276,7 +276,7 @@ fn layered(
     })
 }
 
-/// One of its layers.
+/// Returns a view of one layer.
 fn one(texture: &wgpu::Texture, layer: usize) -> TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2),
