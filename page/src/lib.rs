@@ -53,7 +53,7 @@ pub enum ModuleError {
     NotThePages(&'static str),
 }
 
-/// What the page calls in a module.
+/// Exports of a module that the page uses.
 const EXPORTS: [&str; 4] = ["memory", "request", "call", "answered"];
 
 /// A WebAssembly module that has what the page calls.
@@ -101,7 +101,7 @@ fn exports(module: &[u8]) -> Option<Vec<&[u8]>> {
             let (length, after) = number(section)?;
             let (name, after) = after.split_at_checked(length)?;
             names.push(name);
-            // What kind of thing it is, and its index.
+            // The kind of the export comes first, then its index.
             section = number(after.get(1..)?)?.1;
         }
         return Some(names);

@@ -6,7 +6,7 @@ use serde_json::Value;
 /// A request or an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
-    /// What is asked or told.
+    /// The request or the answer.
     pub json: Value,
     /// Pixels, where the JSON speaks of some.
     pub bytes: Vec<u8>,

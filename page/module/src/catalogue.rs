@@ -8,9 +8,9 @@ use straightline_codegen::{Kernel, ShaderSpec};
 /// A kernel of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// Its name here: that of a built-in kernel, or folder and name of an example.
+    /// Name in the catalogue: that of a built-in kernel, or folder and name of an example.
     pub id: &'static str,
-    /// What it is for, which it stands under in the list.
+    /// Purpose, the heading of its group in the list.
     pub group: &'static str,
     /// Path and text of an example.
     pub example: Option<(&'static str, &'static str)>,
@@ -18,16 +18,16 @@ pub struct Entry {
     pub uniforms: &'static [UniformRange],
     /// Width of the result over that of the picture.
     pub scale: u32,
-    /// What becomes of its loops unless the visitor says otherwise: of long marches they stay.
+    /// Loop policy unless the visitor chooses another: long marches keep their loops.
     pub unroll: &'static str,
 }
 
 /// A number that is set at run time.
 #[derive(Clone, Copy, Debug)]
 pub struct UniformRange {
-    /// Its name in the kernel.
+    /// Name in the kernel.
     pub name: &'static str,
-    /// What it is at first, component by component.
+    /// Initial value, component by component.
     pub value: &'static [f64],
     /// The least that its control offers.
     pub min: f64,
@@ -39,7 +39,7 @@ const fn number(name: &'static str, value: &'static [f64], min: f64, max: f64) -
     UniformRange { name, value, min, max }
 }
 
-/// Where the files of a folder of the page are in the repository.
+/// Folder in the repository of a folder of the page.
 macro_rules! folder {
     ("kernels") => {
         "kernels/filters"
@@ -231,7 +231,7 @@ impl Entry {
         self.id.split_once('/').map_or(self.id, |(_, name)| name)
     }
 
-    /// One line on what it does: of an example what its text begins with.
+    /// Summary in one line: of an example the beginning of its text.
     fn summary(&self) -> String {
         match self.example {
             None => straightline_kernels::find(self.id).map_or(String::new(), |entry| entry.summary.to_owned()),

@@ -13,12 +13,12 @@ use straightline_codegen::{Compiled, Overrides, ShaderSpec};
 /// A kernel: one of the catalogue, or the text that the page's visitor has made of it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct KernelText {
-    /// Its name in the catalogue.
+    /// Name in the catalogue.
     pub id: String,
     /// The function that is the kernel; of the catalogue's own text it need not be given.
     #[serde(default)]
     pub function: String,
-    /// Its files, where they have been changed.
+    /// Changed files, if there are any.
     #[serde(default)]
     pub files: Option<Vec<SourceText>>,
 }
@@ -35,9 +35,9 @@ pub struct SourceText {
 /// A kernel in one form.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Asked {
-    /// Which kernel.
+    /// The kernel asked about.
     pub kernel: KernelText,
-    /// What its shaders compute, by the names of the command line: `{ "set": { "pattern": "latin16" }, "unroll": "none" }`.
+    /// Settings of its shaders, by the names of the command line: `{ "set": { "pattern": "latin16" }, "unroll": "none" }`.
     #[serde(default)]
     pub shader: ShaderSpec,
 }
@@ -47,7 +47,7 @@ pub struct Asked {
 pub struct CompileRequest {
     #[serde(flatten)]
     asked: Asked,
-    /// How each shader is written: `{ "stage": "fragment", "target": ["wgsl"] }`.
+    /// Options of each shader's text: `{ "stage": "fragment", "target": ["wgsl"] }`.
     #[serde(default)]
     shaders: Vec<Overrides>,
 }
@@ -98,7 +98,7 @@ fn paper(compiled: &Compiled) -> Value {
     )
 }
 
-/// One shader: its manifest and texts, and the languages that cannot have it with the reason.
+/// Makes one shader: its manifest and texts, and the languages that cannot have it with the reason.
 fn shader(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> Result<Value, Refusal> {
     let options = written.apply(spec.clone()).emit.enable_subgroups(true);
     let emitted = |targets: &[Target]| compiled.emit(&options.clone().targets(targets.iter().copied()));

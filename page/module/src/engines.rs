@@ -1,4 +1,4 @@
-//! What the templates of engines are given of a kernel. They are rendered by another module (`page/templates`), which the page loads
+//! Context of engines' templates for a kernel. They are rendered by another module (`page/templates`), which the page loads
 //! when a folder is asked for.
 
 use crate::compiled::Asked;
@@ -17,7 +17,7 @@ pub fn to_json() -> Value {
     all.collect()
 }
 
-/// What the templates of an engine are given of a kernel.
+/// Returns the context of an engine's templates for a kernel.
 pub fn context(state: &mut State, engine: &str, asked: &Asked) -> Result<Value, Refusal> {
     let engine = Engine::builtin(engine).ok_or_else(|| Refusal::of(&format!("there is no engine `{engine}`")))?;
     let options = state.kernel(&asked.kernel)?.options()?;

@@ -1,4 +1,4 @@
-//! What is wrong with a kernel, as the page shows it: places are in UTF-16, as a text area counts.
+//! Errors of a kernel, as the page shows them: places are in UTF-16, as a text area counts.
 
 use serde::Serialize;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
@@ -8,26 +8,26 @@ use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
 pub struct Refusal {
     /// All of it, as a terminal would have it.
     pub text: String,
-    /// One by one.
+    /// The single errors.
     pub errors: Vec<Error>,
 }
 
-/// One error.
+/// An error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Error {
-    /// Its code, such as `E0301`.
+    /// Code of the error, such as `E0301`.
     pub code: Option<&'static str>,
-    /// What is wrong.
+    /// Statement of the error.
     pub message: String,
     /// A few words at the place.
     pub label: String,
-    /// Where, if it is in a file.
+    /// Place of the error, if it is in a file.
     pub place: Option<Place>,
     /// Other places that matter.
     pub others: Vec<(Place, String)>,
     /// Why it is so.
     pub notes: Vec<String>,
-    /// What to write instead.
+    /// Suggestion of other code.
     pub help: Option<String>,
 }
 
@@ -42,7 +42,7 @@ pub struct Place {
     pub column: u32,
     /// First UTF-16 unit of the file's text.
     pub from: usize,
-    /// One past the last.
+    /// UTF-16 unit after the last.
     pub to: usize,
 }
 
@@ -86,7 +86,7 @@ impl From<Errors> for Refusal {
     }
 }
 
-/// Where a span is; `None` if it is in none of the files, such as the generator's own.
+/// Converts a span to a place; `None` if it is in none of the files, such as the generator's own.
 fn place(files: &[File], span: Span) -> Option<Place> {
     let text = &files.get(span.file as usize)?.text;
     let units = |byte: u32| Some(text.get(..byte as usize)?.encode_utf16().count());

@@ -1,4 +1,4 @@
-//! What a kernel's textures hold: the picture, or the scene's geometry as the kernel's options say that it is stored.
+//! Contents of a kernel's textures: the picture, or the scene's geometry as the kernel's options say that it is stored.
 
 mod geometry;
 
@@ -21,19 +21,19 @@ pub struct InputsRequest {
     size: [u32; 2],
 }
 
-/// What one texture holds.
+/// Contents of one texture.
 pub struct Plane {
     /// The texture's name in the kernel.
     pub name: String,
     /// Width and height.
     pub size: [u32; 2],
-    /// How texels are stored.
+    /// Format of the stored texels.
     pub format: TexelFormat,
     /// Layers of rows from the top.
     pub layers: Vec<Vec<[f32; 4]>>,
-    /// Whether it is an array of layers, be it of one.
+    /// True if the texture is an array of layers, be it of one.
     pub layered: bool,
-    /// Whether it is the scene's geometry, which a visitor's picture does not have.
+    /// True if the texture holds the scene's geometry, which a visitor's picture does not have.
     pub geometry: bool,
 }
 
@@ -42,9 +42,9 @@ struct Wanted<'a> {
     name: &'a str,
     /// Components that the kernel uses.
     components: u8,
-    /// Whether a sampler filters it.
+    /// True if a sampler filters the texture.
     filtered: bool,
-    /// Whether it has the size of the result, or that of the picture.
+    /// True if the texture has the size of the result, false if that of the picture.
     framed: bool,
     layered: bool,
     compiled: &'a Compiled,
@@ -105,7 +105,7 @@ fn uniforms(size: [u32; 2]) -> Map<String, Value> {
     all.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-/// What every texture of a kernel holds.
+/// Fills every texture of a kernel.
 ///
 /// # Errors
 ///

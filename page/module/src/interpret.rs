@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use straightline_codegen::interp::{Bindings, Image, Interpreter};
 use straightline_page_abi::Message;
 
-/// What to compute.
+/// Request to compute a picture.
 #[derive(Deserialize)]
 pub struct InterpretRequest {
     #[serde(flatten)]

@@ -1,4 +1,4 @@
-//! What the page asks of the generator, and what it is told.
+//! Requests of the page to the generator, and the answers.
 
 use crate::compiled::{Asked, CompileRequest, KernelText, compile};
 use crate::inputs::{InputsRequest, inputs, reference};
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::cell::RefCell;
 use straightline_page_abi::Message;
 
-/// What can be asked.
+/// A request of the page.
 #[derive(Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case")]
 enum Request {
@@ -20,13 +20,13 @@ enum Request {
     Source { kernel: KernelText },
     /// Shaders, manifest, counts and options of a kernel.
     Compile(CompileRequest),
-    /// What the templates of an engine are given of a kernel.
+    /// Context of an engine's templates for a kernel.
     Engine {
         engine: String,
         #[serde(flatten)]
         asked: Asked,
     },
-    /// What a kernel's textures hold.
+    /// Contents of a kernel's textures.
     Inputs(InputsRequest),
     /// A kernel's picture, computed here.
     Interpret(InterpretRequest),

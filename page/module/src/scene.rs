@@ -21,7 +21,7 @@ pub const FAR: f32 = 1000.0;
 /// Pixels that one unit at distance one covers, where the picture is [`SIZE`].
 const FOCAL: f32 = 300.0;
 
-/// What is seen at a place.
+/// Surface seen at a place.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     /// Depth along the view.
@@ -113,7 +113,7 @@ fn direction(size: [u32; 2], at: Vec2) -> Vec3 {
     vec3(view.x, 0.0, 0.0) + DOWN * view.y + AWAY * view.z
 }
 
-/// What is seen at a place.
+/// Returns the surface seen at a place.
 pub fn surface(size: [u32; 2], at: Vec2) -> Surface {
     match solids::hit(EYE, direction(size, at), FAR) {
         None => Surface {
@@ -127,7 +127,7 @@ pub fn surface(size: [u32; 2], at: Vec2) -> Surface {
     }
 }
 
-/// Its colour, in linear light.
+/// Returns the colour seen at a place, in linear light.
 pub fn colour(size: [u32; 2], at: Vec2) -> Vec3 {
     let direction = direction(size, at);
     match solids::hit(EYE, direction, FAR) {

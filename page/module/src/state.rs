@@ -1,4 +1,4 @@
-//! What a module remembers between calls.
+//! State of a module between calls.
 
 use crate::catalogue;
 use crate::compiled::{Asked, KernelText};
@@ -14,7 +14,7 @@ const KEPT: usize = 6;
 /// Most pixels of a visitor's picture.
 const MOST_PIXELS: u64 = 1 << 24;
 
-/// One page's state.
+/// State of a page.
 #[derive(Default)]
 pub struct State {
     kernels: Vec<(KernelText, Arc<Kernel>)>,
@@ -59,7 +59,7 @@ impl State {
         Ok(compiled)
     }
 
-    /// What a kernel's compute shader binds.
+    /// Returns the manifest of a kernel's compute shader.
     pub fn manifest(&mut self, asked: &Asked) -> Result<Arc<Manifest>, Refusal> {
         if let Some((_, manifest)) = self.manifests.iter().find(|(known, _)| known == asked) {
             return Ok(Arc::clone(manifest));

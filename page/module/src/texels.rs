@@ -46,12 +46,12 @@ pub fn rounded(value: f32) -> f32 {
     f16::from_f32(value).to_f32()
 }
 
-/// How texels lie in memory; the names are WebGPU's.
+/// Memory layout of texels; the names are WebGPU's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TexelFormat {
-    /// One 32-bit float: `r32float`.
+    /// A single 32-bit float: `r32float`.
     R32,
-    /// One 16-bit float: `r16float`.
+    /// A single 16-bit float: `r16float`.
     R16,
     /// Two 16-bit floats: `rg16float`.
     Rg16,

@@ -6,7 +6,7 @@ use straightline_codegen::spec::KNOBS;
 use straightline_codegen::{Kernel, Overrides, ShaderSpec};
 use straightline_page_module::{Message, answer, entries};
 
-/// What the module answers.
+/// Returns the module's answer.
 fn ask(json: Value, bytes: &[u8]) -> Result<Message, Value> {
     let request = Message {
         json,
@@ -166,7 +166,7 @@ fn sraa_reads_the_scene_in_every_encoding() {
             .collect::<Vec<f32>>()
     };
     let plain = picture(json!({}));
-    // The same surfaces, stored otherwise: the same picture, but for what an encoding rounds.
+    // Other encodings of the same surfaces must give the same picture, except for their rounding.
     for options in [
         json!({ "layout": "superresolution" }),
         json!({ "normals": "unorm" }),

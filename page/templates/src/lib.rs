@@ -8,12 +8,12 @@ use straightline_page_abi::Message;
 
 straightline_page_abi::export!(crate::answer);
 
-/// What is asked.
+/// A request of the page.
 #[derive(Deserialize)]
 struct Request {
     /// A built-in engine.
     engine: String,
-    /// What its templates are given, from the generator.
+    /// Context of the engine's templates, from the generator.
     context: Value,
 }
 

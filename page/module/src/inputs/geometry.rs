@@ -7,7 +7,7 @@ use crate::texels::{Picture, TexelFormat};
 use glam::{Vec2, Vec3, vec2};
 use straightline_kernels::sraa::{Pattern, Sraa};
 
-/// Whether a texture holds what only a scene has.
+/// Returns whether a texture holds data that only a scene has.
 pub fn is(wanted: &Wanted<'_>) -> bool {
     let rest = wanted.name.strip_prefix("centre_").unwrap_or(wanted.name);
     match rest.strip_suffix("_grid").unwrap_or(rest) {
@@ -17,7 +17,7 @@ pub fn is(wanted: &Wanted<'_>) -> bool {
     }
 }
 
-/// What such a texture holds; `None` of any other.
+/// Fills a texture of geometry; `None` of any other.
 pub fn plane(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> Option<Plane> {
     let base = if wanted.framed { size } else { scene::SIZE };
     let kernel = wanted.compiled.kernel.as_str();
@@ -128,7 +128,7 @@ fn grid(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Ve
     ([(width * columns) as u32, (height * rows) as u32], vec![texels])
 }
 
-/// How a texture holds a surface, found once: there are a million of them.
+/// Encoding of a surface in a texture, found once: there are a million of them.
 #[derive(Clone, Copy)]
 struct Encoding {
     /// Of depths: factor and summand of the nearness, near plane over depth; `None` of depths as they are.
@@ -136,7 +136,7 @@ struct Encoding {
     holds: Holds,
 }
 
-/// What a texel holds.
+/// Contents of a texel.
 #[derive(Clone, Copy)]
 enum Holds {
     Depth,
@@ -202,7 +202,7 @@ fn octahedral(normal: Vec3) -> Vec2 {
     }
 }
 
-/// How far each pixel has moved: to the side for what shows motion, and not at all for what hides it.
+/// Motion of each pixel: to the side for kernels that show motion, and none for those that hide it.
 fn motion(kernel: &str, size: [u32; 2]) -> Vec<[f32; 4]> {
     let moved = if kernel == "motion_blur" {
         [18.0, 4.0, 0.0, 0.0]

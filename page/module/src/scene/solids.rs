@@ -1,26 +1,26 @@
-//! What the scene is made of, and where a ray meets it.
+//! Solids of the scene, and their intersections with rays.
 
 use glam::{Vec3, vec3};
 
-/// Where a ray meets a solid.
+/// Intersection of a ray with a solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
     /// In lengths of the ray's direction.
     pub distance: f32,
     /// Unit normal, outwards.
     pub normal: Vec3,
-    /// What it is made of.
+    /// Material of the solid.
     pub material: Material,
 }
 
-/// What a solid is made of.
+/// Material of a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
     /// The tiled ground.
     Tiles,
     /// A wall with windows.
     Wall,
-    /// One colour, and how much it shines.
+    /// A colour, and the strength of its highlights.
     Plain(Vec3, f32),
 }
 
@@ -141,7 +141,7 @@ pub fn hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
     nearest
 }
 
-/// Whether a ray passes by the sphere around a block, which is quickly told.
+/// Returns whether a ray misses the sphere around a block, a quick test.
 fn passes(from: Vec3, direction: Vec3, half: Vec3) -> bool {
     let (a, b) = (direction.length_squared(), from.dot(direction));
     b * b < a * (from.length_squared() - half.length_squared())
