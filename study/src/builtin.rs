@@ -43,7 +43,7 @@ pub fn parse_settings(kernel: &Kernel, settings: &[OptionText]) -> Result<Vec<Se
     Ok(named.collect())
 }
 
-/// The same as text, for the generator and for records.
+/// Spells settings as text, for the generator and for records.
 pub fn spell_settings(settings: &[Setting]) -> Vec<OptionText> {
     let spelled = settings.iter().map(|(name, value)| (name.clone(), value.to_string()));
     spelled.collect()

@@ -1,12 +1,12 @@
-//! How far a study is, and whether to stop it.
+//! Progress of a study, and requests to stop it.
 
-/// Is told how far a study is, and says whether to stop.
+/// Receives the progress of a study, and can ask it to stop.
 pub trait Progress {
     /// `steps` steps of `what` come next.
     fn begin(&mut self, what: &str, steps: usize);
-    /// One of them is done.
+    /// Reports that a step is done.
     fn step(&mut self);
-    /// Whether to stop at once, and keep what was measured.
+    /// Returns whether to stop at once, and keep what was measured.
     fn stopped(&self) -> bool;
 }
 

@@ -91,7 +91,7 @@ fn isolines(values: &[(DVec2, f64)]) -> Option<DVec2> {
     (slope.is_finite() && explained >= EXPLAINED * variance && explained > 0.0).then(|| slope.perp().normalize())
 }
 
-/// How long the line through `place` in the direction `along`, of length 1, runs through the pixel around the origin.
+/// Returns the length of the line through `place` in the direction `along`, of length 1, within the pixel around the origin.
 fn chord(place: DVec2, along: DVec2) -> f64 {
     let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..2 {

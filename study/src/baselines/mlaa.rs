@@ -13,7 +13,7 @@ use glam::{UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 
-/// The least difference of a colour that is an edge: what the upper four of eight bits tell apart.
+/// The least difference of a colour that is an edge: a step of the upper four of eight bits.
 const EDGE: f32 = 16.0 / 255.0;
 
 /// A rounding less than a step of 8 bits.
@@ -64,7 +64,7 @@ struct Grid<'a> {
     stride: usize,
 }
 
-/// Where an edge meets the end of a separation line at a right angle.
+/// Edge at a right angle that meets the end of a separation line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
     /// On the side of the row before the line.
@@ -90,7 +90,7 @@ impl Grid<'_> {
         lines.flat_map_iter(|row| self.of_line(row)).collect()
     }
 
-    /// Those of the separation lines between a row and the next.
+    /// Blends of the separation lines between a row and the next.
     fn of_line(&self, row: usize) -> Vec<(usize, usize, f32)> {
         let is_edge = |k: usize| self.differ(self.at(row, k), self.at(row + 1, k));
         let mut found = Vec::new();
@@ -108,7 +108,7 @@ impl Grid<'_> {
         found
     }
 
-    /// Those of the line between pixels `first..end` of a row and the next.
+    /// Blends of the line between pixels `first..end` of a row and the next.
     fn of_run(&self, row: usize, first: usize, end: usize, found: &mut Vec<(usize, usize, f32)>) {
         let ends = [self.end(row, first), self.end(row, end)];
         let length = (end - first) as f32;
@@ -133,7 +133,7 @@ impl Grid<'_> {
         }
     }
 
-    /// What meets the separation line after `row` between its pixels `k - 1` and `k`.
+    /// Returns the edge that meets the separation line after `row` between its pixels `k - 1` and `k`.
     fn end(&self, row: usize, k: usize) -> End {
         if k == 0 || k >= self.along {
             return End::None;
@@ -191,7 +191,7 @@ mod tests {
         let found = mlaa(&stairs);
         assert_eq!(&light(&found)[1][4..8], &[0.375 + 0.125, 0.125, 0.0, 0.0]);
         assert_eq!(&light(&found)[2][4..8], &[1.0, 1.0, 0.875, 1.0 - 0.375 - 0.125]);
-        // The same by columns.
+        // Columns must give the mirrored result.
         assert_eq!(mirrored(&found), mlaa(&mirrored(&stairs)));
     }
 

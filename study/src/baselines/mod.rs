@@ -1,4 +1,4 @@
-//! What SRAA is compared with and is not ours: filters that look at the picture alone, or at its samples.
+//! Foreign baselines for SRAA: filters that look at the picture alone, or at its samples.
 
 mod copy;
 mod directional;

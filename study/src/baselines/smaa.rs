@@ -30,7 +30,7 @@ pub struct Smaa {
 }
 
 impl Smaa {
-    /// Its passes on the bench's device, for pictures of `size` pixels.
+    /// Makes the passes on the bench's device, for pictures of `size` pixels.
     ///
     /// # Errors
     ///
@@ -88,7 +88,7 @@ impl Smaa {
         Ok(self.transfer.taken(&bench.download(&result)?))
     }
 
-    /// Its three passes once more on the picture of the last [`run`](Self::run), and how long they took.
+    /// Runs the three passes once more on the picture of the last [`run`](Self::run), and returns their duration.
     ///
     /// # Errors
     ///
@@ -129,7 +129,8 @@ fn failed(doing: &'static str, error: impl ToString) -> ExecuteError {
     }
 }
 
-/// What `submit` takes by the device's own clock: empty passes before and after it hold the timestamps, since its passes have
+/// Returns the duration of `submit` by the device's own clock: empty passes before and after it hold the timestamps, since its
+/// passes have
 /// no place for them.
 fn between_stamps(bench: &Bench, submit: impl FnOnce()) -> Result<Duration, ExecuteError> {
     let (device, queue) = (bench.device(), bench.queue());
@@ -170,7 +171,7 @@ fn between_stamps(bench: &Bench, submit: impl FnOnce()) -> Result<Duration, Exec
     let doing = "timing SMAA";
     let (sender, receiver) = mpsc::channel();
     read.map_async(wgpu::MapMode::Read, .., move |result| {
-        // The receiver is gone only if waiting failed, and then nobody wants to know.
+        // The receiver is gone only if waiting failed, and then the result is of no use.
         let _ = sender.send(result);
     });
     bench.wait()?;

@@ -9,7 +9,7 @@ use glam::{Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture::srgb;
 
-/// What the numbers of a picture mean that a filter is given.
+/// Transfer function of the picture that a filter is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
     /// sRGB values: even steps for the eye.
@@ -30,7 +30,7 @@ impl Transfer {
         })
     }
 
-    /// What the filter made, linear again.
+    /// Makes a filter's result linear again.
     pub fn taken(self, filtered: &Frame<Vec4>) -> Frame<Vec4> {
         match self {
             Transfer::Srgb => each(filtered, |color| color.map(|v| srgb::decode(v.clamp(0.0, 1.0)))),

@@ -1,4 +1,4 @@
-//! What a hard case is: something seen at every sample, and the settings that it is filtered with.
+//! Hard cases: something seen at every sample, and the settings that it is filtered with.
 
 use glam::{UVec2, Vec2, Vec3, Vec4, vec2, vec3};
 use straightline_scene::encode::DepthStorage;
@@ -6,25 +6,25 @@ use straightline_scene::encode::DepthStorage;
 /// A small world with one thing in it that is hard to compute.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// One word or several with hyphens.
+    /// Name: one word or several with hyphens.
     pub name: &'static str,
-    /// What is hard about it, in a line.
+    /// Description of the difficulty, in a line.
     pub about: &'static str,
     /// Width and height in pixels.
     pub size: UVec2,
-    /// Whether scenes really have this, so that a precision that fails here is of no use; the others are accidents, which
-    /// only must not spread.
+    /// True if scenes really have this, so that a precision that fails here is of no use; the others are accidents, which only
+    /// must not spread.
     pub common: bool,
     /// Options of SRAA that it is about; it then runs with the forms of SRAA that have something to say to them, and with no
     /// other kernel.
     pub options: &'static [(&'static str, &'static str)],
     /// Numbers of SRAA that are given at run time, of options that are `uniform`.
     pub uniforms: &'static [(&'static str, f64)],
-    /// How a depth that `options` encodes is held.
+    /// Storage of a depth that `options` encodes.
     pub storage: DepthStorage,
     /// Linear depths of the near and far plane, of an encoded depth.
     pub planes: [f32; 2],
-    /// What is seen.
+    /// Surface seen at each place.
     pub seen: fn(&Place) -> Seen,
     /// Coordinates in a shadow map, of a case that is about them; it then runs with the filters of shadow maps alone.
     pub coord: Option<fn(&Place) -> Vec3>,
@@ -32,7 +32,7 @@ pub struct Case {
     pub map: UVec2,
 }
 
-/// Where something is seen.
+/// Place at which something is seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// The pixel.
@@ -45,7 +45,7 @@ pub struct Place {
     pub sample: Option<usize>,
 }
 
-/// What is seen at a place.
+/// Surface seen at a place.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     /// Linear depth.
@@ -56,7 +56,7 @@ pub struct Seen {
     pub color: Vec4,
 }
 
-/// What a G-buffer holds for a normal.
+/// Normal as a G-buffer holds it.
 #[derive(Clone, Copy, Debug)]
 pub enum Normal {
     /// This vector, in whatever encoding.
@@ -131,7 +131,8 @@ impl Case {
         self
     }
 
-    /// Where `pixel` lies in the shadow map, and its depth there: as a light close to the eye sees it, unless the case says otherwise.
+    /// Returns the place of `pixel` in the shadow map, and its depth there: as a light close to the eye sees it, unless the
+    /// case says otherwise.
     pub fn coordinates_at(&self, pixel: UVec2) -> Vec3 {
         let place = self.place(pixel.as_vec2() + 0.5);
         if let Some(coord) = self.coord {
@@ -162,7 +163,7 @@ impl Case {
         }
     }
 
-    /// What is seen in `pixel`, `offset` from its centre.
+    /// Returns the surface seen in `pixel`, `offset` from its centre.
     pub fn at(&self, pixel: UVec2, offset: Vec2, sample: Option<usize>) -> Seen {
         (self.seen)(&Place {
             pixel,
@@ -176,7 +177,7 @@ impl Case {
 /// Depths of the built-in world over those of a shadow map.
 const LIGHT_SCALE: f32 = 0.05;
 
-/// Where the eye looks in the shadow map, so that no pixel lies on the border of texels.
+/// Place in the shadow map at which the eye looks, so that no pixel lies on the border of texels.
 const LIGHT_CENTRE: Vec2 = Vec2::new(0.5137, 0.4891);
 
 impl Place {
@@ -190,13 +191,13 @@ impl Place {
         noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind)
     }
 
-    /// The same, another at each sample.
+    /// Noise that differs at each sample.
     pub fn sample_noise(&self, kind: u32) -> f32 {
         let sample = self.sample.map_or(64, |k| k as u32);
         noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind + 1_000_003 * (sample + 1))
     }
 
-    /// Whether the pixel is one of a few, at least one in every picture.
+    /// Returns whether the pixel is one of a few, at least one in every picture.
     pub fn is_spot(&self) -> bool {
         self.pixel == self.size / 2 || self.noise(99) < 0.06
     }
@@ -206,7 +207,7 @@ impl Place {
         Vec4::new(self.noise(1), self.noise(2), self.noise(3), 1.0)
     }
 
-    /// Whether the pixel is one lane of its quad: the second of the first row.
+    /// Returns whether the pixel is one lane of its quad: the second of the first row.
     pub fn is_one_lane(&self) -> bool {
         self.pixel.x % 2 == 1 && self.pixel.y.is_multiple_of(2)
     }
@@ -218,7 +219,7 @@ impl Place {
         vec3(across.x, across.y, depth - 0.01 + 0.02 * self.noise(12))
     }
 
-    /// Whether it lies behind a slanted edge through the picture's middle.
+    /// Returns whether the place lies behind a slanted edge through the picture's middle.
     pub fn is_behind(&self) -> bool {
         let from = self.centred();
         vec2(0.93, 0.37).dot(from) > 0.03

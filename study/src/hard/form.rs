@@ -1,4 +1,4 @@
-//! Which kernels hard cases are run with, in which options.
+//! Kernels that hard cases are run with, and their options.
 
 use super::HardError;
 use super::case::Case;
@@ -7,7 +7,7 @@ use straightline_codegen::Math;
 use straightline_kernels::{HalfPrecision, OptionText, OptionValues};
 use straightline_scene::render::PlacedBy;
 
-/// What a kernel reads, and which definition judges it.
+/// Inputs of a kernel, and the definition that judges it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// SRAA.
@@ -33,19 +33,19 @@ pub enum Family {
 /// A kernel with options.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Form {
-    /// What it is called in records: `sraa`, `sraa paper`.
+    /// Name in records: `sraa`, `sraa paper`.
     pub name: String,
     /// The built-in kernel.
     pub kernel: String,
-    /// What it reads.
+    /// Inputs and definition of the kernel.
     pub family: Family,
     /// Options that are not the default.
     pub options: Vec<OptionText>,
-    /// Which algebra is done.
+    /// Algebra that is done.
     pub math: Math,
-    /// Whether it promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
+    /// True if the form promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
     pub promises: bool,
-    /// Whether it runs cases that set options.
+    /// True if the form runs cases that set options.
     pub takes_options: bool,
 }
 
@@ -217,7 +217,7 @@ impl Form {
         fits.then(|| [self.options.clone(), owned(case.options)].concat())
     }
 
-    /// What 11 bits cannot hold of what a kernel with `options` computes.
+    /// Returns the reason why 11 bits cannot hold the numbers of a kernel with `options`.
     pub fn why(&self, options: &OptionValues) -> &'static str {
         match straightline_kernels::find(&self.kernel).map(|entry| (entry.half)(options)) {
             Some(HalfPrecision::Lost(reason)) => reason,
@@ -257,17 +257,17 @@ impl Family {
         Family::Pcss,
     ];
 
-    /// Whether it filters a shadow map.
+    /// Returns whether the family filters a shadow map.
     pub fn reads_shadows(self) -> bool {
         matches!(self, Family::Pcf | Family::Pcss)
     }
 
-    /// Whether it gives light from 0 to 1, and no colours.
+    /// Returns whether the family gives light from 0 to 1, and no colours.
     pub fn gives_light(self) -> bool {
         self.reads_shadows() || self == Family::Ssao
     }
 
-    /// Whether four pixels are computed together.
+    /// Returns whether four pixels are computed together.
     pub fn is_of_quads(self) -> bool {
         !matches!(self, Family::Sraa | Family::Stalker | Family::TabulaRasa)
     }

@@ -10,7 +10,7 @@ use straightline_kernels::{OptionValue, OptionValues};
 use straightline_oracle::oracle::{self, Shading, SraaParams};
 use straightline_scene::encode::{self, DepthEncoding, NormalEncoding};
 
-/// What a form reads of a case, and the numbers of its definition.
+/// Inputs of a form in a case, and the numbers of its definition.
 pub struct Reads {
     /// Images and uniforms.
     pub inputs: Inputs,
@@ -18,7 +18,7 @@ pub struct Reads {
     pub params: Option<SraaParams>,
 }
 
-/// What a form with `options` reads of a case.
+/// Makes the inputs of a form with `options` in a case.
 pub fn reads(case: &Case, form: &Form, options: &OptionValues) -> Result<Reads, HardError> {
     let inputs = match form.family {
         Family::Sraa => {
@@ -190,7 +190,7 @@ fn cubic_table(half: f32) -> Frame<Vec4> {
     })
 }
 
-/// What a case calls a normal, without any encoding.
+/// Returns the normal of a case, without any encoding.
 fn vector(seen: &Seen) -> Vec3 {
     match seen.normal {
         Normal::Vector(vector) => vector,

@@ -1,4 +1,4 @@
-//! One form on one case: computed, compared, judged.
+//! Runs one form on one case: computes, compares, judges.
 
 use super::HardError;
 use super::case::Case;
@@ -24,7 +24,7 @@ pub struct Trial<'a> {
     expected: Expected,
 }
 
-/// What was computed.
+/// Result of one run.
 struct Found {
     texels: Vec<[f64; 4]>,
     non_finite_origins: Vec<([u32; 2], String)>,
@@ -87,7 +87,7 @@ impl<'a> Trial<'a> {
         Ok(self.judged(&self.executed(found)?, precision, Executor::Gpu))
     }
 
-    /// What was not run, and why.
+    /// Records a run that did not take place, and the reason.
     pub fn refused(&self, precision: Precision, executor: Executor, why: &str) -> HardResult {
         HardResult {
             kernel: self.form.name.clone(),
@@ -207,7 +207,7 @@ fn place(x: f64, precision: Precision) -> f64 {
 pub fn compile(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
     let settings = straightline_codegen::Settings::new()
         .set_all(options.to_vec())
-        // One invocation computes a quad: the stage is a compute shader.
+        // Each invocation computes a quad: the stage is a compute shader.
         .transport(
             form.family
                 .is_of_quads()

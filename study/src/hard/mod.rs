@@ -60,7 +60,7 @@ pub enum HardError {
     /// A kernel does not compile.
     #[error("{form}: {errors}")]
     Kernel {
-        /// Which.
+        /// Name of the form.
         form: String,
         /// Why.
         errors: Errors,
@@ -68,7 +68,7 @@ pub enum HardError {
     /// A kernel could not be run.
     #[error("{form} on `{case}`: {source}")]
     Execute {
-        /// Which.
+        /// Name of the form.
         form: String,
         /// On what.
         case: String,

@@ -140,7 +140,7 @@ impl<R: Real> Loose<R> {
     }
 }
 
-/// One of the two neighbours of a number that has two.
+/// Rounds a number that has two neighbours to one of them.
 fn rounded<R: Real>(exact: f64, key: u64) -> R {
     let nearest = R::from_f64(exact);
     let found = nearest.to_f64();

@@ -15,7 +15,7 @@ use straightline_kernels::OptionText;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
 
-/// What to run.
+/// Cases, forms and precisions to run.
 #[derive(Clone, Debug)]
 pub struct Selection {
     /// Cases.

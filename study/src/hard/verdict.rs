@@ -1,4 +1,4 @@
-//! Which kernels may compute in half precision: those that stay within what can be seen in every case that scenes have.
+//! Verdict on half precision: the kernels whose error stays within what can be seen in every case that scenes have.
 
 use super::case::Case;
 use super::form::Form;
@@ -10,9 +10,9 @@ use rayon::prelude::*;
 use straightline_codegen::Precision;
 use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
-/// Whether a built-in kernel with `options` may compute in half precision: by the interpreter, with and without subnormal
-/// numbers, on every case that scenes have. How far it would be off on a device that is as inexact as WGSL allows is told, but
-/// decides nothing: known ones are not.
+/// Decides whether a built-in kernel with `options` may compute in half precision: by the interpreter, with and without
+/// subnormal numbers, on every case that scenes have. The error on a device that is as inexact as WGSL allows is reported, but
+/// decides nothing: known devices are more exact.
 ///
 /// A layout of the G-buffer changes nothing of what is computed and is left out.
 ///
@@ -30,7 +30,7 @@ pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<Ha
             return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
         }
     }
-    // What their places lose in 11 bits, larger pictures than those of the cases show.
+    // Only larger pictures than those of the cases show the precision that places lose in 11 bits.
     if kernel == "quad_ssao" || values.choice("taps") == Some("bilinear") {
         return Err(HardError::NotStudied(kernel.to_owned()));
     }
@@ -80,7 +80,7 @@ fn verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict
     let all: Vec<(&HardCase, &HardResult)> = common.flat_map(|c| own(c, form).map(move |r| (c, r))).collect();
     let is_loose = |r: &HardResult| r.executor == Executor::InterpreterLoose;
     let results: Vec<_> = all.iter().filter(|(_, r)| !is_loose(r)).copied().collect();
-    // How many times the limit, most for what is not even finite.
+    // Error as a multiple of the limit, greatest for results that are not even finite.
     let excess = |r: &HardResult| match (r.non_finite, r.difference, r.bound) {
         (0, Some(off), Some(limit)) if limit > 0.0 => off / limit,
         (0, ..) => 0.0,

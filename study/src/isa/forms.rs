@@ -51,7 +51,7 @@ pub fn forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaS
     Ok(all)
 }
 
-/// What naga makes of WGSL that is not ours.
+/// Translates WGSL that is not ours to SPIR-V by naga.
 fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
     let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
     let mut validator = naga::valid::Validator::new(Default::default(), Default::default());
@@ -128,7 +128,7 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
     }
 }
 
-/// What glslang makes of the GLSL.
+/// Translates the GLSL to SPIR-V by glslang.
 fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u8>, String> {
     let folder = std::env::temp_dir().join(format!("straightline-isa-{}", std::process::id()));
     let failed = |e: std::io::Error| e.to_string();

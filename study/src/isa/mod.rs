@@ -1,4 +1,5 @@
-//! What GPU compilers make of shaders, without the GPUs (`straightline-isa`): unrolled and looped, as naga writes their SPIR-V and
+//! Machine code of GPU compilers for shaders, without the GPUs (`straightline-isa`): unrolled and looped, as naga writes their
+//! SPIR-V and
 //! as glslang does.
 
 mod forms;
@@ -21,9 +22,9 @@ pub enum IsaStudyError {
     /// A kernel is not one.
     #[error("{name}: {errors}")]
     Kernel {
-        /// Its name.
+        /// Name of the kernel.
         name: String,
-        /// What is wrong with it.
+        /// Errors of the kernel.
         errors: Errors,
     },
     /// A compiler cannot be asked.
@@ -31,7 +32,7 @@ pub enum IsaStudyError {
     Compiler(#[from] IsaError),
 }
 
-/// What is asked.
+/// Compilers and kernels to ask about.
 #[derive(Clone, Debug)]
 pub struct Question {
     /// Of whose GPUs; of all that the driver compiles for, if none is named.

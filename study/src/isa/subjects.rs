@@ -1,4 +1,4 @@
-//! What compilers are asked about beside the kernels of `study loops`.
+//! Kernels that compilers are asked about beside those of `study loops`.
 
 use crate::loops::{Input, Subject};
 use straightline_codegen::Kernel;
@@ -29,12 +29,12 @@ const SAME_WORK: [(&str, &str); 6] = [
     ("guards", "none"),
 ];
 
-/// What goes beyond the paper: shading where geometry asks for it, and a search for what no tap shows.
+/// Options beyond the paper: shading where geometry asks for it, and a search for surfaces that no tap shows.
 const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
 const SEARCHED: (&str, &str) = ("search", "five");
 const PLACED: (&str, &str) = ("shading", "placed");
 
-/// Where the filter is computed again, with all tests, and what stands there instead.
+/// The lines that compute the filter again, with all tests, and their replacement.
 const AGAIN: [&str; 2] = [
     "                again::<TAPS, SIDE>(cfg, inputs)\n",
     "                vec4(color.x, color.y, color.z, 0.0)\n",

@@ -17,9 +17,9 @@ use straightline_runtime::{Pass, PassOptions};
 pub struct Forms {
     /// With all loops unrolled; it is among `made`, too.
     pub full: Compiled,
-    /// Those that there are.
+    /// Forms that compile.
     pub made: Vec<(FormKind, Compiled)>,
-    /// Those that there are not.
+    /// Forms that do not exist, with the reason.
     pub absent: Vec<(FormKind, String)>,
 }
 
@@ -132,7 +132,7 @@ fn reads(compiled: &Compiled) -> u32 {
     compiled.in_blocks().counts.reads.values().sum()
 }
 
-/// Whether wgpu is to leave loops as they are.
+/// Returns whether wgpu is to leave loops as they are.
 fn is_unbounded(kind: FormKind) -> bool {
     matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked)
 }
@@ -150,13 +150,14 @@ fn emit_options(kind: FormKind) -> EmitOptions {
         .targets([Target::Wgsl, Target::Spirv])
 }
 
-/// How every compute shader begins: invocations beyond the border leave.
+/// Beginning of every compute shader: invocations beyond the border return.
 const BORDER: &str = "if any(pixel >= frame) {";
 
-/// How those begin whose workgroups share something: all go on, and those beyond the border store nothing.
+/// Beginning of compute shaders whose workgroups share memory: all invocations go on, and those beyond the border store
+/// nothing.
 const INSIDE: &str = "let inside = all(pixel < frame);";
 
-/// The same shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
+/// Returns the shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
 /// that no picture has are beyond the border, too.
 fn unseen(emitted: &Emitted) -> Emitted {
     static MADE: AtomicU32 = AtomicU32::new(0);
@@ -178,13 +179,13 @@ fn unseen(emitted: &Emitted) -> Emitted {
 
 /// A form on a device.
 pub struct Ready {
-    /// Which.
+    /// Kind of the form.
     pub kind: FormKind,
-    /// What was emitted.
+    /// The emitted shader.
     pub emitted: Emitted,
     /// The shader.
     pub pass: Pass,
-    /// What it reads.
+    /// Inputs of the shader.
     pub uploaded: Rc<Uploaded>,
     /// Of each time that the shader was made in a text of its own: what making its pipeline took, and its first frame.
     pub made: Vec<(Duration, Duration)>,
@@ -256,7 +257,7 @@ impl<'a> Stand<'a> {
         })
     }
 
-    /// How long a frame takes, by the wall clock.
+    /// Returns the duration of a frame, by the wall clock.
     fn frame(&self, pass: &Pass, uploaded: &Uploaded) -> Result<Duration, LoopsError> {
         let bench = self.bench;
         let target = bench.target(self.inputs.size, pass.target_format());
@@ -268,7 +269,7 @@ impl<'a> Stand<'a> {
             .bind(pass, &view)
             .map_err(straightline_bench::execute::ExecuteError::from)?;
         bound.encode(&mut encoder);
-        // What was written before is not to be waited for.
+        // Earlier writes must not be part of the measured time.
         bench.wait()?;
         let start = Instant::now();
         bench.queue().submit([encoder.finish()]);

@@ -23,7 +23,7 @@ use truth::Truth;
 
 pub use subjects::{ByHand, Input, Subject, subjects};
 
-/// How it is measured.
+/// Setup of the measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
     /// Width and height of the pictures.
@@ -32,16 +32,16 @@ pub struct Setup {
     pub rounds: u32,
     /// A form that is done sooner is run several times in a row for one time.
     pub least: Duration,
-    /// How often each pipeline is made.
+    /// Number of times that each pipeline is made.
     pub pipelines: u32,
 }
 
-/// What was measured of a kernel.
+/// Measurements of a kernel.
 #[derive(Clone, Debug)]
 pub struct Studied {
     /// For the record.
     pub forms: KernelForms,
-    /// What the kernel makes, unrolled.
+    /// The kernel's picture, unrolled.
     pub picture: Frame<Vec4>,
 }
 
@@ -108,7 +108,7 @@ pub fn study(
     Ok(all)
 }
 
-/// One kernel; `None` if it was stopped before anything was measured.
+/// Measures one kernel; `None` if it was stopped before anything was measured.
 fn measured(
     bench: &Bench,
     subject: &Subject,

@@ -1,11 +1,11 @@
-//! Which kernels are studied.
+//! Kernels that are studied.
 
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::OptionText;
 use straightline_kernels::filters::FILTERS;
 
-/// What a kernel is run on.
+/// Inputs that a kernel is run on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// The built-in scene `roof`, rendered with the geometry samples that the kernel's options name; judged by
@@ -15,7 +15,7 @@ pub enum Input {
     TestCard,
 }
 
-/// A kernel as somebody wrote it by hand, with its loops.
+/// A hand-optimised kernel, with its loops.
 #[derive(Clone, Debug)]
 pub struct ByHand {
     /// The kernel; it reads what the other reads, by the same names.
@@ -33,9 +33,9 @@ pub struct Subject {
     pub options: Vec<OptionText>,
     /// The kernel.
     pub kernel: Kernel,
-    /// The same by hand, or why there is no such thing.
+    /// The hand-optimised kernel, or the reason why there is none.
     pub by_hand: Result<ByHand, String>,
-    /// What it is run on.
+    /// Inputs that the kernel is run on.
     pub input: Input,
     /// Values of uniforms; those without a default are 1 else.
     pub uniforms: Vec<(String, Vec<f64>)>,
@@ -44,7 +44,7 @@ pub struct Subject {
 /// Why nothing was written by hand.
 const NOTHING_TO_GAIN: &str = "it reads nothing twice and computes nothing anew in its loops";
 
-/// What was written by hand for some of the ten filters.
+/// Hand-optimised versions of some of the ten filters.
 const BY_HAND: [(&str, &str); 6] = [
     ("gaussian", include_str!("../../kernels/gaussian.rs")),
     ("bilateral", include_str!("../../kernels/bilateral.rs")),
@@ -54,7 +54,7 @@ const BY_HAND: [(&str, &str); 6] = [
     ("convolution", include_str!("../../kernels/convolution.rs")),
 ];
 
-/// Those that a quick study leaves out: they have no loops, or gain next to nothing.
+/// Kernels that a quick study leaves out: they have no loops, or gain next to nothing.
 const NOT_QUICK: [&str; 8] = [
     "stalker",
     "tabula rasa",
@@ -125,7 +125,7 @@ fn sraa(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
 }
 
 impl Subject {
-    /// A kernel of one's own, and perhaps the same by hand.
+    /// A user's own kernel, and perhaps a hand-optimised version of it.
     pub fn own(kernel: Kernel, by_hand: Option<Kernel>) -> Subject {
         let by_hand = by_hand.map(|kernel| ByHand {
             kernel,

@@ -1,4 +1,4 @@
-//! What a kernel is run on, and what it should give.
+//! Inputs of a kernel, and its expected result.
 
 use super::{Input, LoopsError, Subject};
 use glam::{UVec2, Vec4};
@@ -30,7 +30,7 @@ impl<'a> Truth<'a> {
         }
     }
 
-    /// What a kernel is run on.
+    /// Returns the inputs of a kernel.
     ///
     /// # Errors
     ///
@@ -70,7 +70,7 @@ impl<'a> Truth<'a> {
     }
 }
 
-/// What a record says of an input: what it is, and of the test card the values of uniforms that were given, or have no default.
+/// Names an input for a record: what it is, and of the test card the values of uniforms that were given, or have no default.
 pub fn name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
     match subject.input {
         Input::Roof => format!("the scene `{SCENE}`"),
@@ -91,7 +91,7 @@ pub fn name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
     }
 }
 
-/// What a kernel should give, in `f64`: each pixel's colour; `None` where 32 bits may decide otherwise.
+/// Returns the expected result of a kernel, in `f64`: each pixel's colour; `None` where 32 bits may decide otherwise.
 ///
 /// # Errors
 ///

@@ -5,11 +5,11 @@ pub struct Family {
     pub name: &'static str,
     pub kernel: &'static str,
     pub ways: &'static [(&'static str, &'static [(&'static str, &'static str)])],
-    /// What it reads.
+    /// Inputs of the family.
     pub from: Source,
 }
 
-/// What a filter reads.
+/// Inputs of a filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A frame: it is full-screen.

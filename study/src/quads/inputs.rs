@@ -1,4 +1,4 @@
-//! What full-screen filters read: a rendered frame, and its occlusion at a lower resolution.
+//! Inputs of full-screen filters: a rendered frame, and its occlusion at a lower resolution.
 
 use super::subject::{OCCLUSION, compile};
 use super::{QUAD, QuadsError};
@@ -32,7 +32,7 @@ pub fn screen(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, Quads
         .uniform("pixel_angle", &[f64::from(angle)]))
 }
 
-/// The same with what upsampling brings up: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
+/// Adds the inputs of upsampling: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
 /// is taken from that of the full resolution, so that what upsampling loses is seen alone.
 pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Inputs, QuadsError> {
     let occlusion = compile(

@@ -31,7 +31,7 @@ use straightline_oracle::oracle::bound::{self, Rounding, Share};
 use straightline_oracle::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
 use straightline_oracle::oracle::quads::{self, Picture};
 
-/// What should come out.
+/// Expected result of a form.
 pub struct Expected {
     /// By definition, pixel by pixel.
     pub colors: Vec<[f64; 4]>,
@@ -45,7 +45,7 @@ pub struct Expected {
     pub lanes: usize,
 }
 
-/// What a form with `options` should give.
+/// Returns the expected result of a form with `options`.
 pub fn expected(form: &Form, options: &OptionValues, reads: &Reads) -> Result<Expected, HardError> {
     let inputs = &reads.inputs;
     match form.family {
@@ -189,8 +189,8 @@ impl Around {
         }
     }
 
-    /// Whether 32 bits decide as 64 do, and a sampler reads nothing that is bad. A cosine of long normals is a difference of
-    /// large numbers, of which its margin knows nothing.
+    /// Returns whether 32 bits decide as 64 do, and a sampler reads nothing that is bad. A cosine of long normals is a
+    /// difference of large numbers, which its margin does not take into account.
     fn is_sure(&self, edge: &Edge) -> bool {
         edge.margin > CLOSE && self.all_good && !self.long_normals
     }

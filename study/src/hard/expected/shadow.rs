@@ -11,7 +11,7 @@ use straightline_kernels::OptionValues;
 use straightline_oracle::oracle::bound::Rounding;
 use straightline_oracle::oracle::quads::{self, Counted, Shadow};
 
-/// What a form with `options` should give for coordinates and a shadow map.
+/// Returns the expected result of a form with `options` for coordinates and a shadow map.
 pub fn shadowed(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
     let coord = picture(inputs, "coord", |t| t);
     let depths = picture(inputs, "shadow", |t| t);
@@ -48,7 +48,7 @@ struct Filter<'a> {
     family: Family,
     map: Shadow,
     texels: i64,
-    /// How far a comparison lies from the pixel's place at most, in texels, as the kernel takes it.
+    /// Greatest distance of a comparison from the pixel's place, in texels, as the kernel takes it.
     reach: f64,
     /// Most that the weights of a table are off.
     table: f64,
@@ -118,7 +118,7 @@ impl<'a> Filter<'a> {
         (value, off + rounded, off + rounded + (1.0 + slant) / 128.0)
     }
 
-    /// What the search for blockers finds.
+    /// Returns the result of the search for blockers.
     fn blockers(&self, own: [f64; 3], mean: [f64; 3]) -> Vec<f64> {
         let from = match choice(self.options, "sharing", "quad") {
             "quad" => mean,

@@ -7,7 +7,8 @@ use straightline_kernels::OptionValues;
 use straightline_oracle::oracle::bound::Rounding;
 use straightline_oracle::oracle::quads::{self, Ao, Picture};
 
-/// What a convolution should give. A sum of n products is off by n + 2 roundings of the largest; bilinear taps by the place between
+/// Returns the expected result of a convolution. A sum of n products is off by n + 2 roundings of the largest; bilinear taps by
+/// the place between
 /// texels, too, and on a device by its steps of 1/256 on each axis.
 pub fn convolved(options: &OptionValues, inputs: &Inputs) -> Expected {
     let radius = number(options, "radius", 1.0) as i64;
@@ -60,7 +61,7 @@ fn brightest_around(image: &Picture, radius: i64, [x, y]: [i64; 2]) -> f64 {
     around.map(|[x, y]| size(&image.at(x, y))).fold(0.0, f64::max)
 }
 
-/// What ambient occlusion should give, between the least and the most that roundings make of each tap and of its place.
+/// Returns the expected ambient occlusion, between the least and the most that roundings make of each tap and of its place.
 pub fn occluded(options: &OptionValues, inputs: &Inputs) -> Expected {
     // Options are numbers of 32 bits.
     let option = |name: &str, default: f64| f64::from(number(options, name, default) as f32);
