@@ -31,7 +31,7 @@ const ROW: [u32; 2] = [8, 2];
 /// Of the intervals of ratios.
 const CONFIDENCE: f64 = 0.95;
 
-/// How a study is made.
+/// Setup of a study.
 #[derive(Clone, Copy, Debug)]
 pub struct Setup {
     /// Width and height of the frame.
@@ -40,7 +40,7 @@ pub struct Setup {
     pub texels: u32,
     /// Rounds of timing.
     pub rounds: u32,
-    /// How long a shader is run at least for one time.
+    /// Least time that a shader runs for one measurement.
     pub least: Duration,
 }
 
@@ -61,16 +61,16 @@ pub enum QuadsError {
     Detect(#[from] straightline_runtime::Error),
 }
 
-/// What was measured, and what it looks like.
+/// Measurements, and the pictures that were measured.
 #[derive(Debug)]
 pub struct Studied {
     /// Every way with its figures.
     pub ways: Vec<QuadWay>,
-    /// What each way makes, in their order.
+    /// Picture of each way, in their order.
     pub pictures: Vec<Frame<Vec4>>,
     /// The median time of the pass that draws coordinates.
     pub coordinates_ms: f64,
-    /// What the device's quads are.
+    /// Description of the device's quads.
     pub quads: String,
     /// The scene as the shadow filters see it.
     pub shadowed: Shadowed,
@@ -163,7 +163,7 @@ pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Pro
     })
 }
 
-/// What shares nothing sends nothing: one fragment shader, and one compute shader, stand for it.
+/// A way that shares nothing sends nothing: one fragment shader, and one compute shader, stand for it.
 fn transports(way: &str, subgroup: bool) -> Vec<Transport> {
     let alone = way == "naive" || way == "bilinear";
     let fragment = match subgroup {

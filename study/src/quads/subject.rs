@@ -77,7 +77,7 @@ impl Subject {
         })
     }
 
-    /// What is timed.
+    /// Makes the work that is timed.
     pub fn work<'a>(&'a self, bench: &Bench, setup: &Setup) -> Result<Work<'a>, ExecuteError> {
         match &self.drawn {
             Drawn::Pass(pass, uploaded) => {

@@ -1,4 +1,4 @@
-//! What a filter of one shading sample a pixel could come to, and antialiasing that shades once a surface.
+//! Bounds of filters with one shading sample a pixel, and antialiasing that shades once a surface.
 
 use super::classes::seen_around;
 use super::surfaces::{Point, Surfaces};
@@ -31,7 +31,7 @@ pub fn stored(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Vec<Frame<Vec4
     stored.collect()
 }
 
-/// Which of the pictures has the colour of a sample: that of the first that sees its surface.
+/// Returns the picture that has the colour of a sample: that of the first that sees its surface.
 fn multisampled<'a>(
     surfaces: &Surfaces<'_>,
     shaded: &'a [Frame<Vec4>],
@@ -64,7 +64,7 @@ pub fn by_coverage(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], stored: &[us
     })
 }
 
-/// Which of the stored samples sees the surface that a sample sees, if one does.
+/// Returns the stored sample that sees the surface that a sample sees, if one does.
 pub fn whose(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec2, sample: usize) -> Option<usize> {
     let point = surfaces.point(pixel, sample);
     let is_same = |kept: &usize| surfaces.same(&point, &surfaces.point(pixel, *kept));

@@ -7,17 +7,17 @@ use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture::srgb;
 
-/// How much sRGB values vary over an edge of shading: eight steps of 255.
+/// Least variation of sRGB values over an edge of shading: eight steps of 255.
 pub const STEP: f32 = 8.0 / 255.0;
 
-/// What each pixel of a picture is, row by row from the top.
+/// Class of each pixel of a picture, row by row from the top.
 #[derive(Clone, Debug, Default)]
 pub struct Classes {
-    /// Its samples see more than one surface.
+    /// True if the pixel's samples see more than one surface.
     pub geometry: Vec<bool>,
-    /// They see one, whose colour varies by more than [`STEP`] over the pixel.
+    /// True if they see one, whose colour varies by more than [`STEP`] over the pixel.
     pub shading: Vec<bool>,
-    /// One of its samples sees a surface that none of the 3 x 3 shading samples around saw.
+    /// True if one of the samples sees a surface that none of the 3 x 3 shading samples around saw.
     pub unseen: Vec<bool>,
 }
 
@@ -42,7 +42,7 @@ impl Classes {
         }
     }
 
-    /// Whether a pixel has an edge of neither kind.
+    /// Returns whether a pixel has an edge of neither kind.
     pub fn flat(&self, pixel: usize) -> bool {
         !self.geometry[pixel] && !self.shading[pixel]
     }
@@ -61,7 +61,7 @@ impl Classes {
     }
 }
 
-/// Whether a pixel has an edge of geometry, and whether it has a surface that was not seen.
+/// Returns whether a pixel has an edge of geometry, and whether it has a surface that was not seen.
 fn look(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
     let around = seen_around(surfaces, pixel);
     let (mut edge, mut unseen) = (false, false);
@@ -76,7 +76,7 @@ fn look(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
     (edge, unseen)
 }
 
-/// What the shading samples of a pixel and its neighbours see, its own first.
+/// Returns the points that the shading samples of a pixel and its neighbours see, its own first.
 pub(super) fn seen_around(surfaces: &Surfaces<'_>, pixel: UVec2) -> Vec<super::surfaces::Point> {
     let places = std::iter::once(IVec2::ZERO).chain(neighbours());
     places.flat_map(|by| surfaces.shaded(pixel.as_ivec2() + by)).collect()
@@ -89,7 +89,7 @@ pub(super) fn neighbours() -> impl Iterator<Item = IVec2> {
         .filter(|by| *by != IVec2::ZERO)
 }
 
-/// Whether the colours of a pixel vary, of pictures shaded at several places of it.
+/// Returns whether the colours of each pixel vary, of pictures shaded at several places of it.
 pub fn varies_within(shaded: &[Frame<Vec4>]) -> Vec<bool> {
     let pixels = shaded.first().map_or(0, |frame| frame.texels().len());
     (0..pixels)

@@ -21,20 +21,20 @@ use straightline_scene::scene::{SKY_DEPTH, Scene};
 pub struct Figure {
     /// Name of its file, without extension: the number of the original.
     pub name: &'static str,
-    /// What the paper shows.
+    /// Subject of the paper's figure.
     pub shows: &'static str,
     /// The built-in scene that is drawn.
     pub scene: &'static str,
-    /// What is beside one another; a reference of 256 samples a pixel is the last, but of [`Pane::Interleaved`].
+    /// Parts beside one another; a reference of 256 samples a pixel is the last, but of [`Pane::Interleaved`].
     pub panes: &'static [Pane],
 }
 
-/// One of its parts.
+/// A part of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pane {
     /// The picture of a method, by its name in `study error`.
     Method(&'static str),
-    /// What SRAA reads, in one large texture: distances, near ones bright, and normals.
+    /// Inputs of SRAA, in one large texture: distances, near ones bright, and normals.
     Interleaved,
 }
 
@@ -112,10 +112,10 @@ pub const FIGURES: &[Figure] = &[
 /// Texels of the detail, across and down.
 const DETAIL: u32 = 64;
 
-/// How much it is enlarged.
+/// Factor of enlargement.
 const ZOOM: u32 = 5;
 
-/// What was made.
+/// Result of drawing a figure.
 #[derive(Clone, Debug)]
 pub struct Made {
     /// The panes side by side under their names.

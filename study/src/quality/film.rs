@@ -12,18 +12,18 @@ use straightline_scene::picture;
 use straightline_scene::render::GpuRenderer;
 use straightline_scene::scene::Scene;
 
-/// How it is filmed.
+/// Setup of a film.
 #[derive(Clone, Debug)]
 pub struct Shooting {
     /// Width and height of each method's picture, in pixels.
     pub size: UVec2,
-    /// How many frames, 2 or more.
+    /// Number of frames, 2 or more.
     pub frames: u32,
     /// Pixels that the picture moves from a frame to the next, y down.
     pub step: Vec2,
 }
 
-/// What was filmed.
+/// Result of filming.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// Each frame: the methods' pictures row by row, then the reference of 64 samples a pixel, at 8 bits of sRGB.
@@ -82,7 +82,7 @@ fn tiled(pictures: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
     Frame::new(UVec2::new(width, height), texels)
 }
 
-/// What the reference is called.
+/// Name of the reference.
 pub const REFERENCE: &str = "64x";
 
 #[cfg(test)]

@@ -254,7 +254,7 @@ fn one_after_the_other<'a>(
     bench.following(&jobs.collect::<Vec<_>>())
 }
 
-/// What MLAA makes of a picture, linear as it is.
+/// Filters a linear picture by MLAA.
 fn by_mlaa(shown: &Frame<Vec4>) -> Frame<Vec4> {
     Transfer::Srgb.taken(&mlaa(&Transfer::Srgb.given(shown)))
 }
@@ -292,7 +292,7 @@ impl Shader {
         Ok(uploaded.bytes() + texture_bytes(&target))
     }
 
-    /// What it makes of a shot.
+    /// Filters a shot.
     fn picture(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
         let (size, uploaded) = self.upload(bench, method, shot)?;
         Ok(bench.picture_of(&self.pass, &uploaded, size)?)
@@ -361,7 +361,8 @@ fn one_a_pixel(capture: &Capture, compiled: &Compiled) -> Result<Inputs, Quality
         .image("color", capture.color.clone()))
 }
 
-/// What a kernel of the user's reads: the linear picture; depths along the view in the scene's units, and normals, where the
+/// Returns the inputs of a kernel of the user's: the linear picture; depths along the view in the scene's units, and normals,
+/// where the
 /// picture was shaded, or of all samples if it reads layers.
 fn gbuffer_of(capture: &Capture, manifest: &Manifest) -> Result<Inputs, QualityError> {
     let mut inputs = Inputs::new(capture.size);

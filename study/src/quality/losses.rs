@@ -1,4 +1,4 @@
-//! Where SRAA loses.
+//! Scenes and methods where SRAA loses.
 
 use crate::record::{Family, MethodErrors, SceneErrors};
 
@@ -6,8 +6,8 @@ use crate::record::{Family, MethodErrors, SceneErrors};
 const EVEN_DB: f64 = 0.05;
 const EVEN_FLIP: f64 = 0.000_1;
 
-/// Where SRAA, with default options and each number of samples, is worse than no antialiasing or than a filter of the picture
-/// or of edges: a sentence for each of those methods, or none.
+/// Lists methods that SRAA, with default options and each number of samples, loses to: no antialiasing, filters of the picture,
+/// and filters of edges. Returns a sentence for each of those methods, or none.
 pub fn losses(scene: &SceneErrors) -> Vec<String> {
     let ours = scene.methods.iter().filter(|m| {
         let variant = m.method.contains(',');

@@ -10,7 +10,7 @@ use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::gbuffer;
 use straightline_scene::render::PlacedBy;
 
-/// What a method is, beyond its name.
+/// Kind of a method, beyond its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The shaded picture as it is.
@@ -48,7 +48,7 @@ pub enum Kind {
 pub struct Method {
     /// For people.
     pub name: String,
-    /// What it is.
+    /// Kind of the method.
     pub kind: Kind,
     /// The kernel, if it is the user's.
     pub kernel: Option<Kernel>,
@@ -56,13 +56,13 @@ pub struct Method {
     options: Vec<OptionText>,
     /// Values of all of its kernel's options.
     values: OptionValues,
-    /// Whether its pictures are written.
+    /// True if the method's pictures are written.
     pub pictured: bool,
-    /// Whether it is watched over the pan.
+    /// True if the method is watched over the pan.
     pub panned: bool,
-    /// Whether it comes after bloom and tone mapping where those are, though it could come before.
+    /// True if the method comes after bloom and tone mapping where those are, though it could come before.
     pub last: bool,
-    /// Whether what it lacks of supersampling at its samples is accounted for.
+    /// True if the difference to supersampling at the method's samples is accounted for.
     pub explained: bool,
 }
 
@@ -171,7 +171,7 @@ impl Method {
         }
     }
 
-    /// One of the few that are shown and watched.
+    /// Marks the method as one of the few that are shown and watched.
     fn main(self) -> Method {
         Method {
             pictured: true,
@@ -184,7 +184,7 @@ impl Method {
         Method { pictured: true, ..self }
     }
 
-    /// Its kind in records.
+    /// Returns the method's kind in records.
     pub fn family(&self) -> Family {
         match self.kind {
             Kind::Plain => Family::None,
@@ -201,7 +201,7 @@ impl Method {
         }
     }
 
-    /// Whether it comes after bloom and tone mapping where those are: filters of the displayed picture do.
+    /// Returns whether the method comes after bloom and tone mapping where those are: filters of the displayed picture do.
     pub fn is_last(&self) -> bool {
         self.last || matches!(self.kind, Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa)
     }
@@ -214,7 +214,7 @@ impl Method {
         }
     }
 
-    /// Where its picture is shaded.
+    /// Returns the place of shading in the method's picture.
     pub fn shading(&self) -> ShadingSample {
         if self.values.choice("shading") == Some("placed") {
             return ShadingSample::Placed;
@@ -231,23 +231,23 @@ impl Method {
         self.values.numbers("shaded").unwrap_or_default()
     }
 
-    /// What tells surfaces apart where its picture is placed: planes if the filter goes by them.
+    /// Returns the metric of surfaces where its picture is placed: planes if the filter goes by them.
     pub fn placed_by(&self) -> PlacedBy {
         PlacedBy::of(&self.values)
     }
 
-    /// Whether it reads albedo at every geometry sample.
+    /// Returns whether the method reads albedo at every geometry sample.
     pub fn reads_albedo(&self) -> bool {
         self.values.choice("demodulate").is_some_and(|what| what != "none")
     }
 
-    /// Whether some pixels are shaded once more for it.
+    /// Returns whether some pixels are shaded once more for the method.
     pub fn has_extra(&self) -> bool {
         self.values.flag("extra") == Some(true)
     }
 
-    /// What names the capture that it reads, of all that a scene is drawn in: its pattern, and where it is shaded unless that is
-    /// the pixel's centre.
+    /// Returns the name of the capture that the method reads, of all that a scene is drawn in: its pattern, and its place of
+    /// shading unless that is the pixel's centre.
     pub fn reads(&self) -> String {
         match (self.values.get("shaded"), self.shading()) {
             (Some(list), _) if !self.shaded().is_empty() => format!("{} shaded at {list}", self.pattern()),
@@ -271,7 +271,7 @@ impl Method {
 /// Why a method of the user's cannot be compared.
 #[derive(Debug, thiserror::Error)]
 pub enum OwnError {
-    /// It is not what it should be.
+    /// The text does not describe a method.
     #[error(
         "`{0}` is no method: write NAME=KERNEL, then options: \"eight=sraa,pattern=standard8\" or \"mine=filter.rs::sharp\""
     )]
@@ -401,7 +401,7 @@ fn beyond() -> Vec<Method> {
     all
 }
 
-/// Where a pixel's samples show one plane, its colour stays.
+/// Options that keep a pixel's colour where its samples show one plane.
 const KEPT_EVEN: [(&str, &str); 2] = [("mask", "branch"), ("variation", "within")];
 
 pub(super) const PLACED: (&str, &str) = ("shading", "placed");

@@ -50,13 +50,13 @@ pub use surfaces::{Point, Surfaces};
 /// Side of the grid of shading samples of a reference: 256x.
 const SIDE: u32 = 16;
 
-/// What methods are compared on.
+/// Scene or capture that methods are compared on.
 pub enum Source {
     /// A scene, which is drawn.
     Scene {
         /// For people and for the names of files.
         name: String,
-        /// What it is for.
+        /// Purpose of the scene.
         purpose: String,
         /// The scene.
         scene: Box<Scene>,
@@ -80,7 +80,7 @@ impl Source {
     }
 }
 
-/// How much to do.
+/// Extent of the study.
 #[derive(Clone, Debug)]
 pub struct Setup {
     /// Width and height of scenes that are drawn, in pixels.
@@ -95,25 +95,25 @@ pub struct Setup {
     pub own: Vec<Method>,
     /// Frames of the pan; 0 for none.
     pub pan_frames: u32,
-    /// How many scenes are panned over, the first ones.
+    /// Number of scenes that are panned over, the first ones.
     pub pan_scenes: usize,
-    /// Whether bloom and tone mapping follow: methods that read geometry or samples come before them, filters of the displayed
+    /// True if bloom and tone mapping follow: methods that read geometry or samples come before them, filters of the displayed
     /// picture after, and some of the former once more after.
     pub post_processed: bool,
-    /// Whether pictures are made.
+    /// True if pictures are made.
     pub pictures: bool,
 }
 
-/// What was found.
+/// Result of the study.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Of each source that was finished.
     pub scenes: Vec<SceneErrors>,
-    /// What filters were timed on.
+    /// Devices on which filters were timed.
     pub timed_on: Vec<String>,
     /// Pictures as PNG files, by their paths beside the record: `pictures/SCENE/METHOD.png`.
     pub pictures: BTreeMap<String, Vec<u8>>,
-    /// Whether all sources were finished.
+    /// True if all sources were finished.
     pub complete: bool,
 }
 
@@ -246,12 +246,12 @@ fn steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
     steps
 }
 
-/// What is asked of a source.
+/// Request to study one source.
 struct Wanted<'a> {
     name: String,
     purpose: String,
     setup: &'a Setup,
-    /// Where its pictures go.
+    /// Map that receives the source's pictures.
     made: &'a mut BTreeMap<String, Vec<u8>>,
 }
 

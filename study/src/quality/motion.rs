@@ -65,7 +65,7 @@ impl Motion {
 /// Three earlier frames, each tap for what lies near it.
 const REMEMBERED: [(&str, &str); 3] = [("history", "3"), ("falloff", "gaussian"), ("sigma", "0.3")];
 
-/// What is compared in motion unless something else is asked for.
+/// Returns the methods that are compared in motion by default.
 pub fn methods_in_motion() -> Vec<Method> {
     let mut all = Vec::new();
     for (samples, pattern) in [(4, "latin4"), (16, "latin16")] {
@@ -211,7 +211,7 @@ impl Sequence {
         (BEFORE - before..BEFORE + judged).map(moment).collect()
     }
 
-    /// How good pictures of the frames that are judged are: means over them.
+    /// Scores pictures of the frames that are judged: means over them.
     pub fn score(&self, method: &Method, pictures: &[Frame<Vec4>]) -> MovedMethod {
         let pairs = || pictures.iter().zip(&self.references);
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
@@ -227,7 +227,7 @@ impl Sequence {
     }
 }
 
-/// What each method is worth in a motion; a step of the progress for each row of a reference's samples and for each method.
+/// Scores each method in a motion; a step of the progress for each row of a reference's samples and for each method.
 ///
 /// # Errors
 ///

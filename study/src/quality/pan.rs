@@ -42,7 +42,7 @@ pub fn pan(
     Ok(errors)
 }
 
-/// Who is shown a frame's pictures, and its reference.
+/// Callback that is given a frame's pictures, and its reference.
 pub(super) type See<'a> = dyn FnMut(&[Frame<Vec4>], &Frame<Vec4>) + 'a;
 
 /// For each of the methods `listed`, and each frame after the first, the mean squared error of what changes since the last. The picture
@@ -67,7 +67,7 @@ pub(super) fn changes(
             .iter()
             .map(|k| Ok(picture::at_eight_bits(&filters.run(*k, &shot)?)));
         let shown: Vec<Frame<Vec4>> = shown.collect::<Result<_, QualityError>>()?;
-        // What is wrong in this frame: what changes in that is what changes wrongly.
+        // Errors of this frame: changes of these are wrong changes.
         let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| apart(picture, &reference)).collect();
         for (changes, (now, before)) in changes.iter_mut().zip(wrong.iter().zip(&before)) {
             changes.push(mean_square(now, before));
@@ -79,7 +79,7 @@ pub(super) fn changes(
     Ok(changes)
 }
 
-/// What is wrong in a picture.
+/// Returns the error of a picture.
 pub(super) fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
     let shown = |color: &Vec4| color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
     let pairs = picture.texels().iter().zip(reference.texels());

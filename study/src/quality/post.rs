@@ -1,4 +1,4 @@
-//! What a renderer does to a picture after it is shaded: bloom, and tone mapping to what a display shows.
+//! Post-processing of a shaded picture: bloom, and tone mapping to what a display shows.
 //!
 //! The paper (§1, §3.1) reconstructs before it, where a bright edge is a mean of light. After it, the light has spilt already, and
 //! what is brighter than white has its share of the pixel no more.
@@ -13,7 +13,7 @@ use straightline_kernels::prelude::Frame;
 /// Standard deviation of the spill, in pixels.
 const SIGMA: f32 = 4.0;
 
-/// How much of what is brighter than white spills.
+/// Share of the light brighter than white that spills.
 const STRENGTH: f32 = 0.1;
 
 /// Bloom, then tone mapping.
@@ -57,7 +57,7 @@ fn map(image: &Frame<Vec4>, of: impl Fn(usize, Vec4) -> Vec4 + Sync) -> Frame<Ve
 }
 
 impl Shot {
-    /// The same, its colours processed: what a filter reads that comes last.
+    /// Returns the shot with its colours processed, the input of a filter that comes last.
     pub fn processed(&self) -> Shot {
         let mut captures = self.captures.clone();
         for capture in captures.values_mut() {

@@ -67,7 +67,7 @@ pub fn kernels(method: &Method) -> Vec<Kernel> {
     }
 }
 
-/// What each of them reads of a shot.
+/// Returns the inputs of each kernel of a method from a shot.
 ///
 /// # Errors
 ///
@@ -125,7 +125,7 @@ fn codes(surfaces: &Surfaces<'_>) -> Frame<UVec4> {
     Frame::new(size, (0..size.x * size.y).map(texel).collect())
 }
 
-/// What is gathered into aggregates, and what is made of those once they are shaded.
+/// Returns the inputs of gathering aggregates, and of resolving them once they are shaded.
 fn of_aggregates(aggregated: &Aggregated) -> Vec<Inputs> {
     let layers = |texel: fn(&Surface) -> Vec4| {
         let frame = |layer: &Vec<Surface>| Frame::new(aggregated.size, layer.iter().map(texel).collect());

@@ -27,7 +27,7 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// What `methods` need, drawn.
+    /// Draws the inputs of `methods`.
     pub fn draw(
         renderer: &dyn Renderer,
         methods: &[&Method],
@@ -102,7 +102,7 @@ impl Shot {
         found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     }
 
-    /// What is shaded once more for a method, if it wants that.
+    /// Returns the pixels that are shaded once more for a method, if it wants that.
     pub fn extra(&self, method: &Method) -> Option<&Extra> {
         self.extra.get(&method.reads()).filter(|_| method.has_extra())
     }

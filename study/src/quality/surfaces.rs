@@ -1,4 +1,4 @@
-//! Which samples of a picture see the same surface.
+//! Samples of a picture that see the same surface.
 //!
 //! Two samples see one surface if their normals are within ten degrees of each other and each point lies on the other's
 //! tangent plane, to within a tenth of a pixel for each pixel that they are apart on the screen. What is only painted
@@ -14,13 +14,13 @@ use straightline_scene::scene::SKY_DEPTH;
 /// Cosine of the angle between two normals of one surface: ten degrees.
 const ALIKE: f32 = 0.984_8;
 
-/// How far a point may lie off a plane, in pixels, for each pixel on the screen.
+/// Greatest distance of a point from a plane, in pixels, for each pixel on the screen.
 const OFF_PLANE: f32 = 0.1;
 
-/// How much two depths of one surface may differ where planes are not known.
+/// Greatest relative difference of two depths of one surface where planes are not known.
 const OFF_DEPTH: f32 = 0.01;
 
-/// What one sample of a pixel sees.
+/// Point that one sample of a pixel sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
     /// On the screen, in pixels.
@@ -37,7 +37,7 @@ impl Point {
         self.place.as_uvec2()
     }
 
-    /// How different another point is, in depth or normal, as SRAA's metric `depth-normals` has it.
+    /// Returns the difference of another point, in depth or normal, as SRAA's metric `depth-normals` has it.
     pub fn unlike(&self, other: &Point) -> f32 {
         let turned = match (self.normal, other.normal) {
             (Some(a), Some(b)) => 1.0 - a.dot(b),
@@ -94,19 +94,19 @@ impl<'a> Surfaces<'a> {
         self.size
     }
 
-    /// How many samples a pixel has.
+    /// Returns the number of samples of a pixel.
     pub fn samples(&self) -> usize {
         self.layers.len()
     }
 
-    /// What each shading sample of a pixel sees; nothing outside the picture.
+    /// Returns the points that the shading samples of a pixel see; none outside the picture.
     pub fn shaded(&self, pixel: IVec2) -> impl Iterator<Item = Point> {
         let inside = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(self.size.as_ivec2()).all();
         let shaded = if inside { &self.shaded[..] } else { &[] };
         shaded.iter().map(move |layer| self.point(pixel.as_uvec2(), *layer))
     }
 
-    /// What a sample of a pixel inside the picture sees.
+    /// Returns the point that a sample of a pixel inside the picture sees.
     pub fn point(&self, pixel: UVec2, sample: usize) -> Point {
         let layer = &self.layers[sample];
         let at = (pixel.y * self.size.x + pixel.x) as usize;
@@ -122,7 +122,7 @@ impl<'a> Surfaces<'a> {
         }
     }
 
-    /// Whether two points are of one surface.
+    /// Returns whether two points are of one surface.
     pub fn same(&self, a: &Point, b: &Point) -> bool {
         let sky = |point: &Point| point.depth.is_nan() || point.depth >= SKY_DEPTH;
         match (sky(a), sky(b)) {

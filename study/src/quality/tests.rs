@@ -34,7 +34,7 @@ fn plane(normal: Vec3, through: Vec3, color: f32) -> Plane {
     }
 }
 
-/// What `seen` puts at each place, in pixels; `None` for the sky, which is black.
+/// Captures the planes that `seen` puts at each place, in pixels; `None` for the sky, which is black.
 fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>) {
     let samples = straightline_scene::gbuffer::samples("latin4").expect("a pattern");
     let extent = CAMERA.half_extent(SIZE);
@@ -106,7 +106,7 @@ fn columns(class: &[bool]) -> Vec<usize> {
 
 #[test]
 fn a_plane_at_a_grazing_angle_is_one_surface() {
-    // Its depth grows from 0.8 below to 4.5 above.
+    // The plane's depth grows from 0.8 below to 4.5 above.
     let (capture, shaded) = captured(|_| Some(plane(vec3(0.05, 1.0, 0.75), vec3(0.0, -1.0, 0.0), 0.5)));
     let found = classes(&capture, &shaded);
     assert_eq!(found.shares().flat, 1.0, "{:?}", found.geometry);

@@ -4,7 +4,7 @@ use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
 
-/// How wrong what changes from a frame to the next is.
+/// Record of a film: errors in the changes from a frame to the next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilmRecord {
     /// When, where and how it was made; nothing is timed.

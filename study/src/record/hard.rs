@@ -4,7 +4,7 @@ use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
 
-/// What computed it.
+/// Executor of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Executor {
@@ -29,7 +29,7 @@ pub struct HardResult {
     pub options: Vec<OptionText>,
     /// `f16` or `f32`.
     pub precision: String,
-    /// What computed it.
+    /// Executor of the run.
     pub executor: Executor,
     /// Pixels of the output, and how many of them are not finite.
     pub pixels: usize,
@@ -40,13 +40,13 @@ pub struct HardResult {
     pub difference: Option<f64>,
     /// The same in units of the last place of the result's precision, at the oracle's value.
     pub ulps: Option<f64>,
-    /// Where the first NaN or infinity was born: source line and operation, by the interpreter.
+    /// Origin of the first NaN or infinity: source line and operation, by the interpreter.
     pub born: Option<String>,
     /// The largest absolute difference that this kernel must keep on this case; `None` where it is only watched.
     pub bound: Option<f64>,
-    /// Whether it kept the bound, and is finite where that is asked of it.
+    /// True if the run kept the bound, and is finite where that is required.
     pub kept: bool,
-    /// Whether this must be finite and within its bound: in `f32`, all forms but those that keep what was printed.
+    /// True if the run must be finite and within its bound: in `f32`, all forms but those that keep what was printed.
     pub promised: bool,
     /// In `f16`, where `bound` is what can be seen: the most that error analysis allows, if there is one.
     pub analysed: Option<f64>,
@@ -57,17 +57,17 @@ pub struct HardResult {
 /// A case and what became of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HardCase {
-    /// Its name, one word or several with hyphens.
+    /// Name, one word or several with hyphens.
     pub name: String,
-    /// What is hard about it.
+    /// Description of the difficulty.
     pub about: String,
-    /// Whether scenes really have this: what half precision is judged by.
+    /// True if scenes really have this: what half precision is judged by.
     pub common: bool,
     /// All kernels, precisions and executors.
     pub results: Vec<HardResult>,
 }
 
-/// Whether a form of a kernel may compute in half precision.
+/// Verdict on a form of a kernel in half precision.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HalfVerdict {
     /// The kernel, as in [`HardResult::kernel`].
@@ -76,11 +76,11 @@ pub struct HalfVerdict {
     pub options: Vec<OptionText>,
     /// The case that it is farthest off in, measured by what can be seen there.
     pub worst: Option<String>,
-    /// How far that is; `None` if nothing was finite.
+    /// Difference in that case; `None` if nothing was finite.
     pub difference: Option<f64>,
-    /// How far it may be off in that case on a device that is as inexact as WGSL allows, which decides nothing.
+    /// Greatest difference in that case on a device that is as inexact as WGSL allows, which decides nothing.
     pub loosest: Option<f64>,
-    /// What can be seen there: 1/255 of the brightest colour.
+    /// Least visible difference there: 1/255 of the brightest colour.
     pub limit: Option<f64>,
     /// Cases that scenes have and in which it is farther off than can be seen, of `cases`.
     pub broken: usize,
@@ -98,7 +98,7 @@ pub struct HardRecord {
     pub circumstances: Circumstances,
     /// The cases.
     pub cases: Vec<HardCase>,
-    /// Which forms may compute in half precision.
+    /// Verdicts on half precision, by form.
     pub half: Vec<HalfVerdict>,
 }
 

@@ -1,4 +1,4 @@
-//! What GPU compilers make of shaders.
+//! Figures of GPU compilers for shaders.
 
 use super::Record;
 use serde::{Deserialize, Serialize};
@@ -10,21 +10,21 @@ use straightline_kernels::OptionText;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum IsaForm {
-    /// One straight line.
+    /// Straight-line code.
     Unrolled,
     /// The kernel with its loops.
     Looped,
     /// Loops, hand-optimised.
     ByHand,
-    /// One straight line for 2×2 pixels; the figures are of all four.
+    /// Straight-line code for 2×2 pixels; the figures are of all four.
     Block,
-    /// One straight line, the pixels of a workgroup sharing what they read through its memory.
+    /// Straight-line code, the pixels of a workgroup sharing what they read through its memory.
     Tile,
-    /// One straight line, four texels read at once where several of them are wanted.
+    /// Straight-line code, four texels read at once where several of them are wanted.
     Gather,
-    /// One straight line, with algebra that may change roundings.
+    /// Straight-line code, with algebra that may change roundings.
     Fast,
-    /// One straight line that Slang's compiler made of the same work.
+    /// Straight-line code that Slang's compiler made of the same work.
     Slang,
 }
 
@@ -41,7 +41,7 @@ impl IsaForm {
         IsaForm::Slang,
     ];
 
-    /// What people call it.
+    /// Name for readers.
     pub fn name(self) -> &'static str {
         match self {
             IsaForm::Unrolled => "unrolled",
@@ -56,7 +56,7 @@ impl IsaForm {
     }
 }
 
-/// How a shader comes to SPIR-V.
+/// Path of a shader to SPIR-V.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpirvPath {
@@ -72,7 +72,7 @@ impl SpirvPath {
     /// Every path.
     pub const ALL: [SpirvPath; 3] = [SpirvPath::Naga, SpirvPath::NagaBounded, SpirvPath::Glslang];
 
-    /// What people call it.
+    /// Name for readers.
     pub fn name(self) -> &'static str {
         match self {
             SpirvPath::Naga => "naga",
@@ -91,25 +91,25 @@ pub struct Asked {
     pub options: Vec<OptionText>,
     /// The form.
     pub form: IsaForm,
-    /// How it came to SPIR-V.
+    /// Path to SPIR-V.
     pub path: SpirvPath,
     /// Scalars alive at once at most, as its manifest says; of a text that is not ours, nothing.
     #[serde(default)]
     pub alive: Option<u32>,
-    /// What each compiler says of it.
+    /// Figures of each compiler.
     pub figures: BTreeMap<Family, Figures>,
     /// Why one of them says nothing.
     pub refused: Option<String>,
 }
 
-/// What the compilers say of all.
+/// Figures of all shaders by all compilers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct IsaRecord {
     /// The command that asks again.
     pub command: String,
     /// When it began: RFC 3339, UTC.
     pub date: String,
-    /// What each compiler calls its GPU, with the driver's version.
+    /// Name that each compiler has for its GPU, with the driver's version.
     pub devices: BTreeMap<Family, String>,
     /// Families that this driver does not compile for, and what became of the attempt.
     pub absent: BTreeMap<Family, String>,

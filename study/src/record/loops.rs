@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use straightline_bench::execute::{Ratio, Times};
 use straightline_kernels::OptionText;
 
-/// What became of a kernel's loops.
+/// Form of a kernel's loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FormKind {
@@ -82,7 +82,7 @@ impl FormKind {
 /// A kernel in one form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Form {
-    /// Which.
+    /// Kind of the form.
     pub kind: FormKind,
     /// Loops that are left.
     pub loops: u32,
@@ -114,9 +114,9 @@ pub struct KernelForms {
     pub kernel: String,
     /// Options that are not the default.
     pub options: Vec<OptionText>,
-    /// What it was run on.
+    /// Input of the runs.
     pub input: String,
-    /// Its forms, `Looped` first. One that a kernel does not have is left out.
+    /// Forms of the kernel, `Looped` first. One that a kernel does not have is left out.
     pub forms: Vec<Form>,
     /// Forms that there are not, and why.
     pub absent: Vec<(FormKind, String)>,
@@ -129,7 +129,7 @@ impl KernelForms {
     }
 }
 
-/// What unrolling is worth.
+/// Benefit of unrolling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoopsRecord {
     /// Circumstances.

@@ -4,7 +4,7 @@ use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
 
-/// What moves from frame to frame.
+/// Part of the scene that moves from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Motion {
@@ -33,13 +33,13 @@ impl Motion {
     }
 }
 
-/// How wrong methods are in motion.
+/// Errors of methods in motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionRecord {
     /// When, where and how it was made; nothing is timed.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// How many frames are judged, each against 64 samples a pixel.
+    /// Number of frames that are judged, each against 64 samples a pixel.
     pub frames: u32,
     /// Each scene in each motion.
     pub scenes: Vec<MovedScene>,
