@@ -37,7 +37,7 @@ pub struct Tuned {
 pub struct LeftOut {
     /// Name of the term: normals, planes, 16 samples, f32, placing, ...
     pub term: String,
-    /// Cost of leaving the term out: error without it less error with it, by the metric, a loss being positive.
+    /// Cost of doing without the term, by the metric: dB or mean FLIP, a loss being positive.
     pub cost: f64,
 }
 
