@@ -67,7 +67,7 @@ const PLACED: &[(&str, &str)] = &[
     ("search", "seven"),
 ];
 
-/// The same by planes, and the colour kept of pixels whose samples show one.
+/// Placed shading by planes with a smaller search, and the colour kept of pixels whose samples show one plane.
 const KEPT_EVEN: &[(&str, &str)] = &[
     ("shading", "placed"),
     ("search", "five"),

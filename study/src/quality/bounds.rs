@@ -16,7 +16,7 @@ pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<
     })
 }
 
-/// The same, but resolved by the directionally adaptive filter.
+/// Multisampling resolved by the directionally adaptive filter, each surface shaded once.
 pub fn along_edges(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
     directional(&stored(surfaces, shaded), offsets)
 }
@@ -71,10 +71,10 @@ pub fn whose(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec2, sample: us
     stored.iter().position(is_same)
 }
 
-/// What reconstruction would give that knew the right colour of every surface that it can know of: each geometry sample has
-/// its own true colour if one of the 3 x 3 shading samples around saw its surface, else the colour of the shading sample
-/// that is nearest to it in depth and normal. What it is short of supersampling at the same places is the price of surfaces
-/// that no shading sample saw; what SRAA is short of it is the price of borrowed colours.
+/// Ideal reconstruction, which knows the right colour of every surface that it can know of: each geometry sample has its own
+/// true colour if one of the 3 x 3 shading samples around saw its surface, else the colour of the shading sample that is
+/// nearest to it in depth and normal. Its gap to supersampling at the same places is the price of surfaces that no shading
+/// sample saw; SRAA's gap to it is the price of borrowed colours.
 ///
 /// `shaded` holds the picture at each sample, `color` at the shading sample.
 pub fn ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4>) -> Frame<Vec4> {

@@ -298,7 +298,7 @@ impl Shader {
         Ok(bench.picture_of(&self.pass, &uploaded, size)?)
     }
 
-    /// What it reads, on the device alone: as floats in memory that is several times as much.
+    /// Uploads the method's inputs, to the device alone: as floats in memory they are several times as large.
     fn upload(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(UVec2, Uploaded), QualityError> {
         let (inputs, uploaded) = self.uploaded(bench, method, shot)?;
         Ok((inputs.size, uploaded))

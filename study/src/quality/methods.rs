@@ -29,7 +29,7 @@ pub enum Kind {
     Merged,
     /// Coverage of the samples of `latin4`, and shading once a surface in each pixel.
     Multisampled,
-    /// The same, resolved by the directionally adaptive filter.
+    /// Coverage and shading as `Multisampled`, resolved by the directionally adaptive filter.
     Directional,
     /// Shading at every sample of `latin4` in pixels with several surfaces, and at one in all others.
     Classified,
@@ -83,7 +83,8 @@ impl Method {
         method.with_options(options.iter().map(own).collect())
     }
 
-    /// The same with these options set, in their canonical spelling. Those that its kernel refuses are an error where it is compiled.
+    /// Sets these options, in their canonical spelling. Options that the method's kernel refuses are an error where it is
+    /// compiled.
     fn with_options(self, mut options: Vec<OptionText>) -> Method {
         let values = self.parse_options(&options).unwrap_or_default();
         for (name, text) in &mut options {
@@ -152,7 +153,7 @@ impl Method {
         }
     }
 
-    /// The same where only the capture's own samples are.
+    /// Restricts the method to the capture's own samples.
     pub fn on(&self, capture: &Capture) -> Method {
         let given = |name: &str| self.options.iter().any(|(own, _)| own == name);
         if self.kind != Kind::Sraa {

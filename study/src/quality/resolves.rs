@@ -112,7 +112,7 @@ pub fn inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError>
     })
 }
 
-/// Whose of the stored colours each sample has, in four bits: 15 for none.
+/// Index of the stored colour that each sample has, in four bits: 15 for none.
 fn codes(surfaces: &Surfaces<'_>) -> Frame<UVec4> {
     let size = surfaces.size();
     let code =

@@ -59,7 +59,7 @@ pub fn share_of_gap(methods: &mut [MethodErrors]) {
     }
 }
 
-/// What SRAA with 4 and with 16 samples, whose pictures are given at 8 bits as the reference is, is short of 4x and 16x.
+/// Gaps of SRAA with 4 and with 16 samples, whose pictures are given at 8 bits as the reference is, to 4x and 16x.
 pub fn gaps(
     shot: &Shot,
     made: [&Frame<Vec4>; 2],

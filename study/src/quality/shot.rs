@@ -136,7 +136,7 @@ impl Shot {
 }
 
 /// The mean of pictures shaded at `side` x `side` places around `shift`, as [`render::reference`], a step of the progress for
-/// each row; ends when it is told to.
+/// each row; ends early on request.
 pub fn supersampled(
     renderer: &dyn Renderer,
     side: u32,

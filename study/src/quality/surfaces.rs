@@ -59,7 +59,7 @@ pub struct Surfaces<'a> {
     layers: Vec<Layer<'a>>,
     /// Layers of the shading samples.
     shaded: Vec<usize>,
-    /// The rays through the pixels in the space of normals, if planes can be told: see [`Capture::rays`].
+    /// The rays through the pixels in the space of normals, if planes are known: see [`Capture::rays`].
     rays: Option<[Vec3; 3]>,
     /// A pixel at depth 1.
     pixel: f32,

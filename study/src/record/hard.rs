@@ -38,7 +38,7 @@ pub struct HardResult {
     /// Largest absolute difference to the oracle in `f64`, of pixels that are finite in both; `None` where the oracle has no
     /// finite answer.
     pub difference: Option<f64>,
-    /// The same in units of the last place of the result's precision, at the oracle's value.
+    /// Difference in units of the last place of the result's precision, at the oracle's value.
     pub ulps: Option<f64>,
     /// Origin of the first NaN or infinity: source line and operation, by the interpreter.
     pub born: Option<String>,

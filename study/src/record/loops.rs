@@ -15,7 +15,7 @@ pub enum FormKind {
     LoopedUnchecked,
     /// Loops left in the shader, hand-optimised: what is read several times is read once, into arrays.
     LoopedByHand,
-    /// The same without the bound: compilers that unroll loops by themselves can do it then.
+    /// Hand-optimised loops without the bound: compilers that unroll loops by themselves can do it then.
     LoopedByHandUnchecked,
     /// Two rounds in a row.
     Partial2,

@@ -1,4 +1,4 @@
-//! What a study found, as files: JSON with its circumstances, CSV beside it. `README.md` and the report cite these.
+//! Results of studies, as files: JSON with its circumstances, CSV beside it. `README.md` and the report cite these.
 
 mod film;
 mod frame;
@@ -133,25 +133,25 @@ pub enum RecordError {
     /// The file cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {
-        /// Which file.
+        /// The record's file.
         path: PathBuf,
         /// Why.
         source: std::io::Error,
     },
-    /// It cannot be written.
+    /// The record cannot be written.
     #[error(transparent)]
     Write(#[from] files::WriteError),
     /// The text is no such record.
     #[error("`{}` is not a record of this study: {source}; run the study again", path.display())]
     Json {
-        /// Which file.
+        /// The record's file.
         path: PathBuf,
-        /// What and where.
+        /// Description of the error, with its place.
         source: serde_json::Error,
     },
 }
 
-/// What is in a record's file; what is packed, `.gz`, is unpacked: long records are kept so.
+/// Reads the contents of a record's file; a packed one, `.gz`, is unpacked: long records are kept so.
 ///
 /// # Errors
 ///
@@ -176,7 +176,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, RecordError> {
     }
 }
 
-/// What a value is called in JSON.
+/// Name of a value in JSON.
 pub(crate) fn name(value: &impl Serialize) -> String {
     match serde_json::to_value(value) {
         Ok(serde_json::Value::String(text)) => text,

@@ -131,7 +131,7 @@ impl SweepRecord {
         Ok(serde_json::to_string_pretty(&schemars::schema_for!(SweepRecord))? + "\n")
     }
 
-    /// Whether others are compared with this variant.
+    /// Returns whether others are compared with this variant.
     pub fn is_baseline(&self, variant: &Swept) -> bool {
         let mut baseline = self.baseline.iter();
         variant.rival.is_none() && baseline.all(|(name, value)| variant.settings.get(name) == Some(value))

@@ -1,4 +1,4 @@
-//! How sure a median is: the percentile bootstrap (Efron and Tibshirani 1993, §13).
+//! Confidence interval of a median: the percentile bootstrap (Efron and Tibshirani 1993, §13).
 
 use serde::{Deserialize, Serialize};
 
@@ -32,8 +32,8 @@ pub fn median_of(values: &[f64], confidence: f64) -> Option<Interval> {
     Some(Interval { median, low, high })
 }
 
-/// How many times as large the median of `of` is as that of `over`, two samples that were taken apart, with the interval in
-/// which `confidence` of the quotients lie if both are drawn anew. `None` if either is empty.
+/// Quotient of the median of `of` by that of `over`, two samples that were taken apart, with the interval in which `confidence`
+/// of the quotients lie if both are drawn anew. `None` if either is empty.
 pub fn quotient_of(of: &[f64], over: &[f64], confidence: f64) -> Option<Interval> {
     let quotient = median(&mut of.to_vec())? / median(&mut over.to_vec())?;
     let quotients = resampled(of, 1).into_iter().zip(resampled(over, 2));

@@ -135,9 +135,9 @@ pub struct Compared {
     pub differs: bool,
 }
 
-/// What two records say of the variants that both have, other than their baselines. Of all intervals together 95 in a hundred
+/// Compares two records on the variants that both have, other than their baselines. Of all intervals together 95 in a hundred
 /// hold what they should (Bonferroni); each is of rounds of these two runs, and does not know how runs differ. `tolerance` is a
-/// part of one: what is nearer counts as the same.
+/// part of one: smaller differences count as the same.
 ///
 /// # Errors
 ///

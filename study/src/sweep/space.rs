@@ -1,4 +1,4 @@
-//! What is varied, and every variant of it.
+//! Space of a sweep: its axes, and every variant.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! How far surfaces lie apart in a capture: the scale of depth with which real steps count as 1 (SRAA, section 3.2).
+//! Steps between surfaces in a capture: the scale of depth with which real steps count as 1 (SRAA, section 3.2).
 
 use straightline_scene::capture::Capture;
 use straightline_scene::scene::SKY_DEPTH;

@@ -1,4 +1,4 @@
-//! What is tuned for: one view of a scene, sampled in several ways, and what it should look like.
+//! Subject of tuning: one view of a scene, sampled in several ways, and its reference.
 
 use super::TuneError;
 use crate::progress::Progress;
@@ -14,7 +14,7 @@ pub const PATTERNS: [&str; 3] = ["latin16", "standard8", "latin4"];
 /// Side of the grid of samples that a scene's reference is the mean of: 256 a pixel.
 const REFERENCE_SIDE: u32 = 16;
 
-/// What of a scene is drawn for variants that go beyond the paper.
+/// Parts of a scene that are drawn for variants beyond the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Beyond {
     /// Shading where the kernel `sraa_place` says.
@@ -36,18 +36,18 @@ impl Beyond {
     };
 }
 
-/// One view, in as many captures as it has sets of geometry samples, the largest set first.
+/// A view, in as many captures as it has sets of geometry samples, the largest set first.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The scene's name, or the capture's path.
     pub name: String,
-    /// The same view with the same colours; at least one.
+    /// Captures of one view with the same colours; at least one.
     pub captures: Vec<Capture>,
     /// The shading of each capture where geometry asks for it, or none of any.
     pub placed: Vec<Placed>,
-    /// What a perfect filter would give.
+    /// Result of a perfect filter.
     pub reference: Option<Frame<Vec4>>,
-    /// What the reference is, in words.
+    /// Description of the reference.
     pub referred_to: String,
 }
 
@@ -187,7 +187,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
     }
 }
 
-/// How far two samples are apart in a picture in which every pixel has them.
+/// Distance of two samples in a picture in which every pixel has them.
 fn apart(a: Vec2, b: Vec2) -> f32 {
     let away = (a - b).abs();
     away.min(1.0 - away).length()

@@ -1,5 +1,5 @@
-//! What a form should give in a case, by definition in `f64`, and how far from that it may be: by error analysis of the
-//! case's inputs, never by what was seen.
+//! Expected result of a form in a case, by definition in `f64`, and the bound on its error: by error analysis of the case's
+//! inputs, never by what was seen.
 //!
 //! | what | how far | why |
 //! | --- | --- | --- |

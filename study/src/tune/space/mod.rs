@@ -204,7 +204,7 @@ impl Space {
         }
     }
 
-    /// How the kernel is generated for a variant.
+    /// Returns the settings with which the kernel is generated for a variant.
     pub fn settings(&self, variant: Variant) -> Settings {
         Settings::new()
             .set_all(spell_settings(&self.options(variant)))
@@ -230,7 +230,7 @@ impl Space {
         options
     }
 
-    /// Whether a term does anything in a variant: normals alone have no depths to compare.
+    /// Returns whether a term does anything in a variant: normals alone have no depths to compare.
     fn counts(&self, variant: Variant, term: Term) -> bool {
         term != Term::Difference || self.value(variant, Term::Metric).label != "normals"
     }
@@ -261,13 +261,13 @@ impl Space {
         Some(self.canonical(variant))
     }
 
-    /// Whether a variant's pixels are shaded where the kernel `sraa_place` says.
+    /// Returns whether a variant's pixels are shaded where the kernel `sraa_place` says.
     pub fn is_placed(&self, variant: Variant) -> bool {
         self.value(variant, Term::Placing).sets("shading", "placed")
     }
 
-    /// What can be added to a variant, or was: in words, whether it was, and the variant without it and with it, both as they are
-    /// searched.
+    /// Terms that can be added to a variant, or were: in words, whether they were, and the variant without it and with it, both
+    /// as they are searched.
     pub fn added(&self, variant: Variant) -> Vec<Added> {
         let open = Term::BEYOND.into_iter().filter(|term| self.values(*term).len() > 1);
         let added = open.map(|term| Added {
@@ -279,11 +279,11 @@ impl Space {
         added.collect()
     }
 
-    /// What a variant lacks that the most general one has: the term, in words, and the variant with that put back.
+    /// Terms that a variant lacks and the most general one has: the term, in words, and the variant with that put back.
     pub fn left_out(&self, variant: Variant) -> Vec<(String, Variant)> {
         let mut found = Vec::new();
         for term in Term::ALL {
-            // A block leaves nothing out, and what is added is told of by `added`.
+            // A block leaves nothing out, and `added` has the terms that are added.
             if variant.at(term) == 0 || term == Term::Block || Term::BEYOND.contains(&term) {
                 continue;
             }

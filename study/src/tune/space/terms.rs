@@ -4,32 +4,32 @@ use crate::builtin::Setting;
 use straightline_codegen::{Math, Precision};
 use straightline_kernels::OptionValue;
 
-/// What can be left out of a filter, be had cheaper, or be added. `docs/tune.md` has the same table, with reasons.
+/// A term of a filter that can be left out, be had cheaper, or be added. `docs/tune.md` has the same table, with reasons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Term {
     /// Geometry samples of a pixel.
     Samples,
-    /// What tells surfaces apart: planes, normals, depth.
+    /// Metric of surfaces: planes, normals, depth.
     Metric,
-    /// Whether differences in depth count as shares of the depth.
+    /// Measure of differences in depth: absolute, or as shares of the depth.
     Difference,
-    /// Which taps a sample has, and how distance counts.
+    /// Taps of a sample, and their falloff with distance.
     Falloff,
-    /// Whether pixels without geometric variation are filtered.
+    /// Filtering of pixels without geometric variation.
     Mask,
-    /// Whether colours are tested to be finite.
+    /// Test that colours are finite.
     FiniteTest,
     /// Precision of floats.
     Precision,
-    /// Whether algebra may change roundings.
+    /// Algebra: exact, or such that may change roundings.
     Math,
     /// Pixels of one invocation.
     Block,
-    /// Whether pixels are shaded where the kernel `sraa_place` says.
+    /// Shading of pixels where the kernel `sraa_place` says.
     Placing,
-    /// Whether surfaces that no tap shows are searched for.
+    /// Search for surfaces that no tap shows.
     Search,
-    /// Whether light is borrowed apart from paint and shadow.
+    /// Borrowing of light apart from paint and shadow.
     Light,
 }
 
@@ -59,18 +59,18 @@ impl Term {
 pub struct Value {
     /// In words, for tables: `16 samples`.
     pub label: String,
-    /// What is left out where another value is chosen, and this is the most general one: `normals`. Of a term that goes beyond the
-    /// paper, what it adds: `placing`.
+    /// Name of the loss where another value is chosen, and this is the most general one: `normals`. Of a term beyond the paper,
+    /// name of the addition: `placing`.
     pub needs: String,
     /// Options of the kernel that it stands for.
     pub options: Vec<Setting>,
-    /// What shaders compute in.
+    /// Precision that shaders compute in.
     pub precision: Precision,
-    /// Which algebra is done.
+    /// Algebra that is done.
     pub math: Math,
     /// Pixels of one invocation, across and down.
     pub block: [u32; 2],
-    /// Whether it does what the paper's filter does not.
+    /// True if the value does what the paper's filter does not.
     pub beyond: bool,
 }
 
@@ -87,7 +87,7 @@ impl Value {
         }
     }
 
-    /// Whether it gives an option this choice.
+    /// Returns whether the value gives an option this choice.
     pub(super) fn sets(&self, name: &str, choice: &str) -> bool {
         self.options
             .iter()
@@ -104,14 +104,14 @@ pub struct SampleSet {
     pub options: Vec<Setting>,
 }
 
-/// What a subject and a device allow to be searched.
+/// Values that a subject and a device allow to be searched.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Offer {
     /// Sets of geometry samples, the largest first.
     pub samples: Vec<SampleSet>,
-    /// Whether there are normals.
+    /// True if there are normals.
     pub normals: bool,
-    /// Whether there is a camera, without which there are no planes.
+    /// True if there is a camera, without which there are no planes.
     pub camera: bool,
     /// With which scale of depth most steps from surface to surface are 1 or more, where there are any.
     pub depth_scale: Option<f64>,
@@ -128,7 +128,7 @@ pub struct Offer {
 }
 
 impl Offer {
-    /// Whether all variants have an option, whatever its value.
+    /// Returns whether all variants have an option, whatever its value.
     pub(in crate::tune) fn fixes(&self, option: &str) -> bool {
         self.fixed.iter().any(|(name, _)| name == option)
     }
@@ -324,7 +324,7 @@ fn beyond(
     vec![unsaid(without)]
 }
 
-/// A value that leaves its options to whoever fixed them.
+/// Leaves a value's options to the user who fixed them.
 pub(super) fn unsaid(value: Value) -> Value {
     Value {
         options: Vec::new(),

@@ -177,7 +177,7 @@ fn what_goes_beyond_the_paper_is_added_to_plain_variants_alone() {
             general.with(Term::Search, 1)
         );
     }
-    // The same from a variant that has some of it already.
+    // A variant that has some of it already is extended to the same.
     assert_eq!(space.extended(all), extended);
     assert!(
         space
@@ -227,12 +227,12 @@ fn options_beyond_the_paper_can_be_set_as_all_others() {
     assert!(none.added(none.general()).is_empty());
     assert!(none.left_aside.iter().any(|line| line == "search: it was set to none"));
 
-    // What all have is what they are compared with: it may go with all else.
+    // Terms that all variants have are part of the baseline: they may go with all else.
     let placed = set(&[("shading", "placed")]);
     assert_eq!(searched(&placed), [Term::Search, Term::Light]);
     assert!(placed.is_placed(placed.general()) && placed.name(placed.general()).ends_with("placed"));
     assert_eq!(placed.variants().len(), set(&[]).variants().len());
-    // What is not searched may be set.
+    // Options that are not searched may be set.
     let seven = set(&[("search", "seven")]);
     assert_eq!(searched(&seven), [Term::Placing, Term::Light]);
     assert_eq!(beyond(&seven, seven.general())[0], owned(&[("search", "seven")])[0]);
