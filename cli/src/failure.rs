@@ -1,4 +1,4 @@
-//! How the command line fails: one clear error on stderr, exit status 2 for bad use and 1 for all else.
+//! Failure of the command line: one clear error on stderr, exit status 2 for bad use and 1 for all else.
 
 use crate::output;
 use std::fmt::Display;
@@ -9,9 +9,9 @@ use straightline_codegen::diagnostic::{Code, Errors};
 /// Why a command ended without doing what it was asked.
 #[derive(Debug)]
 pub enum Failure {
-    /// It was asked for something that there is not.
+    /// The request is wrong or names something that does not exist.
     Usage(String),
-    /// It could not do it.
+    /// The command could not do its work.
     Failed(String),
     /// The kernel, or a setting of it, is wrong.
     Kernel(Errors),

@@ -10,7 +10,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub info: wgpu::AdapterInfo,
-    /// Whether the device can time passes itself.
+    /// True if the device can time passes itself.
     pub timestamps: bool,
 }
 
@@ -93,7 +93,7 @@ impl Gpu {
         describe(&self.info)
     }
 
-    /// Whether shaders can compute in half precision.
+    /// Returns whether shaders can compute in half precision.
     pub fn has_half(&self) -> bool {
         self.device.features().contains(Features::SHADER_F16)
     }
@@ -104,7 +104,7 @@ impl Gpu {
     }
 }
 
-/// What helps a machine without a GPU.
+/// Help for a machine without a GPU.
 pub const INSTALL: &str = "install a Vulkan driver (a software one is in Debian's mesa-vulkan-drivers)";
 
 fn describe(info: &wgpu::AdapterInfo) -> String {

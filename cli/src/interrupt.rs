@@ -4,10 +4,10 @@ use crate::failure::Failure;
 use std::sync::atomic::{AtomicBool, Ordering};
 use straightline_codegen::files;
 
-/// Whether a first Ctrl-C only asks to stop: set while something runs that keeps what it has measured.
+/// True if a first Ctrl-C only asks to stop: set while something runs that keeps what it has measured.
 static ASKS: AtomicBool = AtomicBool::new(false);
 
-/// Whether it was asked to stop.
+/// True once Ctrl-C asked to stop.
 static PRESSED: AtomicBool = AtomicBool::new(false);
 
 /// Exit status of a program that was interrupted, as shells have it.
@@ -33,7 +33,7 @@ pub fn ask() {
     ASKS.store(true, Ordering::SeqCst);
 }
 
-/// Whether it was asked to stop.
+/// Returns whether Ctrl-C asked to stop.
 #[cfg(feature = "study")]
 pub fn asked() -> bool {
     PRESSED.load(Ordering::SeqCst)

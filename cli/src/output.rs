@@ -8,7 +8,7 @@ use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::Mutex;
 
-/// What standard output refused first.
+/// First error of standard output.
 static REFUSED: Mutex<Option<io::Error>> = Mutex::new(None);
 
 /// Most characters of a line of an error.
@@ -21,11 +21,11 @@ pub fn print(text: Arguments<'_>) {
 
 /// Prints to standard error.
 pub fn note(text: Arguments<'_>) {
-    // Where even errors cannot be told there is nothing left to do.
+    // Nothing is left to do if even errors cannot be written.
     let _ = io::stderr().write_fmt(text);
 }
 
-/// Whether all that was printed has arrived, or nobody reads it any more.
+/// Flushes standard output, and fails if it refused something. A closed pipe is no error.
 pub fn finish() -> Result<(), Failure> {
     attempt(|| io::stdout().flush());
     let refused = REFUSED.lock().ok().and_then(|mut refused| refused.take());
@@ -37,7 +37,7 @@ pub fn finish() -> Result<(), Failure> {
     }
 }
 
-/// Whether standard output takes nothing any more. A program that prints until it is stopped has then nobody to print for.
+/// Returns whether standard output has refused text. A program that prints until it is stopped has no reader then.
 pub fn is_refused() -> bool {
     REFUSED.lock().map_or(true, |refused| refused.is_some())
 }

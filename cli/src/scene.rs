@@ -16,7 +16,7 @@ pub fn load(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
     load_seen(mesh, name, &Viewpoint::default())
 }
 
-/// What is asked for, from where it is asked for.
+/// Returns the requested scene, from the requested viewpoint.
 pub fn viewed(args: &ViewArgs) -> Result<Scene, Failure> {
     let viewpoint = Viewpoint {
         eye: args.eye,
@@ -56,7 +56,7 @@ pub fn pattern(name: &str) -> Result<Vec<Vec2>, Failure> {
     })
 }
 
-/// Where shading is sampled by its name on the command line; `shaded` are the geometry samples of `listed`.
+/// Returns the place of shading by its name on the command line; `shaded` are the geometry samples of `listed`.
 pub fn shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
     match (name, shaded) {
         ("centre", []) => Ok(ShadingSample::Centre),

@@ -39,7 +39,8 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What shading is placed by, if it is placed: planes, unless depths are asked for or it is not known where samples lie.
+/// Returns the metric that places shading, if it is placed: planes, unless depths are asked for or the samples' places are
+/// unknown.
 fn placed_by(args: &CaptureArgs, shading: &ShadingSample) -> Result<Option<PlacedBy>, Failure> {
     match (shading, args.placed_by) {
         (ShadingSample::Placed, Some(PlacedByArg::Planes)) => Ok(Some(PlacedBy::Planes)),

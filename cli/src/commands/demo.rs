@@ -21,7 +21,7 @@ use straightline_scene::gbuffer;
 use straightline_scene::picture;
 use straightline_scene::render::{self, Renderer};
 
-/// One antialiased picture and what it took.
+/// An antialiased picture and its measurements.
 struct Method {
     name: &'static str,
     unrolled: Compiled,
@@ -178,7 +178,7 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     Ok((resolved, [times[0], times[1]], clock))
 }
 
-/// One round: the interpreter is there to show the result, not to be raced.
+/// Runs one round: the interpreter is there to show the result, not to be raced.
 fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     let inputs = &method.inputs;
     let mut times = [Vec::new(), Vec::new()];

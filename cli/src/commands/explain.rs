@@ -81,7 +81,7 @@ fn explain_code(code: Code, as_json: bool) {
 /// Columns of a screen.
 const WIDTH: usize = 80;
 
-/// What the words of a section stand behind.
+/// Columns of a section's head, before its text.
 const HEAD: usize = 10;
 
 fn section(head: &str, text: &str) {
@@ -163,7 +163,7 @@ fn gathered_json(gathered: &Gathered) -> Value {
     })
 }
 
-/// What a workgroup shares, and which reads stay as they are and why.
+/// Describes the memory shared by a workgroup, and the reads that stay as they are, with the reason.
 fn sharing_json(sharing: &Sharing) -> Value {
     let tiles = sharing.tiles.iter().map(|tile| {
         json!({
@@ -260,7 +260,7 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     print_loops(compiled);
 }
 
-/// What a workgroup shares, and which reads stay as they are and why.
+/// Prints the memory shared by a workgroup, and the reads that stay as they are, with the reason.
 fn print_sharing(sharing: &Sharing) {
     let rows = sharing.tiles.iter().map(|tile| {
         let ([left, upper], [width, height]) = (tile.first, tile.size);
@@ -285,7 +285,7 @@ fn print_sharing(sharing: &Sharing) {
     }
 }
 
-/// Which reads became gathers.
+/// Prints the reads that became gathers.
 fn print_gathered(gathered: &[Gathered]) {
     outln!();
     if gathered.is_empty() {
@@ -301,7 +301,7 @@ fn print_gathered(gathered: &[Gathered]) {
     out!("{}", table::render(&["Gathered", "reads", "gathers"], &rows));
 }
 
-/// What became of each loop, and why it was unrolled where it was asked to be left in the shader.
+/// Prints the treatment of each loop, and the reason why it was unrolled where it was asked to be left in the shader.
 fn print_loops(compiled: &Compiled) {
     let loops = compiled.loops.iter().map(|report| {
         let cells = [

@@ -14,7 +14,7 @@ use straightline_scene::picture;
 use straightline_study::quads;
 use straightline_study::quality::{FIGURES, Figure};
 
-/// What is made of the chapter: its pictures, and what they show.
+/// Figures of the chapter: their names, and their subjects.
 const OF_THE_CHAPTER: [(&str, &str); 2] = [
     ("pqa-03", "half resolution brought up by one read a pixel"),
     (

@@ -42,7 +42,7 @@ fn all() -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a kernel does, without whose it is.
+/// Returns a kernel's purpose, without its authors.
 fn what(entry: &Entry) -> &'static str {
     match entry.summary.rsplit_once(" (") {
         Some((what, _)) if entry.summary.ends_with(')') => what,

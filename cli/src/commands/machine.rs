@@ -1,4 +1,4 @@
-//! What a GPU's compiler makes of a shader, for `explain --isa`.
+//! Figures of a GPU's compiler for a shader, for `explain --isa`.
 
 use super::study::isa::SERVE;
 use crate::args::Family;

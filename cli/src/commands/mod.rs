@@ -1,4 +1,4 @@
-//! One module for each command. What measures kernels and scenes needs the feature `study`.
+//! Commands, one module for each. Those that measure kernels and scenes need the feature `study`.
 
 pub mod adapters;
 #[cfg(feature = "study")]

@@ -45,7 +45,7 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     report(args, &compiled, &by, &resolved, errors, &warnings)
 }
 
-/// What makes a picture worse than it need be, and shows in the capture.
+/// Warns of flaws that make a picture worse than it need be, and show in the capture.
 fn warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(misplaced) = gbuffer::misplaced(capture) {

@@ -14,7 +14,7 @@ const INTERVAL: Duration = Duration::from_millis(100);
 /// When a file was written last and how long it is; nothing where it cannot be told.
 type Stamp = Option<(SystemTime, u64)>;
 
-/// Emits, and again after every change, until it is interrupted or nobody reads what it prints.
+/// Emits, and again after every change, until it is interrupted or its output is closed.
 pub fn run(args: &WatchArgs) -> Result<(), Failure> {
     let paths = files(args)?;
     refuse_inputs_without_picture(args)?;

@@ -1,4 +1,4 @@
-//! What stands for asking a GPU's compiler in a build that asks none: there is no family to ask for.
+//! Replacement for asking a GPU's compiler in a build that asks none: there is no family to ask for.
 
 use crate::args::Family;
 use crate::failure::Failure;

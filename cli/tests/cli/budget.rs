@@ -1,4 +1,4 @@
-//! `budget` as its user sees it: the paper's table 2 of one's own scene, and sums that are right.
+//! Tests of `budget` from the user's side: the paper's table 2 of a user's own scene, and sums that are right.
 
 use crate::common;
 

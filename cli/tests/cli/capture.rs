@@ -132,7 +132,7 @@ fn a_capture_is_shaded_where_it_is_asked() {
     );
 }
 
-/// One shading sample a pixel, moved where geometry asks for it: `resolve` reads where from the capture.
+/// A single shading sample a pixel, moved where geometry asks for it: `resolve` reads its place from the capture.
 #[test]
 fn a_capture_that_is_placed_is_closer_to_its_reference() {
     let folder = scratch("capture-placed");

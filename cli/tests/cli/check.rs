@@ -49,7 +49,7 @@ fn messages(arguments: &[&str]) -> (Vec<Diagnostic>, bool) {
     (found, finished)
 }
 
-/// What a span marks in its file, read by lines and columns; bytes and the quoted lines must say the same.
+/// Returns the text that a span marks in its file, read by lines and columns; bytes and the quoted lines must say the same.
 fn marked(span: &DiagnosticSpan) -> String {
     assert!(Path::new(&span.file_name).is_absolute(), "{}", span.file_name);
     let text = std::fs::read_to_string(&span.file_name).expect("the file is there");
@@ -184,7 +184,7 @@ fn an_error_behind_the_graph_stands_at_its_input() {
         "this input",
     ];
     fails(&["emit", &shade, "--engine", "godot", "--out", &out], 1, &says);
-    // A stage without what the kernel needs is told at the kernel's name.
+    // A stage that lacks what the kernel needs is reported at the kernel's name.
     let writes = "// fn writes\npub fn writes(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {\n    \
         bins.add((color.load(pixel).x * 8.0) as usize, 1);\n}\n";
     let kernel = write(&folder, "writes.rs", writes);
@@ -199,7 +199,7 @@ fn an_error_behind_the_graph_stands_at_its_input() {
 fn functions_that_no_kernel_reaches_are_checked_for_their_types() {
     let folder = scratch("check-others");
     let kernel = "use straightline_kernels::prelude::*;\n\npub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
-    // What a kernel does not reach may be outside of its language.
+    // Functions that a kernel does not reach may be outside of its language.
     let outside =
         "\nfn printed(x: f32) {\n    println!(\"{x}\");\n}\n\nfn others(x: f32) -> u64 {\n    elsewhere::of(x)\n}\n";
     let fine = write(&folder, "lens.rs", &format!("{kernel}{outside}"));

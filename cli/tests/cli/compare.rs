@@ -26,7 +26,7 @@ fn two_pictures_are_compared() {
     ] {
         picture::write(&folder.join(name), &grey(20, light)).expect("written");
     }
-    // One of 400 pixels is off by 0.1: 20 dB, and 26.02 for the 399 that are right.
+    // A pixel of 400 is off by 0.1: 20 dB, and 26.02 for the 399 that are right.
     let said = finishes(&["compare", &path("b.exr"), &path("a.exr")]);
     assert!(
         said.contains("46.02 dB") && said.contains("SSIM") && said.contains("FLIP"),

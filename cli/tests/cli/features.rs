@@ -1,4 +1,4 @@
-//! What the command is built from: everything where the tests are run, and little where the README begins.
+//! Features of the command: all of them where the tests are run, and few where the README begins.
 
 use crate::common;
 

@@ -58,7 +58,7 @@ fn output_that_is_full_is_an_error_and_no_panic() {
             "{said}"
         );
     }
-    // Where errors cannot be told, the status does.
+    // The exit status reports errors that cannot be written.
     let full = File::options().write(true).open("/dev/full").expect("a full device");
     let status = command(&["emit", "nothing", "--out", "x"]).stderr(full).status();
     assert_eq!(status.expect("the binary runs").code(), Some(2));
@@ -175,7 +175,7 @@ fn only_regular_files_are_read() {
     fails(&["run", "quad_convolution", "--input", &input, "--out", out], 1, says);
 }
 
-/// What works for long finds out first that it cannot write, and leaves nothing behind.
+/// Long-running commands find out first that they cannot write, and leave nothing over.
 #[test]
 fn folders_that_cannot_be_written_are_found_out_first() {
     let folder = scratch("unwritable");
@@ -272,7 +272,7 @@ fn an_interrupt_leaves_nothing_unfinished() {
     assert!(interrupted > 0, "it was always done before it could be interrupted");
 }
 
-/// What a disk that is full after so many half kilobytes in each file leaves: nothing, and what was there before.
+/// A disk that is full after so many half kilobytes in each file must leave nothing new, and the earlier contents.
 #[test]
 fn a_full_disk_leaves_what_was_there() {
     let folder = scratch("full-disk");

@@ -74,7 +74,7 @@ fn without_the_generator_nothing_is_written() {
     fails(&["page", "--out", out_text, "--module", &text], 2, &["--templates"]);
     fails(&["page"], 2, &["--out"]);
     assert!(is_empty(&out));
-    // A folder in which nothing can be written is told of before anything is built.
+    // A folder that cannot be written to is reported before anything is built.
     let file = write(&folder, "file", "");
     fails(
         &["page", "--out", &format!("{file}/page")],

@@ -62,7 +62,7 @@ fn half_precision_that_shows_is_refused_with_its_reason() {
     assert!(folder.join("sraa.wgsl").exists());
     let f32 = ["emit", "sraa", "--accept-loss", "--out", out];
     fails(&f32, 2, &["--accept-loss", "--precision f16"]);
-    // Who writes a kernel judges it.
+    // A user's own kernel is judged by its author.
     let own = example("median");
     let output = straightline(&["emit", &own, "--precision", "f16", "--out", out]);
     let said = String::from_utf8_lossy(&output.stderr);

@@ -301,7 +301,7 @@ fn volumes_cubes_and_integers_come_from_files() {
     let color = picture(&folder, "color.exr", uvec2(4, 2), |x, y| {
         vec4(x as f32 / 4.0, y as f32, 0.5, 1.0)
     });
-    // One that swaps red and blue, as a table and as a strip of its slices.
+    // A table that swaps red and blue, as a table and as a strip of its slices.
     let swapped = |r: u32, g: u32, b: u32| vec4(b as f32, g as f32, r as f32, 1.0);
     let mut table = "LUT_3D_SIZE 2\n".to_owned();
     for k in 0..8 {
@@ -455,7 +455,7 @@ fn buffers_that_a_kernel_writes_are_written_as_text() {
 /// Gives a NaN, which `--check-finite` refuses, where the texture is not `level`.
 const DATA: &str = "pub fn data(depth: &Frame<f32>, level: f32, pixel: IVec2) -> Vec4 {\n    let right = if (depth.load(pixel) - level).abs() < 0.002 { 1.0 } else { 0.0 };\n    Vec4::splat(right / right)\n}\n";
 
-/// The same of a colour.
+/// Gives a NaN as `DATA` does, where the colour is not `level`.
 const COLOR: &str = "pub fn colour(color: &Frame<Vec4>, level: f32, pixel: IVec2) -> Vec4 {\n    let right = if (color.load(pixel).y - level).abs() < 0.002 { 1.0 } else { 0.0 };\n    Vec4::splat(right / right)\n}\n";
 
 #[test]

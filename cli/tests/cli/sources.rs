@@ -18,7 +18,7 @@ fn rows(document: &str) -> Vec<Vec<String>> {
     rows.map(cells).collect()
 }
 
-/// What stands between backticks, with what stands before it since the last such.
+/// Splits out the texts between backticks, with the text before each since the last one.
 fn codes(cell: &str) -> Vec<(&str, &str)> {
     let parts: Vec<&str> = cell.split('`').collect();
     parts.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()

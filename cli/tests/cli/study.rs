@@ -307,7 +307,7 @@ fn a_compiler_is_asked_without_its_gpu() {
     assert!(figure("inverse_throughput") > 0 && figure("vector") > 0);
     assert!(figure("vector") + figure("memory") <= figure("instructions"));
 
-    // What is read and written is counted twice: in the text by the generator, in machine code by the compiler.
+    // Reads and writes are counted twice: in the text by the generator, in machine code by the compiler.
     let found = explained(&format!("{}::sobel", example("sobel")));
     let reads = found["reads"].as_object().expect("reads").values();
     let reads: u64 = reads.filter_map(serde_json::Value::as_u64).sum();

@@ -75,7 +75,8 @@ fn bad_use_is_refused_before_anything_is_drawn() {
     tune(&["--mesh", "nowhere.obj", "--max-error", "1"], 1, &["nowhere.obj"]);
 }
 
-/// Where no such GPU is at hand its compiler is asked: the same cycles every time, of which the least within the budget is chosen.
+/// A compiler stands in for a GPU that is not at hand: the same cycles every time, of which the least within the budget is
+/// chosen.
 #[test]
 fn variants_are_compared_by_the_cycles_of_a_compiler() {
     let run = |name: &str| {
@@ -170,7 +171,7 @@ fn a_placed_variant_comes_with_the_shader_that_places() {
     assert_eq!(told.filter(|term| *term == "search").count(), 1);
 }
 
-/// What is not searched may be set for all, and no block of pixels then goes the same way.
+/// Options that are not searched may be set for all, and no block of pixels then goes the same way.
 #[test]
 fn what_takes_a_branch_leaves_blocks_aside() {
     let out = scratch("tune-branch");

@@ -15,7 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A running `watch`. It is ended when this is dropped, whatever a test found.
 struct Watch {
     child: Child,
-    /// What it prints on both streams, line by line.
+    /// Lines that the command prints on both streams.
     lines: Receiver<String>,
 }
 
@@ -99,7 +99,7 @@ fn shader_and_picture_follow_the_file() {
     let (shader, pixels) = read();
     assert!(shader.contains("0.125"), "{shader}");
 
-    // An error is told, and leaves what there was.
+    // An error is reported, and leaves the files as they were.
     write(&folder, "k.rs", &kernel("Vec4::splat(pixel.x as f32) * true"));
     watch.says("cannot apply `*`");
     assert_eq!(read(), (shader, pixels.clone()));
@@ -111,7 +111,7 @@ fn shader_and_picture_follow_the_file() {
     let (shader, changed) = read();
     assert!(shader.contains("0.625") && changed != pixels, "{shader}");
 
-    // A file that is gone is told, and followed when it is back.
+    // A file that is gone is reported, and followed when it is back.
     std::fs::remove_file(&file).expect("removed");
     watch.says("cannot read the kernel file");
     write(&folder, "k.rs", &kernel("Vec4::splat(pixel.x as f32) * 0.375"));

@@ -1,4 +1,4 @@
-//! What users read: help, `list` and `explain`, as captured in `captures/`; completions; manual pages.
+//! Texts that users read: help, `list` and `explain`, as captured in `captures/`; completions; manual pages.
 //!
 //! After a rewording: `STRAIGHTLINE_BLESS=1 cargo test --workspace --test cli words::`.
 
@@ -66,7 +66,7 @@ fn the_list_fits_a_screen_and_has_everything() {
             }
         }
     }
-    // A kernel of one's own.
+    // A user's own kernel.
     let own = finishes(&["list", &here("kernels/filters/kuwahara.rs")]);
     assert!(
         own.contains("  radius: ") && own.contains("1 to 5, or uniform (default 3)"),

@@ -52,7 +52,7 @@ pub fn write(folder: &Path, name: &str, text: &str) -> String {
     path.display().to_string()
 }
 
-/// Whether nothing is there.
+/// Returns whether a folder does not exist or is empty.
 pub fn is_empty(folder: &Path) -> bool {
     !folder.exists() || std::fs::read_dir(folder).expect("a folder").next().is_none()
 }

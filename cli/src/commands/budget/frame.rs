@@ -1,4 +1,4 @@
-//! What frames cost, from the passes that they are made of.
+//! Cost of frames, from the passes that they consist of.
 
 use super::measure::Measured;
 use crate::failure::Failure;
@@ -33,7 +33,7 @@ const METHODS: [Method; 8] = [
     Method::Multisampling,
 ];
 
-/// What a frame costs: a column of the paper's table 2, in milliseconds.
+/// Cost of a frame: a column of the paper's table 2, in milliseconds.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameCost {
     pub method: String,
@@ -51,7 +51,7 @@ pub struct FrameCost {
 pub struct Comparison {
     pub method: String,
     pub over: String,
-    /// How many times less time a frame takes.
+    /// Speedup of a frame.
     pub speedup: Quartiles,
     /// Milliseconds of shading once a pixel from which SRAA is cheaper, if each further sample's shading costs as much; `null`
     /// where the other method does not shade further samples. Below 0: whatever shading costs.
@@ -173,7 +173,8 @@ pub fn comparisons(measured: &Measured) -> Result<Vec<Comparison>, Failure> {
     Ok(all)
 }
 
-/// The same of a filter with so many samples beside the main G-buffer, drawn in a pass each, over shading all samples.
+/// Break-even shading cost of a filter with so many samples beside the main G-buffer, drawn in a pass each, against shading all
+/// samples.
 pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Result<Quartiles, Failure> {
     let pass = |pass| measured.pass(pass).map(|timed| timed.rounds_ms.as_slice());
     let geometry = added(

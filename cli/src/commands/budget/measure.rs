@@ -26,7 +26,7 @@ const METRICS: [(&str, f64); 4] = [
 /// The metric that SRAA has unless another is asked for.
 pub const DEFAULT_METRIC: &str = "depth-normals";
 
-/// Where geometry and shading of the filters that are timed are sampled. The default metric alone is timed with `sample0`.
+/// Sample places of geometry and shading for the filters that are timed. The default metric alone is timed with `sample0`.
 const PLACES: [(&str, &str, Samples); 3] = [
     ("latin4", "centre", Samples::Four),
     ("latin4", "sample0", Samples::Three),
@@ -69,7 +69,7 @@ pub struct PassTime {
 pub struct Filter {
     pub metric: &'static str,
     pub pattern: &'static str,
-    /// Where the picture is shaded.
+    /// Place of shading in the pixel.
     pub shading: &'static str,
     /// Samples that are drawn beside the main G-buffer.
     #[serde(skip)]
@@ -78,7 +78,7 @@ pub struct Filter {
     pub ms: Quartiles,
     /// Times as slow as with the default metric and shading at the centre: of the medians.
     pub ratio: f64,
-    /// The same in the paper.
+    /// Ratio in the paper.
     pub paper_ratio: Option<f64>,
     /// Milliseconds of shading once a pixel from which SRAA, its geometry included, is cheaper than shading as many samples.
     pub break_even_ms: Quartiles,
@@ -96,7 +96,7 @@ pub struct Measured {
 /// A whole frame in one submission, which goes from graphics to compute and back as its passes need it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Together {
-    /// What it is a frame of.
+    /// Method whose frame it is.
     pub method: &'static str,
     pub ms: Quartiles,
     /// Times as long as its parts, each submitted by itself, take together: round by round.
@@ -104,7 +104,7 @@ pub struct Together {
     pub rounds_ms: Vec<f64>,
 }
 
-/// What that is.
+/// Passes that are timed together.
 const TOGETHER: [FramePass; 3] = [
     FramePass::Geometry(Samples::One),
     FramePass::Auxiliary(Samples::Four),

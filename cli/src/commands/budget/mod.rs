@@ -46,7 +46,7 @@ struct Record {
     /// The paper's table 2, of this scene on this device.
     frames: Vec<FrameCost>,
     comparisons: Vec<Comparison>,
-    /// What the frames are made of.
+    /// Passes that frames consist of.
     passes: Vec<PassTime>,
     filters: Vec<Filter>,
     /// `null` where timestamps are taken, which lie around passes alone.

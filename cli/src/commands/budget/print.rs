@@ -188,7 +188,7 @@ fn interval(of: Quartiles) -> String {
     format!("{:.2} ({:.2} to {:.2})", of.median, of.lower, of.upper)
 }
 
-/// The same of a cost: what pays below nothing pays always.
+/// Formats a cost, negative numbers as 0: what pays below nothing pays always.
 fn not_negative(of: Quartiles) -> String {
     interval(Quartiles {
         lower: of.lower.max(0.0),

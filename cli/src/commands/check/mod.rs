@@ -16,7 +16,7 @@ use straightline_codegen::{Compiled, Kernel};
 /// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     let names = names(&args.kernels, &args.source)?;
-    // What is not there is bad use, and told before anything runs.
+    // A missing file is bad use, and reported before anything runs.
     let mut located = Vec::new();
     for name in &names {
         match args.of(name).locate() {
@@ -95,7 +95,7 @@ fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> 
                 );
                 return Err(Failure::Usage(what));
             }
-            // What only holds modules, and what is given as a source, is no kernel.
+            // Files that only hold modules or are given as a source are no kernels.
             if rust && !path.ends_with("mod.rs") && !sources.contains(&path) {
                 found.push(path.display().to_string());
             }
@@ -111,7 +111,7 @@ fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> 
     Ok(names)
 }
 
-/// What `emit` would find wrong with a kernel. Every error has a place, since editors show no other.
+/// Finds the errors that `emit` would find in a kernel. Every error has a place, since editors show no other.
 fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
     let placed = |mut errors: Errors| {
         let place = kernel.place();

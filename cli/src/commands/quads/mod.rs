@@ -13,7 +13,7 @@ use straightline_study::progress::Progress;
 use straightline_study::quads::{QuadsError, Setup, study};
 use straightline_study::record::{QuadWay, QuadsRecord};
 
-/// How long a shader is run at least for one time, as in `study loops`.
+/// Least time that a shader runs for one measurement, as in `study loops`.
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures every way of every filter on a rendered frame, in one run.

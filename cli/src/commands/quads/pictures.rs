@@ -1,4 +1,4 @@
-//! What the filters make, to be looked at.
+//! Pictures that the filters make, to be looked at.
 
 use crate::failure::Failure;
 use glam::Vec4;
@@ -74,7 +74,7 @@ fn occluded(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
     all
 }
 
-/// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
+/// Enlarges one part of several pictures, left, top, width and height as shares of the whole, beside one another.
 fn details(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> {
     let detail = |frame: &Frame<Vec4>| {
         let size = frame.size().as_vec2();

@@ -1,4 +1,4 @@
-//! What a kernel is given to read: pictures, layers of captures, numbers.
+//! Inputs of a kernel: pictures, layers of captures, numbers.
 
 use super::transfer::{self, Transfer};
 use super::values;
@@ -14,7 +14,7 @@ use straightline_scene::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
 pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {
-    // One compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
+    // A compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
     let compiled = match (given.executor, stage) {
         (Executor::Gpu, Stage::Fragment) => {
             refuse_varyings(compiled)?;
@@ -118,7 +118,7 @@ fn size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
     chosen.map(|(_, size)| *size)
 }
 
-/// What `NAME=FILE` or `FILE` says.
+/// Parses `NAME=FILE` or `FILE`.
 fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'a Texture, &'t str), Failure> {
     let textures = &compiled.graph.textures;
     let names = || textures.iter().map(|t| t.name.as_str());
@@ -191,7 +191,7 @@ fn paths(text: &str) -> Vec<&str> {
     }
 }
 
-/// Whether several pictures make one texture.
+/// Returns whether several pictures make one texture.
 fn takes_several(texture: &Texture) -> bool {
     texture.kind.is_indexed() || texture.kind.is_cube() || texture.kind == TextureKind::Volume
 }

@@ -24,7 +24,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a run has written, and what computed it.
+/// Result of a run: its files, and the device or interpreter that computed it.
 pub struct Made {
     pub files: Vec<PathBuf>,
     by: String,
@@ -80,7 +80,7 @@ pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Resul
     Ok(Made { files, by })
 }
 
-/// What would otherwise be found only after all the work.
+/// Refuses requests whose errors would otherwise be found only after all the work.
 fn check(args: &RunArgs) -> Result<(), Failure> {
     if args.given.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(

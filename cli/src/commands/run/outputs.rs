@@ -1,4 +1,4 @@
-//! Where what a kernel gives is written to.
+//! Files that a kernel's results are written to.
 
 use crate::args::RunArgs;
 use crate::failure::Failure;
@@ -15,7 +15,7 @@ const TEXTS: [&str; 2] = ["csv", "txt"];
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Out {
-    /// What it is to hold.
+    /// Contents of the file.
     what: What,
     /// The file.
     pub path: PathBuf,
@@ -29,7 +29,7 @@ enum What {
     Buffer(String, usize),
 }
 
-/// What `--out` says, which may be given several times: `FILE` for the first target, or `NAME=FILE`.
+/// Parses `--out`, which may be given several times: `FILE` for the first target, or `NAME=FILE`.
 pub fn outs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Failure> {
     let mut outs: Vec<Out> = Vec::new();
     for text in &args.out {
@@ -94,7 +94,7 @@ fn out(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
     Ok(Out { what, path })
 }
 
-/// Refuses a file of which it cannot be told what kind it is.
+/// Refuses a file of unknown kind.
 fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), Failure> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match known.contains(&extension.to_ascii_lowercase().as_str()) {

@@ -1,4 +1,4 @@
-//! What the numbers of a PNG mean: colours in sRGB, or data as they are.
+//! Transfer function of a PNG's numbers: colours in sRGB, or data as they are.
 
 use crate::failure::Failure;
 use std::collections::BTreeSet;
@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use straightline_codegen::ir::Texture;
 use straightline_scene::picture;
 
-/// How the numbers of a PNG become those of a texture.
+/// Conversion of a PNG's numbers to those of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
     /// They are colours in sRGB, made linear; alpha is as it is.
@@ -28,8 +28,8 @@ pub fn of(path: &str) -> (&str, Option<Transfer>) {
     }
 }
 
-/// What is asked for, or what the texture's type says: one or two components are data, three or four a colour. Where a PNG is read as
-/// sRGB without being asked, says so.
+/// Returns the requested conversion, or the one of the texture's type: one or two components are data, three or four a colour.
+/// Where a PNG is read as sRGB without a request, says so.
 pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result<Transfer, Failure> {
     let is_png = picture::is_png(Path::new(path));
     match asked {

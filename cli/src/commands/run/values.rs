@@ -64,7 +64,7 @@ fn numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
 /// Numbers that a buffer may have.
 const MOST: usize = 1 << 24;
 
-/// What stands between commas; `0*256` is a number so many times.
+/// Splits a list at commas; `0*256` is a number so many times.
 fn texts<'t>(name: &str, text: &'t str) -> Result<Vec<&'t str>, Failure> {
     let mut texts = Vec::new();
     for part in text.split(',') {

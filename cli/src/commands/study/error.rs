@@ -27,7 +27,7 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
         size: common.size(),
         rounds: common.rounds(),
         quick: common.quick,
-        // What changes from frame to frame is another question.
+        // Post-processed pictures are not compared from frame to frame.
         pan_frames: match (args.post, common.quick) {
             (true, _) => 0,
             (_, true) => QUICK_FRAMES,
@@ -73,7 +73,7 @@ fn check_names(names: &[String]) -> Result<(), Failure> {
     }
 }
 
-/// What is said of a name that no method has.
+/// Message about a name that no method has.
 pub fn unknown(name: &str, known: &[Method]) -> String {
     let mut said = format!("there is no method `{name}`; there are:");
     let mut width = usize::MAX;
@@ -115,7 +115,7 @@ pub fn method(text: &str) -> Result<Method, Failure> {
     })
 }
 
-/// What a kernel gets wrong is shown with its place.
+/// Shows errors of a kernel with their place.
 pub fn failure(error: QualityError) -> Failure {
     match error {
         QualityError::Kernel(errors) => Failure::Kernel(errors),
@@ -123,7 +123,7 @@ pub fn failure(error: QualityError) -> Failure {
     }
 }
 
-/// What was asked for; by default all scenes.
+/// Returns the requested sources; by default all scenes.
 fn sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
     let mut sources = Vec::new();
     for name in &args.scene {

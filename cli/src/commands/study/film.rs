@@ -15,7 +15,7 @@ use straightline_scene::picture;
 use straightline_study::quality::{self, Film, Method, REFERENCE, Shooting};
 use straightline_study::record::{FilmRecord, FilmedMethod, Record};
 
-/// What is filmed unless something else is asked for.
+/// Methods that are filmed by default.
 const USUAL: [&str; 3] = ["1x", "MLAA", "SRAA 4"];
 
 /// Width and height of each method's picture unless another is asked for.
@@ -78,7 +78,7 @@ pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) ->
     Ok(())
 }
 
-/// Those asked for, by their names among those `known` or of the user's own.
+/// Returns the requested methods, by their names among those `known` or of the user's own.
 pub fn methods(texts: &[String], known: &[Method]) -> Result<Vec<Method>, Failure> {
     let mut stems = BTreeSet::new();
     let mut methods = Vec::new();

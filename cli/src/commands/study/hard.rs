@@ -61,7 +61,7 @@ fn selection(args: &HardArgs) -> Result<Selection, Failure> {
     Ok(selection)
 }
 
-/// What became of a form on a case, over all executors.
+/// Summary of a form on a case, over all executors.
 fn cell<'a>(results: impl Iterator<Item = &'a HardResult>) -> String {
     let ran: Vec<&HardResult> = results.filter(|r| r.refused.is_none()).collect();
     let non_finite = ran.iter().map(|r| r.non_finite).max();

@@ -15,7 +15,7 @@ use straightline_study::loops::{LoopsError, Setup, Studied, Subject, study, subj
 use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
 
-/// How long a form is run at least for one time. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
+/// Least time that a form runs for one measurement. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
 /// in 10 ms by 0.81, and of a single frame by 1.06.
 const LEAST: Duration = Duration::from_millis(40);
 
@@ -93,7 +93,7 @@ fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<
     }
 }
 
-/// What a kernel gets wrong is shown with its place.
+/// Shows errors of a kernel with their place.
 fn failure(error: LoopsError) -> Failure {
     match error {
         LoopsError::Kernel { errors, .. } => Failure::Kernel(errors),
@@ -101,7 +101,7 @@ fn failure(error: LoopsError) -> Failure {
     }
 }
 
-/// What each kernel makes, unrolled, and all of it in one picture.
+/// Writes the unrolled picture of each kernel, and all of them in one picture.
 fn write_pictures(folder: &Path, studied: &[Studied]) -> Result<(), Failure> {
     let png = |frame| picture::png_bytes(frame).map_err(Failure::of);
     let mut set = BTreeMap::new();

@@ -82,12 +82,12 @@ pub fn page(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a record says of this run. `complete` is to be put right when it ends.
+/// Circumstances of this run for a record. `complete` is to be put right when it ends.
 pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
     circumstances_of(gpu, common.size(), common.rounds())
 }
 
-/// The same for a picture's size and rounds of timing.
+/// Circumstances of this run with a picture's size and rounds of timing.
 pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         adapter: gpu.describe(),
@@ -99,7 +99,7 @@ pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     }
 }
 
-/// What the record of a run without a device says.
+/// Circumstances of a run without a device.
 pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         command: command(),
@@ -118,7 +118,7 @@ fn now() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }
 
-/// What the processor calls itself, and its threads.
+/// Name of the processor, and its number of threads.
 fn processor() -> String {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

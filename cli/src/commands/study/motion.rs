@@ -12,7 +12,7 @@ use glam::UVec2;
 use straightline_study::quality;
 use straightline_study::record::{Motion, MotionRecord, MovedScene, Record};
 
-/// What is drawn unless something else is asked for: thin things before others, and edges near and far.
+/// Scenes that are drawn by default: thin things before others, and edges near and far.
 const USUAL: [&str; 2] = ["railings", "roof"];
 
 /// Width and height unless others are asked for: a software renderer draws it.

@@ -1,4 +1,4 @@
-//! How far a study is, with the time left; and Ctrl-C, which ends it and keeps what was measured.
+//! Progress of a study, with the time left; and Ctrl-C, which ends it and keeps what was measured.
 
 use crate::interrupt;
 use crate::scene;

@@ -26,7 +26,7 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     let asked = asked_options(args)?;
     files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::require(&args.adapter)?;
-    // A compiler that is not there is told of before anything is drawn.
+    // A missing compiler is reported before anything is drawn.
     let gauge = gauge(args.cost)?;
     let mut progress = ProgressBars::new();
     let Some(subject) = subject(args, &asked, &gpu, &mut progress)? else {
@@ -82,7 +82,7 @@ fn gauge(cost: Cost) -> Result<Gauge, Failure> {
     Ok(Gauge::Compiler(Box::new(compiler)))
 }
 
-/// What is to be tuned for; `None` if it was stopped before all was drawn.
+/// Draws the subject to tune for; `None` if it was stopped before all was drawn.
 fn subject(
     args: &TuneArgs,
     asked: &OptionValues,
@@ -100,7 +100,7 @@ fn subject(
         None => name.to_owned(),
     };
     let renderer = scene::renderer(Some(gpu), &world, args.size.unwrap_or(SIZE))?;
-    // What is not searched need not be drawn.
+    // Terms that are not searched need not be drawn.
     let beyond = Beyond {
         placing: asked.choice("shading").is_none_or(|place| place == "placed"),
         light: asked.choice("demodulate").is_none_or(|what| what != "none"),
@@ -145,7 +145,7 @@ fn options(args: &TuneArgs) -> EmitOptions {
         .targets(args.target.iter().copied())
 }
 
-/// What files are called for a scene, a model's path or a capture's.
+/// Stem of file names for a scene, a model's path or a capture's.
 fn stem(name: &str) -> String {
     let path = std::path::Path::new(name);
     let last = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");

@@ -1,4 +1,4 @@
-//! What `tune` says.
+//! Output of `tune`.
 
 use crate::args::TuneArgs;
 use crate::failure::Failure;
@@ -149,7 +149,7 @@ fn lost(cost: f64, metric: ErrorMetric) -> String {
     }
 }
 
-/// What it takes beside the most general variant, which may be less than that of one with more terms.
+/// Speed against the most general variant, which may be lower than that of one with more terms.
 fn speed(found: Option<Ratio>) -> String {
     let longer = found.filter(|found| found.median < 1.0).map(|found| Ratio {
         median: 1.0 / found.median,

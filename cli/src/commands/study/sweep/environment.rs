@@ -1,9 +1,9 @@
-//! Where a sweep runs.
+//! Environment of a sweep.
 
 use std::process::Command;
 use straightline_study::record::Environment;
 
-/// What can be found out; nothing here fails.
+/// Collects what can be found out; nothing here fails.
 pub fn here() -> Environment {
     let governor = std::fs::read_to_string("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").ok();
     Environment {

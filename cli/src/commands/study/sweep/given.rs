@@ -1,4 +1,4 @@
-//! What the variants of a sweep read: files of the command line, and the test card for all else.
+//! Inputs of a sweep's variants: files of the command line, and the test card for all else.
 
 use crate::args::{CommonArgs, Executor, GivenArgs, SweepArgs};
 use crate::commands::run::inputs;
@@ -9,10 +9,10 @@ use std::fmt;
 use straightline_bench::execute::{Inputs, test_inputs};
 use straightline_codegen::{Compiled, Stage};
 
-/// What the command line gives.
+/// Inputs from the command line.
 pub struct Given {
     args: GivenArgs,
-    /// What any variant reads, by name.
+    /// Names of all inputs that any variant reads.
     names: BTreeSet<String>,
     /// Size where no picture has one.
     size: UVec2,
@@ -54,7 +54,7 @@ impl Given {
         Ok(self.inputs(compiled)?.size)
     }
 
-    /// What a variant reads. What it does not read, but another variant does, is left out.
+    /// Returns the inputs of a variant. Inputs that only other variants read are left out.
     pub fn inputs(&self, compiled: &Compiled) -> Result<Inputs, Failure> {
         let own: BTreeSet<&String> = names(compiled).collect();
         let wanted = |name: &str| own.iter().any(|own| *own == name) || !self.names.contains(name);

@@ -17,7 +17,7 @@ use straightline_study::progress::Progress;
 use straightline_study::record::{Record, SweepRecord};
 use straightline_study::sweep::{self, RESERVED, Rival, Space, Sweep, SweepError};
 
-/// How long a shader is run at least for one time.
+/// Least time that a shader runs for one measurement.
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.

@@ -87,7 +87,7 @@ pub fn record(record: &SweepRecord) {
     }
 }
 
-/// What two records say.
+/// Prints the comparison of two records.
 pub fn compared(record: &SweepRecord, compared: &[Compared]) {
     let axes = varied(record);
     let mut head: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
