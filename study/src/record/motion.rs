@@ -50,7 +50,7 @@ pub struct MotionRecord {
 pub struct MovedScene {
     /// The scene.
     pub scene: String,
-    /// What moves.
+    /// Motion of the scene.
     pub motion: Motion,
     /// The methods.
     pub methods: Vec<MovedMethod>,

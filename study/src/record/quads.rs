@@ -1,4 +1,4 @@
-//! What the study of pixel quads found.
+//! Results of the study of pixel quads.
 
 use super::{Circumstances, Record};
 use crate::sweep::Interval;
@@ -11,7 +11,7 @@ pub struct QuadsRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// What the device's quads are, and which transport they allow.
+    /// Description of the device's quads, and the transport that they allow.
     pub quads: String,
     /// The scene's triangles, which shadow filters are drawn with.
     pub triangles: usize,
@@ -22,18 +22,18 @@ pub struct QuadsRecord {
     pub ways: Vec<QuadWay>,
 }
 
-/// One way to compute a filter.
+/// A way to compute a filter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuadWay {
     /// The filter.
     pub filter: String,
-    /// What is shared.
+    /// Name of the way: the data that it shares.
     pub way: String,
-    /// How lanes hear of one another: `none`, or a transport.
+    /// Communication of lanes: `none`, or a transport.
     pub transport: String,
     /// Compute or fragment.
     pub stage: Stage,
-    /// Whether it is drawn with the scene's triangles, or reads what another pass has drawn of them.
+    /// True if the filter is drawn with the scene's triangles, or reads what another pass has drawn of them.
     pub forward: bool,
     /// Reads of textures, of a pixel; of an invocation for four pixels, if it is one.
     pub reads: u32,

@@ -7,11 +7,11 @@ use straightline_kernels::OptionText;
 
 pub use straightline_oracle::metrics::MOST_DB;
 
-/// What kind of method it is.
+/// Kind of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
-    /// One shading sample a pixel, as it is.
+    /// The shaded picture, one shading sample a pixel, as it is.
     None,
     /// Subpixel reconstruction.
     Sraa,
@@ -31,7 +31,7 @@ pub enum Family {
 pub struct MethodErrors {
     /// A name for people, the same in all scenes.
     pub method: String,
-    /// Its kind.
+    /// Kind of the method.
     pub family: Family,
     /// Options of its kernel that are not the default.
     pub options: Vec<OptionText>,
@@ -82,7 +82,7 @@ pub struct Shares {
     pub unseen: f64,
 }
 
-/// How far SRAA is from supersampling at the same places, and why. All in dB, at most [`MOST_DB`].
+/// Gap between SRAA and supersampling at the same places, and its causes. All in dB, at most [`MOST_DB`].
 ///
 /// The ideal reconstruction gives each geometry sample its true colour if one of the 3 x 3 shading samples around saw its
 /// surface, and else the colour of the nearest of them. So `bound - ideal` is the price of surfaces that no shading sample
@@ -110,19 +110,19 @@ pub struct Gap {
 /// All methods on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneErrors {
-    /// Its name, or the path of a model or capture.
+    /// Name of the scene, or the path of a model or capture.
     pub scene: String,
-    /// What it is for.
+    /// Purpose of the scene.
     pub purpose: String,
     /// Kinds of its pixels.
     pub shares: Shares,
     /// Picture of the reference, if one was written.
     pub reference: Option<String>,
-    /// Its methods.
+    /// Methods of the scene.
     pub methods: Vec<MethodErrors>,
     /// Methods that it has not, and why.
     pub absent: Vec<(String, String)>,
-    /// How far SRAA is from supersampling; none of a capture.
+    /// Gaps between SRAA and supersampling; none of a capture.
     pub gaps: Vec<Gap>,
 }
 

@@ -14,12 +14,12 @@ pub struct Candidate {
     pub options: Vec<OptionText>,
     /// `f16` or `f32`.
     pub precision: String,
-    /// Which algebra was done: `exact` or `fast`.
+    /// Algebra of the variant: `exact` or `fast`.
     #[serde(default = "exact", skip_serializing_if = "is_exact")]
     pub math: String,
     /// Pixels of one invocation.
     pub block: [u32; 2],
-    /// Its error by the record's metric: dB of PSNR or mean FLIP.
+    /// Error by the record's metric: dB of PSNR or mean FLIP.
     pub error: f64,
     /// Pixels that are not finite.
     pub non_finite: usize,
@@ -29,17 +29,17 @@ pub struct Candidate {
     pub statements: f64,
     /// Bytes of G-buffer that it reads.
     pub gbuffer_bytes: u64,
-    /// What the model says that it takes, in milliseconds, or in cycles where a compiler is asked; 0 if there is no model yet.
+    /// Cost predicted by the model, in milliseconds, or in cycles where a compiler is asked; 0 if there is no model yet.
     #[serde(alias = "predicted_ms")]
     pub predicted: f64,
-    /// What it takes, if it was timed.
+    /// Measured time, if the variant was timed.
     pub time: Option<Times>,
     /// Cycles of a wave and pixel of its invocations, if a compiler was asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycles: Option<f64>,
     /// Speedup over the most general variant, if it was measured.
     pub ratio: Option<Ratio>,
-    /// Whether no other is both faster and better.
+    /// True if no other variant is both faster and better.
     pub front: bool,
 }
 
@@ -54,22 +54,22 @@ fn is_exact(math: &str) -> bool {
 /// A term that the chosen shader does without, or that it has beyond the most general variant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// What: normals, planes, 16 samples, mask, f32, placing.
+    /// Name of the term: normals, planes, 16 samples, mask, f32, placing.
     pub term: String,
-    /// What that cost in error: with it minus without it, by the record's metric, so that what is lost is positive.
+    /// Cost of doing without the term, by the record's metric: dB or mean FLIP, a loss being positive.
     pub cost: f64,
 }
 
 /// The most general variant with one of its terms left out or replaced.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TermWorth {
-    /// What is left out.
+    /// Name of the term that is left out.
     pub term: String,
-    /// What is there instead.
+    /// Replacement of the term.
     pub instead: String,
-    /// What that costs in error, by the record's metric, a loss being positive.
+    /// Cost of the replacement in error, by the record's metric, a loss being positive.
     pub cost: f64,
-    /// Its speedup then, if it was run.
+    /// Speedup then, if that variant was run.
     pub ratio: Option<Ratio>,
     /// Index of the variant.
     pub candidate: usize,
@@ -99,7 +99,7 @@ pub struct Model {
     pub largest_error: f64,
 }
 
-/// What a scene needs.
+/// Result of tuning a shader to a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TuneRecord {
     /// Circumstances.
@@ -120,7 +120,8 @@ pub struct TuneRecord {
     /// The best error of all variants. Without a reference of the capture's own, the general variant's picture is the
     /// reference, which it cannot be judged by: the best is then that of the others, at most 48.13 dB.
     pub best: f64,
-    /// What variants are compared with: the mean of how many samples, the capture's reference, or the general variant.
+    /// Reference that variants are compared with: the mean of how many samples, the capture's reference, or the general
+    /// variant.
     pub reference: String,
     /// Error of the picture before the filter, by the metric.
     pub unfiltered: f64,
@@ -132,22 +133,22 @@ pub struct TuneRecord {
     pub chosen: Option<usize>,
     /// Index of the most general one.
     pub general: usize,
-    /// What the chosen one leaves out.
+    /// Terms that the chosen variant leaves out.
     pub left_out: Vec<LeftOut>,
-    /// What the chosen one has beyond the most general variant, and what is lost without.
+    /// Terms that the chosen variant has beyond the most general one, and their loss without.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needed: Vec<LeftOut>,
-    /// What each term of the most general variant is worth: that one without it.
+    /// Worth of each term of the most general variant: that variant without it.
     pub terms: Vec<TermWorth>,
     /// Variants that could not be emitted or run.
     pub refused: Vec<Refused>,
-    /// What was not searched, and why.
+    /// Parts that were not searched, and why.
     pub not_searched: Vec<String>,
-    /// How times were predicted; without terms if the run was interrupted before.
+    /// Model by which times were predicted; without terms if the run was interrupted before.
     pub model: Model,
 }
 
-/// What records before there was a choice were measured by.
+/// Measure of records from before there was a choice.
 fn time() -> String {
     "time".to_owned()
 }
@@ -172,12 +173,12 @@ impl TuneRecord {
 }
 
 impl Candidate {
-    /// What it takes, in the record's unit, if it was measured.
+    /// Returns the measured cost, in the record's unit, if there is one.
     pub fn measured(&self) -> Option<f64> {
         self.cycles.or(self.time.map(|time| time.median_ms))
     }
 
-    /// Whether it is placed, searches, or borrows light apart.
+    /// Returns whether the variant is placed, searches, or borrows light apart.
     pub fn goes_beyond(&self) -> bool {
         let is_beyond = |(name, value): &OptionText| match name.as_str() {
             "shading" => value == "placed",

@@ -8,7 +8,7 @@ use serde::Serialize;
 pub(super) struct Hard {
     caption: String,
     precisions: Vec<Matrix>,
-    /// What is worst among the executors, by what became of it: what it is called, how often, the class of its colour.
+    /// Worst result among the executors, by outcome: its name, its count, the class of its colour.
     tally: Vec<(&'static str, usize, &'static str)>,
     half: Vec<Half>,
 }
@@ -36,7 +36,7 @@ struct Cell {
     title: String,
 }
 
-/// Whether a kernel may compute in half precision.
+/// Row on the half precision of a kernel.
 #[derive(Debug, Serialize)]
 struct Half {
     kernel: String,

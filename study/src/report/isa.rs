@@ -1,4 +1,4 @@
-//! What GPU compilers make of shaders.
+//! Section on the figures of GPU compilers.
 
 use crate::record::{Asked, IsaRecord};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use straightline_isa::{Family, Figures};
 pub(super) struct Isa {
     command: String,
     date: String,
-    /// What the figures are called.
+    /// Names of the figures.
     figures: Vec<&'static str>,
     families: Vec<OfFamily>,
     /// Why a family has no table.

@@ -1,4 +1,4 @@
-//! One page of all records in a folder: plots, tables, pictures to compare. It needs nothing beside itself.
+//! A page of all records in a folder: plots, tables, pictures to compare. It needs nothing beside itself.
 
 mod frame;
 mod hard;
@@ -119,7 +119,7 @@ fn render(context: &Context) -> Result<String, ReportError> {
     tera.render("page.html", context).map_err(failure)
 }
 
-/// What the page says of one record.
+/// Section of the page on one record.
 #[derive(Debug, Serialize)]
 struct Section<T> {
     /// Name of the record's file.
@@ -151,7 +151,7 @@ fn sections<R: Record, T>(
     files.into_iter().map(section).collect()
 }
 
-/// Whether a file is `STEM.json` or `STEM-SOMETHING.json`.
+/// Returns whether a file is `STEM.json` or `STEM-SOMETHING.json`.
 fn belongs(file: &str, stem: &str) -> bool {
     file.strip_suffix(".json")
         .and_then(|name| name.strip_prefix(stem))

@@ -15,7 +15,7 @@ const WINDOW: UVec2 = UVec2::new(480, 270);
 /// Part that is shown enlarged.
 const DETAIL: UVec2 = UVec2::new(36, 24);
 
-/// How many details of each picture.
+/// Number of details of each picture.
 const DETAILS: usize = 3;
 
 /// All pictures of a page.
@@ -28,7 +28,7 @@ pub(super) struct Pictures {
 /// A picture that the page shows.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Shown {
-    /// Whose.
+    /// Name of the method.
     name: String,
     /// Class that has it as its background.
     class: String,

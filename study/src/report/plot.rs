@@ -19,7 +19,7 @@ const LARGEST: f64 = 1e12;
 /// A point.
 #[derive(Clone, Debug)]
 pub struct Dot {
-    /// Where.
+    /// Place of the dot.
     pub at: (f64, f64),
     /// From where to where it may lie across or up, by the axis that [`Plot::whiskers`] names.
     pub spread: Option<(f64, f64)>,
@@ -38,13 +38,13 @@ pub struct Line {
     pub points: Vec<(f64, f64)>,
     /// Index into [`COLORS`].
     pub color: usize,
-    /// Whether it is dashed.
+    /// True if the line is dashed.
     pub dashed: bool,
     /// Written at its right end.
     pub label: Option<String>,
 }
 
-/// How an axis is divided.
+/// Division of an axis.
 #[derive(Clone, Debug)]
 pub enum Scale {
     /// Evenly.
@@ -60,11 +60,11 @@ pub enum Scale {
 pub struct Plot {
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// What the axes show, across and up.
+    /// Quantities on the axes, across and up.
     pub axes: (String, String),
-    /// How they are divided.
+    /// Divisions of the axes.
     pub scales: (Scale, Scale),
-    /// Whether spreads go across, or up.
+    /// True if spreads go across, false if up.
     pub across: bool,
     /// Points.
     pub dots: Vec<Dot>,
@@ -101,7 +101,7 @@ impl Plot {
         if axis == 0 { &self.scales.0 } else { &self.scales.1 }
     }
 
-    /// What an axis has to show, with some room around.
+    /// Returns the range of an axis, with a margin.
     fn range(&self, pick: impl Fn(&(f64, f64)) -> f64, axis: usize) -> Result<Range<f64>, ReportError> {
         if let Scale::Names(names) = self.scale(axis) {
             return Ok(-0.5..names.len() as f64 - 0.5);
@@ -204,7 +204,7 @@ impl Plot {
     }
 }
 
-/// What plotters complains of.
+/// Converts an error of plotters.
 fn failure(error: impl std::fmt::Display) -> ReportError {
     ReportError::Plot(error.to_string())
 }
@@ -271,7 +271,7 @@ impl Line {
     }
 }
 
-/// Where text already stands, so that no two labels cover each other.
+/// Rectangles of the text drawn so far, so that no two labels cover each other.
 #[derive(Default)]
 struct Labels {
     taken: Vec<[i32; 4]>,

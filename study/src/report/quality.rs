@@ -37,7 +37,7 @@ struct SceneSection {
     compared: Option<Compared>,
 }
 
-/// How far a method is from supersampling, in dB, and where that comes from.
+/// Gap between a method and supersampling, in dB, and its causes.
 #[derive(Debug, Serialize)]
 struct GapRow {
     method: String,
@@ -137,7 +137,7 @@ fn decibels(psnr: f64) -> String {
     }
 }
 
-/// What stands where there is no figure.
+/// Placeholder for a missing figure.
 const NONE: &str = "–";
 
 fn percent(share: Option<f64>) -> String {
@@ -184,7 +184,8 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
     })
 }
 
-/// Whether all that a method costs beside one shading sample a pixel is its time. Where samples are shaded, most is not.
+/// Returns whether all that a method costs beside one shading sample a pixel is its time. Where samples are shaded, most is
+/// not.
 fn is_filter(method: &MethodErrors) -> bool {
     method.family != Family::Supersampling
 }
@@ -197,7 +198,7 @@ fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
         .filter_map(|m| Some((m, m.time?.median_ms)))
         .filter(|(m, ms)| m.psnr.is_finite() && *ms > 0.0)
         .collect();
-    // What no other method beats in both.
+    // Methods that no other method beats in both.
     let best = |m: &MethodErrors, ms: f64| !timed.iter().any(|(other, o)| other.psnr > m.psnr && *o < ms);
     let mut front: Vec<(f64, f64)> = timed
         .iter()

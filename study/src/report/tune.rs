@@ -1,4 +1,4 @@
-//! What a scene needs.
+//! Section on tuning to a scene.
 
 use super::plot::{Dot, Line, Plot, Scale, number};
 use super::{ReportError, caption, options};
@@ -20,7 +20,7 @@ pub(super) struct Tune {
     general: Option<Row>,
     left_out: Vec<(String, String)>,
     needed: Vec<(String, String)>,
-    /// What is left out of the most general variant, what is there instead, what that costs and what it saves.
+    /// Term left out of the most general variant, its replacement, the cost of that, and the saving.
     worth: Vec<[String; 4]>,
     refused: Vec<(String, String)>,
     reference: String,

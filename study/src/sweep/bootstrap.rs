@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How often values are drawn anew.
+/// Number of resamples.
 const RESAMPLES: usize = 2000;
 
 /// A median, and an interval around it.

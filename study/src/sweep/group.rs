@@ -22,7 +22,7 @@ const CONFIDENCE: f64 = 0.95;
 
 /// A variant on the device.
 struct Ready {
-    /// Which of the group's.
+    /// Index of the variant in the group.
     at: usize,
     emitted: Emitted,
     is_rival: bool,
@@ -142,7 +142,7 @@ fn emit(variant: &Variant, compiled: &Compiled) -> Result<Emitted, String> {
         .map_err(|errors| errors.first_message().to_owned())
 }
 
-/// Where variants are put onto the device.
+/// Device and inputs that variants are run with.
 struct Stand<'a> {
     bench: &'a Bench,
     inputs: &'a Inputs,

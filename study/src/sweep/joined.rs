@@ -10,10 +10,10 @@ pub enum JoinError {
     /// There is none.
     #[error("there is no record to join")]
     None,
-    /// One is whole, or of a sweep in another number of shards.
+    /// A record is whole, or of a sweep in another number of shards.
     #[error("the record of {date} is no shard of {count}")]
     NoShard {
-        /// When it began.
+        /// Time at which the record's run began.
         date: String,
         /// Of how many the first is one.
         count: u32,
@@ -21,13 +21,13 @@ pub enum JoinError {
     /// Two are the same shard.
     #[error("shard {index} is there twice")]
     Twice {
-        /// Which.
+        /// Index of the shard.
         index: u32,
     },
     /// Shards are missing.
     #[error("shards are missing: {}", missing.join(", "))]
     Missing {
-        /// Which.
+        /// Names of the missing shards.
         missing: Vec<String>,
     },
     /// Two records differ in what must be the same.
@@ -42,7 +42,7 @@ pub enum JoinError {
     },
 }
 
-/// What must be the same in records that are put together, each with its name.
+/// Names and values that must be the same in records that are put together.
 fn same(record: &SweepRecord) -> [(&'static str, String); 9] {
     let axes = record.axes.iter();
     let axes = axes.map(|axis| format!("{}={}", axis.name, axis.values.join(",")));
@@ -103,7 +103,7 @@ pub fn joined(records: &[SweepRecord]) -> Result<SweepRecord, JoinError> {
     Ok(whole)
 }
 
-/// Where a variant stands in the order of the axes: rivals behind those they are compared with.
+/// Place of a variant in the order of the axes: rivals come after those they are compared with.
 fn place(record: &SweepRecord, variant: &Swept) -> Vec<usize> {
     let compared_apart = |name: &str| !record.baseline.contains_key(name);
     let at = |apart: bool| {
@@ -131,7 +131,7 @@ pub struct Compared {
     pub speedup: [f64; 2],
     /// The second's by the first's, and in which interval that lies.
     pub quotient: Interval,
-    /// Whether the interval is beyond the tolerance.
+    /// True if the interval is beyond the tolerance.
     pub differs: bool,
 }
 

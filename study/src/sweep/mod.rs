@@ -1,4 +1,4 @@
-//! One kernel in every combination of its options and of forms: what each costs beside a baseline, and how wrong it is.
+//! A kernel in every combination of its options and of forms: the cost of each beside a baseline, and its error.
 //!
 //! Variants that differ in nothing but what the baseline names are a group. All of a group are timed in turn, round by round,
 //! and the speedup of one over the group's baseline is taken of each round by itself, so that whatever slows a whole
@@ -22,12 +22,12 @@ pub use joined::{Compared, JoinError, compared, joined};
 pub use rival::Rival;
 pub use space::{Axis, Loops, RESERVED, Space, Variant, spelled, values, varied_knob};
 
-/// What is swept, and how it is measured.
+/// Subject of a sweep, and the way to measure it.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The kernel.
     pub kernel: Kernel,
-    /// What is varied.
+    /// Variants of the kernel.
     pub space: Space,
     /// Axes, each with the value that distinguishes the variants with which the others of their groups are compared.
     pub baseline: BTreeMap<String, String>,
@@ -46,7 +46,7 @@ pub struct Sweep {
 /// Why a sweep could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
-    /// What is asked for contradicts itself.
+    /// The request contradicts itself.
     #[error("{0}")]
     Bad(String),
     /// Something cannot be read or given.
@@ -58,9 +58,9 @@ pub enum SweepError {
     /// Nothing could be measured.
     #[error("none of {variants} variants could be made and run; the first: {why}")]
     Nothing {
-        /// How many were tried.
+        /// Number of variants tried.
         variants: usize,
-        /// Why not.
+        /// Reason.
         why: String,
     },
 }

@@ -7,13 +7,13 @@ use straightline_codegen::spec::{Arity, Knob, Part};
 use straightline_codegen::{Kernel, ShaderSpec, Stage, Unroll};
 use straightline_kernels::OptionText;
 
-/// What becomes of a loop that stays one.
+/// Treatment of a loop left in the shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Loops {
     /// wgpu counts its iterations, as it does for every shader that it does not trust.
     #[default]
     Bounded,
-    /// It is compiled as it stands, which lets a driver unroll it.
+    /// The loop is compiled as it stands, which lets a driver unroll it.
     Unbounded,
 }
 
@@ -58,16 +58,16 @@ pub fn varied_knob(name: &str) -> Result<&'static Knob, String> {
     }
 }
 
-/// One way to write a kernel.
+/// A way to write a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// Options that are not left at their default.
     pub options: Vec<OptionText>,
     /// Further knobs by name, with a text of each.
     pub knobs: Vec<(&'static str, String)>,
-    /// What becomes of loops.
+    /// Loop policy.
     pub unroll: Unroll,
-    /// What becomes of those that stay.
+    /// Treatment of loops left in the shader.
     pub loops: Loops,
     /// Pipeline stage.
     pub stage: Stage,
@@ -84,9 +84,9 @@ pub struct Space {
     pub options: Vec<(String, Vec<String>)>,
     /// Further knobs ([`varied_knob`]), each with texts of its values.
     pub knobs: Vec<(&'static str, Vec<String>)>,
-    /// What becomes of loops.
+    /// Loop policies.
     pub unroll: Vec<Unroll>,
-    /// What becomes of those that stay.
+    /// Treatments of loops left in the shader.
     pub loops: Vec<Loops>,
     /// Pipeline stages.
     pub stages: Vec<Stage>,
@@ -133,8 +133,8 @@ impl Space {
             .collect()
     }
 
-    /// The same with the values of options as `kernel` spells them, so that a value has one name in records. A value that the kernel
-    /// refuses stays as it is, and its variants are refused.
+    /// Spells the values of options as `kernel` does, so that a value has one name in records. A value that the kernel refuses
+    /// stays as it is, and its variants are refused.
     pub fn spelled_by(mut self, kernel: &Kernel) -> Space {
         for (name, values) in &mut self.options {
             values

@@ -16,7 +16,7 @@ const OF_THE_FRONT: usize = 14;
 /// Variants within the budget that are measured, the ones predicted to be fastest.
 const OF_THE_FASTEST: usize = 10;
 
-/// How much slower than the predicted winner a neighbour may be, by prediction, to be measured.
+/// Greatest ratio of predicted times to the predicted winner's at which a neighbour is measured.
 const NEAR: f64 = 1.3;
 
 /// Variants within the budget that are measured in all rounds, the fastest in few.
@@ -183,7 +183,7 @@ impl Search {
             && self.loss(index).is_some_and(|loss| loss <= self.question.max_error)
     }
 
-    /// How much worse `without` is than `with`. A block that was too long to be searched has the picture of single pixels.
+    /// Returns the loss of `without` against `with`. A block that was too long to be searched has the picture of single pixels.
     fn cost(&self, without: Variant, with: Variant) -> Option<f64> {
         let error = |v: Variant| {
             let index = self.index.get(&v).or_else(|| self.index.get(&v.with(Term::Block, 0)))?;
@@ -278,7 +278,7 @@ impl Search {
         }
     }
 
-    /// What the chosen variant does without, and what putting each back would win.
+    /// Terms that the chosen variant does without, and the gain of putting each back.
     fn left_out(&self, chosen: Variant) -> Vec<LeftOut> {
         let all = self.space.left_out(chosen).into_iter();
         let left_out = all.filter_map(|(term, with)| {
@@ -290,7 +290,7 @@ impl Search {
         left_out.chain(self.added(chosen, false)).collect()
     }
 
-    /// What a variant has, or has not, beyond the most general one, and what each wins.
+    /// Terms that a variant has, or has not, beyond the most general one, and the gain of each.
     fn added(&self, variant: Variant, is_there: bool) -> Vec<LeftOut> {
         let all = self.space.added(variant).into_iter();
         let all = all.filter(|added| added.is_there == is_there);

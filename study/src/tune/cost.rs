@@ -1,4 +1,4 @@
-//! What a variant costs: time on the device, or cycles by the compiler of a GPU that need not be there.
+//! Cost of a variant: time on the device, or cycles by the compiler of a GPU that need not be there.
 
 use std::fmt;
 use std::str::FromStr;
@@ -15,7 +15,7 @@ pub enum Cost {
     Isa(Family),
 }
 
-/// What tells the cost of variants.
+/// Source of the cost of variants.
 #[derive(Debug)]
 pub enum Gauge {
     /// The device's clock.

@@ -1,4 +1,4 @@
-//! What a shader's static counts say of its time: the columns of the model, a pixel.
+//! Columns of the time model, a pixel: static counts of a shader.
 
 use straightline_codegen::Compiled;
 use straightline_codegen::ir::{Graph, Op};
@@ -26,13 +26,13 @@ pub const NAMES: [&str; 16] = [
     "exponentials in f16",
 ];
 
-/// What is counted in another column in `f16`.
+/// Columns that are counted apart in `f16`.
 const HALF: [(&str, &str); 2] = [
     ("exponentials and roots", "exponentials in f16"),
     ("arithmetic", "arithmetic in f16"),
 ];
 
-/// What is known of a variant before it is run.
+/// Static figures of a variant, known before it is run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Static {
     /// Figures by [`NAMES`], a pixel.
@@ -88,7 +88,7 @@ impl Static {
         }
     }
 
-    /// The same computed in `f16`.
+    /// Renames the columns to those of `f16`.
     pub fn in_half(mut self) -> Static {
         for (whole, half) in HALF {
             self.rename(whole, half);
@@ -134,7 +134,7 @@ fn reads(counts: &Counts) -> [f64; 4] {
     [depth, all - depth - colour - light, colour, light]
 }
 
-/// Reads of one layer of several that is told at run time, as where a pixel was shaded is: processors read those one by one.
+/// Reads of one layer of several by a runtime index, such as the place of a pixel's shading: processors read those one by one.
 fn runtime_layers(graph: &Graph, block: &Block) -> u32 {
     let of = |step: &Step| match step {
         Step::Eval(id) => {

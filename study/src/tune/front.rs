@@ -1,6 +1,7 @@
 //! Pareto fronts: what no other is better than in both time and error.
 
-/// Whether each of some (time, loss) pairs is on the front: no other is as good in both and better in one. Of equals all are.
+/// Returns for each of some (time, loss) pairs whether it is on the front: no other is as good in both and better in one. Of
+/// equals all are.
 pub fn front(points: &[(f64, f64)]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| {

@@ -40,7 +40,7 @@ pub use subject::{Beyond, PATTERNS, Subject};
 /// PSNR of pictures whose red, green and blue are off by one step of 8 bits, root mean square: as good as equal.
 pub const EQUAL_DB: f64 = 48.130_803_608_679_1;
 
-/// What an error is measured by.
+/// Metric of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ErrorMetric {
@@ -62,7 +62,7 @@ impl ErrorMetric {
         }
     }
 
-    /// How a picture compares with a reference.
+    /// Compares a picture with a reference.
     pub fn error(self, test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
         match self {
             ErrorMetric::Psnr => metrics::psnr(test, reference),
@@ -70,7 +70,7 @@ impl ErrorMetric {
         }
     }
 
-    /// How much worse `error` is than `best`; negative if it is better.
+    /// Returns by how much `error` is worse than `best`; negative if it is better.
     pub fn loss(self, best: f64, error: f64) -> f64 {
         match self {
             ErrorMetric::Psnr => best - error,
@@ -105,12 +105,12 @@ impl FromStr for ErrorMetric {
     }
 }
 
-/// What is asked.
+/// Request of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// What errors are measured by.
+    /// Metric of errors.
     pub metric: ErrorMetric,
-    /// How much worse than the best variant the chosen one may be, by the metric.
+    /// Greatest loss of the chosen variant against the best one, by the metric.
     pub max_error: f64,
     /// Rounds of timing of the last, decisive measurement.
     pub rounds: u32,
@@ -120,7 +120,7 @@ pub struct Question {
     pub fixed: Vec<OptionText>,
 }
 
-/// What was found.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Everything that was measured.
@@ -137,7 +137,7 @@ pub struct Chosen {
     /// The kernel `sraa_place`, which runs before it and before shading, if pixels are to be shaded where that says. It computes in
     /// `f32`.
     pub place: Option<Compiled>,
-    /// What it is to compute in.
+    /// Precision that the shader computes in.
     pub precision: Precision,
     /// For its manifest.
     pub tuned: Tuned,
@@ -171,13 +171,13 @@ pub enum TuneError {
         metric.show(*max_error)
     )]
     NothingWithin {
-        /// How many were tried.
+        /// Number of variants tried.
         variants: usize,
         /// The budget.
         max_error: f64,
         /// By which metric.
         metric: ErrorMetric,
-        /// What keeps them out.
+        /// Reason that keeps them out.
         reason: String,
         /// The nearest variant, with its figures.
         closest: String,

@@ -1,6 +1,6 @@
 //! A model of time, linear in static counts with coefficients that are not negative, learned from some measured shaders.
 
-/// How much large coefficients are held back, so that counts that go together share what they explain.
+/// Penalty of large coefficients, so that counts that go together share what they explain.
 const RIDGE: f64 = 1.0e-6;
 
 /// Rounds of coordinate descent.
@@ -51,7 +51,7 @@ pub fn learn(rows: &[Vec<f64>], times: &[f64]) -> Vec<f64> {
     x.iter().zip(&scale).map(|(x, scale)| x * mean_time / scale).collect()
 }
 
-/// What the model says.
+/// Returns the model's prediction.
 pub fn predict(coefficients: &[f64], row: &[f64]) -> f64 {
     coefficients.iter().zip(row).map(|(c, x)| c * x).sum()
 }
@@ -88,7 +88,7 @@ pub fn spanning(rows: &[Vec<f64>], taken: &[usize], count: usize) -> Vec<usize> 
                 found.push(index);
                 update(&mut nearest, index);
             }
-            // What is left has the figures of one that is taken.
+            // The remaining rows have the figures of rows already taken.
             _ => break,
         }
     }
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn no_coefficient_is_negative_and_none_can_be_moved_for_the_better() {
-        // What would want a negative coefficient: the second column shortens the time.
+        // A term that would want a negative coefficient: the second column shortens the time.
         let rows = rows(30, 3);
         let times: Vec<f64> = rows.iter().map(|r| 5.0 + r[0] - 0.05 * r[1] + 0.01 * r[2]).collect();
         let found = learn(&rows, &times);

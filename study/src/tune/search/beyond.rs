@@ -7,7 +7,7 @@ use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How often the neighbours of what is best by then are looked at.
+/// Number of times that the neighbours of the best variants so far are looked at.
 const LOOKS: usize = 2;
 
 impl Search {

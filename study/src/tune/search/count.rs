@@ -15,7 +15,7 @@ const LONGEST: f64 = 2500.0;
 impl Search {
     /// Static counts of every variant that has none yet, but of blocks that would be too long.
     pub(super) fn count(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
-        // One graph for both precisions; single pixels before blocks, which are judged by them.
+        // Both precisions share one graph; single pixels come before blocks, which are judged by them.
         let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
         let unknown = self.entries.iter().enumerate().filter(|(_, e)| e.known.is_none());
         for (k, entry) in unknown {

@@ -30,7 +30,7 @@ impl Search {
         }
         let general = self.entries[0].cycles;
         for k in which {
-            // The same every time: what is faster by little is faster.
+            // Cycles are the same every time: a variant that is faster by little is faster.
             let ratio = general.zip(self.entries[*k].cycles).map(|(general, own)| general / own);
             self.entries[*k].ratio = ratio.map(|ratio| Ratio {
                 median: ratio,

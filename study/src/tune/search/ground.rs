@@ -1,4 +1,4 @@
-//! What variants read, on the device: once for each set of geometry samples.
+//! Inputs of variants, on the device: once for each set of geometry samples.
 
 use crate::builtin::{Setting, parse_settings, spell_settings};
 use crate::tune::features::Static;
@@ -24,10 +24,10 @@ const ALBEDO_BYTES: u64 = 4;
 const LIGHT_BYTES: u64 = 2 * 8;
 const PLACE_BYTES: u64 = 1;
 
-/// What says where pixels are shaded.
+/// Input that places the shading of pixels.
 const PLACE: &str = "place";
 
-/// What the variants of one set of samples read, on the device.
+/// Inputs of the variants of one set of samples, on the device.
 #[derive(Debug)]
 pub(super) struct Ground {
     /// The view, shaded at the pixels' centres or where a capture has it.
@@ -46,9 +46,9 @@ pub(in crate::tune) struct Placing {
     pub compiled: Compiled,
     pub known: Static,
     pub pass: Pass,
-    /// What that pass reads.
+    /// Inputs of that pass.
     pub reads: Uploaded,
-    /// What the filter then reads.
+    /// Inputs of the filter after it.
     pub uploaded: Uploaded,
     /// The pass's cycles, where a compiler was asked.
     pub cycles: Option<f64>,
@@ -205,7 +205,7 @@ fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText>
     PlacedBy::Depths.instead_of(&spell_settings(&given))
 }
 
-/// What a filter reads of what was placed.
+/// Returns the inputs of a filter of placed shading.
 fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
     let mut moved = inputs.clone().image("color", placed.color.clone());
     for (name, frame) in [("direct", &placed.direct), ("rest", &placed.rest)] {
@@ -216,7 +216,7 @@ fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
     moved.integers(PLACE, vec![gbuffer::places(&placed.place)])
 }
 
-/// What may be searched of a subject.
+/// Returns the variants of a subject that may be searched.
 ///
 /// # Errors
 ///
@@ -279,14 +279,14 @@ pub(super) fn no_blocks(kernel: &Kernel, space: &Space) -> Option<String> {
         .general()
         .with(Term::Samples, last(Term::Samples))
         .with(Term::Metric, last(Term::Metric));
-    // What is wrong with single pixels, too, is told of elsewhere.
+    // Errors of single pixels, too, are reported elsewhere.
     match refusal(kernel, &space.settings(cheapest)) {
         None => refusal(kernel, &space.settings(cheapest.with(Term::Block, last(Term::Block)))),
         Some(_) => None,
     }
 }
 
-/// What the kernel says against options.
+/// Returns the kernel's objection to options.
 fn refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
     let errors = kernel.compile(settings).err()?;
     Some(errors.first_message().to_owned())

@@ -43,7 +43,7 @@ pub(in crate::tune) struct Entry {
     /// Milliseconds, or cycles, by the model.
     pub predicted: f64,
     pub time: Option<Times>,
-    /// Where a compiler is asked: cycles of a wave and pixel of its invocations.
+    /// Cycles of a wave and pixel of its invocations, where a compiler is asked.
     pub cycles: Option<f64>,
     pub ratio: Option<Ratio>,
 }
@@ -87,7 +87,7 @@ pub struct Search {
     pub(in crate::tune) model: Model,
     /// The most general variant in half precision, where that is slower.
     slow_half: Option<Variant>,
-    /// What was measured last, and decides.
+    /// Variants that were measured last; they decide.
     pub(in crate::tune) finalists: Vec<usize>,
 }
 
@@ -154,7 +154,7 @@ impl Search {
         })
     }
 
-    /// Whether the most general variant's picture is there, without which nothing can be said.
+    /// Returns whether the most general variant's picture is there; without it nothing can be said.
     pub fn has_general(&self) -> bool {
         self.entries.first().is_some_and(|entry| entry.error.is_some())
     }
@@ -249,7 +249,7 @@ fn chunk() -> usize {
     2 * rayon::current_num_threads().max(1)
 }
 
-/// Where each variant's entry is.
+/// Maps each variant to the index of its entry.
 fn places(entries: &[Entry]) -> BTreeMap<Variant, usize> {
     let places = entries.iter().enumerate();
     places.map(|(k, entry)| (entry.variant, k)).collect()

@@ -43,7 +43,7 @@ impl Search {
             .map(|e| self.seen_as(e.variant))
             .collect();
         let mut found: BTreeMap<Variant, Result<Seen, String>> = BTreeMap::new();
-        // What was seen before is not drawn again.
+        // Variants whose error is known are not drawn again.
         apart.retain(|variant| {
             let known = self.index.get(variant).and_then(|k| self.entries[*k].error);
             found.extend(known.map(|error| (*variant, Ok(error))));
@@ -77,8 +77,8 @@ impl Search {
         Ok(finished)
     }
 
-    /// Whether half precision is worth a search here: the most general variant is run in it. Where that is slower, the others
-    /// are not run in it. Whether all was done.
+    /// Tests whether half precision is worth a search here: runs the most general variant in it. Where that is slower, the
+    /// others are not run in it. Returns whether all was done.
     fn probe_half(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let general = self.space.general();
         let mut precisions = 0..self.space.values(Term::Precision).len();

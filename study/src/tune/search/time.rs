@@ -97,7 +97,7 @@ impl Search {
         }
     }
 
-    /// What the model's figures are multiplied with: milliseconds grow with the picture, cycles are those of a pixel.
+    /// Returns the factor of the model's figures: milliseconds grow with the picture, cycles are those of a pixel.
     fn share(&self) -> f64 {
         self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0)
     }

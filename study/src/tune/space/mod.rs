@@ -1,4 +1,4 @@
-//! What a search varies: all variants of the filter, and how they are next to each other.
+//! Space of a search: all variants of the filter, and their neighbourhood.
 
 mod terms;
 
@@ -18,19 +18,19 @@ impl Variant {
         self.0[term as usize]
     }
 
-    /// The same but for one term.
+    /// Changes one term.
     pub fn with(mut self, term: Term, value: usize) -> Variant {
         self.0[term as usize] = value;
         self
     }
 }
 
-/// What goes beyond the paper, and what a variant is with it and without.
+/// A term beyond the paper, and a variant with it and without.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Added {
     /// In words: placing, search, light apart from paint and shadow.
     pub term: String,
-    /// Whether the variant has it.
+    /// True if the variant has it.
     pub is_there: bool,
     /// The variant without it.
     pub without: Variant,
@@ -44,7 +44,7 @@ pub struct Space {
     terms: [Vec<Value>; Term::ALL.len()],
     /// Options that all variants have.
     pub fixed: Vec<Setting>,
-    /// What is not searched, and why.
+    /// Parts that are not searched, and why.
     pub left_aside: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ impl Space {
                 left_aside.push(line);
             }
             let found = term.iter().any(|v| v.options.iter().any(stands_for));
-            // What goes beyond the paper has more values than are searched.
+            // Terms beyond the paper have more values than are searched.
             if !found && Term::BEYOND.iter().any(|beyond| *beyond as usize == place) {
                 term.truncate(1);
                 term[0] = terms::unsaid(term[0].clone());
