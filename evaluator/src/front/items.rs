@@ -55,11 +55,11 @@ impl Items {
             ..Items::default()
         };
         for (here, there) in Rc::clone(&items.names).functions() {
-            items.blame(&here, Vec::new());
+            items.note_errors_of(&here, Vec::new());
             items.mentions.needs(&here, &there);
         }
         for (name, error) in wrong {
-            items.blame(&name, vec![error]);
+            items.note_errors_of(&name, vec![error]);
         }
         items
     }
@@ -186,7 +186,7 @@ impl Items {
     /// Notes an item's errors, and what its text mentions.
     pub(super) fn note(&mut self, name: &str, text: TokenStream, check: Check) {
         self.mentions.add(name, text);
-        self.blame(name, check.errors());
+        self.note_errors_of(name, check.errors());
     }
 
     /// Notes a function of an implementation of a trait.
@@ -204,7 +204,8 @@ impl Items {
         self.duplicates.extend(check.errors());
     }
 
-    pub(super) fn blame(&mut self, name: &str, errors: Vec<Diagnostic>) {
+    /// Notes errors of an item under its name: they count for the kernels that reach it.
+    pub(super) fn note_errors_of(&mut self, name: &str, errors: Vec<Diagnostic>) {
         self.errors.entry(name.to_owned()).or_default().extend(errors);
     }
 
@@ -240,7 +241,7 @@ impl Items {
             self.duplicate(&self.lower_of(file), sig.ident.span(), &name);
         }
         self.insert(&name, &sig.ident, function);
-        self.blame(&name, errors);
+        self.note_errors_of(&name, errors);
     }
 
     /// Adds a function.
@@ -354,7 +355,7 @@ impl Items {
         if self.library.consts.contains_key(&constant.name) {
             self.duplicate(&lower, item.ident.span(), &constant.name);
         }
-        self.blame(&constant.name, lower.errors);
+        self.note_errors_of(&constant.name, lower.errors);
         self.library.consts.insert(constant.name.clone(), constant);
     }
 
@@ -366,7 +367,7 @@ impl Items {
             derives: derives(&item.attrs),
         };
         self.library.structs.insert(item.ident.to_string(), definition);
-        self.blame(&item.ident.to_string(), lower.errors);
+        self.note_errors_of(&item.ident.to_string(), lower.errors);
     }
 
     fn enumeration(&mut self, file: u32, item: &syn::ItemEnum) {
@@ -384,7 +385,7 @@ impl Items {
             derives: derives(&item.attrs),
         };
         self.library.enums.insert(name.clone(), definition);
-        self.blame(&name, lower.errors);
+        self.note_errors_of(&name, lower.errors);
     }
 
     /// Lowers an item that stands by itself.
@@ -434,7 +435,7 @@ impl Items {
                     if self.library.consts.contains_key(&name) {
                         self.duplicate(&lower, c.ident.span(), &name);
                     }
-                    self.blame(&name, lower.errors);
+                    self.note_errors_of(&name, lower.errors);
                     self.library
                         .consts
                         .insert(name.clone(), super::tree::Const { name, value, ty });
@@ -455,7 +456,7 @@ impl Items {
             let name = qualified(Some(&of.name), name);
             let mut text = item.self_ty.to_token_stream();
             text.extend(inner.to_token_stream());
-            self.blame(&name, of_all.clone());
+            self.note_errors_of(&name, of_all.clone());
             self.note(&name, text, check);
         }
     }
@@ -468,7 +469,7 @@ impl Items {
         )
         .label("second definition")
         .help("modules and functions are not told apart: give it another name");
-        self.blame(name, vec![error]);
+        self.note_errors_of(name, vec![error]);
     }
 
     /// Lowers the items that `entry` needs, and collects the errors in them.
@@ -481,12 +482,12 @@ impl Items {
         // A method of a type itself goes before one of a trait.
         for (name, errors) in std::mem::take(&mut self.of_traits) {
             if !self.library.functions.contains_key(&name) {
-                self.blame(&name, errors);
+                self.note_errors_of(&name, errors);
             }
         }
         for import in std::mem::take(&mut self.imports) {
             if let Some((name, error)) = import.refused(&self.library) {
-                self.blame(&name, vec![error]);
+                self.note_errors_of(&name, vec![error]);
             }
         }
         let reached = self.mentions.reach(self.errors.keys(), entry);

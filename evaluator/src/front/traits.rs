@@ -106,7 +106,7 @@ impl Items {
                         stmts: Vec::new(),
                     };
                     let (function, errors) = self.lowered(file, &f.sig, &empty, &f.attrs, Some(&owner));
-                    self.blame(&name, errors);
+                    self.note_errors_of(&name, errors);
                     if f.default.is_none() {
                         self.note(&name, f.to_token_stream(), of_signature);
                     }
@@ -118,7 +118,7 @@ impl Items {
                         check.ty(&mut c.ty);
                         let mut lower = self.lower_within(file, &owner);
                         of_trait.consts.insert(c.ident.to_string(), lower.ty(&c.ty));
-                        self.blame(&name, lower.errors);
+                        self.note_errors_of(&name, lower.errors);
                     }
                 }
                 syn::TraitItem::Type(t) => {
@@ -254,7 +254,7 @@ impl Items {
                     return;
                 }
                 let (function, lowered) = self.lowered(file, &f.sig, &f.block, &f.attrs, Some(owner));
-                self.blame(&key, lowered);
+                self.note_errors_of(&key, lowered);
                 self.insert(&key, &f.sig.ident, function);
                 self.library.implemented.entry(plain).or_default().push(Implemented {
                     of: named.trait_name.to_owned(),
@@ -276,7 +276,7 @@ impl Items {
                 if self.library.consts.contains_key(&name) {
                     self.duplicate(&lower, c.ident.span(), &name);
                 }
-                self.blame(&name, lower.errors);
+                self.note_errors_of(&name, lower.errors);
                 let constant = super::tree::Const {
                     name: name.clone(),
                     value,
@@ -290,7 +290,7 @@ impl Items {
         };
         let mut mentioned = item.self_ty.to_token_stream();
         mentioned.extend(text);
-        self.blame(&key, errors.to_vec());
+        self.note_errors_of(&key, errors.to_vec());
         self.note(&key, mentioned, check);
     }
 
