@@ -372,7 +372,7 @@ fn frames_are_put_together_of_two_records() {
     let folder = scratch("study-frame");
     let path = |name: &str| folder.join(name).to_str().expect("a name").to_owned();
     let (passes, out) = (path("budget.json"), path("frame"));
-    let small = ["--size", "48x32", "--rounds", "2"];
+    let small = ["--size", "48x32", "--rounds", "3"];
     finishes(&[&["budget", "--scene", "floor", "--record", &passes][..], &small].concat());
     let methods = ["1x", "SMAA", "SRAA 4", "4x"].map(|name| ["--only", name]).concat();
     let error = ["study", "error", "--scene", "floor", "--out", &path("error")].map(str::to_owned);
@@ -408,7 +408,7 @@ fn frames_are_put_together_of_two_records() {
     // Another size is another frame.
     let other = path("other.json");
     finishes(&[
-        "budget", "--scene", "floor", "--record", &other, "--size", "32x32", "--rounds", "2",
+        "budget", "--scene", "floor", "--record", &other, "--size", "32x32", "--rounds", "3",
     ]);
     let words = ["study", "frame", "--passes", &other, "--errors", &errors, "--out", &out];
     fails(&words, 1, &["differ in their size: 32x32 and 48x32"]);
