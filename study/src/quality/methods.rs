@@ -579,6 +579,6 @@ mod tests {
         );
         let two = of("SRAA 16, two shading samples");
         assert_eq!(two.reads(), "latin16 shaded at 13,5");
-        assert_eq!(two.shading(), ShadingSample::Samples(vec![7, 8]));
+        assert_eq!(two.shading(), ShadingSample::Samples(vec![13, 5]));
     }
 }
