@@ -37,21 +37,21 @@ const LATIN4: [IVec2; 4] = [ivec2(-4, -12), ivec2(12, -4), ivec2(-12, 4), ivec2(
 /// In thirty-seconds of a pixel.
 const LATIN16: [IVec2; 16] = [
     ivec2(3, 3),
-    ivec2(-1, -5),
-    ivec2(-5, 5),
-    ivec2(9, -1),
-    ivec2(-9, -3),
     ivec2(5, 11),
     ivec2(11, 7),
-    ivec2(7, -9),
+    ivec2(13, 15),
+    ivec2(-5, 5),
     ivec2(-3, 13),
-    ivec2(1, -13),
-    ivec2(-7, -11),
     ivec2(-11, 9),
     ivec2(-15, 1),
-    ivec2(15, -7),
-    ivec2(13, 15),
+    ivec2(-1, -5),
+    ivec2(-9, -3),
+    ivec2(-7, -11),
     ivec2(-13, -15),
+    ivec2(9, -1),
+    ivec2(7, -9),
+    ivec2(1, -13),
+    ivec2(15, -7),
 ];
 
 const DEEPEST: f32 = 1.0e30;

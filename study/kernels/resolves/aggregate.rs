@@ -18,21 +18,21 @@ const SKY_MATERIAL: f32 = -1.0;
 /// The samples of `latin16`, in sixteenths of a pixel, each half a one less than it is.
 const LATIN16: [IVec2; 16] = [
     ivec2(1, 1),
-    ivec2(-1, -3),
-    ivec2(-3, 2),
-    ivec2(4, -1),
-    ivec2(-5, -2),
     ivec2(2, 5),
     ivec2(5, 3),
-    ivec2(3, -5),
+    ivec2(6, 7),
+    ivec2(-3, 2),
     ivec2(-2, 6),
-    ivec2(0, -7),
-    ivec2(-4, -6),
     ivec2(-6, 4),
     ivec2(-8, 0),
-    ivec2(7, -4),
-    ivec2(6, 7),
+    ivec2(-1, -3),
+    ivec2(-5, -2),
+    ivec2(-4, -6),
     ivec2(-7, -8),
+    ivec2(4, -1),
+    ivec2(3, -5),
+    ivec2(0, -7),
+    ivec2(7, -4),
 ];
 
 /// The samples of a pixel, a layer each.
