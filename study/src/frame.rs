@@ -16,7 +16,7 @@ pub enum FrameError {
     /// They are of different things.
     #[error("the records differ in their {what}: {passes} and {errors}; take both with the same")]
     Differ {
-        /// What differs.
+        /// Property that differs.
         what: &'static str,
         /// Of the passes.
         passes: String,
@@ -34,22 +34,22 @@ pub enum FrameError {
     /// A method is not in the record of errors.
     #[error("`{name}` is none of the methods of the errors")]
     Method {
-        /// Its name.
+        /// Name of the method.
         name: String,
     },
     /// A pass is missing.
     #[error("the record of passes has no `{name}` with {samples} samples: run `budget --record` again")]
     Pass {
-        /// Its name.
+        /// Name of the pass.
         name: &'static str,
-        /// Its samples.
+        /// Samples of the pass.
         samples: u32,
     },
 }
 
 /// The frames that are asked for.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct FrameRequest {
     /// Costs of shading one sample of every pixel, in milliseconds.
     pub shading_ms: Vec<f64>,
     /// Names of the methods; of all, if there are none.
@@ -71,7 +71,7 @@ struct Parts {
 pub fn frames(
     passes: &PassTimes,
     errors: &QualityRecord,
-    asked: &Asked,
+    request: &FrameRequest,
     command: String,
 ) -> Result<FrameRecord, FrameError> {
     compare(&passes.circumstances, &errors.circumstances)?;
@@ -87,15 +87,15 @@ pub fn frames(
     })?;
     let mut methods = Vec::new();
     let mut absent = Vec::new();
-    let shading_ms = &asked.shading_ms;
-    if let Some(name) = asked
+    let shading_ms = &request.shading_ms;
+    if let Some(name) = request
         .only
         .iter()
         .find(|name| !scene.methods.iter().any(|m| m.method == **name))
     {
         return Err(FrameError::Method { name: name.clone() });
     }
-    let is_asked = |m: &&MethodErrors| asked.only.is_empty() || asked.only.contains(&m.method);
+    let is_asked = |m: &&MethodErrors| request.only.is_empty() || request.only.contains(&m.method);
     for method in scene.methods.iter().filter(is_asked) {
         match parts(method, passes)? {
             Ok(parts) => methods.push(at_costs(method, &parts, shading_ms)),
@@ -343,8 +343,8 @@ mod tests {
         )
     }
 
-    fn at(shading_ms: &[f64]) -> Asked {
-        Asked {
+    fn at(shading_ms: &[f64]) -> FrameRequest {
+        FrameRequest {
             shading_ms: shading_ms.to_vec(),
             only: Vec::new(),
         }
@@ -353,7 +353,7 @@ mod tests {
     #[test]
     fn only_methods_that_are_asked_for_have_frames() {
         let (passes, errors) = records();
-        let only = |name: &str| Asked {
+        let only = |name: &str| FrameRequest {
             only: vec![name.to_owned()],
             ..at(&[1.0])
         };

@@ -17,7 +17,7 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
         outln!("{}", file.display());
     }
     let Ready { kernel, compiled } = &ready;
-    for note in notes(kernel, &args.spec().settings, compiled, &compiled.text_counts()) {
+    for note in notes(kernel, &args.spec().settings, compiled) {
         errln!("note: {note}");
     }
     Ok(())

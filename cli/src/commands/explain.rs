@@ -42,7 +42,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     let features = described.features.join(", ");
     let counts = described.counts;
     let paper = compiled.paper();
-    let remarks = notes(&kernel, &args.kernel.options.settings(), &compiled, &counts);
+    let remarks = notes(&kernel, &args.kernel.options.settings(), &compiled);
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));

@@ -1,7 +1,6 @@
 //! Remarks on settings that cost more than they seem to: blocks of pixels that keep many values alive, and factors that multiply.
 
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
-use straightline_manifest::Counts;
 
 /// Scalars alive at once from which GPUs run fewer threads or spill (docs/study.md, "Live values").
 const MANY_ALIVE: u32 = 64;
@@ -10,21 +9,25 @@ const MANY_ALIVE: u32 = 64;
 const MANY_COPIES: u64 = 64;
 
 /// Remarks on a compiled kernel, a line each.
-pub fn notes(kernel: &Kernel, settings: &Settings, compiled: &Compiled, counts: &Counts) -> Vec<String> {
-    let notes = [crowded_block(kernel, settings, counts), multiplied_factors(compiled)];
+pub fn notes(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Vec<String> {
+    let notes = [crowded_block(kernel, settings, compiled), multiplied_factors(compiled)];
     notes.into_iter().flatten().collect()
 }
 
 /// A block of pixels in which many values are alive, with what single pixels have.
-fn crowded_block(kernel: &Kernel, settings: &Settings, counts: &Counts) -> Option<String> {
+fn crowded_block(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Option<String> {
     let [width, height] = settings.block;
-    if settings.block == [1, 1] || counts.max_live < MANY_ALIVE {
+    if settings.block == [1, 1] {
+        return None;
+    }
+    let block = compiled.text_counts().max_live;
+    if block < MANY_ALIVE {
         return None;
     }
     let single = kernel.compile(&settings.clone().block(1, 1)).ok()?.text_counts();
     Some(format!(
         "{} scalars are alive at once in blocks of {width}x{height}, {} in single pixels; a GPU then runs fewer threads at once, or spills",
-        counts.max_live, single.max_live
+        block, single.max_live
     ))
 }
 

@@ -48,7 +48,7 @@ impl Evaluator<'_> {
     ) -> Eval {
         for (k, statement) in block.statements.iter().enumerate().skip(from) {
             let since = self.departed.len();
-            self.point(points, k, span_of(statement));
+            self.point(points, k, statement.span());
             match statement {
                 Statement::Expr(Expr {
                     kind: ExprKind::If(condition, then, otherwise, attribute),
@@ -95,7 +95,7 @@ impl Evaluator<'_> {
                 }
             }
             if self.departed.len() > since && self.keeps_exits(None) {
-                return self.unless_departed(since, tail, span_of(statement), |e| e.statements(block, k + 1, tail));
+                return self.unless_departed(since, tail, statement.span(), |e| e.statements(block, k + 1, tail));
             }
         }
         if self.errors.len() > noted {
@@ -131,14 +131,5 @@ impl Evaluator<'_> {
             }
             _ => self.expr(expr),
         }
-    }
-}
-
-/// Place that a statement is known by.
-fn span_of(statement: &Statement) -> Span {
-    match statement {
-        Statement::Let(.., span) => *span,
-        Statement::Expr(e) => e.span,
-        Statement::Const(constant) => constant.value.span,
     }
 }

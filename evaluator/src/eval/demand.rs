@@ -7,14 +7,15 @@ use super::Evaluator;
 use super::value::{Captured, Eval, Exit, Need, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Graph, NodeId, Op, RegionId};
+use crate::shorten;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Why a loop is unrolled although it was asked to be left in the shader.
+/// Reason why a loop is unrolled although it was asked to be left in the shader.
 #[derive(Clone, Debug)]
 pub struct Why {
     /// The error of the kernel with the loop in the shader.
     pub error: Diagnostic,
-    /// The same in one line, for reports.
+    /// One line for reports.
     pub reason: String,
 }
 
@@ -64,7 +65,7 @@ impl Kept {
         self.ends.insert(span, loops);
     }
 
-    /// Whether a loop that could be unrolled came later than there were `len`.
+    /// Returns whether a loop that could be unrolled came after the first `len`.
     pub fn avoids_since(&self, len: usize) -> bool {
         let later = self.loops.get(len..).unwrap_or_default();
         later.iter().any(|kept| self.avoidable.contains(&kept.span))
@@ -97,8 +98,8 @@ impl Kept {
 }
 
 impl Evaluator<'_> {
-    /// How evaluation ends where nodes had to be compile-time constants and are not: with a demand if loops left in the shader are
-    /// the cause, else with the error.
+    /// Ends evaluation where nodes had to be compile-time constants and are not: with a demand if loops left in the shader are the
+    /// cause, else with the error.
     pub fn demand(&self, nodes: &[NodeId], error: impl Into<Box<Diagnostic>>) -> Exit {
         let (loops, error) = (self.kept.behind(self.builder.graph(), nodes), error.into());
         self.demanded(loops, *error)
@@ -157,17 +158,10 @@ impl Evaluator<'_> {
     }
 }
 
-/// Longest excerpt of the source in a reason, in characters.
-const MAX_EXCERPT: usize = 60;
-
-/// The first line of an expression's text, without what opens a block.
+/// The first line of an expression's text, without the brace that opens a block.
 fn excerpt(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default();
-    let line = line.trim_end().trim_end_matches('{').trim_end();
-    match line.chars().count() > MAX_EXCERPT {
-        true => line.chars().take(MAX_EXCERPT).chain("...".chars()).collect(),
-        false => line.to_owned(),
-    }
+    shorten(line.trim_end().trim_end_matches('{').trim_end())
 }
 
 /// All numbers that a value is made of, with those that a closure captures and the ends of ranges.
@@ -237,7 +231,8 @@ impl Walk<'_> {
         self.pending.extend(position.and_then(|k| kept.args.get(k + 2)));
     }
 
-    /// What a loop carries at a position, or its counter: both depend on how often it runs. Returns whether the loop can be unrolled.
+    /// Visits the value that a loop carries at a position, or its counter: both depend on how often it runs. Returns whether the loop can
+    /// be unrolled.
     fn carried(&mut self, region: RegionId, position: Option<usize>) -> bool {
         let Some(kept) = self.kept.of(region) else { return false };
         let is_avoidable = self.kept.avoidable.contains(&kept.span);

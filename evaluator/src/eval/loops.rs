@@ -193,7 +193,7 @@ impl Evaluator<'_> {
                 Err(Exit::Demand(needs)) if needs.iter().all(|need| !need.loops.contains(&span)) => {
                     return Err(Exit::Demand(needs));
                 }
-                // What cannot be a loop in the shader is unrolled; if that fails too, it says why.
+                // A loop that cannot stay in the shader is unrolled; if that fails too, it says why.
                 Err(exit) => {
                     let noted = self.return_to(before);
                     let why = match exit {

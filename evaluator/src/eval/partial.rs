@@ -31,7 +31,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// How many loops had been left in the shader.
+    /// Number of loops that had been left in the shader.
     pub fn kept(&self) -> usize {
         self.kept
     }

@@ -290,7 +290,7 @@ pub enum Exit {
 }
 
 impl Exit {
-    /// Whether there is nothing that evaluation could go on with.
+    /// Returns whether evaluation has nothing to go on with.
     pub fn is_failure(&self) -> bool {
         !matches!(self, Exit::Left(_))
     }

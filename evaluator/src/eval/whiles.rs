@@ -16,11 +16,11 @@ use std::collections::BTreeSet;
 /// Iterations of a `while`, if they are known, and by slot the constants that variables are after them.
 type Counted = (Option<u64>, Vec<(usize, Value)>);
 
-/// How far a `while` can be unrolled.
+/// Extent to which a `while` can be unrolled.
 enum Rounds {
     /// To its end, or to where it is left for good.
     Ended(Eval),
-    /// Its end is a runtime value, which depends on these loops that are left in the shader.
+    /// To nowhere: the end is a runtime value, which depends on these loops that are left in the shader.
     Open(BTreeSet<Span>),
 }
 

@@ -92,7 +92,7 @@ fn last(name: &str) -> &str {
     name.rsplit("::").next().unwrap_or(name)
 }
 
-/// What a name may stand for.
+/// Item that a name may stand for.
 #[derive(Clone, Copy)]
 enum Item<'l> {
     Function(&'l Function),
@@ -116,7 +116,7 @@ fn reach<'l>(items: &FxHashMap<&'l str, Vec<Item<'l>>>, entry: &'l str) -> Vec<(
     reached
 }
 
-/// What matters of an item's or a closure's text.
+/// Facts about an item's or a closure's text.
 #[derive(Default)]
 struct Parts<'l> {
     /// Attributes of its loops.
@@ -127,9 +127,9 @@ struct Parts<'l> {
     paths: FxHashSet<&'l str>,
     /// Closures in it, which it may call or give away.
     closures: Vec<Parts<'l>>,
-    /// Whether it calls anything.
+    /// `true` if it calls anything.
     is_caller: bool,
-    /// Whether it has operators that may be of traits.
+    /// `true` if it has operators that may be of traits.
     operators: bool,
 }
 
@@ -150,7 +150,7 @@ impl<'l> Parts<'l> {
 
     fn block(&mut self, block: &'l Block) {
         for statement in &block.statements {
-            parts_of(statement).into_iter().for_each(|(part, _)| self.expr(part));
+            value_of(statement).into_iter().for_each(|value| self.expr(value));
         }
         block.value.iter().for_each(|value| self.expr(value));
     }
@@ -194,23 +194,23 @@ fn blocks(e: &Expr) -> Vec<&Block> {
     }
 }
 
-/// The expression of a statement, with the place that the statement is known by.
-fn parts_of(statement: &Statement) -> Option<(&Expr, Span)> {
+/// The expression of a statement.
+fn value_of(statement: &Statement) -> Option<&Expr> {
     match statement {
-        Statement::Let(_, _, init, span) => init.as_ref().map(|init| (init, *span)),
-        Statement::Expr(e) => Some((e, e.span)),
-        Statement::Const(constant) => Some((&constant.value, constant.value.span)),
+        Statement::Let(_, _, init, _) => init.as_ref(),
+        Statement::Expr(e) => Some(e),
+        Statement::Const(constant) => Some(&constant.value),
     }
 }
 
 struct Scan<'l> {
-    /// Whether every loop is asked to be left in the shader, and not only those with an attribute.
+    /// `true` if every loop is asked to be left in the shader, and not only those with an attribute.
     every: bool,
     /// Last words of functions and constants that may run such a loop.
     words: FxHashSet<&'l str>,
-    /// Whether a value that can be called may run one.
+    /// `true` if a value that can be called may run such a loop.
     values: bool,
-    /// Whether an operator may run one.
+    /// `true` if an operator may run such a loop.
     operators: bool,
     found: FxHashSet<Span>,
 }
@@ -231,7 +231,8 @@ impl Scan<'_> {
 
     fn block(&mut self, block: &Block) -> bool {
         let mut any = false;
-        let statements = block.statements.iter().filter_map(parts_of);
+        let statements = block.statements.iter();
+        let statements = statements.filter_map(|statement| Some((value_of(statement)?, statement.span())));
         let value = block.value.as_deref().map(|value| (value, value.span));
         for (part, span) in statements.chain(value) {
             if self.expr(part) {
@@ -242,7 +243,7 @@ impl Scan<'_> {
         any
     }
 
-    /// Whether an expression may run such a loop. Notes the statements in it that do.
+    /// Returns whether an expression may run such a loop. Notes the statements in it that do.
     fn expr(&mut self, e: &Expr) -> bool {
         let is_named = |path: &[String]| path.last().is_some_and(|word| self.words.contains(word.as_str()));
         let mut runs = match &e.kind {

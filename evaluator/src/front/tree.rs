@@ -154,6 +154,17 @@ pub enum Statement {
     Const(Const),
 }
 
+impl Statement {
+    /// Place that the statement is known by.
+    pub fn span(&self) -> Span {
+        match self {
+            Statement::Let(.., span) => *span,
+            Statement::Expr(e) => e.span,
+            Statement::Const(constant) => constant.value.span,
+        }
+    }
+}
+
 /// An arm of a `match`.
 #[derive(Clone, Debug)]
 pub struct Arm {

@@ -94,7 +94,7 @@ const CASES: &[(&str, &[&str])] = &[
         "let f = |x: i32| { let mut y = x; for i in 0..3 { y += i; } y }; s = s.powi(f(1));",
         &["k.i full"],
     ),
-    // Its own counter, and that of the loop around.
+    // A need of the loop's own counter, and of that of the loop around.
     ("for i in 1..3 { s += s.powi(i); }", &["k.i full"]),
     (
         "for i in 1..3 { for j in 0..3 { s += j as f32; } s = s.powi(i); }",
@@ -124,7 +124,7 @@ const CASES: &[(&str, &[&str])] = &[
         "for i in 0..3 { m += i; } let mut p = 0; while p < m { p += 1; s += s.powi(p); }",
         &["k.i full", "k.while full"],
     ),
-    // What comes after an exit.
+    // A need after an exit.
     (
         "for i in 0..3 { m += i; } if s > 1.0 { return vec4(1.0, 1.0, 1.0, 1.0); } s = s.powi(m);",
         &["k.i full"],

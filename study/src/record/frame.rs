@@ -17,10 +17,10 @@ pub struct PassTimes {
     pub passes: Vec<TimedPass>,
 }
 
-/// One pass of a frame.
+/// A pass of a frame.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct TimedPass {
-    /// Its purpose: `main G-buffer`, `depth and normals`, `deferred shading`, `box filter`.
+    /// Purpose of the pass: `main G-buffer`, `depth and normals`, `deferred shading`, `box filter`.
     pub name: String,
     /// Samples of each pixel.
     pub samples: u32,
@@ -45,7 +45,7 @@ pub struct FrameMethod {
     pub filter_ms: f64,
     /// Peak signal-to-noise ratio to 256 samples a pixel, in dB.
     pub psnr: f64,
-    /// The same as a root of the mean squared error, in colours of 0..=1.
+    /// Root of the mean squared error, in colours of 0..=1.
     pub error: f64,
     /// Bytes of G-buffer, picture and target.
     pub bytes: u64,

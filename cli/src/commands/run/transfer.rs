@@ -29,7 +29,7 @@ pub fn of(path: &str) -> (&str, Option<Transfer>) {
 }
 
 /// Returns the requested conversion, or the one of the texture's type: one or two components are data, three or four a colour.
-/// Where a PNG is read as sRGB without a request, says so.
+/// Notes that a PNG is read as sRGB without a request.
 pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result<Transfer, Failure> {
     let is_png = picture::is_png(Path::new(path));
     match asked {

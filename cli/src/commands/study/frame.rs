@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::table;
 use std::collections::BTreeMap;
 use straightline_codegen::files;
-use straightline_study::frame::{Asked, frames};
+use straightline_study::frame::{FrameRequest, frames};
 use straightline_study::record::{FrameMethod, FrameRecord, PassTimes, QualityRecord, Record, read_file};
 use straightline_study::report::frame_plot;
 
@@ -27,11 +27,11 @@ pub fn run(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failure> {
         Failure::Failed(format!("`{path}` is not a record of `budget --record`: {why}"))
     })?;
     let errors = QualityRecord::read(&args.errors).map_err(Failure::of)?;
-    let asked = Asked {
+    let request = FrameRequest {
         shading_ms: args.shading.clone(),
         only: args.only.clone(),
     };
-    let record = frames(&passes, &errors, &asked, command()).map_err(Failure::of)?;
+    let record = frames(&passes, &errors, &request, command()).map_err(Failure::of)?;
     print(&record);
     let mut panels = BTreeMap::new();
     for (k, ms) in record.shading_ms.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! WGSL: counts of shifts, conversions that saturate, constants that are not finite.
+//! WGSL: counts of shifts, conversions that saturate, constants that are not finite, tables that are read often.
 
 use super::{below_32, by_component, guards::unequal, is_non_finite, to_integer};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty, VarId, Variable};
