@@ -28,8 +28,7 @@ fn words_are_as_captured() {
         ("list-godot", &["list", "godot"]),
         ("explain-convolution", &["explain", &kernel, "--unroll", "4"]),
     ] {
-        // Wherever the project lies.
-        let said = finishes(arguments).replace(&here(""), "");
+        let said = finishes(arguments);
         let path = here(&format!("cli/tests/captures/{name}.txt"));
         if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
             std::fs::write(&path, &said).expect("a capture is written");

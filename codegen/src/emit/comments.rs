@@ -133,13 +133,7 @@ impl<'g> Groups<'g> {
         let mut functions = self.graph.purposes.iter().rev();
         let purpose = functions.find(|function| function.file == file && function.line <= line);
         let purpose = purpose.map_or("", |purpose| purpose.words.as_str());
-        let path = self.graph.files.get(file as usize).map_or("", String::as_str);
-        // An absolute path says more about the author's machine than the shader should.
-        let shown = match std::path::Path::new(path).is_absolute() {
-            true => path.rsplit(['/', '\\']).next().unwrap_or(path),
-            false => path,
-        };
-        let place = format!("{shown}:{line}");
+        let place = place(self.graph, file, line);
         let colon = if values.is_empty() { "" } else { ": " };
         let said = match purpose {
             "" => format!("{values}{colon}{place}"),
@@ -149,8 +143,19 @@ impl<'g> Groups<'g> {
     }
 }
 
+/// `file:line` of the source, as readers of a shader are told it.
+pub fn place(graph: &Graph, file: u32, line: u32) -> String {
+    let path = graph.files.get(file as usize).map_or("", String::as_str);
+    // An absolute path says more about the author's machine than the shader should.
+    let shown = match std::path::Path::new(path).is_absolute() {
+        true => path.rsplit(['/', '\\']).next().unwrap_or(path),
+        false => path,
+    };
+    format!("{shown}:{line}")
+}
+
 /// `sample 1, tap 2`.
-fn values(counters: &[Counter]) -> String {
+pub fn values(counters: &[Counter]) -> String {
     let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
     values.join(", ")
 }

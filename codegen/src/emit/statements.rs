@@ -1,6 +1,7 @@
 //! Counts of a kernel's text: statements, basic blocks and live values; and bounds that are known before lowering.
 
 use super::ast::{self, Stmt, StmtKind};
+use super::comments;
 use super::liveness::most_alive;
 use straightline_evaluator::ir::{Graph, Op, Origin};
 use straightline_evaluator::passes::Schedule;
@@ -16,14 +17,14 @@ pub fn count_text(kernel: &ast::Module<'_>, graph: &Graph, counts: &mut Counts) 
 
 /// A place in the source, with the counters of unrolled loops around it: `kernel.rs:12, sample 3, tap 5`.
 fn place_of(origin: &Origin, graph: &Graph) -> String {
-    let file = graph.files.get(origin.file as usize).map(String::as_str);
-    let place = match (file, origin.line) {
-        (None, _) | (_, Origin::NOWHERE) => origin.name.to_string(),
-        (Some(file), line) => format!("{file}:{line}"),
+    let place = match origin.line {
+        Origin::NOWHERE => origin.name.to_string(),
+        line => comments::place(graph, origin.file, line),
     };
-    let counters = origin.counters.iter().map(|c| format!("{} {}", c.name, c.value));
-    let parts: Vec<String> = std::iter::once(place).chain(counters).collect();
-    parts.join(", ")
+    match origin.counters.is_empty() {
+        true => place,
+        false => format!("{place}, {}", comments::values(&origin.counters)),
+    }
 }
 
 /// Basic blocks of statements: what a branch or a loop parts, and what follows it. A loop's test is a block of its own.

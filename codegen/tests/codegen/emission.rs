@@ -314,6 +314,21 @@ fn every_kernel_is_read_in_the_languages_of_opengl() {
     assert!(read >= 100 && missing >= 40, "{read} read, {missing} missing");
 }
 
+/// Neither the shader nor its manifest says where on the author's machine the kernel lies.
+#[test]
+fn absolute_paths_stay_at_home() {
+    let source =
+        "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { let twice = color.load(pixel) * 2.0; twice * twice }";
+    let kernel = Kernel::from_text("/home/author/secret/k.rs", source, "k");
+    let compiled = kernel.compile(&Settings::default()).unwrap_or_else(|e| panic!("{e}"));
+    let emitted = compiled.emit(&EmitOptions::new()).unwrap_or_else(|e| panic!("{e}"));
+    let manifest = emitted.manifest.to_json();
+    assert!(text(&emitted, Target::Wgsl).contains("k.rs:1") && manifest.contains("\"max_live_at\": \"k.rs:1"));
+    for (name, bytes) in emitted.named("k") {
+        assert!(!String::from_utf8_lossy(&bytes).contains("secret"), "{name}");
+    }
+}
+
 /// The number of basic blocks in the manifest and in the header is that of labels in the SPIR-V, for every kernel that comes
 /// with Straightline and every example, but for those that naga adds: of a loop a block to go on from and one that leaves it, with a
 /// block behind each test, and one behind a branch that the function ends with.
