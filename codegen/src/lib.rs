@@ -18,6 +18,7 @@ pub mod emit;
 mod kernel;
 mod pipeline;
 pub mod spec;
+mod stages;
 
 pub use compiled::Compiled;
 pub use config::{Config, compile};
