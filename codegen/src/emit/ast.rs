@@ -21,6 +21,21 @@ impl Ty {
         self.shape.with_scalar(scalar).into()
     }
 
+    /// Returns a short name of the type, which is how WGSL spells it: `f32`, `vec3f`, `array<vec2i, 9>`.
+    pub fn short_name(self) -> String {
+        match self.shape {
+            Type::Array { len, .. } => format!("array<{}, {len}>", self.element_ty().short_name()),
+            Type::Value { scalar, components } => match (components, scalar) {
+                (1, Scalar::F32) if self.half => "f16".to_owned(),
+                (1, _) => scalar.to_string(),
+                (_, Scalar::Bool) => format!("vec{components}<bool>"),
+                (_, Scalar::F32) if self.half => format!("vec{components}h"),
+                _ => format!("vec{components}{}", &scalar.to_string()[..1]),
+            },
+            Type::Results => "void".to_owned(),
+        }
+    }
+
     /// Returns a scalar or vector of `lanes` such components.
     pub fn shape_of(self, lanes: usize) -> Ty {
         let scalar = self.kind().unwrap_or(Scalar::F32);

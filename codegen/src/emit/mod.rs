@@ -15,6 +15,7 @@ mod host_reads;
 mod language_bindings;
 mod layout;
 mod legalise;
+mod literals;
 mod liveness;
 mod lower;
 mod manifest;

@@ -1,7 +1,6 @@
 //! Exact operations: `precise` where a language has it, else a function that no compiler sees through.
 
 use crate::emit::ast::{Expr, Function, Module, Op, Stmt, StmtKind, Ty};
-use crate::emit::print::wgsl_type;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 
 /// Name of the function that keeps a value as it is written; of vectors, with the type behind it.
@@ -56,7 +55,7 @@ fn barrier(module: &mut Module<'_>, ty: Ty) -> Op {
     const LARGEST: u32 = 0xffff_fffe;
     let name = match ty.is_scalar() && !ty.half {
         true => AS_WRITTEN.to_owned(),
-        false => format!("{AS_WRITTEN}_{}", wgsl_type(ty).replace(['<', '>'], "_")),
+        false => format!("{AS_WRITTEN}_{}", ty.short_name().replace(['<', '>'], "_")),
     };
     module.function(&name.clone(), ty, |module| {
         let x = module.variable("x", ty);

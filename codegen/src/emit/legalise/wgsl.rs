@@ -2,7 +2,6 @@
 
 use super::{below_32, by_component, guards::unequal, is_non_finite, to_integer};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty, VarId, Variable};
-use crate::emit::print::wgsl_type;
 use std::collections::BTreeMap;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
@@ -127,7 +126,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
         // WGSL's own conversion goes to the nearest integer that an `f32` has too, which is not the largest one, and leaves NaN
         // open.
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && expr.ty.is_integer() => {
-            let name = format!("to_{}", wgsl_type(expr.ty));
+            let name = format!("to_{}", expr.ty.short_name());
             expr.op = to_integer(module, &name, expr.ty, false, rule);
             expr
         }

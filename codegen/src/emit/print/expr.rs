@@ -2,6 +2,7 @@
 
 use super::Language;
 use crate::emit::ast::{Expr, Op, Ty};
+use crate::emit::literals::decimal_digits;
 use crate::emit::text::{Binds, Text};
 use straightline_evaluator::ir::{self, BinaryOp, Bits, Scalar, Type, UnaryOp};
 
@@ -104,34 +105,7 @@ fn constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
 /// A finite float with few digits that every reader takes for the same bits.
 pub fn float(bits: u32) -> Text {
     let x = f32::from_bits(bits);
-    Text::literal(digits(x), x.is_sign_negative())
-}
-
-/// Columns of [`float`].
-pub fn columns_of_float(bits: u32) -> usize {
-    let x = f32::from_bits(bits);
-    if x.fract() == 0.0 && x.abs() < 1e6 {
-        let digits = (x.abs() as u32).checked_ilog10().unwrap_or(0) as usize + 1;
-        return usize::from(x.is_sign_negative()) + digits + ".0".len();
-    }
-    digits(x).len()
-}
-
-/// The shortest decimal that gives a float back, whether it is read as an `f32` at once or as an `f64` that is then rounded.
-/// Tint and glslang read literals as `f64`, and Tint refuses what is larger than the largest `f32` by less than a rounding:
-/// such numbers, and those that would be rounded twice, have the digits of the `f64` that equals them.
-fn digits(x: f32) -> String {
-    // All digits of whole numbers that have few.
-    if x.fract() == 0.0 && x.abs() < 1e15 {
-        return format!("{:.1}", f64::from(x));
-    }
-    let short = format!("{x:?}");
-    let read = short.parse::<f64>().unwrap_or(f64::NAN);
-    if read as f32 == x && read.abs() <= f64::from(f32::MAX) {
-        short
-    } else {
-        format!("{:?}", f64::from(x))
-    }
+    Text::literal(decimal_digits(x), x.is_sign_negative())
 }
 
 /// An integer literal with a suffix.

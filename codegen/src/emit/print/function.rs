@@ -4,6 +4,7 @@
 use super::glsl::{self, Glsl};
 use super::hlsl::{self, Hlsl, buffer_declared, sampler_declared, texture_declared};
 use super::wgsl::{self, Wgsl};
+use crate::emit::ast::Ty;
 use crate::emit::own_words::SAMPLER;
 
 impl Wgsl<'_> {
@@ -24,7 +25,7 @@ impl Wgsl<'_> {
         let uniforms = r
             .uniforms
             .iter()
-            .map(|u| format!("{}: {}", u.name, wgsl::type_name(u.ty.into())));
+            .map(|u| format!("{}: {}", u.name, Ty::from(u.ty).short_name()));
         let all = textures.chain(samplers).chain(["position: vec2f".to_owned()]);
         let all: Vec<String> = all.chain(varyings).chain(uniforms).collect();
         format!("fn {}({}) -> {} {{", r.entry, all.join(", "), self.result_type())

@@ -28,11 +28,6 @@ pub fn hlsl_type(ty: Ty) -> String {
     hlsl::type_name(ty)
 }
 
-/// A type as WGSL spells it.
-pub fn wgsl_type(ty: Ty) -> String {
-    wgsl::type_name(ty)
-}
-
 /// A part of an element of a buffer.
 fn part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> Text {
     let ir::Element::Struct(of) = of else {
@@ -41,16 +36,6 @@ fn part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> 
     let name = of.fields.get(field as usize).map_or("", |field| field.name.as_str());
     let field = Text::member(element, name);
     within.map_or(field.clone(), |within| Text::index(&field, within))
-}
-
-/// Columns of a scalar constant.
-pub fn columns_of_number(ty: Ty, bits: u32) -> usize {
-    match ty.kind() {
-        Some(Scalar::F32) => expr::columns_of_float(bits) + usize::from(ty.half),
-        Some(Scalar::I32) => (bits as i32).to_string().len(),
-        Some(Scalar::U32) => bits.to_string().len() + 1,
-        _ => 5,
-    }
 }
 
 /// Qualifier of a variable in GLSL and HLSL whose value is rounded as it is written.

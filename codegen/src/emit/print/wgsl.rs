@@ -35,7 +35,7 @@ impl Wgsl<'_> {
 
 impl Language for Wgsl<'_> {
     fn ty(&self, ty: Ty) -> String {
-        type_name(ty)
+        ty.short_name()
     }
 
     fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text {
@@ -74,7 +74,7 @@ impl Language for Wgsl<'_> {
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {
                 let name = Text::name(self.resources.texture(*texture).name.as_str());
-                let ty = type_name(self.resources.texture(*texture).kind.coordinate().into());
+                let ty = Ty::from(self.resources.texture(*texture).kind.coordinate()).short_name();
                 Text::call(&ty, &[&Text::call("textureDimensions", &[&name])])
             }
             ir::Op::TextureLevels(texture) => self.count("textureNumLevels", *texture),
@@ -165,16 +165,16 @@ impl Language for Wgsl<'_> {
     }
 
     fn bitcast(&self, to: Ty, x: &Text) -> Text {
-        Text::call(&format!("bitcast<{}>", type_name(to)), &[x])
+        Text::call(&format!("bitcast<{}>", to.short_name()), &[x])
     }
 
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
         if ty.kind() == Some(Scalar::Bool) && parts.len() > 1 {
             // `a < b, c > d` would begin a list of template arguments.
             let parts: Vec<Text> = parts.iter().map(|part| part.in_parentheses()).collect();
-            return Text::call(&type_name(ty), &parts.iter().collect::<Vec<_>>());
+            return Text::call(&ty.short_name(), &parts.iter().collect::<Vec<_>>());
         }
-        Text::call(&type_name(ty), parts)
+        Text::call(&ty.short_name(), parts)
     }
 
     // Operands are pure, and naga makes control flow of `&&` and `||`.
@@ -189,7 +189,7 @@ impl Language for Wgsl<'_> {
     fn mutable(&self, name: &str, ty: Ty, has_value: bool) -> String {
         match has_value {
             true => format!("var {name}"),
-            false => format!("var {name}: {}", type_name(ty)),
+            false => format!("var {name}: {}", ty.short_name()),
         }
     }
 
@@ -212,9 +212,9 @@ impl Language for Wgsl<'_> {
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
         let params: Vec<String> = params
             .iter()
-            .map(|(name, ty)| format!("{name}: {}", type_name(*ty)))
+            .map(|(name, ty)| format!("{name}: {}", ty.short_name()))
             .collect();
-        format!("fn {name}({}) -> {} {{", params.join(", "), type_name(result))
+        format!("fn {name}({}) -> {} {{", params.join(", "), result.short_name())
     }
 
     fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
@@ -266,7 +266,7 @@ impl Language for Wgsl<'_> {
         for structure in r.structures() {
             out += &format!("struct {} {{\n", structure.name);
             for field in &structure.fields {
-                out += &format!("    {}: {},\n", field.name, type_name(field.ty.into()));
+                out += &format!("    {}: {},\n", field.name, Ty::from(field.ty).short_name());
             }
             out += "}\n\n";
         }
@@ -281,7 +281,7 @@ impl Language for Wgsl<'_> {
         for (k, binding) in &r.read_buffers {
             let buffer = r.buffer(*k);
             let element = match &buffer.element {
-                Element::Value(ty) => type_name((*ty).into()),
+                Element::Value(ty) => Ty::from(*ty).short_name(),
                 Element::Struct(structure) => structure.name.clone(),
             };
             let (access, element) = match buffer.access {
@@ -318,7 +318,7 @@ impl Language for Wgsl<'_> {
             out += &format!("@group({group}) @binding({binding}) var<uniform> {REGION}: Region;\n");
         }
         for shared in r.shared() {
-            let element = type_name(shared.element.into());
+            let element = Ty::from(shared.element).short_name();
             let element = if shared.atomic {
                 format!("atomic<{element}>")
             } else {
@@ -359,7 +359,7 @@ impl Language for Wgsl<'_> {
                     .map(|v| format!(", @location({}) {}: {}", v.location, v.name, v.ty));
                 let varyings: String = varyings.collect();
                 let result = match &r.outputs[..] {
-                    [one] => format!("@location(0) {}", type_name(one.texel().into())),
+                    [one] => format!("@location(0) {}", Ty::from(one.texel()).short_name()),
                     _ => r.outputs_type(),
                 };
                 format!("@fragment\nfn {entry}(@builtin(position) position: vec4f{varyings}) -> {result} {{")
@@ -382,11 +382,11 @@ impl Wgsl<'_> {
     fn outputs_structure(&self) -> String {
         let r = self.resources;
         let fields = r.outputs.iter().enumerate().map(|(k, output)| match self.leads() {
-            true => format!("    {}: {},\n", output.name, type_name(output.ty.into())),
+            true => format!("    {}: {},\n", output.name, Ty::from(output.ty).short_name()),
             false => format!(
                 "    @location({k}) {}: {},\n",
                 output.name,
-                type_name(output.texel().into())
+                Ty::from(output.texel()).short_name()
             ),
         });
         format!("struct {} {{\n{}}}\n", r.outputs_type(), fields.collect::<String>())
@@ -395,7 +395,7 @@ impl Wgsl<'_> {
     /// The type that a function gives.
     pub(super) fn result_type(&self) -> String {
         match &self.resources.outputs[..] {
-            [one] => type_name(one.ty.into()),
+            [one] => Ty::from(one.ty).short_name(),
             _ => self.resources.outputs_type(),
         }
     }
@@ -433,29 +433,4 @@ pub(super) fn texture_type(texture: &Texture) -> String {
         TextureKind::DepthCube => return "texture_depth_cube".to_owned(),
     };
     format!("texture_{shape}<{}>", texture.scalar)
-}
-
-/// A type as WGSL spells it.
-pub fn type_name(ty: Ty) -> String {
-    match ty.shape {
-        Type::Array { len, .. } => {
-            format!("array<{}, {len}>", type_name(ty.element_ty()))
-        }
-        Type::Value {
-            scalar,
-            components: lanes,
-        } => {
-            let scalar = match scalar {
-                Scalar::F32 if ty.half => "h16".to_owned(),
-                other => other.to_string(),
-            };
-            match (lanes, scalar.as_str()) {
-                (1, "h16") => "f16".to_owned(),
-                (1, _) => scalar,
-                (_, "bool") => format!("vec{lanes}<bool>"),
-                _ => format!("vec{lanes}{}", &scalar[..1]),
-            }
-        }
-        Type::Results => "void".to_owned(),
-    }
 }

@@ -2,7 +2,7 @@
 
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::legalise::AS_WRITTEN;
-use crate::emit::print::{columns_of_number, wgsl_type};
+use crate::emit::literals::number_columns;
 use straightline_evaluator::ir::{self, BinaryOp, Graph};
 
 /// Context that widths depend on: names.
@@ -39,7 +39,7 @@ impl Columns<'_> {
             Op::Var(var) => self.module.variables[var.0 as usize].name.len(),
             Op::Swizzle(components) => args + 1 + components.len(),
             Op::Index { .. } => args + 2,
-            Op::Construct | Op::Convert { .. } => call(wgsl_type(expr.ty).len()),
+            Op::Construct | Op::Convert { .. } => call(expr.ty.short_name().len()),
             Op::Division(..) => args + 3 + parentheses(expr),
             Op::Guarded(..) => call(10),
             Op::Builtin(_) => 20,
@@ -60,7 +60,7 @@ impl Columns<'_> {
                 ir::Op::Binary(BinaryOp::Atan2) => call(5),
                 ir::Op::Binary(_) => args + 3 + parentheses(expr),
                 ir::Op::Unary(op) => call(format!("{op:?}").len()),
-                ir::Op::Bitcast => call(8 + wgsl_type(expr.ty).len() + 2),
+                ir::Op::Bitcast => call(8 + expr.ty.short_name().len() + 2),
                 ir::Op::Load { texture, .. } => call(16 + self.texture(*texture)),
                 ir::Op::Sample { texture, sampler, .. } => call(28 + self.texture(*texture) + self.sampler(*sampler)),
                 ir::Op::Gather { texture, sampler, .. } => call(20 + self.texture(*texture) + self.sampler(*sampler)),
@@ -87,7 +87,7 @@ impl Columns<'_> {
 
     fn constant(&self, ty: Ty, bits: &ir::Bits) -> usize {
         let lanes = &bits[..ty.components() as usize];
-        let number = |bits: &u32| columns_of_number(ty, *bits);
+        let number = |bits: &u32| number_columns(ty, *bits);
         match lanes {
             [one] => number(one),
             [first, rest @ ..] if rest.iter().all(|bits| bits == first) => 7 + number(first),

@@ -12,7 +12,6 @@ mod simple;
 
 use super::{componentwise, is_leaf};
 use crate::emit::ast::{Domain, Expr, Function, Module, Op, StmtKind, Ty};
-use crate::emit::print::wgsl_type;
 use body::Body;
 use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
 
@@ -88,7 +87,7 @@ fn call(module: &mut Module<'_>, guard: &Guard, ty: Ty, overloads: Overloads) ->
     let by_scalars = guard.scalar || overloads == Overloads::Scalars;
     if !by_scalars || ty.is_scalar() {
         let name = match overloads == Overloads::None && !ty.is_scalar() {
-            true => format!("{}_{}", guard.name, wgsl_type(ty)),
+            true => format!("{}_{}", guard.name, ty.short_name()),
             false => guard.name.clone(),
         };
         return module.function(&name, ty, |module| function(module, guard, &name, ty));
@@ -96,7 +95,7 @@ fn call(module: &mut Module<'_>, guard: &Guard, ty: Ty, overloads: Overloads) ->
     let scalar = call(module, guard, ty.element_of().into(), overloads);
     match overloads {
         Overloads::None => {
-            let name = format!("{}_{}", guard.name, wgsl_type(ty));
+            let name = format!("{}_{}", guard.name, ty.short_name());
             by_component(module, guard, scalar, &name, ty)
         }
         _ => componentwise(module, scalar, ty),

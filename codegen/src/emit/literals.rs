@@ -1,0 +1,40 @@
+//! Decimal digits of constants, which printers write and `tidy` measures.
+
+use super::ast::Ty;
+use straightline_evaluator::ir::Scalar;
+
+/// Returns the shortest decimal that reads back as the same float, both as an `f32` and as an `f64` that is then rounded.
+///
+/// Tint and glslang read literals as `f64`, and Tint refuses a number that exceeds the largest `f32` by less than a rounding:
+/// such numbers, and those that would be rounded twice, have the digits of the `f64` that equals them.
+pub fn decimal_digits(x: f32) -> String {
+    // All digits of whole numbers that have few.
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        return format!("{:.1}", f64::from(x));
+    }
+    let short = format!("{x:?}");
+    let read = short.parse::<f64>().unwrap_or(f64::NAN);
+    if read as f32 == x && read.abs() <= f64::from(f32::MAX) {
+        short
+    } else {
+        format!("{:?}", f64::from(x))
+    }
+}
+
+/// Approximate columns of a scalar constant, in any language.
+pub fn number_columns(ty: Ty, bits: u32) -> usize {
+    match ty.kind() {
+        Some(Scalar::F32) => float_columns(f32::from_bits(bits)) + usize::from(ty.half),
+        Some(Scalar::I32) => (bits as i32).to_string().len(),
+        Some(Scalar::U32) => bits.to_string().len() + 1,
+        _ => 5,
+    }
+}
+
+fn float_columns(x: f32) -> usize {
+    if x.fract() == 0.0 && x.abs() < 1e6 {
+        let digits = (x.abs() as u32).checked_ilog10().unwrap_or(0) as usize + 1;
+        return usize::from(x.is_sign_negative()) + digits + ".0".len();
+    }
+    decimal_digits(x).len()
+}
