@@ -13,17 +13,20 @@ fn main() -> io::Result<()> {
     println!("cargo:rerun-if-changed={}", templates.display());
     let mut descriptions = String::from("&[\n");
     let mut sources = descriptions.clone();
-    for engine in sorted(&templates)? {
+    for engine in sorted_entries(&templates)? {
         println!("cargo:rerun-if-changed={}", engine.display());
         let description = fs::read_to_string(engine.join(DESCRIPTION))?;
         // Read here, a program needs no reader of TOML for it.
         let description: serde_json::Value = toml::from_str(&description).map_err(io::Error::other)?;
         let description = description.to_string();
-        writeln!(descriptions, "    ({:?}, {description:?}),", name(&engine)).map_err(io::Error::other)?;
-        writeln!(sources, "    ({:?}, &[", name(&engine)).map_err(io::Error::other)?;
-        for file in sorted(&engine)?.iter().filter(|file| name(file) != DESCRIPTION) {
+        writeln!(descriptions, "    ({:?}, {description:?}),", entry_name(&engine)).map_err(io::Error::other)?;
+        writeln!(sources, "    ({:?}, &[", entry_name(&engine)).map_err(io::Error::other)?;
+        for file in sorted_entries(&engine)?
+            .iter()
+            .filter(|file| entry_name(file) != DESCRIPTION)
+        {
             let path = file.display().to_string();
-            writeln!(sources, "        ({:?}, include_str!({path:?})),", name(file)).map_err(io::Error::other)?;
+            writeln!(sources, "        ({:?}, include_str!({path:?})),", entry_name(file)).map_err(io::Error::other)?;
         }
         sources += "    ]),\n";
     }
@@ -33,13 +36,13 @@ fn main() -> io::Result<()> {
 }
 
 /// Lists the contents of a folder, in order of name.
-fn sorted(folder: &Path) -> io::Result<Vec<PathBuf>> {
+fn sorted_entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
     let mut paths = entries.collect::<io::Result<Vec<_>>>()?;
     paths.sort();
     Ok(paths)
 }
 
-fn name(path: &Path) -> String {
+fn entry_name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -19,7 +19,7 @@ pub enum Failure {
 
 impl Failure {
     /// A failure of any error value.
-    pub fn of(error: impl Display) -> Failure {
+    pub fn from_error(error: impl Display) -> Failure {
         Failure::Failed(error.to_string())
     }
 
@@ -27,11 +27,11 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         match self {
             Failure::Usage(message) => {
-                errln!("error: {}", output::limited(&message));
+                errln!("error: {}", output::limit_lines(&message));
                 ExitCode::from(2)
             }
             Failure::Failed(message) => {
-                errln!("error: {}", output::limited(&message));
+                errln!("error: {}", output::limit_lines(&message));
                 ExitCode::from(1)
             }
             Failure::Kernel(errors) => {
@@ -43,7 +43,7 @@ impl Failure {
                     .all(|d| d.span.is_none() && d.code() < Some(Code::VisibleLoss));
                 output::note(format_args!(
                     "{}",
-                    output::limited(&errors.render(std::io::stderr().is_terminal()))
+                    output::limit_lines(&errors.render(std::io::stderr().is_terminal()))
                 ));
                 ExitCode::from(if usage { 2 } else { 1 })
             }
@@ -52,7 +52,7 @@ impl Failure {
 }
 
 /// A number with its noun: `1 error`, `2 errors`.
-pub fn count(number: usize, noun: &str) -> String {
+pub fn format_count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 

@@ -15,7 +15,7 @@ pub struct Gpu {
 }
 
 /// Every adapter that the environment's backends offer.
-pub fn adapters() -> Vec<wgpu::Adapter> {
+pub fn list_adapters() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = Backends::from_env().unwrap_or(Backends::PRIMARY);
     let instance = wgpu::Instance::new(descriptor);
@@ -25,7 +25,7 @@ pub fn adapters() -> Vec<wgpu::Adapter> {
 impl Gpu {
     /// The adapter asked for, or the fastest kind there is; `None` if there is no adapter at all.
     pub fn open(args: &AdapterArgs) -> Result<Option<Gpu>, Failure> {
-        let mut found = adapters();
+        let mut found = list_adapters();
         found.sort_by_key(|adapter| match adapter.get_info().device_type {
             wgpu::DeviceType::DiscreteGpu => 0,
             wgpu::DeviceType::IntegratedGpu => 1,
@@ -34,15 +34,15 @@ impl Gpu {
             wgpu::DeviceType::Other => 4,
         });
         let Some(text) = &args.adapter else {
-            return found.into_iter().next().map(Gpu::of).transpose();
+            return found.into_iter().next().map(Gpu::from_adapter).transpose();
         };
         let wanted = text.to_lowercase();
-        let names: Vec<String> = found.iter().map(|a| describe(&a.get_info())).collect();
+        let names: Vec<String> = found.iter().map(|a| describe_adapter(&a.get_info())).collect();
         match found
             .into_iter()
-            .find(|a| describe(&a.get_info()).to_lowercase().contains(&wanted))
+            .find(|a| describe_adapter(&a.get_info()).to_lowercase().contains(&wanted))
         {
-            Some(adapter) => Gpu::of(adapter).map(Some),
+            Some(adapter) => Gpu::from_adapter(adapter).map(Some),
             None if names.is_empty() => Err(Failure::Failed(format!(
                 "there is no adapter at all, so none called `{text}`; {INSTALL}"
             ))),
@@ -62,7 +62,7 @@ impl Gpu {
         })
     }
 
-    fn of(adapter: wgpu::Adapter) -> Result<Gpu, Failure> {
+    fn from_adapter(adapter: wgpu::Adapter) -> Result<Gpu, Failure> {
         let info = adapter.get_info();
         // A software driver runs passes on this processor, where the wall clock is exact; lavapipe's timestamps (Mesa
         // 22.3) are not: they may leave out the pass that they stand around.
@@ -78,8 +78,12 @@ impl Gpu {
             required_limits: adapter.limits(),
             ..Default::default()
         };
-        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
-            .map_err(|error| Failure::Failed(format!("the adapter {} gives no device: {error}", describe(&info))))?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
+            Failure::Failed(format!(
+                "the adapter {} gives no device: {error}",
+                describe_adapter(&info)
+            ))
+        })?;
         Ok(Gpu {
             device,
             queue,
@@ -90,7 +94,7 @@ impl Gpu {
 
     /// Name, driver and backend, for records.
     pub fn describe(&self) -> String {
-        describe(&self.info)
+        describe_adapter(&self.info)
     }
 
     /// Returns whether shaders can compute in half precision.
@@ -107,7 +111,7 @@ impl Gpu {
 /// Help for a machine without a GPU.
 pub const INSTALL: &str = "install a Vulkan driver (a software one is in Debian's mesa-vulkan-drivers)";
 
-fn describe(info: &wgpu::AdapterInfo) -> String {
+fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
     let driver = [info.driver.as_str(), info.driver_info.as_str()].join(" ");
     format!("{} ({}, {})", info.name, driver.trim(), info.backend)
 }

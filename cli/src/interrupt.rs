@@ -15,13 +15,13 @@ const INTERRUPTED: i32 = 130;
 
 /// Listens for the program's whole life. Where nothing asks to be stopped, an interrupt removes unfinished files and ends
 /// the program.
-pub fn listen() -> Result<(), Failure> {
+pub fn listen_for_interrupt() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
         if ASKS.load(Ordering::SeqCst) && !PRESSED.swap(true, Ordering::SeqCst) {
             errln!("\nstopping; what was measured is kept (Ctrl-C again ends at once)");
             return;
         }
-        files::abandon();
+        files::remove_unfinished();
         std::process::exit(INTERRUPTED);
     })
     .map_err(|error| Failure::Failed(format!("cannot listen to Ctrl-C: {error}")))
@@ -29,12 +29,12 @@ pub fn listen() -> Result<(), Failure> {
 
 /// From now on a first interrupt only asks to stop.
 #[cfg(feature = "study")]
-pub fn ask() {
+pub fn defer_interrupt() {
     ASKS.store(true, Ordering::SeqCst);
 }
 
 /// Returns whether Ctrl-C asked to stop.
 #[cfg(feature = "study")]
-pub fn asked() -> bool {
+pub fn is_stop_requested() -> bool {
     PRESSED.load(Ordering::SeqCst)
 }

@@ -20,41 +20,41 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(said) => return report(&said),
+        Err(said) => return print_usage(&said),
     };
-    match interrupt::listen()
-        .and_then(|()| run(arguments))
-        .and_then(|()| output::finish())
+    match interrupt::listen_for_interrupt()
+        .and_then(|()| run_command(arguments))
+        .and_then(|()| output::flush_output())
     {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
 }
 
-fn run(arguments: Arguments) -> Result<(), Failure> {
+fn run_command(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command.unwrap_or_else(|| Command::Demo(Default::default())) {
-        Command::Demo(args) => commands::demo::run(&args),
-        Command::List(args) => commands::list::run(&args),
-        Command::Emit(args) => commands::emit::run(&args),
-        Command::Check(args) => commands::check::run(&args),
-        Command::Explain(args) => commands::explain::run(&args),
-        Command::Run(args) => commands::run::run(&args),
-        Command::Watch(args) => commands::watch::run(&args),
+        Command::Demo(args) => commands::demo::run_demo(&args),
+        Command::List(args) => commands::list::print_list(&args),
+        Command::Emit(args) => commands::emit::emit_kernel(&args),
+        Command::Check(args) => commands::check::check_kernels(&args),
+        Command::Explain(args) => commands::explain::explain_kernel(&args),
+        Command::Run(args) => commands::run::run_kernel(&args),
+        Command::Watch(args) => commands::watch::watch_kernel(&args),
         #[cfg(feature = "study")]
-        Command::Budget(args) => commands::budget::run(&args),
+        Command::Budget(args) => commands::budget::measure_budget(&args),
         #[cfg(feature = "study")]
-        Command::Quads(args) => commands::quads::run(&args),
+        Command::Quads(args) => commands::quads::measure_quads(&args),
         #[cfg(feature = "study")]
-        Command::Figures(args) => commands::figures::run(&args),
+        Command::Figures(args) => commands::figures::write_figures(&args),
         #[cfg(feature = "study")]
-        Command::Study(args) => commands::study::run(&args),
+        Command::Study(args) => commands::study::run_study(&args),
         #[cfg(feature = "study")]
-        Command::Tune(args) => commands::tune::run(&args),
-        Command::Page(args) => commands::page::run(&args),
-        Command::Resolve(args) => commands::resolve::run(&args),
-        Command::Capture(args) => commands::capture::run(&args),
-        Command::Compare(args) => commands::compare::run(&args),
-        Command::Scenes(args) => commands::scenes::run(&args),
+        Command::Tune(args) => commands::tune::tune_shader(&args),
+        Command::Page(args) => commands::page::write_page(&args),
+        Command::Resolve(args) => commands::resolve::resolve_capture(&args),
+        Command::Capture(args) => commands::capture::render_capture(&args),
+        Command::Compare(args) => commands::compare::compare_pictures(&args),
+        Command::Scenes(args) => commands::scenes::print_scenes(&args),
         #[cfg(not(feature = "study"))]
         Command::Budget(args)
         | Command::Quads(args)
@@ -62,15 +62,15 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         | Command::Study(args)
         | Command::Tune(args) => Err(args.refusal()),
         #[cfg(feature = "study")]
-        Command::ServeIsa => straightline_isa::serve().map_err(Failure::of),
-        Command::Completions(args) => commands::shell::completions(&args),
-        Command::Man(args) => commands::shell::man(&args),
-        Command::Adapters(args) => commands::adapters::run(&args),
+        Command::ServeIsa => straightline_isa::serve().map_err(Failure::from_error),
+        Command::Completions(args) => commands::shell::print_completions(&args),
+        Command::Man(args) => commands::shell::write_manual(&args),
+        Command::Adapters(args) => commands::adapters::print_adapters(&args),
     }
 }
 
 /// Prints the help that was asked for, or what is wrong with the arguments.
-fn report(said: &clap::Error) -> ExitCode {
+fn print_usage(said: &clap::Error) -> ExitCode {
     let text = |colour: bool| {
         let text = said.render();
         if colour {
@@ -82,10 +82,10 @@ fn report(said: &clap::Error) -> ExitCode {
     if said.use_stderr() {
         output::note(format_args!(
             "{}",
-            output::limited(&text(std::io::stderr().is_terminal()))
+            output::limit_lines(&text(std::io::stderr().is_terminal()))
         ));
         return ExitCode::from(2);
     }
     out!("{}", text(std::io::stdout().is_terminal()));
-    output::finish().map_or_else(Failure::report, |()| ExitCode::SUCCESS)
+    output::flush_output().map_or_else(Failure::report, |()| ExitCode::SUCCESS)
 }

@@ -16,7 +16,7 @@ const LONGEST: usize = 1000;
 
 /// Prints to standard output.
 pub fn print(text: Arguments<'_>) {
-    attempt(|| io::stdout().write_fmt(text));
+    write_unless_refused(|| io::stdout().write_fmt(text));
 }
 
 /// Prints to standard error.
@@ -26,8 +26,8 @@ pub fn note(text: Arguments<'_>) {
 }
 
 /// Flushes standard output, and fails if it refused something. A closed pipe is no error.
-pub fn finish() -> Result<(), Failure> {
-    attempt(|| io::stdout().flush());
+pub fn flush_output() -> Result<(), Failure> {
+    write_unless_refused(|| io::stdout().flush());
     let refused = REFUSED.lock().ok().and_then(|mut refused| refused.take());
     match refused {
         Some(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -42,7 +42,7 @@ pub fn is_refused() -> bool {
     REFUSED.lock().map_or(true, |refused| refused.is_some())
 }
 
-fn attempt(write: impl FnOnce() -> io::Result<()>) {
+fn write_unless_refused(write: impl FnOnce() -> io::Result<()>) {
     let Ok(mut refused) = REFUSED.lock() else { return };
     if refused.is_none()
         && let Err(error) = write()
@@ -52,7 +52,7 @@ fn attempt(write: impl FnOnce() -> io::Result<()>) {
 }
 
 /// A message with every line that no screen holds shortened in its middle.
-pub fn limited(message: &str) -> String {
+pub fn limit_lines(message: &str) -> String {
     let shortened = |line: &str| {
         let count = line.chars().count();
         if count <= LONGEST {
@@ -83,12 +83,12 @@ macro_rules! errln {
 
 #[cfg(test)]
 mod tests {
-    use super::limited;
+    use super::limit_lines;
 
     #[test]
     fn long_lines_are_shortened() {
-        let text = limited(&format!("error: `{}` is no size\nuse 1x1\n", "9".repeat(100_000)));
+        let text = limit_lines(&format!("error: `{}` is no size\nuse 1x1\n", "9".repeat(100_000)));
         assert!(text.len() < 1100 && text.starts_with("error: `9999") && text.ends_with("` is no size\nuse 1x1\n"));
-        assert_eq!(limited("a\nb\n"), "a\nb\n");
+        assert_eq!(limit_lines("a\nb\n"), "a\nb\n");
     }
 }

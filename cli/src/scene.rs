@@ -12,12 +12,12 @@ use straightline_scene::render::{CpuRenderer, GpuRenderer, Renderer};
 use straightline_scene::scene::{self, Scene, Viewpoint};
 
 /// A model, or else the built-in scene of a name.
-pub fn load(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
+pub fn load_scene(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
     load_seen(mesh, name, &Viewpoint::default())
 }
 
 /// Returns the requested scene, from the requested viewpoint.
-pub fn viewed(args: &ViewArgs) -> Result<Scene, Failure> {
+pub fn load_viewed(args: &ViewArgs) -> Result<Scene, Failure> {
     let viewpoint = Viewpoint {
         eye: args.eye,
         target: args.target,
@@ -28,26 +28,26 @@ pub fn viewed(args: &ViewArgs) -> Result<Scene, Failure> {
 
 fn load_seen(mesh: Option<&Path>, name: &str, viewpoint: &Viewpoint) -> Result<Scene, Failure> {
     match mesh {
-        Some(path) => scene::load_seen(path, viewpoint).map_err(Failure::of),
+        Some(path) => scene::load_seen(path, viewpoint).map_err(Failure::from_error),
         None => {
             let mut scene = Scene::named(name).map_err(|error| Failure::Usage(error.to_string()))?;
             scene.camera = viewpoint.camera(|_| scene.camera, |point| point);
-            scene.check().map_err(Failure::of)?;
+            scene.check().map_err(Failure::from_error)?;
             Ok(scene)
         }
     }
 }
 
 /// Draws on the GPU if there is one, else on the CPU.
-pub fn renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<Box<dyn Renderer>, Failure> {
+pub fn create_renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<Box<dyn Renderer>, Failure> {
     Ok(match gpu {
-        Some(gpu) => Box::new(GpuRenderer::new(&gpu.device, &gpu.queue, scene, size).map_err(Failure::of)?),
-        None => Box::new(CpuRenderer::new(scene, size).map_err(Failure::of)?),
+        Some(gpu) => Box::new(GpuRenderer::new(&gpu.device, &gpu.queue, scene, size).map_err(Failure::from_error)?),
+        None => Box::new(CpuRenderer::new(scene, size).map_err(Failure::from_error)?),
     })
 }
 
 /// Offsets of the samples of a pattern by its name, or listed.
-pub fn pattern(name: &str) -> Result<Vec<Vec2>, Failure> {
+pub fn sample_offsets(name: &str) -> Result<Vec<Vec2>, Failure> {
     gbuffer::samples(name).ok_or_else(|| {
         Failure::Usage(format!(
             "there is no pattern `{name}`; use one of {}, or x and y of each sample, separated by commas, each from -0.5 to 0.5",
@@ -57,7 +57,7 @@ pub fn pattern(name: &str) -> Result<Vec<Vec2>, Failure> {
 }
 
 /// Returns the place of shading by its name on the command line; `shaded` are the geometry samples of `listed`.
-pub fn shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
+pub fn parse_shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
     match (name, shaded) {
         ("centre", []) => Ok(ShadingSample::Centre),
         ("sample0", []) => Ok(ShadingSample::Sample(0)),
@@ -78,14 +78,14 @@ pub fn shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
 }
 
 /// A bar on stderr for `what`, to be advanced as work is done.
-pub fn bar(what: &str) -> ProgressBar {
+pub fn progress_bar(what: &str) -> ProgressBar {
     let style = ProgressStyle::with_template("{msg:<28} [{bar:30}] {pos}/{len}, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(1).with_style(style).with_message(what.to_owned())
 }
 
 /// A progress function for `bar`.
-pub fn advance(bar: &ProgressBar) -> impl FnMut(usize, usize) + '_ {
+pub fn advance_bar(bar: &ProgressBar) -> impl FnMut(usize, usize) + '_ {
     |done, total| {
         bar.set_length(total as u64);
         bar.set_position(done as u64);

@@ -2,7 +2,7 @@
 
 /// Text in lines of at most `width` characters, but for words that are longer; the first begins with `first`, the others with
 /// `next`.
-pub fn wrapped(text: &str, width: usize, first: &str, next: &str) -> String {
+pub fn wrap_text(text: &str, width: usize, first: &str, next: &str) -> String {
     let mut lines = vec![first.to_owned()];
     let (mut length, mut empty) = (first.chars().count(), true);
     for word in text.split_whitespace() {
@@ -23,7 +23,7 @@ pub fn wrapped(text: &str, width: usize, first: &str, next: &str) -> String {
 }
 
 /// Columns under headings, each as wide as its widest cell; the first column left, the others right.
-pub fn render(headings: &[&str], rows: &[Vec<String>]) -> String {
+pub fn render_table(headings: &[&str], rows: &[Vec<String>]) -> String {
     let width = |k: usize| {
         let cells = rows
             .iter()
@@ -54,11 +54,11 @@ pub fn render(headings: &[&str], rows: &[Vec<String>]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::wrapped;
+    use super::wrap_text;
 
     #[test]
     fn lines_hold_whole_words() {
-        assert_eq!(wrapped("größe is a word", 8, "", "  "), "größe is\n  a word");
-        assert_eq!(wrapped("unbreakable a", 4, "- ", "  "), "- unbreakable\n  a");
+        assert_eq!(wrap_text("größe is a word", 8, "", "  "), "größe is\n  a word");
+        assert_eq!(wrap_text("unbreakable a", 4, "- ", "  "), "- unbreakable\n  a");
     }
 }

@@ -82,7 +82,7 @@ impl Compiled {
                 )
             })?;
             let floor = passes::clean(&floor);
-            verify::verify(&floor).map_err(|why| internal("floor", &why))?;
+            verify::verify(&floor).map_err(|why| internal_error("floor", &why))?;
             Ok(floor)
         };
         let graph = made(&self.graph)?;
@@ -100,7 +100,7 @@ impl Compiled {
 
     /// Returns the counts for a pixel that the publication of a built-in kernel states with these options; `None` also where one invocation
     /// computes several pixels.
-    pub fn paper(&self) -> Option<PaperCounts> {
+    pub fn paper_counts(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
         (entry.paper)(&self.options)
     }
@@ -145,7 +145,7 @@ impl Compiled {
 }
 
 /// An error that says that a graph breaks a rule: a mistake of the generator.
-pub fn internal(stage: &str, why: &str) -> Errors {
+pub fn internal_error(stage: &str, why: &str) -> Errors {
     Errors::of(
         Diagnostic::new(
             Code::Internal,

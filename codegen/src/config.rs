@@ -57,7 +57,7 @@ struct Built {
 }
 
 impl Built {
-    fn module(&self) -> emit::Module<'_> {
+    fn bindings_module(&self) -> emit::Module<'_> {
         emit::Module {
             name: &self.name,
             compiled: &self.compiled,
@@ -78,7 +78,9 @@ impl Built {
 /// The shader that a configuration describes.
 fn build(config: &KernelConfig) -> Result<Built, Error> {
     let kernel = match &config.source {
-        Source::Builtin(name) if config.function.is_some() => return Err(Error::of(Problem::Function(name.clone()))),
+        Source::Builtin(name) if config.function.is_some() => {
+            return Err(Error::from_problem(Problem::Function(name.clone())));
+        }
         Source::Builtin(name) => Kernel::builtin(name),
         Source::File(path) => Kernel::from_file(path, config.function.as_deref()),
     };
@@ -86,15 +88,17 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
         .sources
         .iter()
         .fold(kernel, |kernel, path| kernel?.with_file(path));
-    let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
+    let kernel = kernel.map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
     let name = config.name.clone().unwrap_or_else(|| kernel.name().to_owned());
     if syn::parse_str::<syn::Ident>(&raw(&name)).is_err() {
-        return Err(Error::of(Problem::Name(name)));
+        return Err(Error::from_problem(Problem::Name(name)));
     }
     // The bindings include it.
     let spec = config.spec.clone().target(Target::Wgsl);
-    let (compiled, emitted) = spec.emit(&kernel).map_err(|e| Error::of(Problem::Kernel(e)))?;
-    let files = emitted.named(&name);
+    let (compiled, emitted) = spec
+        .emit(&kernel)
+        .map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
+    let files = emitted.named_files(&name);
     Ok(Built {
         name,
         compiled,
@@ -162,11 +166,11 @@ impl Config {
             self.print_dependencies();
         }
         let folder = match &self.out_dir {
-            Some(folder) if folder.as_os_str().is_empty() => return Err(Error::of(Problem::EmptyFolder)),
+            Some(folder) if folder.as_os_str().is_empty() => return Err(Error::from_problem(Problem::EmptyFolder)),
             Some(folder) => folder.clone(),
             None => std::env::var_os("OUT_DIR")
                 .map(PathBuf::from)
-                .ok_or_else(|| Error::of(Problem::NoFolder))?,
+                .ok_or_else(|| Error::from_problem(Problem::NoFolder))?,
         };
         let mut problems = Vec::new();
         let mut built = Vec::new();
@@ -186,12 +190,12 @@ impl Config {
         if !problems.is_empty() {
             return Err(Error { problems });
         }
-        let modules: Vec<emit::Module<'_>> = built.iter().map(Built::module).collect();
-        let bindings = emit::bindings(&modules).map_err(|e| Error::of(Problem::Kernel(e)))?;
+        let modules: Vec<emit::Module<'_>> = built.iter().map(Built::bindings_module).collect();
+        let bindings = emit::render_bindings(&modules).map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
         all.insert(BINDINGS.to_owned(), bindings.into_bytes());
         files::write_all(&folder, &all)
             .map(|_| ())
-            .map_err(|e| Error::of(Problem::Write(e)))
+            .map_err(|e| Error::from_problem(Problem::Write(e)))
     }
 }
 
@@ -222,7 +226,7 @@ enum Problem {
 }
 
 impl Error {
-    fn of(problem: Problem) -> Self {
+    fn from_problem(problem: Problem) -> Self {
         Error {
             problems: vec![problem],
         }

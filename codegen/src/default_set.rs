@@ -32,22 +32,22 @@ const SAMPLES16: &[(&str, &str)] = &[("pattern", "latin16")];
 
 /// Every shader of the set: few, so that each can be read.
 pub const ENTRIES: &[Entry] = &[
-    entry("sraa4", "sraa", SAMPLES4, Unroll::Full, Stage::Compute),
-    entry("sraa4-fragment", "sraa", SAMPLES4, Unroll::Full, Stage::Fragment),
-    entry("sraa4-looped", "sraa", SAMPLES4, Unroll::None, Stage::Compute),
-    entry("sraa16", "sraa", SAMPLES16, Unroll::Full, Stage::Compute),
-    entry("tabula-rasa", "tabula_rasa", &[], Unroll::Full, Stage::Fragment),
-    quads("convolution3", "quad_convolution", &[], Transport::Subgroup),
-    quads("convolution3-block", "quad_convolution", &[], Transport::Block),
-    quads("upsampling", "quad_upsampling", &[], Transport::Subgroup),
-    quads("bilateral5-block", "quad_bilateral", &[], Transport::Block),
-    quads("pcf8-derivatives", "pcf", PCF8, Transport::Derivatives),
-    quads("pcss", "pcss", &[], Transport::Subgroup),
+    kernel_entry("sraa4", "sraa", SAMPLES4, Unroll::Full, Stage::Compute),
+    kernel_entry("sraa4-fragment", "sraa", SAMPLES4, Unroll::Full, Stage::Fragment),
+    kernel_entry("sraa4-looped", "sraa", SAMPLES4, Unroll::None, Stage::Compute),
+    kernel_entry("sraa16", "sraa", SAMPLES16, Unroll::Full, Stage::Compute),
+    kernel_entry("tabula-rasa", "tabula_rasa", &[], Unroll::Full, Stage::Fragment),
+    quad_entry("convolution3", "quad_convolution", &[], Transport::Subgroup),
+    quad_entry("convolution3-block", "quad_convolution", &[], Transport::Block),
+    quad_entry("upsampling", "quad_upsampling", &[], Transport::Subgroup),
+    quad_entry("bilateral5-block", "quad_bilateral", &[], Transport::Block),
+    quad_entry("pcf8-derivatives", "pcf", PCF8, Transport::Derivatives),
+    quad_entry("pcss", "pcss", &[], Transport::Subgroup),
 ];
 
 const PCF8: Options = &[("weights", "quadratic"), ("gradient", "prewitt")];
 
-const fn quads(stem: &'static str, kernel: &'static str, options: Options, transport: Transport) -> Entry {
+const fn quad_entry(stem: &'static str, kernel: &'static str, options: Options, transport: Transport) -> Entry {
     Entry {
         stem,
         kernel,
@@ -63,7 +63,13 @@ const fn quads(stem: &'static str, kernel: &'static str, options: Options, trans
 
 type Options = &'static [(&'static str, &'static str)];
 
-const fn entry(stem: &'static str, kernel: &'static str, options: Options, unroll: Unroll, stage: Stage) -> Entry {
+const fn kernel_entry(
+    stem: &'static str,
+    kernel: &'static str,
+    options: Options,
+    unroll: Unroll,
+    stage: Stage,
+) -> Entry {
     Entry {
         stem,
         kernel,
@@ -75,7 +81,7 @@ const fn entry(stem: &'static str, kernel: &'static str, options: Options, unrol
 }
 
 /// Languages that a shader can be written in.
-fn languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Target>, Errors> {
+fn supported_languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Target>, Errors> {
     let mut languages = BTreeSet::new();
     for target in Target::ALL {
         match compiled.emit(&options.clone().targets([target])) {
@@ -88,7 +94,7 @@ fn languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Targ
 }
 
 /// Every file of the set by name: each shader in every language that has what it needs, and its manifest.
-pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Errors> {
+pub fn emit_files() -> Result<BTreeMap<String, Vec<u8>>, Errors> {
     let mut all = BTreeMap::new();
     for entry in ENTRIES {
         let options = entry
@@ -101,9 +107,9 @@ pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Errors> {
             .transport(entry.transport);
         let compiled = Kernel::builtin(entry.kernel)?.compile(&settings)?;
         let options = EmitOptions::new().stage(entry.stage);
-        let languages = languages(&compiled, &options)?;
+        let languages = supported_languages(&compiled, &options)?;
         let emitted = compiled.emit(&options.targets(languages))?;
-        all.extend(emitted.named(entry.stem));
+        all.extend(emitted.named_files(entry.stem));
     }
     Ok(all)
 }

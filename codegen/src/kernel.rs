@@ -74,7 +74,7 @@ impl Kernel {
     /// public one with parameters and a result that a kernel can have.
     pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
         let shown = path.display().to_string();
-        let text = read(path)?;
+        let text = read_source(path)?;
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
         let function = match function {
             Some(function) => function.to_owned(),
@@ -91,7 +91,7 @@ impl Kernel {
 
     /// Adds a file that the kernel calls functions of.
     pub fn with_file(self, path: &Path) -> Result<Kernel, Errors> {
-        Ok(self.with_text(&path.display().to_string(), &read(path)?))
+        Ok(self.with_text(&path.display().to_string(), &read_source(path)?))
     }
 
     /// Adds the text of a file that the kernel calls functions of. `path` is only shown.
@@ -106,7 +106,7 @@ impl Kernel {
     }
 
     /// Finds a kernel by its name on a command line: a built-in name, `FILE.rs` or `FILE.rs::FUNCTION`.
-    pub fn locate(text: &str) -> Result<Kernel, Errors> {
+    pub fn from_argument(text: &str) -> Result<Kernel, Errors> {
         match text.split_once(".rs::") {
             Some((path, function)) => Kernel::from_file(Path::new(&format!("{path}.rs")), Some(function)),
             None if text.ends_with(".rs") => Kernel::from_file(Path::new(text), None),
@@ -125,8 +125,8 @@ impl Kernel {
     }
 
     /// Place of the kernel's name, or the first line of its file: the place of errors that concern all of it. `None` of an empty file.
-    pub fn place(&self) -> Option<Span> {
-        let library = deep(|| self.library()).ok();
+    pub fn name_span(&self) -> Option<Span> {
+        let library = deep(|| self.typed_library()).ok();
         let named = library.and_then(|library| library.functions.get(&self.source.name).map(|function| function.span));
         named.or_else(|| {
             let line = self.source.files.first()?.text.lines().next()?;
@@ -141,7 +141,7 @@ impl Kernel {
 
     /// The kernel's options in order of declaration.
     pub fn options(&self) -> Result<Vec<OptionInfo>, Errors> {
-        deep(|| self.described(&*self.library()?).map(|infos| infos.to_vec()))
+        deep(|| self.option_infos(&*self.typed_library()?).map(|infos| infos.to_vec()))
     }
 
     /// Values of all options of the kernel under `settings`, pairs of option and text, without compiling it: the same that
@@ -152,12 +152,12 @@ impl Kernel {
     /// Each setting that the kernel has no option for, that stands twice, or that is no value of its option; an error in the
     /// kernel's text.
     pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, Errors> {
-        let library = deep(|| self.library())?;
-        let infos = deep(|| self.described(&library))?;
+        let library = deep(|| self.typed_library())?;
+        let infos = deep(|| self.option_infos(&library))?;
         eval::parse_settings(&self.source.name, infos, settings).map_err(|found| Errors::new(found, &self.source.files))
     }
 
-    fn described(&self, library: &Library) -> Result<&[OptionInfo], Errors> {
+    fn option_infos(&self, library: &Library) -> Result<&[OptionInfo], Errors> {
         if let Some(infos) = self.described.get() {
             return Ok(infos);
         }
@@ -167,8 +167,8 @@ impl Kernel {
 
     /// The tree of all of the kernel's files as its `Debug` form: for tests that ask which constructs a text has.
     #[doc(hidden)]
-    pub fn tree(&self) -> Result<String, Errors> {
-        deep(|| self.library().map(|library| format!("{library:?}")))
+    pub fn debug_tree(&self) -> Result<String, Errors> {
+        deep(|| self.typed_library().map(|library| format!("{library:?}")))
     }
 
     /// Looks at the types of the functions that the kernel does not reach, as rustc does: what else they hold does not concern it.
@@ -197,7 +197,7 @@ impl Kernel {
     /// # Errors
     ///
     /// Constructs that the language does not have, types that do not match, and parameters that a kernel cannot take: all at once.
-    fn library(&self) -> Result<Arc<Library>, Errors> {
+    fn typed_library(&self) -> Result<Arc<Library>, Errors> {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));
         }
@@ -230,19 +230,24 @@ impl Kernel {
     pub fn compile_observed(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
         deep(|| {
             let _meter = Meter::open(settings.limits());
-            let library = self.library()?;
+            let library = self.typed_library()?;
             let mut compiled = pipeline::compile(&self.source, &library, settings, observer)?;
-            compiled.changed = self.changed(&library, settings, &compiled.options)?;
+            compiled.changed = self.changed_options(&library, settings, &compiled.options)?;
             Ok(compiled)
         })
     }
 
     /// Names of the options whose values differ from those of a kernel without settings.
-    fn changed(&self, library: &Library, settings: &Settings, values: &OptionValues) -> Result<Vec<String>, Errors> {
+    fn changed_options(
+        &self,
+        library: &Library,
+        settings: &Settings,
+        values: &OptionValues,
+    ) -> Result<Vec<String>, Errors> {
         if settings.options.is_empty() {
             return Ok(Vec::new());
         }
-        let infos = self.described(library)?.iter();
+        let infos = self.option_infos(library)?.iter();
         let changed = infos.filter(|info| values.get(&info.name).is_some_and(|value| *value != info.unset()));
         Ok(changed.map(|info| info.name.clone()).collect())
     }
@@ -281,7 +286,7 @@ fn add(errors: &mut Vec<Diagnostic>, found: Vec<Diagnostic>) {
     errors.extend(found.into_iter().filter(|error| !places.contains(&error.span)));
 }
 
-fn read(path: &Path) -> Result<String, Errors> {
+fn read_source(path: &Path) -> Result<String, Errors> {
     files::read_text(path, MAX_SOURCE).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
         Errors::of(
@@ -301,7 +306,7 @@ fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, E
         match thread {
             Ok(handle) => handle
                 .join()
-                .unwrap_or_else(|_| Err(crate::compiled::internal("front", "it panicked"))),
+                .unwrap_or_else(|_| Err(crate::compiled::internal_error("front", "it panicked"))),
             Err(error) => {
                 let what = format!("cannot start a thread: {error}");
                 Err(Errors::of(Diagnostic::new(Code::Limit, what).caused_by(error)))

@@ -1,6 +1,6 @@
 //! From a kernel's text to a scheduled graph: evaluation, then the list of [`STAGES`]. The graph is verified after each.
 
-use crate::compiled::{Compiled, Places, internal};
+use crate::compiled::{Compiled, Places, internal_error};
 use crate::emit;
 use crate::spec::Settings;
 use crate::stages::{STAGES, Work};
@@ -149,7 +149,7 @@ impl<'s> Pipeline<'s, '_> {
                 .help(excess.help());
             return Err(self.with_loops(error));
         }
-        verify::verify(graph).map_err(|why| internal(stage, &why))?;
+        verify::verify(graph).map_err(|why| internal_error(stage, &why))?;
         (self.observer)(stage, graph);
         Ok(())
     }

@@ -4,7 +4,7 @@ use crate::fits;
 use crate::spelling;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use straightline_codegen::emit::comment;
+use straightline_codegen::emit::single_line_comment;
 use straightline_codegen::{OptionInfo, OptionKind};
 use straightline_manifest::{BindingKind, Extent, LanguageBinding, LanguageKind, Manifest, SamplerType};
 
@@ -197,7 +197,7 @@ pub struct ReadContext {
 }
 
 /// Textures of a manifest.
-pub fn textures(manifest: &Manifest) -> Vec<TextureContext> {
+pub fn texture_contexts(manifest: &Manifest) -> Vec<TextureContext> {
     let each = manifest.bindings.iter().filter_map(|binding| match &binding.kind {
         BindingKind::Texture {
             dimension,
@@ -208,17 +208,17 @@ pub fn textures(manifest: &Manifest) -> Vec<TextureContext> {
             name: binding.name.clone(),
             spelled: spelled_texture(manifest, &binding.name),
             binding: binding.binding,
-            shape: fits::shape(*dimension),
-            view_dimension: match fits::shape(*dimension) {
+            shape: fits::shape_name(*dimension),
+            view_dimension: match fits::shape_name(*dimension) {
                 "multisampled" => "2d",
                 shape => shape,
             },
             multisampled: dimension.is_multisampled(),
             sample_type: match sample_type {
                 straightline_manifest::SampleType::Unfilterable => "unfilterable-float",
-                other => fits::texels(*other),
+                other => fits::texel_type_name(*other),
             },
-            holds: fits::texels(*sample_type),
+            holds: fits::texel_type_name(*sample_type),
             hlsl: spelling::hlsl_texture(*dimension, *sample_type),
             framed: *extent == Extent::Output,
         }),
@@ -243,7 +243,7 @@ fn spelled_texture(manifest: &Manifest, name: &str) -> String {
 }
 
 /// The texture that is filtered.
-pub fn picture(textures: &[TextureContext]) -> Option<TextureContext> {
+pub fn filtered_texture(textures: &[TextureContext]) -> Option<TextureContext> {
     let named = || textures.iter().find(|texture| texture.name == "color");
     let framed = || {
         textures
@@ -254,7 +254,7 @@ pub fn picture(textures: &[TextureContext]) -> Option<TextureContext> {
 }
 
 /// Samplers of a manifest.
-pub fn samplers(manifest: &Manifest) -> Vec<SamplerContext> {
+pub fn sampler_contexts(manifest: &Manifest) -> Vec<SamplerContext> {
     let each = manifest.bindings.iter().filter_map(|binding| match &binding.kind {
         BindingKind::Sampler { sampler } => Some(SamplerContext {
             name: binding.name.clone(),
@@ -271,7 +271,7 @@ pub fn samplers(manifest: &Manifest) -> Vec<SamplerContext> {
 }
 
 /// Uniforms of a manifest, with what the kernel's options say of them.
-pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformContext>, Option<BlockContext>) {
+pub fn uniform_contexts(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformContext>, Option<BlockContext>) {
     let block = manifest.bindings.iter().find_map(|binding| match &binding.kind {
         BindingKind::Uniform { size, fields, .. } => Some((binding, *size, fields)),
         _ => None,
@@ -288,21 +288,23 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             Some(OptionKind::Number(of)) => [of.min, of.max],
             _ => [None, None],
         };
-        let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, scalar)));
+        let [min, max] = range.map(|bound| bound.map(|bound| spelling::format_number(bound, scalar)));
         let is_uniform = |kind: LanguageKind| matches!(kind, LanguageKind::Uniform | LanguageKind::Member);
         let mut bindings = manifest.language_bindings.iter();
         let spelled = bindings.find(|b| is_uniform(b.kind) && b.of.as_ref() == Some(&field.name));
         UniformContext {
             name: field.name.clone(),
             spelled: spelled.map_or(&field.name, |b| &b.name).clone(),
-            docs: option.map(|option| comment(&option.docs)).unwrap_or_default(),
+            docs: option
+                .map(|option| single_line_comment(&option.docs))
+                .unwrap_or_default(),
             wgsl: field.ty.to_string(),
-            glsl: spelling::glsl(field.ty),
-            hlsl: spelling::hlsl(field.ty),
+            glsl: spelling::glsl_type(field.ty),
+            hlsl: spelling::hlsl_type(field.ty),
             kind: scalar.letter(),
             components: field.ty.components().into(),
             offset: field.offset,
-            default: spelling::number(field.default.unwrap_or_default(), scalar),
+            default: spelling::format_number(field.default.unwrap_or_default(), scalar),
             has_default: field.default.is_some(),
             min,
             max,
@@ -317,18 +319,18 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
 }
 
 /// Outputs of a manifest.
-pub fn outputs(manifest: &Manifest) -> Vec<OutputContext> {
+pub fn output_contexts(manifest: &Manifest) -> Vec<OutputContext> {
     let each = manifest.outputs.iter().map(|output| OutputContext {
         name: output.name.clone(),
         wgsl: output.ty.to_string(),
-        glsl: spelling::glsl(output.ty),
-        format: output.format.wgsl(),
+        glsl: spelling::glsl_type(output.ty),
+        format: output.format.wgsl_name(),
     });
     each.collect()
 }
 
 /// A shader, by its manifest; whether it takes uniforms, or has them declared before it.
-pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> ShaderContext {
+pub fn shader_context(text: String, takes_uniforms: bool, manifest: &Manifest) -> ShaderContext {
     let bindings = &manifest.language_bindings;
     let combined = bindings.iter().filter(|b| b.kind == LanguageKind::CombinedSampler);
     let combined = combined.map(|b| {

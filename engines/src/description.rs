@@ -72,7 +72,7 @@ pub struct Numbers {
 
 impl Numbers {
     /// The number of each binding by name.
-    pub fn of(self, manifest: &Manifest) -> Vec<(String, u32)> {
+    pub fn number_bindings(self, manifest: &Manifest) -> Vec<(String, u32)> {
         let (mut textures, mut samplers) = (self.textures.., self.samplers..);
         let each = manifest.bindings.iter().filter_map(|binding| {
             let number = match &binding.kind {
@@ -147,7 +147,7 @@ impl ShaderDescription {
 
     /// The stage.
     pub fn stage(&self) -> Stage {
-        self.written(&EmitOptions::new()).stage
+        self.apply_knobs(&EmitOptions::new()).stage
     }
 
     /// Returns the emit options for a user who wants `emit`: the engine's choices override those.
@@ -155,11 +155,11 @@ impl ShaderDescription {
     /// # Errors
     ///
     /// As [`ShaderDescription::target`].
-    pub fn options(&self, emit: &EmitOptions) -> Result<EmitOptions, String> {
-        Ok(self.written(emit).targets([self.target()?]))
+    pub fn emit_options(&self, emit: &EmitOptions) -> Result<EmitOptions, String> {
+        Ok(self.apply_knobs(emit).targets([self.target()?]))
     }
 
-    fn written(&self, emit: &EmitOptions) -> EmitOptions {
+    fn apply_knobs(&self, emit: &EmitOptions) -> EmitOptions {
         let mut spec = ShaderSpec::new();
         spec.emit = emit.clone().stage(Stage::Fragment);
         self.knobs.apply(spec).emit

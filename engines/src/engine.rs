@@ -4,11 +4,11 @@ use crate::context::{self, Context};
 use crate::description::{Description, ShaderDescription};
 use crate::error::EngineError;
 use crate::fits::Misfit;
-use crate::{builtin, fits, names, spelling};
+use crate::{builtin, engine_names, fits, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors};
-use straightline_codegen::emit::{Emitted, Target, comment};
+use straightline_codegen::emit::{Emitted, Target, single_line_comment};
 use straightline_codegen::{Compiled, EmitOptions, OptionInfo, Stage};
 use straightline_manifest::Manifest;
 
@@ -58,11 +58,11 @@ impl Engine {
         }
         let folder = Path::new(name);
         if folder.join("engine.toml").exists() {
-            return Engine::folder(folder);
+            return Engine::from_folder(folder);
         }
         Err(EngineError::Unknown {
             name: name.to_owned(),
-            known: names().collect::<Vec<_>>().join(", "),
+            known: engine_names().collect::<Vec<_>>().join(", "),
         })
     }
 
@@ -91,9 +91,9 @@ impl Engine {
     /// # Errors
     ///
     /// The kernel does not fit, with what would; a template fails.
-    pub fn files(&self, request: &Request<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+    pub fn render_files(&self, request: &Request<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
         let context = serde_json::to_value(self.context(request)?);
-        self.render(context.map_err(|e| self.wrong(e.to_string()))?)
+        self.render(context.map_err(|e| self.description_error(e.to_string()))?)
     }
 
     /// Returns the context that the templates are given for a kernel.
@@ -102,17 +102,19 @@ impl Engine {
     ///
     /// The kernel does not fit, with what would.
     pub fn context(&self, request: &Request<'_>) -> Result<Context, EngineError> {
-        let shaders = self.shaders(request).map_err(|unfit| unfit.located(self, request))?;
+        let shaders = self
+            .emit_shaders(request)
+            .map_err(|unfit| unfit.into_errors(self, request))?;
         Ok(self.context_of(request, shaders))
     }
 
     /// Returns whether a kernel fits: every shader can be emitted, and all that it binds can be bound.
-    pub fn fits(&self, request: &Request<'_>) -> bool {
-        self.shaders(request).is_ok()
+    pub fn fits_kernel(&self, request: &Request<'_>) -> bool {
+        self.emit_shaders(request).is_ok()
     }
 
     /// The shaders of a kernel, by the names of `engine.toml`.
-    fn shaders(&self, request: &Request<'_>) -> Result<BTreeMap<String, Shader>, Unfit> {
+    fn emit_shaders(&self, request: &Request<'_>) -> Result<BTreeMap<String, Shader>, Unfit> {
         // Errors of bindings are reported before those of a language: a user can understand them.
         let stage = self.description.shaders.values().next().map(ShaderDescription::stage);
         let probe = EmitOptions::new()
@@ -128,7 +130,7 @@ impl Engine {
             return Err(Unfit::Engine(misfit));
         }
         let each = self.description.shaders.iter().map(|(name, description)| {
-            let shader = Shader::of(&self.description, description, request, &manifest)?;
+            let shader = Shader::from_request(&self.description, description, request, &manifest)?;
             Ok((name.clone(), shader))
         });
         each.collect()
@@ -140,11 +142,11 @@ impl Engine {
         let mut context = Context {
             name: name.clone(),
             kernel: compiled.kernel.clone(),
-            class: spelling::class(name, &self.description.words),
-            title: comment(&spelling::title(name)),
-            summary: comment(&compiled.summary),
+            class: spelling::class_name(name, &self.description.words),
+            title: single_line_comment(&spelling::title(name)),
+            summary: single_line_comment(&compiled.summary),
             generator: String::new(),
-            engine: comment(&self.name),
+            engine: single_line_comment(&self.name),
             textures: Vec::new(),
             picture: None,
             samplers: Vec::new(),
@@ -158,25 +160,25 @@ impl Engine {
         // The bindings are the same for every shader of a kernel.
         if let Some(Shader { manifest, .. }) = first {
             context.generator.clone_from(&manifest.generator);
-            context.textures = context::textures(manifest);
-            context.picture = context::picture(&context.textures);
-            context.samplers = context::samplers(manifest);
-            (context.uniforms, context.block) = context::uniforms(manifest, request.options);
-            context.outputs = context::outputs(manifest);
+            context.textures = context::texture_contexts(manifest);
+            context.picture = context::filtered_texture(&context.textures);
+            context.samplers = context::sampler_contexts(manifest);
+            (context.uniforms, context.block) = context::uniform_contexts(manifest, request.options);
+            context.outputs = context::output_contexts(manifest);
         }
         let changed = compiled
             .changed
             .iter()
             .filter_map(|name| Some((name, compiled.options.get(name)?)));
         context.changed = changed
-            .map(|(name, value)| comment(&format!("{name}={value}")))
+            .map(|(name, value)| single_line_comment(&format!("{name}={value}")))
             .collect();
         context.shaders = shaders
             .into_iter()
             .map(|(name, shader)| {
                 (
                     name,
-                    context::shader(shader.text, shader.takes_uniforms, &shader.manifest),
+                    context::shader_context(shader.text, shader.takes_uniforms, &shader.manifest),
                 )
             })
             .collect();
@@ -186,7 +188,7 @@ impl Engine {
         context
     }
 
-    pub(crate) fn wrong(&self, message: String) -> EngineError {
+    pub(crate) fn description_error(&self, message: String) -> EngineError {
         EngineError::Description {
             engine: self.name.clone(),
             message,
@@ -203,30 +205,32 @@ struct Shader {
 
 impl Shader {
     /// `bound` is the manifest of the kernel for any engine.
-    fn of(
+    fn from_request(
         engine: &Description,
         description: &ShaderDescription,
         request: &Request<'_>,
         bound: &Manifest,
     ) -> Result<Shader, Unfit> {
         let unknown = |why: String| Unfit::Engine(Misfit::new(why));
-        let mut options = description.options(&request.emit).map_err(unknown)?;
+        let mut options = description.emit_options(&request.emit).map_err(unknown)?;
         options.reserved.clone_from(&engine.words);
         // Names are clear of every language of the engine: a host has one name for a resource in all of its shaders.
         let languages = engine.shaders.values().map(|shader| shader.target().map_err(unknown));
         options.clear_of = languages.collect::<Result<_, _>>()?;
-        options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));
+        options.bindings = description
+            .numbers
+            .map_or_else(Vec::new, |numbers| numbers.number_bindings(bound));
         let emitted = request.compiled.emit(&options)?;
         let target = description.target().map_err(unknown)?;
         Ok(Shader {
-            text: text(&emitted, target),
+            text: shader_text(&emitted, target),
             takes_uniforms: !options.global_uniforms,
             manifest: emitted.manifest,
         })
     }
 }
 
-fn text(emitted: &Emitted, target: Target) -> String {
+fn shader_text(emitted: &Emitted, target: Target) -> String {
     let bytes = emitted.files.get(&target).cloned().unwrap_or_default();
     String::from_utf8(bytes).unwrap_or_default()
 }
@@ -247,9 +251,9 @@ impl From<Errors> for Unfit {
 
 impl Unfit {
     /// The error at its place in the kernel, with the engines that would fit.
-    fn located(self, engine: &Engine, request: &Request<'_>) -> Errors {
-        let others = names().filter(|name| *name != engine.name);
-        let fitting = others.filter(|name| Engine::builtin(name).is_some_and(|other| other.fits(request)));
+    fn into_errors(self, engine: &Engine, request: &Request<'_>) -> Errors {
+        let others = engine_names().filter(|name| *name != engine.name);
+        let fitting = others.filter(|name| Engine::builtin(name).is_some_and(|other| other.fits_kernel(request)));
         let instead = match fitting.collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => "no built-in engine takes it: `--target` writes the shader alone".to_owned(),
             some => format!("these engines take it: {some}"),
@@ -259,7 +263,7 @@ impl Unfit {
         match self {
             Unfit::Engine(Misfit { why, input }) => {
                 let error = Diagnostic::new(Code::EngineUnfit, format!("{what}: it {why}")).help(instead);
-                compiled.locate(error, input.as_deref())
+                compiled.locate_error(error, input.as_deref())
             }
             Unfit::Emit(mut errors) => {
                 for error in &mut errors.diagnostics {

@@ -5,7 +5,7 @@ use crate::words;
 use tera::{Kwargs, State, Tera, TeraResult};
 
 /// Adds the filters.
-pub fn register(tera: &mut Tera) {
+pub fn register_filters(tera: &mut Tera) {
     tera.register_filter("template_literal", |text: &str, _: Kwargs, _: &State| {
         template_literal(text)
     });
@@ -17,7 +17,9 @@ pub fn register(tera: &mut Tera) {
     tera.register_filter("identifier", |name: &str, _: Kwargs, _: &State| identifier(name));
     tera.register_filter("quoted", |text: &str, _: Kwargs, _: &State| quoted(text));
     tera.register_filter("parameter", |text: &str, _: Kwargs, _: &State| parameter(text));
-    tera.register_filter("markdown", |text: &str, _: Kwargs, _: &State| words::markdown(text));
+    tera.register_filter("markdown", |text: &str, _: Kwargs, _: &State| {
+        words::escape_markdown(text)
+    });
 }
 
 /// Between the quotation marks of C, HLSL, C# or JavaScript, on one line.
@@ -28,7 +30,7 @@ fn quoted(text: &str) -> String {
 /// Between the quotation marks of libretro's `#pragma parameter`, which has no escapes; of a longer text than 63 bytes its reader
 /// drops the whole parameter.
 fn parameter(text: &str) -> String {
-    words::shortened(text.trim_end_matches('.'), 63).replace('"', "'")
+    words::shorten_text(text.trim_end_matches('.'), 63).replace('"', "'")
 }
 
 /// Between the backquotes of JavaScript.

@@ -39,7 +39,7 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
     if let Some(most) = limits.textures.filter(|most| count > *most) {
         return Some(Misfit::new(format!(
             "binds {}, and {}",
-            many(count, "texture"),
+            format_count(count, "texture"),
             gives(&format!("at most {most}"))
         )));
     }
@@ -50,14 +50,14 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
             BindingKind::Texture {
                 dimension, sample_type, ..
             } => {
-                let shape = shape(*dimension);
-                if let Some(known) = limits.dimensions.as_ref().filter(|known| !holds(known, shape)) {
-                    let why = format!("binds `{name}`, a {shape} texture, and {}", gives(&listed(known)));
+                let shape = shape_name(*dimension);
+                if let Some(known) = limits.dimensions.as_ref().filter(|known| !contains_name(known, shape)) {
+                    let why = format!("binds `{name}`, a {shape} texture, and {}", gives(&join_names(known)));
                     return Some(Misfit::of_input(name, why));
                 }
-                let what = texels(*sample_type);
-                if let Some(known) = limits.holds.as_ref().filter(|known| !holds(known, what)) {
-                    let given = gives(&format!("textures of {}", listed(known)));
+                let what = texel_type_name(*sample_type);
+                if let Some(known) = limits.holds.as_ref().filter(|known| !contains_name(known, what)) {
+                    let given = gives(&format!("textures of {}", join_names(known)));
                     let why = format!("binds `{name}`, a texture of {what}, and {given}");
                     return Some(Misfit::of_input(name, why));
                 }
@@ -68,7 +68,11 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
                     SamplerType::NonFiltering => "non-filtering",
                     SamplerType::Comparison => "comparison",
                 };
-                if limits.samplers.as_ref().is_some_and(|known| !holds(known, what)) {
+                if limits
+                    .samplers
+                    .as_ref()
+                    .is_some_and(|known| !contains_name(known, what))
+                {
                     let why = format!("binds `{name}`, a {what} sampler, which {title} does not give");
                     return Some(Misfit::of_input(name, why));
                 }
@@ -80,12 +84,15 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
             BindingKind::Buffer { .. } => {}
             BindingKind::Uniform { fields, .. } => {
                 uniforms += fields.len() as u32;
-                let types = limits.uniform_types.clone().unwrap_or_else(vectors);
-                if let Some(field) = fields.iter().find(|field| !holds(&types, &field.ty.to_string())) {
+                let types = limits.uniform_types.clone().unwrap_or_else(settable_types);
+                if let Some(field) = fields
+                    .iter()
+                    .find(|field| !contains_name(&types, &field.ty.to_string()))
+                {
                     let (field, ty) = (&field.name, &field.ty);
                     let why = format!(
                         "has the uniform `{field}` of type {ty}, and {title} takes {}",
-                        listed(&types)
+                        join_names(&types)
                     );
                     return Some(Misfit::of_input(field, why));
                 }
@@ -93,13 +100,13 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
         }
     }
     if let Some(most) = limits.uniforms.filter(|most| uniforms > *most) {
-        let most = many(most, "uniform");
-        let why = format!("has {}, and {title} gives {most}", many(uniforms, "uniform"));
+        let most = format_count(most, "uniform");
+        let why = format!("has {}, and {title} gives {most}", format_count(uniforms, "uniform"));
         return Some(Misfit::new(why));
     }
     let (outputs, most) = (manifest.outputs.len() as u32, limits.outputs.unwrap_or(1));
     if outputs > most {
-        let why = format!("gives {}, and {title} takes {most}", many(outputs, "value"));
+        let why = format!("gives {}, and {title} takes {most}", format_count(outputs, "value"));
         return Some(Misfit::new(why));
     }
     if let Some(varying) = manifest.varyings.first().filter(|_| !limits.varyings) {
@@ -121,7 +128,7 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
 }
 
 /// Types of uniforms that every template can set: numbers and vectors of them.
-fn vectors() -> Vec<String> {
+fn settable_types() -> Vec<String> {
     let lanes = ["vec2", "vec3", "vec4"].into_iter();
     let vectors = lanes.flat_map(|vector| ["f", "i", "u"].map(|kind| format!("{vector}{kind}")));
     ["f32", "i32", "u32"]
@@ -131,21 +138,21 @@ fn vectors() -> Vec<String> {
         .collect()
 }
 
-fn holds(known: &[String], name: &str) -> bool {
+fn contains_name(known: &[String], name: &str) -> bool {
     known.iter().any(|one| one == name)
 }
 
-fn listed(known: &[String]) -> String {
+fn join_names(known: &[String]) -> String {
     known.join(", ")
 }
 
 /// `1 texture`, `2 textures`.
-fn many(n: u32, what: &str) -> String {
+fn format_count(n: u32, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// Name of a shape in `engine.toml`.
-pub fn shape(dimension: Dimension) -> &'static str {
+pub fn shape_name(dimension: Dimension) -> &'static str {
     match dimension {
         Dimension::D2 => "2d",
         Dimension::D2Array => "2d-array",
@@ -156,7 +163,7 @@ pub fn shape(dimension: Dimension) -> &'static str {
 }
 
 /// Name of a texture's texel type in `engine.toml`.
-pub fn texels(sample_type: SampleType) -> &'static str {
+pub fn texel_type_name(sample_type: SampleType) -> &'static str {
     match sample_type {
         SampleType::Unfilterable | SampleType::Filterable => "float",
         SampleType::Depth => "depth",

@@ -26,7 +26,7 @@ const LONGEST_TIME: Duration = Duration::from_secs(10);
 
 impl Engine {
     /// The engine in a folder: `engine.toml`, and the templates that it names.
-    pub(crate) fn folder(folder: &Path) -> Result<Engine, EngineError> {
+    pub(crate) fn from_folder(folder: &Path) -> Result<Engine, EngineError> {
         let name = folder
             .file_name()
             .map_or_else(|| "engine".into(), |name| name.to_string_lossy());
@@ -34,7 +34,7 @@ impl Engine {
             engine: name.clone().into_owned(),
             message,
         };
-        let description = read(folder, "engine.toml")?;
+        let description = read_file(folder, "engine.toml")?;
         let description = Description::from_toml(&description).map_err(wrong)?;
         let mut templates = BTreeMap::new();
         let mut bytes = 0;
@@ -42,7 +42,7 @@ impl Engine {
             if !render::is_plain(template) {
                 return Err(wrong(format!("`{template}` is no name of a template in its folder")));
             }
-            let text = read(folder, template)?;
+            let text = read_file(folder, template)?;
             bytes += text.len();
             if bytes > LONGEST_FOLDER {
                 return Err(wrong(format!("its templates have more than {LONGEST_FOLDER} bytes")));
@@ -65,21 +65,23 @@ impl Engine {
             let _ = sender.send(engine.render_now(&context));
         };
         let started = std::thread::Builder::new().name("templates".to_owned()).spawn(work);
-        started.map_err(|why| self.wrong(format!("no thread can be started for its templates: {why}")))?;
+        started.map_err(|why| self.description_error(format!("no thread can be started for its templates: {why}")))?;
         receiver.recv_timeout(LONGEST_TIME).unwrap_or_else(|end| {
             Err(match end {
                 mpsc::RecvTimeoutError::Timeout => EngineError::Endless {
                     engine: self.name.clone(),
                     seconds: LONGEST_TIME.as_secs(),
                 },
-                mpsc::RecvTimeoutError::Disconnected => self.wrong("its templates made the renderer panic".to_owned()),
+                mpsc::RecvTimeoutError::Disconnected => {
+                    self.description_error("its templates made the renderer panic".to_owned())
+                }
             })
         })
     }
 }
 
 /// Reads a file of the folder. A link that leads out of it is refused.
-fn read(folder: &Path, file: &str) -> Result<String, EngineError> {
+fn read_file(folder: &Path, file: &str) -> Result<String, EngineError> {
     let path = folder.join(file);
     let text = || {
         if !path.canonicalize()?.starts_with(folder.canonicalize()?) {

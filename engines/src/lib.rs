@@ -6,7 +6,7 @@
 //! ones lie in `templates/`; a user's own is given by its path. No template computes anything: all that differs in a shader
 //! comes from the generator.
 //!
-//! [`Engine::files`] is two steps: [`Engine::context`] has the generator emit what templates are given, and [`Engine::render`] renders them. A
+//! [`Engine::render_files`] is two steps: [`Engine::context`] has the generator emit what templates are given, and [`Engine::render`] renders them. A
 //! program that takes one of the two holds nothing of the other.
 //!
 //! In a `build.rs`:
@@ -41,7 +41,7 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::{Kernel, Settings, files};
 
 /// Names of the built-in engines, in order.
-pub fn names() -> impl Iterator<Item = &'static str> {
+pub fn engine_names() -> impl Iterator<Item = &'static str> {
     builtin::DESCRIPTIONS.iter().map(|(name, _)| *name)
 }
 
@@ -56,5 +56,5 @@ pub fn write(kernel: &Kernel, settings: &Settings, engine: &str, out: &Path) -> 
     let compiled = kernel.compile(settings)?;
     let options = kernel.options()?;
     let request = Request::new(&compiled, &options);
-    Ok(files::write_all(out, &engine.files(&request)?)?)
+    Ok(files::write_all(out, &engine.render_files(&request)?)?)
 }

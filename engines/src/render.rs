@@ -27,33 +27,35 @@ impl Engine {
     }
 
     pub(crate) fn render_now(&self, context: &Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
-        let context = tera::Context::from_serialize(context).map_err(|e| self.wrong(e.to_string()))?;
+        let context = tera::Context::from_serialize(context).map_err(|e| self.description_error(e.to_string()))?;
         let mut tera = Tera::default();
-        filters::register(&mut tera);
+        filters::register_filters(&mut tera);
         tera.autoescape_on(Vec::<&str>::new());
         let mut made = BTreeMap::new();
         for (template, file) in &self.description.files {
             let failed = |error: tera::Error| EngineError::Template {
                 engine: self.name.clone(),
                 template: template.clone(),
-                message: causes(&error),
+                message: describe_error(&error),
             };
             let source = self.template(template);
-            let source = source.ok_or_else(|| self.wrong(format!("there is no template `{template}`")))?;
+            let source = source.ok_or_else(|| self.description_error(format!("there is no template `{template}`")))?;
             tera.add_raw_template(template, source).map_err(failed)?;
             let (mut text, mut name) = (Bounded::default(), Bounded::default());
             tera.render_to(template, &context, &mut text).map_err(failed)?;
             tera.render_str_to(file, &context, false, &mut name).map_err(failed)?;
             let name = String::from_utf8_lossy(&name.0).into_owned();
             if !is_plain(&name) {
-                return Err(self.wrong(format!("`{name}` is no name of a file in the folder that is written")));
+                return Err(
+                    self.description_error(format!("`{name}` is no name of a file in the folder that is written"))
+                );
             }
             // Some file systems take no notice of case.
             if let Some(other) = made
                 .keys()
                 .find(|other: &&String| other.to_lowercase() == name.to_lowercase())
             {
-                return Err(self.wrong(format!("two templates make one file: `{other}` and `{name}`")));
+                return Err(self.description_error(format!("two templates make one file: `{other}` and `{name}`")));
             }
             made.insert(name, text.0);
         }
@@ -96,7 +98,7 @@ pub(crate) fn is_plain(file: &str) -> bool {
 }
 
 /// An error of tera, with its place in the template, and what caused it.
-fn causes(error: &tera::Error) -> String {
+fn describe_error(error: &tera::Error) -> String {
     let said = error.to_string();
     let mut text = said.strip_prefix("error: ").unwrap_or(&said).trim_end().to_owned();
     let mut next = std::error::Error::source(error);

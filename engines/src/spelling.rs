@@ -5,7 +5,7 @@ use straightline_codegen::emit::is_among;
 use straightline_manifest::{Dimension, SampleType, Scalar, ValueType};
 
 /// A number or a vector in GLSL: `vec2f` is `vec2`.
-pub fn glsl(ty: ValueType) -> String {
+pub fn glsl_type(ty: ValueType) -> String {
     let (scalar, vector) = match ty.scalar() {
         Scalar::F32 => ("float", "vec"),
         Scalar::I32 => ("int", "ivec"),
@@ -18,7 +18,7 @@ pub fn glsl(ty: ValueType) -> String {
 }
 
 /// A number or a vector in HLSL: `vec2f` is `float2`.
-pub fn hlsl(ty: ValueType) -> String {
+pub fn hlsl_type(ty: ValueType) -> String {
     let scalar = match ty.scalar() {
         Scalar::F32 => "float",
         Scalar::I32 => "int",
@@ -66,7 +66,7 @@ pub fn hlsl_texture(dimension: Dimension, sample_type: SampleType) -> String {
 }
 
 /// A number as every language with decimal points reads it: of floats the shortest that is the same `f32`.
-pub fn number(value: f64, scalar: Scalar) -> String {
+pub fn format_number(value: f64, scalar: Scalar) -> String {
     match scalar {
         Scalar::I32 | Scalar::U32 => format!("{}", value as i64),
         Scalar::F32 => format!("{:?}", value as f32),
@@ -74,12 +74,12 @@ pub fn number(value: f64, scalar: Scalar) -> String {
 }
 
 /// `joint_bilateral` as `JointBilateral`: a name in every language, and none of an engine's `words`.
-pub fn class(name: &str, words: &BTreeSet<String>) -> String {
+pub fn class_name(name: &str, words: &BTreeSet<String>) -> String {
     let name = spelled_out(name);
     let parts = name
         .split(|c: char| !c.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty());
-    let class: String = parts.map(capitalised).collect();
+    let class: String = parts.map(capitalise_word).collect();
     match class.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_among(words, &class) {
         true => class,
         false => format!("Kernel{class}"),
@@ -98,10 +98,10 @@ pub fn spelled_out(name: &str) -> String {
 /// `joint_bilateral` as `Joint bilateral`.
 pub fn title(name: &str) -> String {
     let words: Vec<&str> = name.split(['_', '-']).filter(|word| !word.is_empty()).collect();
-    capitalised(&words.join(" "))
+    capitalise_word(&words.join(" "))
 }
 
-fn capitalised(word: &str) -> String {
+fn capitalise_word(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| {
         first.to_ascii_uppercase().to_string() + letters.as_str()
@@ -123,21 +123,21 @@ mod tests {
             ("vec4u", "uvec4", "uint4"),
         ] {
             let ty = wgsl.parse().expect("a type");
-            assert_eq!((glsl(ty).as_str(), hlsl(ty).as_str()), (in_glsl, in_hlsl));
+            assert_eq!((glsl_type(ty).as_str(), hlsl_type(ty).as_str()), (in_glsl, in_hlsl));
         }
     }
 
     #[test]
     fn numbers_have_a_point_where_they_are_floats() {
-        assert_eq!(number(f64::from(0.15_f32), Scalar::F32), "0.15");
-        assert_eq!(number(3.0, Scalar::F32), "3.0");
-        assert_eq!(number(3.0, Scalar::I32), "3");
+        assert_eq!(format_number(f64::from(0.15_f32), Scalar::F32), "0.15");
+        assert_eq!(format_number(3.0, Scalar::F32), "3.0");
+        assert_eq!(format_number(3.0, Scalar::I32), "3");
     }
 
     #[test]
     fn names_are_made_of_words() {
         let words = BTreeSet::from(["Plugin".to_owned()]);
-        let class = |name: &str| class(name, &words);
+        let class = |name: &str| class_name(name, &words);
         assert_eq!(class("joint_bilateral_upsampling"), "JointBilateralUpsampling");
         assert_eq!((class("plugin").as_str(), class("é").as_str()), ("KernelPlugin", "Ue9"));
         assert_eq!(class("_2d"), "Kernel2d");

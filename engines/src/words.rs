@@ -2,7 +2,7 @@
 //! [`comment`](straightline_codegen::emit::comment).
 
 /// The longest beginning of a text that ends with a word and has at most `bytes` bytes, `...` included where something is cut.
-pub fn shortened(text: &str, bytes: usize) -> String {
+pub fn shorten_text(text: &str, bytes: usize) -> String {
     const CUT: &str = "...";
     if text.len() <= bytes {
         return text.to_owned();
@@ -14,7 +14,7 @@ pub fn shortened(text: &str, bytes: usize) -> String {
 }
 
 /// Markdown in which no HTML is live: `<` that would open a tag outside of code is escaped.
-pub fn markdown(text: &str) -> String {
+pub fn escape_markdown(text: &str) -> String {
     // Of an odd number of backquotes one opens no code.
     let has_code = text.matches('`').count().is_multiple_of(2);
     let mut in_code = false;
@@ -37,20 +37,20 @@ mod tests {
 
     #[test]
     fn what_is_too_long_ends_with_a_word() {
-        assert_eq!(shortened("short", 63), "short");
-        assert_eq!(shortened("one two, three", 13), "one two...");
-        assert_eq!(shortened("äääääääää", 9), "äää...");
+        assert_eq!(shorten_text("short", 63), "short");
+        assert_eq!(shorten_text("one two, three", 13), "one two...");
+        assert_eq!(shorten_text("äääääääää", 9), "äää...");
         for length in 0..40 {
-            assert!(shortened("one two three four five six seven", length).len() <= length.max(3));
+            assert!(shorten_text("one two three four five six seven", length).len() <= length.max(3));
         }
     }
 
     #[test]
     fn markdown_has_no_live_tags() {
         assert_eq!(
-            markdown("a < b, `<T>` </script><img>"),
+            escape_markdown("a < b, `<T>` </script><img>"),
             "a < b, `<T>` &lt;/script>&lt;img>"
         );
-        assert_eq!(markdown("` <img>"), "` &lt;img>");
+        assert_eq!(escape_markdown("` <img>"), "` &lt;img>");
     }
 }

@@ -10,9 +10,9 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-pub use read::{open, read, read_text};
+pub use read::{open_file, read_file, read_text};
 pub use shorten::shorten;
-pub use unfinished::{Folders, Scrap, abandon};
+pub use unfinished::{Folders, Scrap, remove_unfinished};
 
 /// Why files could not be written. None of them has been changed.
 #[derive(Debug, thiserror::Error)]
@@ -37,7 +37,7 @@ pub enum WriteError {
 
 impl WriteError {
     /// An error of a file.
-    fn file(path: &Path) -> impl Fn(io::Error) -> WriteError + '_ {
+    fn for_file(path: &Path) -> impl Fn(io::Error) -> WriteError + '_ {
         |source| WriteError::File {
             file: path.to_owned(),
             source,
@@ -45,7 +45,7 @@ impl WriteError {
     }
 
     /// An error of a folder.
-    fn folder(path: &Path) -> impl Fn(io::Error) -> WriteError + '_ {
+    fn for_folder(path: &Path) -> impl Fn(io::Error) -> WriteError + '_ {
         |source| WriteError::Folder {
             folder: path.to_owned(),
             source,
@@ -60,11 +60,11 @@ impl WriteError {
 ///
 /// [`WriteError`]. Then every file and folder is what it was before.
 pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, WriteError> {
-    let mut folders = Folders::make(folder).map_err(WriteError::folder(folder))?;
+    let mut folders = Folders::make(folder).map_err(WriteError::for_folder(folder))?;
     let mut staged = Vec::new();
     for (name, contents) in files {
         let path = folder.join(name);
-        if holds(&path, contents) {
+        if has_contents(&path, contents) {
             continue;
         }
         if path.is_dir() {
@@ -72,10 +72,10 @@ pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec
             return Err(WriteError::File { file: path, source });
         }
         if let Some(parent) = path.parent() {
-            folders.add(parent).map_err(WriteError::folder(parent))?;
+            folders.add(parent).map_err(WriteError::for_folder(parent))?;
         }
-        let scrap = Scrap::beside(&path, "partial").map_err(WriteError::file(&path))?;
-        fs::write(scrap.path(), contents).map_err(WriteError::file(&path))?;
+        let scrap = Scrap::beside(&path, "partial").map_err(WriteError::for_file(&path))?;
+        fs::write(scrap.path(), contents).map_err(WriteError::for_file(&path))?;
         staged.push((scrap, path));
     }
     put_in_place(&staged)?;
@@ -88,9 +88,9 @@ pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec
 /// # Errors
 ///
 /// [`WriteError`].
-pub fn write(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
-    let folders = above(path).map_err(WriteError::file(path))?;
-    fill(path, |file| file.write_all(contents), |error| error).map_err(WriteError::file(path))?;
+pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
+    let folders = make_parents(path).map_err(WriteError::for_file(path))?;
+    fill_file(path, |file| file.write_all(contents), |error| error).map_err(WriteError::for_file(path))?;
     folders.keep();
     Ok(())
 }
@@ -101,7 +101,7 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
 /// # Errors
 ///
 /// Those of `fill`, and what the system says.
-pub fn fill<E>(
+pub fn fill_file<E>(
     path: &Path,
     fill: impl FnOnce(&mut io::BufWriter<File>) -> Result<(), E>,
     refused: impl Fn(io::Error) -> E,
@@ -127,7 +127,7 @@ pub fn try_folder(folder: &Path) -> Result<(), WriteError> {
         let scrap = Scrap::beside(&folder.join("try"), "partial")?;
         fs::write(scrap.path(), [0; 4096])
     };
-    tried().map_err(WriteError::folder(folder))
+    tried().map_err(WriteError::for_folder(folder))
 }
 
 /// Checks that `path` can be written, as [`try_folder`] for one file; `folders` says whether the folders above it would be
@@ -141,15 +141,15 @@ pub fn try_file(path: &Path, folders: bool) -> Result<(), WriteError> {
         if path.is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
         }
-        let _made = folders.then(|| above(path)).transpose()?;
+        let _made = folders.then(|| make_parents(path)).transpose()?;
         let scrap = Scrap::beside(path, "partial")?;
         fs::write(scrap.path(), [0; 4096])
     };
-    tried().map_err(WriteError::file(path))
+    tried().map_err(WriteError::for_file(path))
 }
 
 /// Makes the folders above a file.
-fn above(path: &Path) -> io::Result<Folders> {
+fn make_parents(path: &Path) -> io::Result<Folders> {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => Folders::make(parent),
         _ => Folders::make(Path::new(".")),
@@ -157,14 +157,14 @@ fn above(path: &Path) -> io::Result<Folders> {
 }
 
 /// Returns whether the file already has these contents. Anything but a regular file of their length is not read.
-fn holds(path: &Path, contents: &[u8]) -> bool {
+fn has_contents(path: &Path, contents: &[u8]) -> bool {
     let same_length = fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() == contents.len() as u64);
     same_length && fs::read(path).is_ok_and(|present| present == *contents)
 }
 
 /// Moves every file to its place. If one cannot be moved, those before it are put back.
 fn put_in_place(staged: &[(Scrap, PathBuf)]) -> Result<(), WriteError> {
-    let _whole = unfinished::commit();
+    let _whole = unfinished::lock_commit();
     let mut moved: Vec<(&Path, Option<Scrap>)> = Vec::new();
     for (scrap, path) in staged {
         let tried = || -> io::Result<Option<Scrap>> {

@@ -9,15 +9,15 @@ use std::path::Path;
 /// # Errors
 ///
 /// What the system says; if it is no regular file, what it is; if it is longer, its length and the limit.
-pub fn open(path: &Path, limit: u64) -> io::Result<File> {
+pub fn open_file(path: &Path, limit: u64) -> io::Result<File> {
     // Before it is opened: opening a pipe waits for its writer.
-    check(&fs::metadata(path)?, limit)?;
+    check_metadata(&fs::metadata(path)?, limit)?;
     let file = File::open(path)?;
-    check(&file.metadata()?, limit)?;
+    check_metadata(&file.metadata()?, limit)?;
     Ok(file)
 }
 
-fn check(metadata: &Metadata, limit: u64) -> io::Result<()> {
+fn check_metadata(metadata: &Metadata, limit: u64) -> io::Result<()> {
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
@@ -60,9 +60,9 @@ fn kind(_: &Metadata) -> &'static str {
 ///
 /// # Errors
 ///
-/// As [`open`].
-pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-    let file = open(path, limit)?;
+/// As [`open_file`].
+pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let file = open_file(path, limit)?;
     let mut bytes = Vec::with_capacity(file.metadata()?.len() as usize);
     // A file may grow while it is read.
     file.take(limit + 1).read_to_end(&mut bytes)?;
@@ -72,13 +72,13 @@ pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     }
 }
 
-/// As [`read`], for text.
+/// As [`read_file`], for text.
 ///
 /// # Errors
 ///
-/// As [`open`], and if it is not UTF-8, from which byte on.
+/// As [`open_file`], and if it is not UTF-8, from which byte on.
 pub fn read_text(path: &Path, limit: u64) -> io::Result<String> {
-    String::from_utf8(read(path, limit)?).map_err(|error| {
+    String::from_utf8(read_file(path, limit)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         io::Error::new(io::ErrorKind::InvalidData, format!("it is not UTF-8 from byte {at} on"))
     })

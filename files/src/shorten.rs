@@ -11,15 +11,20 @@ const END: usize = 12;
 pub fn shorten(text: &str) -> String {
     let count = text.chars().count();
     if count <= LONGEST {
-        return escape(text);
+        return escape_controls(text);
     }
     let head: String = text.chars().take(LONGEST - END).collect();
     let tail: String = text.chars().skip(count - END).collect();
-    format!("{}[{} characters]{}", escape(&head), count - LONGEST, escape(&tail))
+    format!(
+        "{}[{} characters]{}",
+        escape_controls(&head),
+        count - LONGEST,
+        escape_controls(&tail)
+    )
 }
 
 /// `text` with every character escaped that a terminal would act on or that would begin a new line.
-fn escape(text: &str) -> String {
+fn escape_controls(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}') {

@@ -16,25 +16,25 @@ fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Keeps [`abandon`] waiting until a set of files is in its place.
-pub(super) fn commit() -> MutexGuard<'static, ()> {
+/// Keeps [`remove_unfinished`] waiting until a set of files is in its place.
+pub(super) fn lock_commit() -> MutexGuard<'static, ()> {
     lock(&COMMIT)
 }
 
 /// Removes every unfinished file and folder of this program, once any set that is being moved to its place is there. For a
 /// program that is interrupted and ends at once after this: any thread that makes or finishes a file from now on waits for
 /// ever.
-pub fn abandon() {
+pub fn remove_unfinished() {
     std::mem::forget(lock(&COMMIT));
     let unfinished = lock(&UNFINISHED);
     for path in unfinished.iter().rev() {
-        remove(path);
+        remove_path(path);
     }
     std::mem::forget(unfinished);
 }
 
 /// Removes a scrap with all that is in it, or a folder that was made for files if it is empty.
-fn remove(path: &Path) {
+fn remove_path(path: &Path) {
     // Nothing sensible can be done about what will not go away; the first error is the one to tell.
     let _ = match fs::symlink_metadata(path) {
         Ok(metadata) if metadata.is_dir() && is_scrap(path) => fs::remove_dir_all(path),
@@ -48,7 +48,7 @@ fn is_scrap(path: &Path) -> bool {
     name.starts_with('.') && name.contains(&format!("-{}-", std::process::id()))
 }
 
-fn forget(path: &Path) {
+fn forget_path(path: &Path) {
     let mut unfinished = lock(&UNFINISHED);
     if let Some(at) = unfinished.iter().rposition(|known| known == path) {
         unfinished.remove(at);
@@ -91,8 +91,8 @@ impl Scrap {
 
 impl Drop for Scrap {
     fn drop(&mut self) {
-        remove(&self.0);
-        forget(&self.0);
+        remove_path(&self.0);
+        forget_path(&self.0);
     }
 }
 
@@ -135,7 +135,7 @@ impl Folders {
     /// Leaves them where they are.
     pub fn keep(mut self) {
         for path in std::mem::take(&mut self.0) {
-            forget(&path);
+            forget_path(&path);
         }
     }
 }
@@ -144,7 +144,7 @@ impl Drop for Folders {
     fn drop(&mut self) {
         for path in self.0.iter().rev() {
             let _ = fs::remove_dir(path);
-            forget(path);
+            forget_path(path);
         }
     }
 }

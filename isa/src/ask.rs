@@ -44,7 +44,7 @@ const LISTS: [&str; 4] = [
 ];
 
 /// The file that names Mesa's driver for AMD GPUs.
-fn driver() -> Option<PathBuf> {
+fn find_driver() -> Option<PathBuf> {
     let files = LISTS
         .iter()
         .flat_map(|list| std::fs::read_dir(list).into_iter().flatten().flatten());
@@ -66,7 +66,7 @@ impl Compiler {
     ///
     /// There is no driver, it does not know the family, or the program cannot be started.
     pub fn start(program: &Path, arguments: &[&str], family: Family) -> Result<Compiler, IsaError> {
-        let driver = driver().ok_or(IsaError::NoDriver)?;
+        let driver = find_driver().ok_or(IsaError::NoDriver)?;
         let failed = |e| IsaError::Process(family, e);
         let mut process = Command::new(program)
             .args(arguments)
@@ -88,7 +88,7 @@ impl Compiler {
             requests,
             answers: BufReader::new(answers),
         };
-        compiler.device = match compiler.answer()? {
+        compiler.device = match compiler.read_answer()? {
             Answer::Device(name) => name,
             Answer::Error(why) => return Err(IsaError::Family(family, why)),
             Answer::Report(_) => return Err(failed(std::io::ErrorKind::InvalidData.into())),
@@ -126,14 +126,14 @@ impl Compiler {
         writeln!(requests, "{line}")
             .and_then(|()| requests.flush())
             .map_err(failed)?;
-        match self.answer()? {
+        match self.read_answer()? {
             Answer::Report(report) => Ok(report),
             Answer::Error(why) => Err(IsaError::Shader(self.family, why)),
             Answer::Device(_) => Err(IsaError::Process(self.family, std::io::ErrorKind::InvalidData.into())),
         }
     }
 
-    fn answer(&mut self) -> Result<Answer, IsaError> {
+    fn read_answer(&mut self) -> Result<Answer, IsaError> {
         let failed = |e| IsaError::Process(self.family, e);
         let mut line = String::new();
         if self.answers.read_line(&mut line).map_err(failed)? == 0 {

@@ -27,7 +27,7 @@ impl Device {
         let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
         let info = vk::InstanceCreateInfo::default().application_info(&application);
         let instance = unsafe { entry.create_instance(&info, None) }.map_err(|e| format!("no Vulkan driver: {e}"))?;
-        match unsafe { opened(&instance) } {
+        match unsafe { open_device(&instance) } {
             Ok((device, name)) => Ok(Device {
                 properties: khr::pipeline_executable_properties::Device::new(&instance, &device),
                 instance,
@@ -52,7 +52,7 @@ impl Drop for Device {
     }
 }
 
-unsafe fn opened(instance: &Instance) -> Result<(ash::Device, String), String> {
+unsafe fn open_device(instance: &Instance) -> Result<(ash::Device, String), String> {
     let all = unsafe { instance.enumerate_physical_devices() }.map_err(|e| format!("no devices: {e}"))?;
     let physical = *all.first().ok_or("the driver has no device of this family")?;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();

@@ -51,7 +51,7 @@ fn is_zero(n: &u64) -> bool {
 
 impl Figures {
     /// Names each figure for readers, in the order of the fields; `shared` comes last.
-    pub fn named(&self) -> [(&'static str, u64); 14] {
+    pub fn named_figures(&self) -> [(&'static str, u64); 14] {
         [
             ("instructions", self.instructions),
             ("vector", self.vector),
@@ -72,12 +72,12 @@ impl Figures {
 
     /// Names the figures that fit beside each other on a line.
     pub fn in_short(&self) -> [(&'static str, u64); 8] {
-        let all = self.named();
+        let all = self.named_figures();
         [0, 1, 3, 4, 5, 8, 11, 12].map(|k| all[k])
     }
 
     /// Takes one of the compiler's own figures, by its own name for it.
-    pub(crate) fn take(&mut self, name: &str, value: u64) {
+    pub(crate) fn record_figure(&mut self, name: &str, value: u64) {
         match name {
             "Instructions" => self.instructions = value,
             "VGPRs" => self.vector_registers = value,
@@ -94,7 +94,7 @@ impl Figures {
     }
 
     /// Counts instructions by kind in the machine code as text.
-    pub(crate) fn count(&mut self, assembly: &str) {
+    pub(crate) fn count_instructions(&mut self, assembly: &str) {
         for line in assembly.lines() {
             let Some(word) = line.split_whitespace().next() else {
                 continue;
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn counts_machine_code_by_kind() {
         let mut figures = Figures::default();
-        figures.count(
+        figures.count_instructions(
             "BB0:\n\ts_mov_b32 s0, s1 ; be800301\n\tv_add_f32_e32 v0, v1, v2\n\timage_load v[0:3], v[0:1], s[0:7]\n\
              \ts_waitcnt vmcnt(0)\n\ts_cbranch_execz BB2\n\tds_read_b32 v0, v1\n\ts_endpgm\n",
         );
@@ -139,9 +139,9 @@ mod tests {
     #[test]
     fn spilled_registers_of_both_kinds_are_one_figure() {
         let mut figures = Figures::default();
-        figures.take("Spilled VGPRs", 2);
-        figures.take("Spilled SGPRs", 3);
-        figures.take("Driver pipeline hash", 99);
+        figures.record_figure("Spilled VGPRs", 2);
+        figures.record_figure("Spilled SGPRs", 3);
+        figures.record_figure("Driver pipeline hash", 99);
         assert_eq!(
             figures,
             Figures {

@@ -20,15 +20,15 @@ pub struct Interface {
 
 impl Interface {
     /// That of the entry point with a name; `None` if the words are no such module.
-    pub fn of(words: &[u32], entry: &str) -> Option<Interface> {
-        let stage = match instructions(words).find_map(|i| entry_point(i, entry))? {
+    pub fn from_words(words: &[u32], entry: &str) -> Option<Interface> {
+        let stage = match read_instructions(words).find_map(|i| entry_point(i, entry))? {
             ExecutionModel::GLCompute => vk::ShaderStageFlags::COMPUTE,
             ExecutionModel::Fragment => vk::ShaderStageFlags::FRAGMENT,
             _ => return None,
         };
         Some(Interface {
             stage,
-            bindings: bindings(words),
+            bindings: find_bindings(words),
         })
     }
 }
@@ -36,7 +36,7 @@ impl Interface {
 /// The opcode of an instruction and its operands.
 type Instruction<'a> = (Op, &'a [u32]);
 
-fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
+fn read_instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
     let mut rest = words.get(HEADER..).unwrap_or_default();
     std::iter::from_fn(move || {
         let first = *rest.first()?;
@@ -65,10 +65,10 @@ enum Type {
     Array(u32),
 }
 
-fn bindings(words: &[u32]) -> Bindings {
+fn find_bindings(words: &[u32]) -> Bindings {
     let (mut types, mut groups, mut numbers) = (HashMap::new(), HashMap::new(), HashMap::new());
     let (mut storage, mut found) = (HashSet::new(), Bindings::new());
-    for (op, operands) in instructions(words) {
+    for (op, operands) in read_instructions(words) {
         match (op, operands) {
             (Op::Decorate, [id, decoration, rest @ ..]) => match (Decoration::from_u32(*decoration), rest) {
                 (Some(Decoration::DescriptorSet), [group]) => drop(groups.insert(*id, *group)),
@@ -98,7 +98,7 @@ fn bindings(words: &[u32]) -> Bindings {
                     continue;
                 };
                 let class = StorageClass::from_u32(*class);
-                if let Some(kind) = descriptor(*ty, class, &types, &storage) {
+                if let Some(kind) = descriptor_type(*ty, class, &types, &storage) {
                     found.entry(*group).or_default().insert(*number, kind);
                 }
             }
@@ -108,7 +108,7 @@ fn bindings(words: &[u32]) -> Bindings {
     found
 }
 
-fn descriptor(
+fn descriptor_type(
     mut id: u32,
     class: Option<StorageClass>,
     types: &HashMap<u32, Type>,

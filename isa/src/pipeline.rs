@@ -17,27 +17,27 @@ impl Device {
     ///
     /// The words are no module with such an entry point, or the driver refuses it.
     pub fn compile(&self, words: &[u32], entry: &str) -> Result<Report, String> {
-        let interface = Interface::of(words, entry).ok_or("no compute or fragment entry point of that name")?;
+        let interface = Interface::from_words(words, entry).ok_or("no compute or fragment entry point of that name")?;
         let name = CString::new(entry).map_err(|_| "a name with a zero in it")?;
         let refused = |e: vk::Result| format!("the driver refuses it: {e}");
         let mut made = Made::new(&self.device);
         unsafe {
-            let layout = made.layout(&interface.bindings).map_err(refused)?;
-            let module = made.module(words).map_err(refused)?;
+            let layout = made.create_layout(&interface.bindings).map_err(refused)?;
+            let module = made.create_module(words).map_err(refused)?;
             let stage = vk::PipelineShaderStageCreateInfo::default()
                 .stage(interface.stage)
                 .module(module)
                 .name(&name);
             let pipeline = match interface.stage {
-                vk::ShaderStageFlags::COMPUTE => made.compute(stage, layout),
-                _ => made.fragment(stage, layout),
+                vk::ShaderStageFlags::COMPUTE => made.create_compute(stage, layout),
+                _ => made.create_fragment(stage, layout),
             };
-            self.report(pipeline.map_err(refused)?, interface.stage)
+            self.read_report(pipeline.map_err(refused)?, interface.stage)
                 .map_err(refused)
         }
     }
 
-    unsafe fn report(&self, pipeline: vk::Pipeline, stage: vk::ShaderStageFlags) -> Result<Report, vk::Result> {
+    unsafe fn read_report(&self, pipeline: vk::Pipeline, stage: vk::ShaderStageFlags) -> Result<Report, vk::Result> {
         let (mut figures, mut assembly) = (Figures::default(), String::new());
         let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
         let executables = unsafe { self.properties.get_pipeline_executable_properties(&info) }?;
@@ -51,17 +51,17 @@ impl Device {
             for figure in unsafe { self.properties.get_pipeline_executable_statistics(&info) }? {
                 let name = unsafe { CStr::from_ptr(figure.name.as_ptr()) }.to_string_lossy();
                 if figure.format == vk::PipelineExecutableStatisticFormatKHR::UINT64 {
-                    figures.take(&name, unsafe { figure.value.u64 });
+                    figures.record_figure(&name, unsafe { figure.value.u64 });
                 }
             }
-            assembly += &unsafe { self.assembly(&info) }?;
+            assembly += &unsafe { self.read_assembly(&info) }?;
         }
-        figures.count(&assembly);
+        figures.count_instructions(&assembly);
         Ok(Report { figures, assembly })
     }
 
     /// The machine code as text.
-    unsafe fn assembly(&self, info: &vk::PipelineExecutableInfoKHR) -> Result<String, vk::Result> {
+    unsafe fn read_assembly(&self, info: &vk::PipelineExecutableInfoKHR) -> Result<String, vk::Result> {
         let get = self
             .properties
             .fp()
@@ -108,7 +108,7 @@ impl<'a> Made<'a> {
         }
     }
 
-    unsafe fn layout(&mut self, bindings: &Bindings) -> Result<vk::PipelineLayout, vk::Result> {
+    unsafe fn create_layout(&mut self, bindings: &Bindings) -> Result<vk::PipelineLayout, vk::Result> {
         let groups = bindings.keys().next_back().map_or(0, |last| last + 1);
         for group in 0..groups {
             let numbers = bindings.get(&group).into_iter().flatten();
@@ -135,14 +135,14 @@ impl<'a> Made<'a> {
         Ok(self.layout)
     }
 
-    unsafe fn module(&mut self, words: &[u32]) -> Result<vk::ShaderModule, vk::Result> {
+    unsafe fn create_module(&mut self, words: &[u32]) -> Result<vk::ShaderModule, vk::Result> {
         let info = vk::ShaderModuleCreateInfo::default().code(words);
         let module = unsafe { self.device.create_shader_module(&info, None) }?;
         self.modules.push(module);
         Ok(module)
     }
 
-    unsafe fn compute(
+    unsafe fn create_compute(
         &mut self,
         stage: vk::PipelineShaderStageCreateInfo,
         layout: vk::PipelineLayout,
@@ -160,12 +160,12 @@ impl<'a> Made<'a> {
     }
 
     /// With a triangle over the whole target before it.
-    unsafe fn fragment(
+    unsafe fn create_fragment(
         &mut self,
         stage: vk::PipelineShaderStageCreateInfo,
         layout: vk::PipelineLayout,
     ) -> Result<vk::Pipeline, vk::Result> {
-        let corner = unsafe { self.module(&super::vertex::words()) }?;
+        let corner = unsafe { self.create_module(&super::vertex::triangle_words()) }?;
         let vertex = vk::PipelineShaderStageCreateInfo::default()
             .stage(vk::ShaderStageFlags::VERTEX)
             .module(corner)

@@ -56,7 +56,7 @@ impl Format {
     pub const COLOURS: [Format; 3] = [Format::Rgba8Unorm, Format::Rgba16Float, Format::Rgba32Float];
 
     /// The WGSL spelling: `rgba8unorm`, `rgba16float`, `r32uint`, ...
-    pub fn wgsl(self) -> &'static str {
+    pub fn wgsl_name(self) -> &'static str {
         match self {
             Format::Rgba8Unorm => "rgba8unorm",
             Format::Rgba16Float => "rgba16float",
@@ -73,7 +73,7 @@ impl Format {
     }
 
     /// The GLSL layout qualifier: `rgba8`, `rgba16f`, `r32ui`, ...
-    pub fn glsl(self) -> &'static str {
+    pub fn glsl_qualifier(self) -> &'static str {
         match self {
             Format::Rgba8Unorm => "rgba8",
             Format::Rgba16Float => "rgba16f",
@@ -99,7 +99,7 @@ impl Format {
     }
 
     /// Returns the number type of the components.
-    pub fn component(self) -> Component {
+    pub fn component_type(self) -> Component {
         match self {
             Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => Component::Uint,
             Format::R32Sint | Format::Rg32Sint | Format::Rgba32Sint => Component::Sint,
@@ -110,7 +110,7 @@ impl Format {
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.wgsl())
+        f.write_str(self.wgsl_name())
     }
 }
 
@@ -121,7 +121,7 @@ impl FromStr for Format {
     fn from_str(text: &str) -> Result<Self, String> {
         Format::COLOURS
             .into_iter()
-            .find(|f| f.wgsl() == text)
+            .find(|f| f.wgsl_name() == text)
             .ok_or_else(|| format!("unknown output format `{text}`: one of rgba8unorm, rgba16float, rgba32float"))
     }
 }

@@ -20,7 +20,7 @@ impl Precision {
     pub const ALL: [Precision; 2] = [Precision::F32, Precision::F16];
 
     /// The WGSL spelling: `f32` or `f16`.
-    pub fn wgsl(self) -> &'static str {
+    pub fn wgsl_name(self) -> &'static str {
         match self {
             Precision::F32 => "f32",
             Precision::F16 => "f16",
@@ -35,7 +35,7 @@ impl Precision {
 
 impl fmt::Display for Precision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.wgsl())
+        f.write_str(self.wgsl_name())
     }
 }
 
@@ -45,7 +45,7 @@ impl FromStr for Precision {
     fn from_str(text: &str) -> Result<Self, String> {
         Precision::ALL
             .into_iter()
-            .find(|p| p.wgsl() == text)
+            .find(|p| p.wgsl_name() == text)
             .ok_or_else(|| format!("unknown precision `{text}`: one of f16, f32"))
     }
 }

@@ -36,7 +36,7 @@ impl Scalar {
     }
 
     /// Bits of `value` as a number of this type, little-endian, if that can hold it.
-    pub fn word(self, value: f64) -> Option<[u8; 4]> {
+    pub fn encode_word(self, value: f64) -> Option<[u8; 4]> {
         if !value.is_finite() {
             return None;
         }
@@ -56,7 +56,7 @@ impl Scalar {
         }
     }
 
-    fn of(name: &str) -> Option<Scalar> {
+    fn from_name(name: &str) -> Option<Scalar> {
         [Scalar::F32, Scalar::I32, Scalar::U32]
             .into_iter()
             .find(|scalar| scalar.name() == name)
@@ -181,7 +181,7 @@ impl FromStr for ValueType {
 
     /// Reads a type as WGSL spells it; `vec3<f32>` is `vec3f`.
     fn from_str(text: &str) -> Result<ValueType, NotAType> {
-        read(text).ok_or_else(|| NotAType(text.to_owned()))
+        parse_type(text).ok_or_else(|| NotAType(text.to_owned()))
     }
 }
 
@@ -199,22 +199,22 @@ impl From<ValueType> for String {
     }
 }
 
-fn read(text: &str) -> Option<ValueType> {
-    if let Some(scalar) = Scalar::of(text) {
+fn parse_type(text: &str) -> Option<ValueType> {
+    if let Some(scalar) = Scalar::from_name(text) {
         return Some(ValueType::Scalar(scalar));
     }
     if let Some(rest) = text.strip_prefix("vec") {
-        let (components, suffix) = side(rest)?;
-        let of = component(suffix)?;
+        let (components, suffix) = parse_side(rest)?;
+        let of = parse_component(suffix)?;
         return Some(ValueType::Vector { of, components });
     }
     if let Some(rest) = text.strip_prefix("mat") {
-        let (columns, rest) = side(rest)?;
-        let (rows, suffix) = side(rest.strip_prefix('x')?)?;
-        return (component(suffix)? == Scalar::F32).then_some(ValueType::Matrix { columns, rows });
+        let (columns, rest) = parse_side(rest)?;
+        let (rows, suffix) = parse_side(rest.strip_prefix('x')?)?;
+        return (parse_component(suffix)? == Scalar::F32).then_some(ValueType::Matrix { columns, rows });
     }
     let (of, count) = text.strip_prefix("array<")?.strip_suffix('>')?.rsplit_once(',')?;
-    let (of, count) = (read(of.trim())?, count.trim().parse().ok()?);
+    let (of, count) = (parse_type(of.trim())?, count.trim().parse().ok()?);
     (of.is_single() && count > 0).then_some(ValueType::Array {
         of: of.scalar(),
         components: of.components(),
@@ -223,15 +223,15 @@ fn read(text: &str) -> Option<ValueType> {
 }
 
 /// A number from 2 to 4, and what follows it.
-fn side(text: &str) -> Option<(u8, &str)> {
+fn parse_side(text: &str) -> Option<(u8, &str)> {
     let first = *text.as_bytes().first()?;
     matches!(first, b'2'..=b'4').then(|| (first - b'0', &text[1..]))
 }
 
 /// Parses the component type of a vector or a matrix: `f`, or `<f32>`.
-fn component(suffix: &str) -> Option<Scalar> {
+fn parse_component(suffix: &str) -> Option<Scalar> {
     match suffix.strip_prefix('<') {
-        Some(name) => Scalar::of(name.strip_suffix('>')?),
+        Some(name) => Scalar::from_name(name.strip_suffix('>')?),
         None => [Scalar::F32, Scalar::I32, Scalar::U32]
             .into_iter()
             .find(|scalar| suffix == scalar.letter().encode_utf8(&mut [0; 4])),
@@ -327,9 +327,9 @@ mod tests {
 
     #[test]
     fn words_are_of_numbers_that_fit() {
-        assert_eq!(Scalar::F32.word(0.5), Some(0.5f32.to_le_bytes()));
-        assert_eq!(Scalar::I32.word(-3.0), Some((-3i32).to_le_bytes()));
-        assert_eq!(Scalar::U32.word(4294967295.0), Some(u32::MAX.to_le_bytes()));
+        assert_eq!(Scalar::F32.encode_word(0.5), Some(0.5f32.to_le_bytes()));
+        assert_eq!(Scalar::I32.encode_word(-3.0), Some((-3i32).to_le_bytes()));
+        assert_eq!(Scalar::U32.encode_word(4294967295.0), Some(u32::MAX.to_le_bytes()));
         for (scalar, value) in [
             (Scalar::U32, -1.0),
             (Scalar::I32, 0.5),
@@ -337,7 +337,7 @@ mod tests {
             (Scalar::F32, 1e300),
             (Scalar::F32, f64::NAN),
         ] {
-            assert_eq!(scalar.word(value), None, "{scalar:?} {value}");
+            assert_eq!(scalar.encode_word(value), None, "{scalar:?} {value}");
         }
     }
 

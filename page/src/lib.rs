@@ -67,7 +67,7 @@ impl Module {
     ///
     /// They are none, or lack what the page calls.
     pub fn new(bytes: Vec<u8>) -> Result<Module, ModuleError> {
-        let exported = exports(&bytes).ok_or(ModuleError::NotWasm)?;
+        let exported = exported_names(&bytes).ok_or(ModuleError::NotWasm)?;
         match EXPORTS.into_iter().find(|name| !exported.contains(&name.as_bytes())) {
             Some(missing) => Err(ModuleError::NotThePages(missing)),
             None => Ok(Module(bytes)),
@@ -76,7 +76,7 @@ impl Module {
 }
 
 /// Every file of the page by name, the modules among them.
-pub fn files(generator: Module, templates: Module) -> BTreeMap<String, Vec<u8>> {
+pub fn page_files(generator: Module, templates: Module) -> BTreeMap<String, Vec<u8>> {
     let own = FILES.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec()));
     let modules = [(GENERATOR, generator), (TEMPLATES, templates)];
     own.chain(modules.map(|(name, Module(bytes))| (name.to_owned(), bytes)))
@@ -84,25 +84,25 @@ pub fn files(generator: Module, templates: Module) -> BTreeMap<String, Vec<u8>> 
 }
 
 /// Names that a module exports; `None` if it is none.
-fn exports(module: &[u8]) -> Option<Vec<&[u8]>> {
+fn exported_names(module: &[u8]) -> Option<Vec<&[u8]>> {
     const EXPORT_SECTION: u8 = 7;
     let mut rest = module.strip_prefix(b"\0asm\x01\0\0\0")?;
     while let Some((kind, after)) = rest.split_first() {
-        let (length, after) = number(after)?;
+        let (length, after) = read_number(after)?;
         let (mut section, after) = after.split_at_checked(length)?;
         rest = after;
         if *kind != EXPORT_SECTION {
             continue;
         }
-        let (count, first) = number(section)?;
+        let (count, first) = read_number(section)?;
         section = first;
         let mut names = Vec::new();
         for _ in 0..count {
-            let (length, after) = number(section)?;
+            let (length, after) = read_number(section)?;
             let (name, after) = after.split_at_checked(length)?;
             names.push(name);
             // The kind of the export comes first, then its index.
-            section = number(after.get(1..)?)?.1;
+            section = read_number(after.get(1..)?)?.1;
         }
         return Some(names);
     }
@@ -110,7 +110,7 @@ fn exports(module: &[u8]) -> Option<Vec<&[u8]>> {
 }
 
 /// An unsigned number of seven bits a byte, and what follows it.
-fn number(bytes: &[u8]) -> Option<(usize, &[u8])> {
+fn read_number(bytes: &[u8]) -> Option<(usize, &[u8])> {
     let mut value = 0_usize;
     for (k, byte) in bytes.iter().enumerate().take(5) {
         value |= usize::from(byte & 127) << (7 * k);

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use straightline_page::{FILES, GENERATOR, Module, ModuleError, TEMPLATES, files};
+use straightline_page::{FILES, GENERATOR, Module, ModuleError, TEMPLATES, page_files};
 
 fn text(name: &str) -> &'static str {
     let (_, bytes) = FILES.iter().find(|(known, _)| *known == name).expect(name);
@@ -97,7 +97,7 @@ fn every_element_that_is_looked_up_is_there() {
 fn the_modules_are_part_of_the_files() {
     let whole = module(&["memory", "request", "call", "answered"]);
     let taken = Module::new(whole.clone()).expect("the page's");
-    let all = files(taken.clone(), taken);
+    let all = page_files(taken.clone(), taken);
     assert_eq!(all.len(), FILES.len() + 2);
     assert_eq!(all[GENERATOR], whole);
     assert_eq!(all[TEMPLATES], whole);

@@ -35,7 +35,7 @@ impl Shader {
     ///
     /// The first difference.
     pub fn check(&self, manifest: &Manifest, plan: &Plan) -> Result<(), String> {
-        plan::check(plan, &Spelling::of_wgsl(manifest), &self.0)
+        plan::check_plan(plan, &Spelling::of_wgsl(manifest), &self.0)
     }
 
     /// Checks that each of its loops ends: that it counts up by one, in `i32`, to a limit that does not change in it.
@@ -44,7 +44,7 @@ impl Shader {
     ///
     /// The first loop that may not, and why.
     pub fn check_loops(&self) -> Result<(), String> {
-        loops::check(&self.0)
+        loops::check_loops(&self.0)
     }
 }
 

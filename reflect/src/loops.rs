@@ -15,15 +15,15 @@ use naga::{
 /// # Errors
 ///
 /// The first loop of another form, and how it differs.
-pub fn check(module: &Module) -> Result<(), String> {
+pub fn check_loops(module: &Module) -> Result<(), String> {
     let entries = module.entry_points.iter().map(|entry| &entry.function);
     for function in entries.chain(module.functions.iter().map(|(_, function)| function)) {
-        walk(module, function, &function.body)?;
+        check_block(module, function, &function.body)?;
     }
     Ok(())
 }
 
-fn walk(module: &Module, function: &Function, block: &Block) -> Result<(), String> {
+fn check_block(module: &Module, function: &Function, block: &Block) -> Result<(), String> {
     for statement in block {
         if let Statement::Loop {
             body,
@@ -34,10 +34,10 @@ fn walk(module: &Module, function: &Function, block: &Block) -> Result<(), Strin
             if break_if.is_some() {
                 return Err("a `loop` with `break if`".to_owned());
             }
-            counts(module, function, body, continuing)?;
+            check_counter(module, function, body, continuing)?;
         }
         for inner in blocks_of(statement) {
-            walk(module, function, inner)?;
+            check_block(module, function, inner)?;
         }
     }
     Ok(())
@@ -54,7 +54,7 @@ fn blocks_of(statement: &Statement) -> Vec<&Block> {
 }
 
 /// Checks one loop against the form `for (...; counter < limit; counter++)`.
-fn counts(module: &Module, function: &Function, body: &Block, continuing: &Block) -> Result<(), String> {
+fn check_counter(module: &Module, function: &Function, body: &Block, continuing: &Block) -> Result<(), String> {
     let shape = || "a loop that does not begin with `counter < limit`".to_owned();
     let test = body
         .iter()
@@ -74,14 +74,14 @@ fn counts(module: &Module, function: &Function, body: &Block, continuing: &Block
     else {
         return Err(shape());
     };
-    let counter = loaded(function, left).ok_or_else(shape)?;
+    let counter = loaded_variable(function, left).ok_or_else(shape)?;
     let variable = &function.local_variables[counter];
     let name = variable.name.as_deref().unwrap_or("counter");
     if module.types[variable.ty].inner != TypeInner::Scalar(Scalar::I32) {
         return Err(format!("`{name}` does not count in `i32`"));
     }
     let mut written = Vec::new();
-    writes(function, body, &mut written);
+    collect_writes(function, body, &mut written);
     if written.contains(&Some(counter)) || written.contains(&None) {
         return Err(format!("`{name}` may be written in the loop that it counts"));
     }
@@ -89,23 +89,23 @@ fn counts(module: &Module, function: &Function, body: &Block, continuing: &Block
     let [Statement::Store { pointer, value }] = steps[..] else {
         return Err(format!("`{name}` is not all that changes between two rounds"));
     };
-    let is_step = root(function, *pointer) == Some(counter)
+    let is_step = root_variable(function, *pointer) == Some(counter)
         && matches!(function.expressions[*value],
             Expression::Binary { op: BinaryOperator::Add, left, right }
-            if loaded(function, left) == Some(counter) && is_one(function, right));
+            if loaded_variable(function, left) == Some(counter) && is_one(function, right));
     if !is_step {
         return Err(format!("`{name}` does not count up by one"));
     }
     let mut inside = Vec::new();
-    emitted(body, &mut inside);
-    if !stays(module, function, right, &inside, &written) {
+    collect_evaluated(body, &mut inside);
+    if !is_invariant(module, function, right, &inside, &written) {
         return Err(format!("the limit of `{name}` may change in the loop"));
     }
     Ok(())
 }
 
 /// The local variable that an expression is the value of.
-fn loaded(function: &Function, expression: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+fn loaded_variable(function: &Function, expression: Handle<Expression>) -> Option<Handle<LocalVariable>> {
     match function.expressions[expression] {
         Expression::Load { pointer } => match function.expressions[pointer] {
             Expression::LocalVariable(variable) => Some(variable),
@@ -120,59 +120,59 @@ fn is_one(function: &Function, expression: Handle<Expression>) -> bool {
 }
 
 /// Returns the local variable that a pointer points into; `None` for all other memory, or if it is unknown.
-fn root(function: &Function, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+fn root_variable(function: &Function, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
     match function.expressions[pointer] {
         Expression::LocalVariable(variable) => Some(variable),
-        Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => root(function, base),
+        Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => root_variable(function, base),
         _ => None,
     }
 }
 
 /// Collects the local variables that statements write; `None` stands for unknown memory.
-fn writes(function: &Function, block: &Block, written: &mut Vec<Option<Handle<LocalVariable>>>) {
+fn collect_writes(function: &Function, block: &Block, written: &mut Vec<Option<Handle<LocalVariable>>>) {
     for statement in block {
         match statement {
-            Statement::Store { pointer, .. } => written.push(root(function, *pointer)),
+            Statement::Store { pointer, .. } => written.push(root_variable(function, *pointer)),
             // A function may write what it is given a pointer to.
             Statement::Call { arguments, .. } => written.extend(
                 arguments
                     .iter()
-                    .map(|argument| root(function, *argument))
+                    .map(|argument| root_variable(function, *argument))
                     .filter(Option::is_some),
             ),
             _ => {}
         }
         for inner in blocks_of(statement) {
-            writes(function, inner, written);
+            collect_writes(function, inner, written);
         }
     }
 }
 
 /// Expressions that are evaluated in a block.
-fn emitted(block: &Block, inside: &mut Vec<Handle<Expression>>) {
+fn collect_evaluated(block: &Block, inside: &mut Vec<Handle<Expression>>) {
     for statement in block {
         if let Statement::Emit(range) = statement {
             inside.extend(range.clone());
         }
         for inner in blocks_of(statement) {
-            emitted(inner, inside);
+            collect_evaluated(inner, inside);
         }
     }
 }
 
 /// Returns whether an expression has one value in all iterations of a loop in which those `inside` are evaluated.
-fn stays(
+fn is_invariant(
     module: &Module,
     function: &Function,
     expression: Handle<Expression>,
     inside: &[Handle<Expression>],
     written: &[Option<Handle<LocalVariable>>],
 ) -> bool {
-    let stays = |other: Handle<Expression>| stays(module, function, other, inside, written);
+    let stays = |other: Handle<Expression>| is_invariant(module, function, other, inside, written);
     match function.expressions[expression] {
         Expression::Literal(_) | Expression::Constant(_) | Expression::FunctionArgument(_) => true,
         _ if !inside.contains(&expression) => true,
-        Expression::Load { pointer } => match root(function, pointer) {
+        Expression::Load { pointer } => match root_variable(function, pointer) {
             Some(variable) => !written.contains(&Some(variable)),
             None => is_constant_memory(module, function, pointer),
         },
@@ -194,13 +194,13 @@ fn is_constant_memory(module: &Module, function: &Function, pointer: Handle<Expr
 
 #[cfg(test)]
 mod tests {
-    use super::check;
+    use super::check_loops;
 
-    fn of(body: &str) -> Result<(), String> {
+    fn check_body(body: &str) -> Result<(), String> {
         let text = format!(
             "struct U {{ n: i32, m: i32 }}\n@group(0) @binding(0) var<uniform> u: U;\n@group(0) @binding(1) var<storage, read_write> s: U;\nfn change(p: ptr<function, i32>) {{ *p = 0; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
         );
-        check(&naga::front::wgsl::parse_str(&text).expect("WGSL"))
+        check_loops(&naga::front::wgsl::parse_str(&text).expect("WGSL"))
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
             "for (var k = 0; k < 9; k++) { for (var j = 0; j < k; j++) { } }",
         ];
         for body in kept {
-            assert_eq!(of(body), Ok(()), "{body}");
+            assert_eq!(check_body(body), Ok(()), "{body}");
         }
     }
 
@@ -243,7 +243,7 @@ mod tests {
             ),
         ];
         for (body, says) in refused {
-            let why = of(body).expect_err(body);
+            let why = check_body(body).expect_err(body);
             assert!(why.contains(says), "{body}: {why}");
         }
     }

@@ -12,7 +12,7 @@ use straightline_manifest::plan::{
 use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType, Scalar, ValueType};
 
 /// Checks that `module` is the shader that `plan` describes, with names as `spelling` has them.
-pub fn check(plan: &Plan, spelling: &Spelling<'_>, module: &Module) -> Result<(), String> {
+pub fn check_plan(plan: &Plan, spelling: &Spelling<'_>, module: &Module) -> Result<(), String> {
     entry_point(plan, module)?;
     for input in plan.inputs.iter() {
         check_input(spelling, module, input)?;
@@ -40,7 +40,7 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
             .iter()
             .map(|entry| format!("`{}`", entry.name))
             .collect();
-        return Err(format!("it has no entry point `{name}`, only {}", list(&others)));
+        return Err(format!("it has no entry point `{name}`, only {}", join_names(&others)));
     };
     if entry.stage != wanted {
         return Err(format!(
@@ -54,12 +54,12 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
             entry.workgroup_size
         )),
         StagePlan::Compute { .. } => Ok(()),
-        StagePlan::Fragment => varyings(plan, module, entry).and_then(|()| colours(plan, module, entry)),
+        StagePlan::Fragment => check_varyings(plan, module, entry).and_then(|()| check_colours(plan, module, entry)),
     }
 }
 
 /// Returns the members with a location of a value that an entry point takes or gives, or the value itself if it has one.
-pub fn located(
+pub fn located_members(
     module: &Module,
     binding: &Option<naga::Binding>,
     ty: naga::Handle<naga::Type>,
@@ -79,9 +79,11 @@ pub fn located(
 }
 
 /// Checks that the interpolated inputs of a fragment shader are those that the manifest lists.
-fn varyings(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
+fn check_varyings(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
     let arguments = entry.function.arguments.iter();
-    let found: Vec<_> = arguments.flat_map(|a| located(module, &a.binding, a.ty)).collect();
+    let found: Vec<_> = arguments
+        .flat_map(|a| located_members(module, &a.binding, a.ty))
+        .collect();
     for varying in plan.varyings.iter() {
         let at = |binding: &naga::Binding| matches!(binding, naga::Binding::Location { location, .. } if *location == varying.location);
         let fits = found
@@ -105,9 +107,9 @@ fn varyings(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<()
 }
 
 /// The locations of a fragment shader's colours are those of the manifest, and of the same kind and number of components.
-fn colours(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
+fn check_colours(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
     let result = entry.function.result.as_ref();
-    let given = result.map_or_else(Vec::new, |result| located(module, &result.binding, result.ty));
+    let given = result.map_or_else(Vec::new, |result| located_members(module, &result.binding, result.ty));
     let given = given.into_iter().filter_map(|(binding, ty)| match binding {
         naga::Binding::Location { location, .. } => Some((location, ty)),
         naga::Binding::BuiltIn(_) => None,
@@ -140,7 +142,7 @@ fn colours(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(),
 }
 
 fn scalar_kind(format: Format) -> ScalarKind {
-    match format.component() {
+    match format.component_type() {
         Component::Float => ScalarKind::Float,
         Component::Uint => ScalarKind::Uint,
         Component::Sint => ScalarKind::Sint,
@@ -148,7 +150,7 @@ fn scalar_kind(format: Format) -> ScalarKind {
 }
 
 /// The variable at a place, which must be called `name`, as the text spells it.
-fn variable<'m>(
+fn find_variable<'m>(
     spelling: &Spelling<'_>,
     module: &'m Module,
     name: &str,
@@ -175,7 +177,7 @@ fn variable<'m>(
 }
 
 fn check_input(spelling: &Spelling<'_>, module: &Module, plan: &InputPlan) -> Result<(), String> {
-    let variable = variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
+    let variable = find_variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
     let found = &module.types[variable.ty].inner;
     let (fits, wanted) = match &plan.kind {
         InputKind::Texture(texture) => {
@@ -267,7 +269,7 @@ fn check_storage(
     OutputPlan { name, format, .. }: &OutputPlan,
     place: (u32, u32),
 ) -> Result<(), String> {
-    let variable = variable(spelling, module, name, place)?;
+    let variable = find_variable(spelling, module, name, place)?;
     let wanted = TypeInner::Image {
         dim: naga::ImageDimension::D2,
         arrayed: false,
@@ -295,7 +297,7 @@ fn check_storage(
 }
 
 fn check_uniform(spelling: &Spelling<'_>, module: &Module, plan: &UniformPlan) -> Result<(), String> {
-    let variable = variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
+    let variable = find_variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
     let name = &plan.name;
     let TypeInner::Struct { members, span } = &module.types[variable.ty].inner else {
         return Err(format!("`{name}` is not a struct"));
@@ -372,7 +374,7 @@ fn nothing_else(plan: &Plan, module: &Module) -> Result<(), String> {
     Ok(())
 }
 
-fn list(names: &[String]) -> String {
+fn join_names(names: &[String]) -> String {
     if names.is_empty() {
         "none at all".to_owned()
     } else {

@@ -17,15 +17,15 @@ impl<'m> Spelling<'m> {
 
     /// Name of a binding or an output in the text.
     pub fn of_binding<'n>(&'n self, name: &'n str, binding: u32) -> &'n str {
-        self.find(name, Some(binding))
+        self.find_name(name, Some(binding))
     }
 
     /// Name of a member of the uniform struct in the text.
     pub fn of_member<'n>(&'n self, name: &'n str) -> &'n str {
-        self.find(name, None)
+        self.find_name(name, None)
     }
 
-    fn find<'n>(&'n self, name: &'n str, binding: Option<u32>) -> &'n str {
+    fn find_name<'n>(&'n self, name: &'n str, binding: Option<u32>) -> &'n str {
         let mut all = self.0.iter();
         let found = all.find(|b| b.binding == binding && b.of.as_deref() == Some(name));
         found.map_or(name, |b| &b.name)

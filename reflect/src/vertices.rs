@@ -1,7 +1,7 @@
 //! Checks that a vertex shader returns everything that a kernel has interpolated.
 
 use crate::parse;
-use crate::plan::{is_type, located};
+use crate::plan::{is_type, located_members};
 use naga::{Binding, Interpolation, Sampling, ShaderStage};
 use straightline_manifest::plan::{Plan, VaryingPlan};
 
@@ -43,7 +43,7 @@ pub fn check_vertices(plan: &Plan, text: &str, entry_point: &str) -> Result<(), 
         });
     };
     let result = entry.function.result.as_ref();
-    let given = result.map_or_else(Vec::new, |result| located(&module, &result.binding, result.ty));
+    let given = result.map_or_else(Vec::new, |result| located_members(&module, &result.binding, result.ty));
     for varying in plan.varyings.iter() {
         let wrong = |problem: String| VertexProblem::Varying {
             varying: varying.clone(),

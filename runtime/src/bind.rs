@@ -2,8 +2,8 @@
 
 use crate::bound::{Bound, Work};
 use crate::error::ViewProblem;
-use crate::guard::guarded;
-use crate::inputs::{arrange, check_inputs, check_targets, frame_size, is_one_image, shared, size};
+use crate::guard::run_guarded;
+use crate::inputs::{arrange_inputs, check_inputs, check_targets, find_shared, frame_size, is_one_image, texture_size};
 use crate::pipeline::Pipeline;
 use crate::targets::Targets;
 use crate::uniforms::Uniforms;
@@ -77,13 +77,13 @@ impl Pass {
         options: &BindOptions<'_>,
     ) -> Result<Bound, Error> {
         let inputs: Vec<(&str, Resource<'r>)> = inputs.iter().map(|(name, input)| (*name, (*input).into())).collect();
-        let targets = targets.into().arranged(&self.plan)?;
+        let targets = targets.into().arrange_targets(&self.plan)?;
         self.loss_probe
             .check(&self.device, &format!("binding `{}`", self.plan.kernel))?;
-        let resources = arrange(&self.plan, &inputs)?;
+        let resources = arrange_inputs(&self.plan, &inputs)?;
         check_targets(&self.plan, &self.formats, &self.abilities, &targets)?;
-        let whole = self.whole(&resources, &targets)?;
-        let rectangle = self.rectangle(&resources, whole, options.region)?;
+        let whole = self.computed_size(&resources, &targets)?;
+        let rectangle = self.choose_region(&resources, whole, options.region)?;
         let frame = match self.plan.region {
             Some(_) => frame_size(&self.plan, &resources),
             None => None,
@@ -91,17 +91,17 @@ impl Pass {
         check_inputs(&self.plan, &self.abilities, &resources, frame.unwrap_or(whole))?;
         let uniforms = Uniforms::new(&self.device, &self.plan, options)?;
         let buffer = match self.plan.region {
-            Some(_) => Some(rectangle.buffer(&self.device, &self.plan.kernel)?),
+            Some(_) => Some(rectangle.create_buffer(&self.device, &self.plan.kernel)?),
             None => None,
         };
-        let groups = self.layout.bind(
+        let groups = self.layout.bind_resources(
             &self.device,
             &self.plan,
             &uniforms,
             &resources,
             (&targets, buffer.as_ref()),
         );
-        let shared = shared(&self.plan, &resources, &targets);
+        let shared = find_shared(&self.plan, &resources, &targets);
         let bound = groups.and_then(|groups| {
             let bound = Bound {
                 plan: Arc::clone(&self.plan),
@@ -135,9 +135,12 @@ impl Pass {
     }
 
     /// The size of what is computed: that of the targets, or of a kernel that has none, of its inputs.
-    fn whole(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
+    fn computed_size(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
         let of_inputs = || frame_size(&self.plan, resources);
-        let whole = targets.first().map(|target| size(target.texture())).or_else(of_inputs);
+        let whole = targets
+            .first()
+            .map(|target| texture_size(target.texture()))
+            .or_else(of_inputs);
         whole.ok_or_else(|| Error::BadManifest {
             kernel: self.plan.kernel.to_string(),
             place: "output".to_owned(),
@@ -146,7 +149,12 @@ impl Pass {
     }
 
     /// The rectangle to filter: the one asked for, or all of the inputs.
-    fn rectangle(&self, resources: &[Resource<'_>], whole: [u32; 2], region: Option<Region>) -> Result<Region, Error> {
+    fn choose_region(
+        &self,
+        resources: &[Resource<'_>],
+        whole: [u32; 2],
+        region: Option<Region>,
+    ) -> Result<Region, Error> {
         match (&self.plan.region, region) {
             (None, None) => Ok(Region::at([0, 0], whole)),
             (None, Some(region)) => Err(Error::Region {
@@ -180,7 +188,7 @@ impl Pass {
                 problem: ViewProblem::Refused { description },
             },
         };
-        guarded(&self.device, &format!("binding `{kernel}`"), refused, || {
+        run_guarded(&self.device, &format!("binding `{kernel}`"), refused, || {
             let mut encoder = self
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

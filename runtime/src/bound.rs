@@ -83,7 +83,7 @@ impl Bound {
     /// Records the pass into `encoder`, which is of the same device: a compute or a render pass of its own. It cannot fail and
     /// checks nothing; of its own it allocates nothing.
     pub fn encode(&self, encoder: &mut CommandEncoder) {
-        self.record(encoder, None);
+        self.record_pass(encoder, None);
     }
 
     /// [`encode`](Self::encode), timed on the GPU as the next span of `timer`.
@@ -93,7 +93,7 @@ impl Bound {
     /// [`Error::TimerFull`]. Nothing has been recorded then.
     pub fn encode_timed(&self, encoder: &mut CommandEncoder, timer: &mut Timer) -> Result<(), Error> {
         let span = timer.span()?;
-        self.record(encoder, Some(&span));
+        self.record_pass(encoder, Some(&span));
         Ok(())
     }
 
@@ -109,7 +109,7 @@ impl Bound {
     ///
     /// [`Error::UnknownUniform`], or [`Error::UniformType`] for a value of another type. Nothing has been written then.
     pub fn write_uniform(&self, queue: &Queue, name: &str, value: impl Into<UniformValue>) -> Result<(), Error> {
-        self.uniforms.write(&self.plan, queue, name, &value.into())
+        self.uniforms.write_value(&self.plan, queue, name, &value.into())
     }
 
     /// Sets all uniforms at once, from `bytes` that are the uniform struct as it lies in the buffer: little-endian,
@@ -131,7 +131,7 @@ impl Bound {
         self.uniforms.write_at(queue, offset, bytes);
     }
 
-    fn record(&self, encoder: &mut CommandEncoder, span: Option<&Span<'_>>) {
+    fn record_pass(&self, encoder: &mut CommandEncoder, span: Option<&Span<'_>>) {
         let label = Some(self.plan.kernel.as_ref());
         match &self.work {
             Work::Compute { pipeline, workgroups } => {

@@ -11,7 +11,7 @@ use std::task::{Context, Poll, Waker};
 ///
 /// Without a scope, wgpu hands errors to the device's handler, which by default panics; and the handler is the
 /// caller's. Scopes are kept for each thread, so other threads' errors do not end up here.
-pub(crate) fn scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
+pub(crate) fn run_scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -28,14 +28,14 @@ pub(crate) fn scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Resu
     }
 }
 
-/// Runs `work` as [`scoped`] does. Out-of-memory becomes [`Error::OutOfMemory`]; `describe` makes the error of all else.
-pub(crate) fn guarded<T>(
+/// Runs `work` as [`run_scoped`] does. Out-of-memory becomes [`Error::OutOfMemory`]; `describe` makes the error of all else.
+pub(crate) fn run_guarded<T>(
     device: &wgpu::Device,
     doing: &str,
     describe: impl FnOnce(String) -> Error,
     work: impl FnOnce() -> T,
 ) -> Result<T, Error> {
-    scoped(device, work).map_err(|error| match error {
+    run_scoped(device, work).map_err(|error| match error {
         wgpu::Error::OutOfMemory { .. } => Error::OutOfMemory {
             doing: doing.to_owned(),
         },
@@ -79,7 +79,7 @@ impl LossProbe {
         let lost = || Error::DeviceLost {
             doing: doing.to_owned(),
         };
-        let buffer = guarded(
+        let buffer = run_guarded(
             device,
             doing,
             |_| lost(),
@@ -92,7 +92,7 @@ impl LossProbe {
                 })
             },
         )?;
-        match ask(device, &buffer) {
+        match try_mapping(device, &buffer) {
             Answer::Accepted => Ok(LossProbe {
                 buffer: Mutex::new(buffer),
             }),
@@ -106,7 +106,7 @@ impl LossProbe {
         // The lock admits one question at a time: while wgpu believes the buffer to be mapped, it answers without asking the
         // device.
         let buffer = self.buffer.lock().unwrap_or_else(PoisonError::into_inner);
-        match ask(device, &buffer) {
+        match try_mapping(device, &buffer) {
             // Explained: another thread's submission carried out an earlier mapping just when it was withdrawn.
             Answer::Accepted | Answer::Explained => Ok(()),
             Answer::Silent => Err(Error::DeviceLost {
@@ -117,10 +117,10 @@ impl LossProbe {
 }
 
 /// Asks for a mapping and withdraws it.
-fn ask(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Answer {
+fn try_mapping(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Answer {
     let refused = Arc::new(AtomicBool::new(false));
     let answer = Arc::clone(&refused);
-    let request = scoped(device, || {
+    let request = run_scoped(device, || {
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
             if result.is_err() {
                 answer.store(true, Ordering::Release);
@@ -130,7 +130,7 @@ fn ask(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Answer {
         refused.load(Ordering::Acquire)
     });
     // There may be nothing to withdraw, which wgpu thinks an error.
-    let _ = scoped(device, || buffer.unmap());
+    let _ = run_scoped(device, || buffer.unmap());
     match request {
         Ok(false) => Answer::Accepted,
         Ok(true) => Answer::Silent,

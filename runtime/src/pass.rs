@@ -37,12 +37,17 @@ impl Pass {
     /// go without a bound and one may not end; [`Error::DeviceLost`].
     pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &PassOptions) -> Result<Self, Error> {
         check_varyings(&shader.plan)?;
-        let source = Source::wgsl(shader, options);
-        Self::made(device, shader.plan.clone(), source, options)
+        let source = Source::from_shader(shader, options);
+        Self::from_plan(device, shader.plan.clone(), source, options)
     }
 
     /// A pass of a shader whose plan is `plan`.
-    pub(crate) fn made(device: &Device, plan: Plan, source: Source<'_>, options: &PassOptions) -> Result<Self, Error> {
+    pub(crate) fn from_plan(
+        device: &Device,
+        plan: Plan,
+        source: Source<'_>,
+        options: &PassOptions,
+    ) -> Result<Self, Error> {
         check_features(device, &plan)?;
         let formats = check_formats(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);

@@ -1,7 +1,7 @@
 //! Compiling a shader, and choosing the format that it writes.
 
 use crate::error::Names;
-use crate::guard::{guarded, scoped};
+use crate::guard::{run_guarded, run_scoped};
 use crate::layout::{Layout, texture_format};
 use crate::module::Source;
 use crate::plan::{OutputPlan, Plan, StagePlan};
@@ -37,11 +37,11 @@ impl Pipeline {
             kernel: kernel.to_string(),
             description,
         };
-        let module = source.module(device, plan)?;
+        let module = source.create_module(device, plan)?;
         let start = Instant::now();
         let pipeline = match plan.stage {
             StagePlan::Compute { workgroup } => {
-                let pipeline = guarded(device, &doing, refused, || {
+                let pipeline = run_guarded(device, &doing, refused, || {
                     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                         label,
                         layout: Some(&layout.pipeline),
@@ -54,7 +54,7 @@ impl Pipeline {
                 Pipeline::Compute { pipeline, workgroup }
             }
             StagePlan::Fragment => {
-                let cover = guarded(device, &doing, refused, || {
+                let cover = run_guarded(device, &doing, refused, || {
                     device.create_shader_module(wgpu::include_wgsl!("fullscreen.wgsl"))
                 })?;
                 let side = VertexSide {
@@ -108,7 +108,7 @@ pub(crate) fn render_pipeline(
         kernel: kernel.to_string(),
         description,
     };
-    guarded(device, &format!("compiling `{kernel}`"), refused, || {
+    run_guarded(device, &format!("compiling `{kernel}`"), refused, || {
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(kernel),
             layout: Some(&layout.pipeline),
@@ -220,7 +220,7 @@ fn check_format(
     }
     let format = asked.unwrap_or(written);
     let refuse = |reason: String| Err(Refused::As(format, reason));
-    let (fits, what, use_instead) = match (output.format.component(), format.sample_type(None, None)) {
+    let (fits, what, use_instead) = match (output.format.component_type(), format.sample_type(None, None)) {
         (Component::Float, found) => (
             matches!(found, Some(wgpu::TextureSampleType::Float { .. })),
             "a colour of floats",
@@ -263,7 +263,7 @@ fn check_format(
         view_formats: &[],
     };
     // Creating a texture of one texel shows better than any table whether this adapter can draw to the format.
-    match scoped(device, || device.create_texture(&target)) {
+    match run_scoped(device, || device.create_texture(&target)) {
         Ok(_) => Ok(format),
         Err(wgpu::Error::OutOfMemory { .. }) => Err(Refused::Memory),
         Err(error) => refuse(error.to_string().trim().to_owned()),

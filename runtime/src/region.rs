@@ -1,7 +1,7 @@
 //! Rectangles of an image: a pass over a part of it, so that a large one is filtered in tiles.
 
 use crate::Error;
-use crate::uniforms::filled;
+use crate::uniforms::filled_buffer;
 use std::fmt;
 
 /// A rectangle of pixels that a pass filters: where it lies in the inputs, and where it goes in the target.
@@ -59,7 +59,7 @@ impl Region {
 
     /// A buffer as the shader reads it. Each bound region has its own: all encoders of one submission would see the last
     /// value of a shared one.
-    pub(crate) fn buffer(self, device: &wgpu::Device, kernel: &str) -> Result<wgpu::Buffer, Error> {
+    pub(crate) fn create_buffer(self, device: &wgpu::Device, kernel: &str) -> Result<wgpu::Buffer, Error> {
         let refused = |description| Error::Region {
             kernel: kernel.to_owned(),
             region: self,
@@ -70,7 +70,7 @@ impl Region {
         for (place, lane) in bytes.chunks_exact_mut(4).zip(lanes) {
             place.copy_from_slice(&lane.to_le_bytes());
         }
-        filled(device, kernel, straightline_manifest::REGION, &bytes, refused)
+        filled_buffer(device, kernel, straightline_manifest::REGION, &bytes, refused)
     }
 }
 

@@ -34,7 +34,7 @@ impl<'a> Resource<'a> {
     }
 
     /// The resource as wgpu binds it.
-    pub(crate) fn binding(self) -> wgpu::BindingResource<'a> {
+    pub(crate) fn as_binding(self) -> wgpu::BindingResource<'a> {
         match self {
             Resource::Texture(view) => wgpu::BindingResource::TextureView(view),
             Resource::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),

@@ -37,7 +37,7 @@ impl<'t, const N: usize> From<&[(&'t str, &'t TextureView); N]> for Targets<'t> 
 
 impl<'t> Targets<'t> {
     /// The targets in the order of the plan's outputs: each exactly once, and nothing else.
-    pub(crate) fn arranged(self, plan: &Plan) -> Result<Vec<&'t TextureView>, Error> {
+    pub(crate) fn arrange_targets(self, plan: &Plan) -> Result<Vec<&'t TextureView>, Error> {
         let kernel = || plan.kernel.to_string();
         let known = || {
             plan.outputs

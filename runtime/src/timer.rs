@@ -1,7 +1,7 @@
 //! Time on the GPU, from timestamp queries at the borders of passes.
 
 use crate::Error;
-use crate::guard::{LossProbe, guarded};
+use crate::guard::{LossProbe, run_guarded};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -97,7 +97,7 @@ impl Timer {
         }
         let doing = "making a timer";
         let loss_probe = LossProbe::new(device, doing)?;
-        let (queries, resolved) = guarded(device, doing, failed, || {
+        let (queries, resolved) = run_guarded(device, doing, timer_error, || {
             let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("straightline timer"),
                 ty: wgpu::QueryType::Timestamp,
@@ -157,7 +157,7 @@ impl Timer {
             0 => None,
             _ => {
                 let size = 2 * TICK * u64::from(spans);
-                let buffer = guarded(&self.device, doing, failed, || {
+                let buffer = run_guarded(&self.device, doing, timer_error, || {
                     self.device.create_buffer(&wgpu::BufferDescriptor {
                         label: Some("straightline timestamps"),
                         size,
@@ -190,11 +190,11 @@ impl Timer {
     /// submitted yet, after which reading can be tried again; [`Error::DeviceLost`]; [`Error::TimerRead`].
     /// If the driver loses the device during the very wait, wgpu 30 panics in `Device::poll`.
     pub fn read(&mut self) -> Result<Vec<Duration>, Error> {
-        match self.after(wgpu::PollType::wait_indefinitely())? {
+        match self.read_after(wgpu::PollType::wait_indefinitely())? {
             Some(durations) => Ok(durations),
             None => {
                 self.forget_mapping();
-                Err(failed("the buffer was not mapped".to_owned()))
+                Err(timer_error("the buffer was not mapped".to_owned()))
             }
         }
     }
@@ -206,11 +206,11 @@ impl Timer {
     ///
     /// Those of [`read`](Self::read).
     pub fn try_read(&mut self) -> Result<Option<Vec<Duration>>, Error> {
-        self.after(wgpu::PollType::Poll)
+        self.read_after(wgpu::PollType::Poll)
     }
 
     /// Asks for the oldest batch, lets the device work, and takes the batch if it has come.
-    fn after(&mut self, poll: wgpu::PollType) -> Result<Option<Vec<Duration>>, Error> {
+    fn read_after(&mut self, poll: wgpu::PollType) -> Result<Option<Vec<Duration>>, Error> {
         let doing = "reading a timer";
         self.loss_probe.check(&self.device, doing)?;
         let batch = self.batches.front_mut().ok_or(Error::TimerNotResolved)?;
@@ -223,7 +223,7 @@ impl Timer {
             None => {
                 let answer = Answer::default();
                 let told = Arc::clone(&answer);
-                guarded(&self.device, doing, failed, || {
+                run_guarded(&self.device, doing, timer_error, || {
                     buffer.map_async(wgpu::MapMode::Read, .., move |result| {
                         *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
                     });
@@ -234,7 +234,7 @@ impl Timer {
         };
         if let Err(error) = self.device.poll(poll) {
             self.forget_mapping();
-            return Err(failed(error.to_string()));
+            return Err(timer_error(error.to_string()));
         }
         let answered = answer.lock().unwrap_or_else(PoisonError::into_inner).take();
         match answered {
@@ -243,10 +243,10 @@ impl Timer {
             Some(Err(error)) => {
                 self.forget_mapping();
                 self.loss_probe.check(&self.device, doing)?;
-                return Err(failed(error.to_string()));
+                return Err(timer_error(error.to_string()));
             }
         }
-        let ticks = ticks(&buffer);
+        let ticks = read_ticks(&buffer);
         self.forget_mapping();
         let ticks = ticks?;
         if ticks.contains(&[0, 0]) {
@@ -255,7 +255,7 @@ impl Timer {
         self.batches.pop_front();
         let durations = ticks
             .into_iter()
-            .map(|[begin, end]| self.duration(end.saturating_sub(begin)));
+            .map(|[begin, end]| self.ticks_to_duration(end.saturating_sub(begin)));
         Ok(Some(durations.collect()))
     }
 
@@ -269,7 +269,7 @@ impl Timer {
         }
     }
 
-    fn duration(&self, ticks: u64) -> Duration {
+    fn ticks_to_duration(&self, ticks: u64) -> Duration {
         let seconds = ticks as f64 * f64::from(self.period) * 1e-9;
         // Out of range only for a nonsensical difference of centuries.
         Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
@@ -277,14 +277,16 @@ impl Timer {
 }
 
 /// Begin and end of each span in a mapped buffer, in ticks.
-fn ticks(buffer: &wgpu::Buffer) -> Result<Vec<[u64; 2]>, Error> {
-    let bytes = buffer.get_mapped_range(..).map_err(|error| failed(error.to_string()))?;
+fn read_ticks(buffer: &wgpu::Buffer) -> Result<Vec<[u64; 2]>, Error> {
+    let bytes = buffer
+        .get_mapped_range(..)
+        .map_err(|error| timer_error(error.to_string()))?;
     let (words, _) = bytes.as_chunks::<8>();
     let ticks: Vec<u64> = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
     let (pairs, _) = ticks.as_chunks::<2>();
     Ok(pairs.to_vec())
 }
 
-fn failed(description: String) -> Error {
+fn timer_error(description: String) -> Error {
     Error::TimerRead { description }
 }

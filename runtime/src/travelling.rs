@@ -27,7 +27,7 @@ impl<'a> Shader<'a> {
             problem,
         })?;
         let loops = match parsed.check_loops() {
-            Ok(()) => Loops::End(proven()),
+            Ok(()) => Loops::End(proven_loops_end()),
             Err(problem) => Loops::Unproven(problem.into()),
         };
         Ok(Shader { plan, wgsl, loops })
@@ -131,7 +131,7 @@ fn check_hash(manifest: &Manifest, wgsl: &str) -> Result<(), Error> {
 
 /// The witness for a text whose loops [`straightline_reflect::Shader::check_loops`] has shown to end.
 #[allow(unsafe_code)]
-fn proven() -> LoopsEnd {
+fn proven_loops_end() -> LoopsEnd {
     // SAFETY: the only caller has just shown it.
     unsafe { LoopsEnd::new() }
 }

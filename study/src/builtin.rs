@@ -11,7 +11,7 @@ use straightline_kernels::{CATALOGUE, OptionText, OptionValue};
 /// # Errors
 ///
 /// An unknown name.
-pub fn builtin(name: &str) -> Result<Kernel, Errors> {
+pub fn load_builtin(name: &str) -> Result<Kernel, Errors> {
     static KERNELS: LazyLock<BTreeMap<&'static str, Kernel>> = LazyLock::new(|| {
         let names = CATALOGUE.iter().map(|entry| entry.name);
         names

@@ -68,13 +68,13 @@ struct Parts {
 /// # Errors
 ///
 /// [`FrameError`], if the records are not of one scene, size and adapter.
-pub fn frames(
+pub fn combine_frames(
     passes: &PassTimes,
     errors: &QualityRecord,
     request: &FrameRequest,
     command: String,
 ) -> Result<FrameRecord, FrameError> {
-    compare(&passes.circumstances, &errors.circumstances)?;
+    check_circumstances(&passes.circumstances, &errors.circumstances)?;
     let scene = errors.scenes.iter().find(|scene| scene.scene == passes.scene);
     let scene = scene.ok_or_else(|| FrameError::Scene {
         scene: passes.scene.clone(),
@@ -112,13 +112,13 @@ pub fn frames(
         errors: errors.circumstances.clone(),
         scene: passes.scene.clone(),
         shading_ms: shading_ms.clone(),
-        own_shading_ms: pass(passes, "deferred shading", 1)?,
+        own_shading_ms: pass_time(passes, "deferred shading", 1)?,
         methods,
         absent,
     })
 }
 
-fn compare(passes: &Circumstances, errors: &Circumstances) -> Result<(), FrameError> {
+fn check_circumstances(passes: &Circumstances, errors: &Circumstances) -> Result<(), FrameError> {
     let size = |of: &Circumstances| format!("{}x{}", of.size[0], of.size[1]);
     let all = [
         ("adapter", passes.adapter.clone(), errors.adapter.clone()),
@@ -131,7 +131,7 @@ fn compare(passes: &Circumstances, errors: &Circumstances) -> Result<(), FrameEr
     }
 }
 
-fn pass(passes: &PassTimes, name: &'static str, samples: u32) -> Result<f64, FrameError> {
+fn pass_time(passes: &PassTimes, name: &'static str, samples: u32) -> Result<f64, FrameError> {
     let of = |p: &&crate::record::TimedPass| p.name == name && p.samples == samples;
     let found = passes.passes.iter().find(of);
     found.map(|p| p.ms.median).ok_or(FrameError::Pass { name, samples })
@@ -139,7 +139,7 @@ fn pass(passes: &PassTimes, name: &'static str, samples: u32) -> Result<f64, Fra
 
 /// Parts of a method's frame, or why they are not known.
 fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'static str>, FrameError> {
-    let main = |samples| pass(passes, "main G-buffer", samples);
+    let main = |samples| pass_time(passes, "main G-buffer", samples);
     let filter_ms = method.time.map(|time| time.median_ms);
     Ok(match method.family {
         Family::None => Ok(Parts {
@@ -160,7 +160,7 @@ fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'st
                 Ok(Parts {
                     geometry_ms: main(samples)?,
                     shaded: samples,
-                    filter_ms: pass(passes, "box filter", samples)?,
+                    filter_ms: pass_time(passes, "box filter", samples)?,
                 })
             }
             _ => Err("its one pass draws and shades, so that another cost of shading is not known of it"),
@@ -170,7 +170,7 @@ fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'st
             (_, None) => Err("it was not timed"),
             (Ok(samples), Some(filter_ms)) => Ok(Parts {
                 geometry_ms: main(1)? + further_samples(method, samples, passes)?,
-                shaded: shaded(method),
+                shaded: shading_sample_count(method),
                 filter_ms,
             }),
         },
@@ -178,22 +178,22 @@ fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'st
     })
 }
 
-fn option<'m>(method: &'m MethodErrors, name: &str) -> Option<&'m str> {
+fn find_option<'m>(method: &'m MethodErrors, name: &str) -> Option<&'m str> {
     let found = method.options.iter().find(|(option, _)| option == name);
     found.map(|(_, value)| value.as_str())
 }
 
 /// Samples that SRAA has drawn beside the main G-buffer.
 fn samples_beside(method: &MethodErrors) -> Result<u32, &'static str> {
-    if option(method, "shading") == Some("placed") || option(method, "extra") == Some("true") {
+    if find_option(method, "shading") == Some("placed") || find_option(method, "extra") == Some("true") {
         return Err("the passes that shade where it asks for are not timed");
     }
-    let samples = match option(method, "pattern") {
+    let samples = match find_option(method, "pattern") {
         None | Some("latin4" | "ordered4") => 4,
         Some("latin16" | "standard16" | "ordered16") => 16,
         _ => return Err("a pass with its number of samples is not timed"),
     };
-    match (option(method, "shading"), samples) {
+    match (find_option(method, "shading"), samples) {
         // The main G-buffer has the first of them.
         (Some("sample0"), 4) => Ok(3),
         _ => Ok(samples),
@@ -203,16 +203,16 @@ fn samples_beside(method: &MethodErrors) -> Result<u32, &'static str> {
 /// Time of drawing samples beside the main G-buffer: in a pass for each, or in one multisampled pass where hardware has the pattern and
 /// that is faster.
 fn further_samples(method: &MethodErrors, samples: u32, passes: &PassTimes) -> Result<f64, FrameError> {
-    let one_by_one = pass(passes, "depth and normals", samples)?;
-    let is_hardwares = matches!(option(method, "pattern"), None | Some("latin4"));
-    let at_once = pass(passes, "depth and normals, multisampled", samples).ok();
+    let one_by_one = pass_time(passes, "depth and normals", samples)?;
+    let is_hardwares = matches!(find_option(method, "pattern"), None | Some("latin4"));
+    let at_once = pass_time(passes, "depth and normals, multisampled", samples).ok();
     Ok(at_once
         .filter(|_| is_hardwares)
         .map_or(one_by_one, |ms| ms.min(one_by_one)))
 }
 
-fn shaded(method: &MethodErrors) -> u32 {
-    let listed = option(method, "shaded").filter(|_| option(method, "shading") == Some("listed"));
+fn shading_sample_count(method: &MethodErrors) -> u32 {
+    let listed = find_option(method, "shaded").filter(|_| find_option(method, "shading") == Some("listed"));
     listed.map_or(1, |list| list.split(',').count() as u32)
 }
 
@@ -357,9 +357,9 @@ mod tests {
             only: vec![name.to_owned()],
             ..at(&[1.0])
         };
-        let record = frames(&passes, &errors, &only("4x"), String::new()).unwrap();
+        let record = combine_frames(&passes, &errors, &only("4x"), String::new()).unwrap();
         assert_eq!((record.methods.len(), record.absent.len()), (1, 0));
-        let error = frames(&passes, &errors, &only("5x"), String::new())
+        let error = combine_frames(&passes, &errors, &only("5x"), String::new())
             .unwrap_err()
             .to_string();
         assert!(error.contains("`5x`"), "{error}");
@@ -368,7 +368,7 @@ mod tests {
     #[test]
     fn frames_are_the_sums_of_their_parts() {
         let (passes, errors) = records();
-        let record = frames(&passes, &errors, &at(&[1.0, 20.0]), String::new()).unwrap();
+        let record = combine_frames(&passes, &errors, &at(&[1.0, 20.0]), String::new()).unwrap();
         let ms = |name: &str| -> Vec<f64> {
             let method = record.methods.iter().find(|m| m.method == name).unwrap();
             method.frames.iter().map(|frame| frame.ms).collect()
@@ -393,19 +393,19 @@ mod tests {
     fn records_of_different_things_are_refused() {
         let (mut passes, errors) = records();
         passes.circumstances = circumstances([32, 32]);
-        let error = frames(&passes, &errors, &at(&[1.0]), String::new())
+        let error = combine_frames(&passes, &errors, &at(&[1.0]), String::new())
             .unwrap_err()
             .to_string();
         assert!(error.contains("size: 32x32 and 64x64"), "{error}");
         passes.circumstances = circumstances([64, 64]);
         passes.scene = "stair".to_owned();
-        let error = frames(&passes, &errors, &at(&[1.0]), String::new())
+        let error = combine_frames(&passes, &errors, &at(&[1.0]), String::new())
             .unwrap_err()
             .to_string();
         assert!(error.contains("`stair`") && error.contains("roof"), "{error}");
         passes.scene = "roof".to_owned();
         passes.passes.clear();
-        let error = frames(&passes, &errors, &at(&[1.0]), String::new())
+        let error = combine_frames(&passes, &errors, &at(&[1.0]), String::new())
             .unwrap_err()
             .to_string();
         assert!(error.contains("main G-buffer"), "{error}");

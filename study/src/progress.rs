@@ -7,7 +7,7 @@ pub trait Progress {
     /// Reports that a step is done.
     fn step(&mut self);
     /// Returns whether to stop at once, and keep what was measured.
-    fn stopped(&self) -> bool;
+    fn is_stopped(&self) -> bool;
 }
 
 /// Shows nothing and never stops a study.
@@ -17,7 +17,7 @@ pub struct Silent;
 impl Progress for Silent {
     fn begin(&mut self, _: &str, _: usize) {}
     fn step(&mut self) {}
-    fn stopped(&self) -> bool {
+    fn is_stopped(&self) -> bool {
         false
     }
 }

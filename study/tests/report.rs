@@ -240,7 +240,7 @@ fn the_page_says_what_the_records_say() {
     quality(true).write(&folder).unwrap();
     hard().write(&folder).unwrap();
     tune().write(&folder).unwrap();
-    let path = report::write(&folder).unwrap();
+    let path = report::write_report(&folder).unwrap();
     let html = std::fs::read_to_string(&path).unwrap().replace("&#x2F;", "/");
     for expected in [
         "an adapter (a driver &lt;1.2&gt;, Vulkan)",
@@ -277,10 +277,10 @@ fn the_page_says_what_the_records_say() {
     }
     // Without pictures the rest is there.
     quality(false).write(&folder).unwrap();
-    assert!(!report::page(&folder).unwrap().contains("class=\"pair\""));
+    assert!(!report::render_page(&folder).unwrap().contains("class=\"pair\""));
     std::fs::remove_file(pictures.join("SRAA.png")).unwrap();
     quality(true).write(&folder).unwrap();
-    let error = report::page(&folder).unwrap_err().to_string();
+    let error = report::render_page(&folder).unwrap_err().to_string();
     assert!(error.contains("SRAA.png"), "{error}");
     std::fs::remove_dir_all(&folder).unwrap();
 }
@@ -318,7 +318,7 @@ fn a_time_beyond_all_measure_is_refused() {
     }
     record.write(&folder).unwrap();
     let start = std::time::Instant::now();
-    let said = report::write(&folder).unwrap_err().to_string();
+    let said = report::write_report(&folder).unwrap_err().to_string();
     assert!(said.contains("e308") && said.contains("measure again"), "{said}");
     assert!(start.elapsed().as_secs() < 10);
     std::fs::remove_dir_all(&folder).unwrap();

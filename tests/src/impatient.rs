@@ -13,7 +13,7 @@ impl Progress for StopsAfter {
         self.0 = self.0.saturating_sub(1);
     }
 
-    fn stopped(&self) -> bool {
+    fn is_stopped(&self) -> bool {
         self.0 == 0
     }
 }

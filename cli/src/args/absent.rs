@@ -1,7 +1,7 @@
 //! What stands for commands that are not built in: they are known, and say how to get them.
 #![cfg_attr(feature = "study", allow(dead_code, reason = "its tests run where all is built in"))]
 
-use crate::commands::lacking;
+use crate::commands::lacking_feature;
 use crate::failure::Failure;
 use clap::Args;
 use std::ffi::OsString;
@@ -21,7 +21,7 @@ pub struct AbsentArgs {
 impl AbsentArgs {
     /// Why the command does nothing, and what helps.
     pub fn refusal(&self) -> Failure {
-        lacking("study")
+        lacking_feature("study")
     }
 }
 

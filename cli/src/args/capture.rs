@@ -29,7 +29,7 @@ pub struct ViewArgs {
 #[cfg(feature = "study")]
 impl ViewArgs {
     /// The scene's name, or that of the model's file.
-    pub fn name(&self) -> String {
+    pub fn scene_name(&self) -> String {
         let model = self.mesh.as_deref().and_then(std::path::Path::file_name);
         model.map_or_else(|| self.scene.clone(), |name| name.to_string_lossy().into_owned())
     }

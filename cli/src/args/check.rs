@@ -36,12 +36,12 @@ pub struct CheckArgs {
 
 impl CheckArgs {
     /// The description of the shader that is checked.
-    pub fn spec(&self) -> ShaderSpec {
-        self.options.spec(&self.writing)
+    pub fn shader_spec(&self) -> ShaderSpec {
+        self.options.shader_spec(&self.writing)
     }
 
     /// The arguments for one of the kernels.
-    pub fn of(&self, kernel: &str) -> KernelArgs {
+    pub fn kernel_args(&self, kernel: &str) -> KernelArgs {
         KernelArgs {
             kernel: kernel.to_owned(),
             source: self.source.clone(),

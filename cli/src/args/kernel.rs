@@ -21,8 +21,8 @@ pub struct KernelArgs {
 
 impl KernelArgs {
     /// The kernel with all its files.
-    pub fn locate(&self) -> Result<Kernel, Errors> {
-        let kernel = Kernel::locate(&self.kernel);
+    pub fn locate_kernel(&self) -> Result<Kernel, Errors> {
+        let kernel = Kernel::from_argument(&self.kernel);
         self.source.iter().fold(kernel, |kernel, path| kernel?.with_file(path))
     }
 }

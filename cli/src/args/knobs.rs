@@ -31,14 +31,14 @@ impl SettingsArgs {
     }
 
     /// The description of a shader that is written as `writing` says.
-    pub fn spec(&self, writing: &WritingArgs) -> ShaderSpec {
+    pub fn shader_spec(&self, writing: &WritingArgs) -> ShaderSpec {
         writing.0.apply(self.0.apply(ShaderSpec::new()))
     }
 }
 
 impl<const WRITING: bool> Args for KnobArgs<WRITING> {
     fn augment_args(command: Command) -> Command {
-        Self::knobs().fold(command, |command, knob| command.arg(argument(knob)))
+        Self::knobs().fold(command, |command, knob| command.arg(knob_argument(knob)))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -76,7 +76,7 @@ impl<const WRITING: bool> FromArgMatches for KnobArgs<WRITING> {
 }
 
 /// The argument of a knob.
-fn argument(knob: &'static Knob) -> Arg {
+fn knob_argument(knob: &'static Knob) -> Arg {
     let argument = Arg::new(knob.name).long(knob.name).help(knob.help());
     let argument = match knob.part {
         Part::Settings => argument.help_heading("Kernel options"),
@@ -89,7 +89,7 @@ fn argument(knob: &'static Knob) -> Arg {
         Arity::Many => ArgAction::Append,
         _ => ArgAction::Set,
     };
-    let default = knob.texts(&ShaderSpec::new()).join(",");
+    let default = knob.value_texts(&ShaderSpec::new()).join(",");
     let argument = argument
         .value_name(knob.value)
         .action(action)

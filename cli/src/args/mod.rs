@@ -133,8 +133,8 @@ pub struct EmitArgs {
 
 impl EmitArgs {
     /// The description of the shader.
-    pub fn spec(&self) -> ShaderSpec {
-        self.kernel.options.spec(&self.writing)
+    pub fn shader_spec(&self) -> ShaderSpec {
+        self.kernel.options.shader_spec(&self.writing)
     }
 }
 

@@ -78,9 +78,9 @@ pub struct WatchArgs {
 
 impl WatchArgs {
     /// The arguments of `run` that make the picture, if there is to be one.
-    pub fn run(&self) -> Option<RunArgs> {
+    pub fn to_run_args(&self) -> Option<RunArgs> {
         let picture = self.picture.clone()?;
-        let spec = self.emit.spec();
+        let spec = self.emit.shader_spec();
         Some(RunArgs {
             kernel: self.emit.kernel.clone(),
             given: self.given.clone(),

@@ -37,7 +37,7 @@ pub struct CommonArgs {
 
 impl CommonArgs {
     /// Width and height of pictures.
-    pub fn size(&self) -> UVec2 {
+    pub fn picture_size(&self) -> UVec2 {
         self.size.unwrap_or(match self.quick {
             true => UVec2::new(480, 270),
             false => UVec2::new(1280, 720),
@@ -45,7 +45,7 @@ impl CommonArgs {
     }
 
     /// Rounds of timing.
-    pub fn rounds(&self) -> u32 {
+    pub fn timing_rounds(&self) -> u32 {
         self.rounds.unwrap_or(if self.quick { 11 } else { 31 })
     }
 }

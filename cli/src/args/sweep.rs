@@ -6,7 +6,7 @@ use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::{ShaderSpec, Stage, Unroll, shorten};
 use straightline_study::record::Shard;
-use straightline_study::sweep::{Loops, values, varied_knob};
+use straightline_study::sweep::{Loops, parse_values, varied_knob};
 
 #[derive(Clone, Debug, Args)]
 pub struct SweepArgs {
@@ -93,13 +93,13 @@ pub struct RecordsArgs {
 
 fn options(text: &str) -> Result<(String, Vec<String>), String> {
     let (name, list) = pair(text)?;
-    Ok((name, values(&list)?))
+    Ok((name, parse_values(&list)?))
 }
 
 fn varied(text: &str) -> Result<(&'static str, Vec<String>), String> {
     let (name, list) = pair(text)?;
     let knob = varied_knob(&name)?;
-    let values = values(&list)?;
+    let values = parse_values(&list)?;
     values
         .iter()
         .try_for_each(|value| knob.set(&mut ShaderSpec::new(), &[value]))?;

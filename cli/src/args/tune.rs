@@ -61,7 +61,7 @@ impl TuneArgs {
             metric: ErrorMetric::Psnr,
             cost: Cost::Time,
             size: common.size.or(common.quick.then_some(UVec2::new(320, 180))),
-            rounds: common.rounds(),
+            rounds: common.timing_rounds(),
             set: Vec::new(),
             target: vec![Target::Wgsl],
             format: Format::default(),

@@ -7,9 +7,9 @@ use serde_json::json;
 use wgpu::{DownlevelFlags, Features, TextureFormat, TextureUsages};
 
 /// Prints every adapter and what it can do.
-pub fn run(args: &AdaptersArgs) -> Result<(), Failure> {
-    let adapters = gpu::adapters();
-    let described: Vec<_> = adapters.iter().map(describe).collect();
+pub fn print_adapters(args: &AdaptersArgs) -> Result<(), Failure> {
+    let adapters = gpu::list_adapters();
+    let described: Vec<_> = adapters.iter().map(adapter_json).collect();
     if args.json {
         outln!("{:#}", json!({ "adapters": described }));
         return Ok(());
@@ -30,13 +30,13 @@ pub fn run(args: &AdaptersArgs) -> Result<(), Failure> {
             "subgroups",
             "float32_output",
         ] {
-            outln!("  {:<16} {}", key.replace('_', " "), plain(&adapter[key]));
+            outln!("  {:<16} {}", key.replace('_', " "), format_value(&adapter[key]));
         }
     }
     Ok(())
 }
 
-fn plain(value: &serde_json::Value) -> String {
+fn format_value(value: &serde_json::Value) -> String {
     match value {
         serde_json::Value::String(text) => text.clone(),
         serde_json::Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
@@ -44,7 +44,7 @@ fn plain(value: &serde_json::Value) -> String {
     }
 }
 
-fn describe(adapter: &wgpu::Adapter) -> serde_json::Value {
+fn adapter_json(adapter: &wgpu::Adapter) -> serde_json::Value {
     let info = adapter.get_info();
     let features = adapter.features();
     let storage = adapter

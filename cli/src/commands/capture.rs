@@ -9,32 +9,33 @@ use straightline_scene::gbuffer;
 use straightline_scene::render::{self, PlacedBy};
 
 /// Renders and writes a capture, or nothing.
-pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
+pub fn render_capture(args: &CaptureArgs) -> Result<(), Failure> {
     if !cfg!(feature = "exr") {
-        return Err(super::lacking("exr"));
+        return Err(super::lacking_feature("exr"));
     }
-    let samples = scene::pattern(&args.pattern)?;
-    let shading = scene::shading(&args.shading, &args.shaded)?;
+    let samples = scene::sample_offsets(&args.pattern)?;
+    let shading = scene::parse_shading(&args.shading, &args.shaded)?;
     let placed_by = placed_by(args, &shading)?;
-    let world = scene::viewed(&args.view)?;
+    let world = scene::load_viewed(&args.view)?;
     let gpu = Gpu::open(&args.adapter)?;
-    let renderer = scene::renderer(gpu.as_ref(), &world, args.size)?;
+    let renderer = scene::create_renderer(gpu.as_ref(), &world, args.size)?;
     let capture = match placed_by {
         Some(by) => render::capture_placed(renderer.as_ref(), &samples, by),
         None => render::capture(renderer.as_ref(), &samples, shading),
     };
-    let mut capture = capture.map_err(Failure::of)?;
+    let mut capture = capture.map_err(Failure::from_error)?;
     if args.albedo {
-        render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::of)?;
+        render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::from_error)?;
     }
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };
-        let bar = scene::bar(&format!("rendering {samples} samples"));
-        let frame = render::reference(renderer.as_ref(), side, &mut scene::advance(&bar)).map_err(Failure::of)?;
+        let bar = scene::progress_bar(&format!("rendering {samples} samples"));
+        let frame =
+            render::reference(renderer.as_ref(), side, &mut scene::advance_bar(&bar)).map_err(Failure::from_error)?;
         bar.finish_and_clear();
         capture.reference = Some(frame);
     }
-    capture.write(&args.out).map_err(Failure::of)?;
+    capture.write(&args.out).map_err(Failure::from_error)?;
     outln!("{}", args.out.display());
     Ok(())
 }

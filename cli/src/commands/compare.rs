@@ -12,8 +12,8 @@ use straightline_scene::picture;
 /// Reads two pictures of one size and prints PSNR, SSIM and FLIP.
 ///
 /// If either is a PNG, both are taken at its 8 bits, as `study error` takes all pictures: then the figures are the same.
-pub fn run(args: &CompareArgs) -> Result<(), Failure> {
-    let read = |path: &Path| picture::read(path).map_err(Failure::of);
+pub fn compare_pictures(args: &CompareArgs) -> Result<(), Failure> {
+    let read = |path: &Path| picture::read(path).map_err(Failure::from_error);
     let (mut test, mut reference) = (read(&args.picture)?, read(&args.reference)?);
     if test.size() != reference.size() {
         let said =

@@ -1,6 +1,6 @@
 //! `demo`: what Straightline does, in one run.
 
-use super::command;
+use super::command_line;
 use crate::args::DemoArgs;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
@@ -61,8 +61,8 @@ struct Record {
 }
 
 /// Emits, renders, antialiases, compares, writes and prints.
-pub fn run(args: &DemoArgs) -> Result<(), Failure> {
-    files::try_folder(&args.out).map_err(Failure::of)?;
+pub fn run_demo(args: &DemoArgs) -> Result<(), Failure> {
+    files::try_folder(&args.out).map_err(Failure::from_error)?;
     let gpu = Gpu::open(&args.adapter)?;
     if gpu.is_none() {
         errln!(
@@ -75,22 +75,22 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     } else {
         UVec2::new(320, 180)
     });
-    let shaders = default_set::files().map_err(Failure::of)?;
+    let shaders = default_set::emit_files().map_err(Failure::from_error)?;
     let shaders = shaders
         .into_iter()
         .map(|(name, bytes)| (format!("shaders/{name}"), bytes));
     let mut set: BTreeMap<String, Vec<u8>> = shaders.collect();
 
-    let world = scene::load(args.mesh.as_deref(), &args.scene)?;
-    let renderer = scene::renderer(gpu.as_ref(), &world, size)?;
+    let world = scene::load_scene(args.mesh.as_deref(), &args.scene)?;
+    let renderer = scene::create_renderer(gpu.as_ref(), &world, size)?;
     let methods = [
-        method("SRAA 4", "latin4", renderer.as_ref())?,
-        method("SRAA 16", "latin16", renderer.as_ref())?,
+        prepare_method("SRAA 4", "latin4", renderer.as_ref())?,
+        prepare_method("SRAA 16", "latin16", renderer.as_ref())?,
     ];
-    let x16 = supersampled(renderer.as_ref(), 4, "16x supersampling")?;
-    let x256 = supersampled(renderer.as_ref(), 16, "256x reference")?;
+    let x16 = render_supersampled(renderer.as_ref(), 4, "16x supersampling")?;
+    let x256 = render_supersampled(renderer.as_ref(), 16, "256x reference")?;
 
-    let mut rows = vec![plain("1x, no antialiasing", &methods[0].capture.color, &x256)];
+    let mut rows = vec![plain_row("1x, no antialiasing", &methods[0].capture.color, &x256)];
     let mut pictures = vec![("1x", methods[0].capture.color.clone())];
     let mut clock = Clock::WallClock;
     for method in &methods {
@@ -102,15 +102,15 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
         rows.push(measured_row(method, &resolved, looped, unrolled, &x256)?);
         pictures.push((method.name, resolved));
     }
-    rows.push(plain("16x supersampling", &x16, &x256));
+    rows.push(plain_row("16x supersampling", &x16, &x256));
     pictures.push(("16x supersampled", x16));
     add_pictures(&mut set, &pictures, &x256)?;
     // Shaders and pictures are one set: whole, or not there.
-    files::write_all(&args.out, &set).map_err(Failure::of)?;
+    files::write_all(&args.out, &set).map_err(Failure::from_error)?;
 
     let executor = gpu.as_ref().map_or("CPU interpreter".to_owned(), Gpu::describe);
     let record = Record {
-        command: command(),
+        command: command_line(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         scene: args
             .mesh
@@ -125,27 +125,27 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     print(args, &record)
 }
 
-fn method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) -> Result<Method, Failure> {
+fn prepare_method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) -> Result<Method, Failure> {
     let compile = |unroll| {
         let options = vec![("pattern".to_owned(), pattern.to_owned())];
         let settings = Settings::new().set_all(options).unroll(unroll);
         Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings))
     };
-    let samples = scene::pattern(pattern)?;
-    let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::of)?;
+    let samples = scene::sample_offsets(pattern)?;
+    let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::from_error)?;
     let unrolled = compile(Unroll::Full)?;
     Ok(Method {
         name,
-        inputs: gbuffer::inputs(&capture, &unrolled.options).map_err(Failure::of)?,
+        inputs: gbuffer::inputs(&capture, &unrolled.options).map_err(Failure::from_error)?,
         unrolled,
         looped: compile(Unroll::None)?,
         capture,
     })
 }
 
-fn supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Result<Frame<Vec4>, Failure> {
-    let bar = scene::bar(what);
-    let frame = render::reference(renderer, side, &mut scene::advance(&bar)).map_err(Failure::of)?;
+fn render_supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Result<Frame<Vec4>, Failure> {
+    let bar = scene::progress_bar(what);
+    let frame = render::reference(renderer, side, &mut scene::advance_bar(&bar)).map_err(Failure::from_error)?;
     bar.finish_and_clear();
     Ok(frame)
 }
@@ -163,18 +163,18 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     let prepared = [&method.looped, &method.unrolled].map(prepared);
     let mut jobs = Vec::new();
     for pair in &prepared {
-        let (pass, uploaded) = pair.as_ref().map_err(Failure::of)?;
+        let (pass, uploaded) = pair.as_ref().map_err(Failure::from_error)?;
         let size = inputs.size;
         jobs.push(Job { pass, uploaded, size });
     }
-    let bar = scene::bar("timing 2 SRAA shaders");
+    let bar = scene::progress_bar("timing 2 SRAA shaders");
     bar.set_length(u64::from(rounds));
     let timed = bench.interleaved(&jobs, rounds, |k| bar.set_position(u64::from(k)));
-    let (times, clock) = timed.map_err(Failure::of)?;
+    let (times, clock) = timed.map_err(Failure::from_error)?;
     bar.finish_and_clear();
     let resolved = bench
         .run(&method.unrolled, Stage::Compute, inputs)
-        .map_err(Failure::of)?;
+        .map_err(Failure::from_error)?;
     Ok((resolved, [times[0], times[1]], clock))
 }
 
@@ -183,11 +183,11 @@ fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     let inputs = &method.inputs;
     let mut times = [Vec::new(), Vec::new()];
     let mut resolved = None;
-    let bar = scene::bar("interpreting 2 shaders");
+    let bar = scene::progress_bar("interpreting 2 shaders");
     bar.set_length(2);
     for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
         let start = Instant::now();
-        let texels = interpret::<f32>(compiled, inputs, false).map_err(Failure::of)?;
+        let texels = interpret::<f32>(compiled, inputs, false).map_err(Failure::from_error)?;
         resolved = Some(texels.frame(inputs));
         times.push(start.elapsed());
         bar.inc(1);
@@ -195,11 +195,11 @@ fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     bar.finish_and_clear();
     match (resolved, Times::of(&times[0]), Times::of(&times[1])) {
         (Some(resolved), Some(looped), Some(unrolled)) => Ok((resolved, [looped, unrolled], Clock::WallClock)),
-        _ => Err(Failure::of("nothing was interpreted")),
+        _ => Err(Failure::from_error("nothing was interpreted")),
     }
 }
 
-fn plain(method: &str, frame: &Frame<Vec4>, reference: &Frame<Vec4>) -> Row {
+fn plain_row(method: &str, frame: &Frame<Vec4>, reference: &Frame<Vec4>) -> Row {
     Row {
         method: method.to_owned(),
         texture_reads: None,
@@ -220,8 +220,8 @@ fn measured_row(
     reference: &Frame<Vec4>,
 ) -> Result<Row, Failure> {
     let counts = &method.unrolled.counts;
-    let params = SraaParams::of(&method.unrolled.options).map_err(Failure::of)?;
-    let exact = oracle::sraa(&method.inputs, &params).map_err(Failure::of)?;
+    let params = SraaParams::of(&method.unrolled.options).map_err(Failure::from_error)?;
+    let exact = oracle::sraa(&method.inputs, &params).map_err(Failure::from_error)?;
     let exact: Vec<[f64; 4]> = exact.into_iter().map(|pixel| pixel.color).collect();
     Ok(Row {
         texture_reads: Some(counts.texture_reads + counts.colour_reads),
@@ -230,7 +230,7 @@ fn measured_row(
         unrolled: Some(unrolled),
         ratio: Some(looped.median_ms / unrolled.median_ms),
         largest_difference_to_f64: Some(metrics::max_abs_difference_to(resolved, &exact)),
-        ..plain(method.name, resolved, reference)
+        ..plain_row(method.name, resolved, reference)
     })
 }
 
@@ -240,7 +240,7 @@ fn add_pictures(
     reference: &Frame<Vec4>,
 ) -> Result<(), Failure> {
     let mut save = |name: &str, frame: &Frame<Vec4>| -> Result<(), Failure> {
-        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
+        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::from_error)?);
         Ok(())
     };
     for (name, frame) in pictures {
@@ -254,7 +254,7 @@ fn add_pictures(
 
 fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
-        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::from_error)?);
         return Ok(());
     }
     let count = |n: Option<u32>| n.map_or(String::new(), |n| n.to_string());
@@ -286,7 +286,7 @@ fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
         "PSNR",
         "off f64 by",
     ];
-    outln!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render_table(&headings, &rows));
     let with = match record.clock {
         Clock::GpuTimestamps => "GPU timestamps, shaders in turn",
         Clock::WallClock => "wall clock, in turn",

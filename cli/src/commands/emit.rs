@@ -1,6 +1,6 @@
 //! `emit`: shaders for other engines.
 
-use super::notes::notes;
+use super::notes::find_notes;
 use crate::args::EmitArgs;
 use crate::failure::Failure;
 use std::collections::BTreeMap;
@@ -11,13 +11,13 @@ use straightline_kernels::HalfPrecision;
 
 /// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing; prints the
 /// paths.
-pub fn run(args: &EmitArgs) -> Result<(), Failure> {
-    let ready = compile(args)?;
-    for file in write(args, &ready)? {
+pub fn emit_kernel(args: &EmitArgs) -> Result<(), Failure> {
+    let ready = compile_kernel(args)?;
+    for file in write_shaders(args, &ready)? {
         outln!("{}", file.display());
     }
     let Ready { kernel, compiled } = &ready;
-    for note in notes(kernel, &args.spec().settings, compiled) {
+    for note in find_notes(kernel, &args.shader_spec().settings, compiled) {
         errln!("note: {note}");
     }
     Ok(())
@@ -30,15 +30,15 @@ pub struct Ready {
 }
 
 /// Reads and compiles the kernel.
-pub fn compile(args: &EmitArgs) -> Result<Ready, Failure> {
-    let kernel = args.kernel.locate()?;
-    let compiled = args.spec().compile(&kernel)?;
+pub fn compile_kernel(args: &EmitArgs) -> Result<Ready, Failure> {
+    let kernel = args.kernel.locate_kernel()?;
+    let compiled = args.shader_spec().compile(&kernel)?;
     Ok(Ready { kernel, compiled })
 }
 
 /// Writes all files or none; gives their paths.
-pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<PathBuf>, Failure> {
-    let options = args.spec().emit;
+pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<PathBuf>, Failure> {
+    let options = args.shader_spec().emit;
     if options.accept_loss && options.precision != Precision::F16 {
         return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned()));
     }
@@ -54,7 +54,7 @@ pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<
         return write_all(args, compiled, &files);
     }
     let emitted = compiled.emit(&options)?;
-    write_all(args, compiled, &emitted.named(name))
+    write_all(args, compiled, &emitted.named_files(name))
 }
 
 /// The files for an engine.
@@ -68,7 +68,7 @@ fn for_engine(
     let failure = |error| match error {
         EngineError::Unknown { .. } => Failure::Usage(error.to_string()),
         EngineError::Kernel(errors) => Failure::Kernel(errors),
-        error => Failure::of(error),
+        error => Failure::from_error(error),
     };
     let engine = Engine::find(engine).map_err(failure)?;
     let options = kernel.options()?;
@@ -77,13 +77,13 @@ fn for_engine(
         emit,
         ..Request::new(compiled, &options)
     };
-    engine.files(&request).map_err(failure)
+    engine.render_files(&request).map_err(failure)
 }
 
 fn write_all(args: &EmitArgs, compiled: &Compiled, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {
-    if args.spec().emit.precision == Precision::F16 && compiled.half_precision() == HalfPrecision::Unstudied {
+    if args.shader_spec().emit.precision == Precision::F16 && compiled.half_precision() == HalfPrecision::Unstudied {
         let kernel = &args.kernel.kernel;
         errln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
     }
-    files::write_all(&args.out, named).map_err(Failure::of)
+    files::write_all(&args.out, named).map_err(Failure::from_error)
 }

@@ -1,7 +1,7 @@
 //! `explain`: what a kernel does for each pixel.
 
 use super::machine;
-use super::notes::notes;
+use super::notes::find_notes;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
@@ -14,12 +14,12 @@ use straightline_kernels::{OptionValue, PaperCounts};
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
 /// Prints the counts of one kernel and option set.
-pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
+pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     if let Some(code) = Code::from_number(&args.kernel.kernel) {
         explain_code(code, args.json);
         return Ok(());
     }
-    let kernel = args.kernel.locate()?;
+    let kernel = args.kernel.locate_kernel()?;
     let compiled = kernel.compile_observed(&args.kernel.options.settings(), &mut |stage, graph| {
         if args.dump {
             outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
@@ -38,11 +38,11 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
             family,
         )?),
     };
-    let bound = bound(&described);
+    let bound = bound_names(&described);
     let features = described.features.join(", ");
     let counts = described.counts;
-    let paper = compiled.paper();
-    let remarks = notes(&kernel, &args.kernel.options.settings(), &compiled);
+    let paper = compiled.paper_counts();
+    let remarks = find_notes(&kernel, &args.kernel.options.settings(), &compiled);
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
@@ -84,11 +84,11 @@ const WIDTH: usize = 80;
 /// Columns of a section's head, before its text.
 const HEAD: usize = 10;
 
-fn section(head: &str, text: &str) {
+fn print_section(head: &str, text: &str) {
     let text = if text.is_empty() { "none" } else { text };
     outln!(
         "{}",
-        table::wrapped(text, WIDTH, &format!("{head:HEAD$}"), &" ".repeat(HEAD))
+        table::wrap_text(text, WIDTH, &format!("{head:HEAD$}"), &" ".repeat(HEAD))
     );
 }
 
@@ -98,7 +98,7 @@ struct Bound {
     uniforms: Vec<String>,
 }
 
-fn bound(manifest: &Manifest) -> Bound {
+fn bound_names(manifest: &Manifest) -> Bound {
     let (mut inputs, mut uniforms) = (Vec::new(), Vec::new());
     for binding in &manifest.bindings {
         match &binding.kind {
@@ -190,22 +190,22 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         "" => compiled.kernel.clone(),
         summary => format!("{}: {summary}", compiled.kernel),
     };
-    outln!("{}\n", table::wrapped(&title, WIDTH, "", "  "));
+    outln!("{}\n", table::wrap_text(&title, WIDTH, "", "  "));
     let is_empty = |value: &OptionValue| value.numbers().is_some_and(<[f64]>::is_empty);
     let given = compiled.options.iter().filter(|(_, value)| !is_empty(value));
     let options = given.map(|(name, value)| format!("{name}={value}"));
-    section("Options", &options.collect::<Vec<_>>().join(" "));
-    section("Unroll", &compiled.policy.to_string());
-    section("Inputs", &bound.inputs.join(", "));
-    section("Uniforms", &bound.uniforms.join(", "));
+    print_section("Options", &options.collect::<Vec<_>>().join(" "));
+    print_section("Unroll", &compiled.policy.to_string());
+    print_section("Inputs", &bound.inputs.join(", "));
+    print_section("Uniforms", &bound.uniforms.join(", "));
     outln!();
     let mut rows = vec![
-        row("basic blocks", counts.basic_blocks, None),
-        row("loops", counts.loops, None),
-        row("texture reads", counts.texture_reads, paper.map(|p| p.texture_reads)),
+        count_row("basic blocks", counts.basic_blocks, None),
+        count_row("loops", counts.loops, None),
+        count_row("texture reads", counts.texture_reads, paper.map(|p| p.texture_reads)),
     ];
     for (name, n) in &counts.reads {
-        rows.push(row(
+        rows.push(count_row(
             &format!("  of {name}{}", if name == "color" { ", counted apart" } else { "" }),
             *n,
             None,
@@ -215,10 +215,10 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         let paper = paper
             .filter(|_| name == "weight_evaluations")
             .map(|p| p.weight_evaluations);
-        rows.push(row(&name.replace('_', " "), *n, paper));
+        rows.push(count_row(&name.replace('_', " "), *n, paper));
     }
     if counts.messages > 0 {
-        rows.push(row("messages", counts.messages, None));
+        rows.push(count_row("messages", counts.messages, None));
     }
     for (name, n) in [
         ("reads of shared memory", counts.shared_reads),
@@ -226,26 +226,26 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         ("bytes a workgroup shares", counts.shared_memory),
     ] {
         if n > 0 {
-            rows.push(row(name, n, None));
+            rows.push(count_row(name, n, None));
         }
     }
     if counts.exact > 0 {
-        rows.push(row("operations kept in order", counts.exact, None));
+        rows.push(count_row("operations kept in order", counts.exact, None));
     }
-    rows.push(row("transcendentals", counts.transcendentals, None));
-    rows.push(row("other arithmetic", counts.alu, None));
-    rows.push(row("statements", counts.statements, None));
-    rows.push(row("scalars alive at most", counts.max_live, None));
+    rows.push(count_row("transcendentals", counts.transcendentals, None));
+    rows.push(count_row("other arithmetic", counts.alu, None));
+    rows.push(count_row("statements", counts.statements, None));
+    rows.push(count_row("scalars alive at most", counts.max_live, None));
     let per = match compiled.graph.invocation.pixels() {
         [1, 1] => "a pixel".to_owned(),
         [width, height] => format!("{width}x{height} pixels"),
     };
     let per = format!("Counts for {per}");
     match paper {
-        Some(_) => out!("{}", table::render(&[&per, "here", "paper"], &rows)),
+        Some(_) => out!("{}", table::render_table(&[&per, "here", "paper"], &rows)),
         None => {
             rows.iter_mut().for_each(|row| row.truncate(2));
-            out!("{}", table::render(&[&per, "here"], &rows));
+            out!("{}", table::render_table(&[&per, "here"], &rows));
         }
     }
     if !counts.max_live_at.is_empty() {
@@ -277,7 +277,10 @@ fn print_sharing(sharing: &Sharing) {
     let head = format!("Shared by {width}x{height} pixels");
     let rows: Vec<Vec<String>> = rows.collect();
     outln!();
-    out!("{}", table::render(&[&head, "texels", "bytes", "reads", "now"], &rows));
+    out!(
+        "{}",
+        table::render_table(&[&head, "texels", "bytes", "reads", "now"], &rows)
+    );
     for apart in &sharing.apart {
         let (reads, of) = (apart.reads, &apart.texture);
         let noun = if reads == 1 { "read" } else { "reads" };
@@ -298,7 +301,7 @@ fn print_gathered(gathered: &[Gathered]) {
         .iter()
         .map(|g| vec![g.of(), g.reads.to_string(), g.gathers.to_string()]);
     let rows: Vec<Vec<String>> = rows.collect();
-    out!("{}", table::render(&["Gathered", "reads", "gathers"], &rows));
+    out!("{}", table::render_table(&["Gathered", "reads", "gathers"], &rows));
 }
 
 /// Prints the treatment of each loop, and the reason why it was unrolled where it was asked to be left in the shader.
@@ -317,7 +320,10 @@ fn print_loops(compiled: &Compiled) {
         return;
     }
     outln!();
-    out!("{}", table::render(&["Loop", "unroll", "copies", "operations"], &loops));
+    out!(
+        "{}",
+        table::render_table(&["Loop", "unroll", "copies", "operations"], &loops)
+    );
     for report in &compiled.loops {
         if let Some(reason) = &report.reason {
             let became = match report.unroll {
@@ -329,7 +335,7 @@ fn print_loops(compiled: &Compiled) {
     }
 }
 
-fn row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
+fn count_row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
     vec![
         name.to_owned(),
         n.to_string(),

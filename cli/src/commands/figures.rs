@@ -2,7 +2,7 @@
 
 use super::quads::pictures;
 use super::study::ProgressBars;
-use super::study::error::failure;
+use super::study::error::to_failure;
 use crate::args::FiguresArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -24,7 +24,7 @@ const OF_THE_CHAPTER: [(&str, &str); 2] = [
 ];
 
 /// Makes all that are asked for, and writes them together.
-pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
+pub fn write_figures(args: &FiguresArgs) -> Result<(), Failure> {
     let known: Vec<&str> = FIGURES
         .iter()
         .map(|figure| figure.name)
@@ -36,7 +36,7 @@ pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
             known.join(", ")
         )));
     }
-    files::try_folder(&args.out).map_err(Failure::of)?;
+    files::try_folder(&args.out).map_err(Failure::from_error)?;
     let wanted = |name: &str| args.figures.is_empty() || args.figures.iter().any(|asked| asked == name);
     let gpu = Gpu::require(&args.adapter)?;
     let bench = gpu.bench();
@@ -44,8 +44,10 @@ pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
     let (mut set, mut rows) = (BTreeMap::new(), Vec::new());
     let chosen: Vec<&Figure> = FIGURES.iter().filter(|figure| wanted(figure.name)).collect();
     for figure in chosen {
-        let made = figure.make(&bench, args.size, &mut progress).map_err(failure)?;
-        let bytes = picture::png_bytes(&made.picture).map_err(Failure::of)?;
+        let made = figure
+            .render_panes(&bench, args.size, &mut progress)
+            .map_err(to_failure)?;
+        let bytes = picture::png_bytes(&made.picture).map_err(Failure::from_error)?;
         set.insert(format!("{}.png", figure.name), bytes);
         let psnr: Vec<String> = made
             .psnr
@@ -62,21 +64,25 @@ pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
             rounds: 1,
             least: Duration::ZERO,
         };
-        let studied = quads::study(&bench, &scene::load(None, "roof")?, &setup, &mut progress).map_err(Failure::of)?;
-        let of_quads = [pictures::occlusion(&studied), pictures::shadows(&bench, &studied)?];
+        let studied = quads::study_quads(&bench, &scene::load_scene(None, "roof")?, &setup, &mut progress)
+            .map_err(Failure::from_error)?;
+        let of_quads = [
+            pictures::occlusion_details(&studied),
+            pictures::shadow_details(&bench, &studied)?,
+        ];
         for ((name, shows), made) in OF_THE_CHAPTER.iter().zip(of_quads) {
             if wanted(name) {
-                let bytes = picture::png_bytes(&made).map_err(Failure::of)?;
+                let bytes = picture::png_bytes(&made).map_err(Failure::from_error)?;
                 set.insert(format!("{name}.png"), bytes);
                 rows.push([*name, *shows, ""].map(str::to_owned).to_vec());
             }
         }
     }
     drop(progress);
-    files::write_all(&args.out, &set).map_err(Failure::of)?;
+    files::write_all(&args.out, &set).map_err(Failure::from_error)?;
     outln!(
         "{}",
-        table::render(&["figure", "what it shows", "of the whole picture"], &rows)
+        table::render_table(&["figure", "what it shows", "of the whole picture"], &rows)
     );
     outln!("The pictures are in {}.", args.out.display());
     Ok(())

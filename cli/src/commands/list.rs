@@ -2,40 +2,40 @@
 
 use crate::args::ListArgs;
 use crate::failure::Failure;
-use crate::table::wrapped;
+use crate::table::wrap_text;
 use serde_json::{Value, json};
 use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
-use straightline_engines::{Engine, names};
+use straightline_engines::{Engine, engine_names};
 use straightline_kernels::{CATALOGUE, Entry};
 
 /// Columns of a screen.
 const WIDTH: usize = 80;
 
 /// Prints all kernels and engines, or the one that is named.
-pub fn run(args: &ListArgs) -> Result<(), Failure> {
+pub fn print_list(args: &ListArgs) -> Result<(), Failure> {
     match &args.name {
         None if args.json => all_as_json(),
-        None => all(),
-        Some(name) if names().any(|known| known == name) => engine(name, args.json),
+        None => print_all(),
+        Some(name) if engine_names().any(|known| known == name) => print_engine(name, args.json),
         Some(name) if !name.contains(".rs") && straightline_kernels::find(name).is_none() => {
             Err(Failure::Usage(format!(
                 "there is no kernel or engine `{}`: `list` shows those that there are",
                 shorten(name)
             )))
         }
-        Some(name) => kernel(name, args.json),
+        Some(name) => print_kernel(name, args.json),
     }
 }
 
-fn all() -> Result<(), Failure> {
+fn print_all() -> Result<(), Failure> {
     outln!("Kernels, for `emit`, `explain` and `run`:");
     let width = CATALOGUE.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
     for entry in CATALOGUE {
-        outln!("  {:width$}  {}", entry.name, what(entry));
+        outln!("  {:width$}  {}", entry.name, kernel_purpose(entry));
     }
-    let engines: Vec<&str> = names().collect();
+    let engines: Vec<&str> = engine_names().collect();
     outln!("\nEngines, for `emit --engine NAME`:");
-    outln!("{}", wrapped(&engines.join(", "), WIDTH, "  ", "  "));
+    outln!("{}", wrap_text(&engines.join(", "), WIDTH, "  ", "  "));
     outln!();
     outln!("`list KERNEL` shows what a kernel does and its options, `list ENGINE` what is");
     outln!("written for an engine. A kernel of your own: FILE.rs, or FILE.rs::FUNCTION.");
@@ -43,7 +43,7 @@ fn all() -> Result<(), Failure> {
 }
 
 /// Returns a kernel's purpose, without its authors.
-fn what(entry: &Entry) -> &'static str {
+fn kernel_purpose(entry: &Entry) -> &'static str {
     match entry.summary.rsplit_once(" (") {
         Some((what, _)) if entry.summary.ends_with(')') => what,
         _ => entry.summary,
@@ -56,35 +56,35 @@ fn all_as_json() -> Result<(), Failure> {
         kernels.push(kernel_json(&Kernel::builtin(entry.name)?)?);
     }
     let mut engines = Vec::new();
-    for name in names() {
-        engines.push(engine_json(&Engine::find(name).map_err(Failure::of)?));
+    for name in engine_names() {
+        engines.push(engine_json(&Engine::find(name).map_err(Failure::from_error)?));
     }
     outln!("{:#}", json!({ "kernels": kernels, "engines": engines }));
     Ok(())
 }
 
-fn engine(name: &str, as_json: bool) -> Result<(), Failure> {
-    let engine = Engine::find(name).map_err(Failure::of)?;
+fn print_engine(name: &str, as_json: bool) -> Result<(), Failure> {
+    let engine = Engine::find(name).map_err(Failure::from_error)?;
     if as_json {
         outln!("{:#}", engine_json(&engine));
         return Ok(());
     }
     let description = engine.description();
     let text = format!("{name}: {}: {}", description.title, description.about);
-    outln!("{}", wrapped(&text, WIDTH, "", "  "));
+    outln!("{}", wrap_text(&text, WIDTH, "", "  "));
     outln!("\nstraightline emit KERNEL --engine {name} --out DIR");
     Ok(())
 }
 
-fn kernel(name: &str, as_json: bool) -> Result<(), Failure> {
-    let kernel = Kernel::locate(name)?;
+fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
+    let kernel = Kernel::from_argument(name)?;
     if as_json {
         outln!("{:#}", kernel_json(&kernel)?);
         return Ok(());
     }
     let options = kernel.options()?;
     let summary = straightline_kernels::find(name).map_or(String::new(), |entry| format!(": {}", entry.summary));
-    outln!("{}", wrapped(&format!("{}{summary}", kernel.name()), WIDTH, "", "  "));
+    outln!("{}", wrap_text(&format!("{}{summary}", kernel.name()), WIDTH, "", "  "));
     if options.is_empty() {
         outln!("\nIt has no options.");
         return Ok(());
@@ -95,7 +95,7 @@ fn kernel(name: &str, as_json: bool) -> Result<(), Failure> {
 }
 
 fn print_option(option: &OptionInfo) {
-    let line = |first: &str, text: &str| outln!("{}", wrapped(text, WIDTH, first, "      "));
+    let line = |first: &str, text: &str| outln!("{}", wrap_text(text, WIDTH, first, "      "));
     outln!();
     line("  ", &format!("{}: {}", option.name, option.docs));
     match &option.kind {
@@ -110,7 +110,7 @@ fn print_option(option: &OptionInfo) {
             }
         }
         OptionKind::Number(of) => {
-            let bound = |b: &Option<f64>| b.map_or("any".to_owned(), shortest);
+            let bound = |b: &Option<f64>| b.map_or("any".to_owned(), format_bound);
             let (or, default) = match option.uniform {
                 true => ("", "default: uniform, "),
                 false => (", or uniform", "default "),
@@ -146,7 +146,7 @@ fn default_list(default: &str) -> String {
 }
 
 /// A bound as its author wrote it: the shortest number that is the same float.
-fn shortest(bound: f64) -> String {
+fn format_bound(bound: f64) -> String {
     let float = bound as f32;
     match f64::from(float) == bound {
         true => float.to_string(),

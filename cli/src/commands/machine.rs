@@ -16,11 +16,11 @@ pub struct Machine {
 
 /// Asks the compiler for a family.
 pub fn ask(emitted: &Emitted, family: Family) -> Result<Machine, Failure> {
-    let program = std::env::current_exe().map_err(Failure::of)?;
-    let mut compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::of)?;
+    let program = std::env::current_exe().map_err(Failure::from_error)?;
+    let mut compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::from_error)?;
     let report = compiler
         .compile(&emitted.files[&Target::Spirv], &emitted.manifest.entry_point)
-        .map_err(Failure::of)?;
+        .map_err(Failure::from_error)?;
     let device = compiler.device().to_owned();
     Ok(Machine { device, report })
 }
@@ -35,9 +35,9 @@ impl Machine {
         let rows = self
             .report
             .figures
-            .named()
+            .named_figures()
             .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
-        out!("\n{}", table::render(&[&self.device, "a wave"], &rows));
+        out!("\n{}", table::render_table(&[&self.device, "a wave"], &rows));
         if code {
             out!("\n{}", self.report.assembly);
         }

@@ -41,7 +41,7 @@ fn natural_stage(compiled: &Compiled) -> Stage {
 }
 
 /// The command as it was given, with the program's name for its path.
-pub fn command() -> String {
+pub fn command_line() -> String {
     let arguments = std::env::args_os().skip(1);
     std::iter::once("straightline".to_owned())
         .chain(arguments.map(|argument| argument.to_string_lossy().into_owned()))
@@ -50,11 +50,11 @@ pub fn command() -> String {
 }
 
 /// Why a command does nothing in a build that lacks a feature, and what helps.
-pub fn lacking(feature: &str) -> Failure {
-    Failure::Usage(refusal(&command(), feature))
+pub fn lacking_feature(feature: &str) -> Failure {
+    Failure::Usage(refusal_text(&command_line(), feature))
 }
 
-fn refusal(command: &str, feature: &str) -> String {
+fn refusal_text(command: &str, feature: &str) -> String {
     let arguments = command.strip_prefix("straightline").unwrap_or_default();
     format!(
         "`{command}` needs the feature `{feature}`, which this build lacks\n  \
@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn what_a_build_lacks_is_said_with_the_command_that_has_it() {
-        let text = refusal("straightline study loops --quick", "study");
+        let text = refusal_text("straightline study loops --quick", "study");
         assert!(
             text.starts_with("`straightline study loops --quick` needs the feature `study`"),
             "{text}"

@@ -9,7 +9,7 @@ const MANY_ALIVE: u32 = 64;
 const MANY_COPIES: u64 = 64;
 
 /// Remarks on a compiled kernel, a line each.
-pub fn notes(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Vec<String> {
+pub fn find_notes(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Vec<String> {
     let notes = [crowded_block(kernel, settings, compiled), multiplied_factors(compiled)];
     notes.into_iter().flatten().collect()
 }

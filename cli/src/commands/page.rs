@@ -12,14 +12,14 @@ use straightline_page::Module;
 const LARGEST: u64 = 1 << 28;
 
 /// Writes the page's files, or none of them.
-pub fn run(args: &PageArgs) -> Result<(), Failure> {
-    files::try_folder(&args.out).map_err(Failure::of)?;
+pub fn write_page(args: &PageArgs) -> Result<(), Failure> {
+    files::try_folder(&args.out).map_err(Failure::from_error)?;
     let [generator, templates] = match (&args.module, &args.templates) {
         (Some(generator), Some(templates)) => [generator.clone(), templates.clone()],
-        _ => built()?,
+        _ => build_modules()?,
     };
-    let all = straightline_page::files(module(&generator)?, module(&templates)?);
-    files::write_all(&args.out, &all).map_err(Failure::of)?;
+    let all = straightline_page::page_files(read_module(&generator)?, read_module(&templates)?);
+    files::write_all(&args.out, &all).map_err(Failure::from_error)?;
     outln!("{}", args.out.join("index.html").display());
     errln!(
         "note: browsers open it from a server, not from a file: python3 -m http.server --directory {}",
@@ -29,8 +29,8 @@ pub fn run(args: &PageArgs) -> Result<(), Failure> {
 }
 
 /// A module, read and found to be one of the page's.
-fn module(path: &Path) -> Result<Module, Failure> {
-    let bytes = files::read(path, LARGEST)
+fn read_module(path: &Path) -> Result<Module, Failure> {
+    let bytes = files::read_file(path, LARGEST)
         .map_err(|why| Failure::Failed(format!("cannot read the module `{}`: {why}", path.display())))?;
     Module::new(bytes).map_err(|why| {
         Failure::Failed(format!(
@@ -44,8 +44,8 @@ fn module(path: &Path) -> Result<Module, Failure> {
 const CRATES: [&str; 2] = ["straightline-page-module", "straightline-page-templates"];
 
 /// Both modules, built by cargo from the source checkout that the command runs in.
-fn built() -> Result<[PathBuf; 2], Failure> {
-    let root = checkout().ok_or_else(|| {
+fn build_modules() -> Result<[PathBuf; 2], Failure> {
+    let root = find_checkout().ok_or_else(|| {
         Failure::Failed(
             "the page needs the generator as WebAssembly, and this is no checkout of Straightline's source to build it from: run it in one, \
              or give the modules that page/build has made, --module straightline.wasm --templates templates.wasm"
@@ -69,7 +69,7 @@ fn build(root: &Path, name: &str) -> Result<(), Failure> {
         .current_dir(root)
         .args(["rustc", "--package", name, "--lib", "--profile", "page"])
         .args(["--crate-type", "cdylib", "--target", TARGET])
-        .env("CARGO_ENCODED_RUSTFLAGS", flags(root))
+        .env("CARGO_ENCODED_RUSTFLAGS", compiler_flags(root))
         .stdout(Stdio::null())
         .status()
         .map_err(|why| Failure::Failed(format!("cannot run cargo: {why}; page/build names the other ways")))?;
@@ -86,7 +86,7 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Flags of the compiler, as in page/build. The linker puts the stack first, so that what overflows it stops; its size is in bytes.
 /// What is hosted tells nothing of the folders that it was built in.
-fn flags(root: &Path) -> OsString {
+fn compiler_flags(root: &Path) -> OsString {
     let home = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let cargo = home("CARGO_HOME").or_else(|| {
         home("HOME")
@@ -106,7 +106,7 @@ fn flags(root: &Path) -> OsString {
 }
 
 /// The folder of the source checkout around the working directory.
-fn checkout() -> Option<PathBuf> {
+fn find_checkout() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
     let is_root = |folder: &&Path| folder.join("page/module/Cargo.toml").is_file();
     here.ancestors().find(is_root).map(Path::to_owned)

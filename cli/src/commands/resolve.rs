@@ -14,18 +14,18 @@ use straightline_scene::gbuffer;
 use straightline_scene::picture;
 
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
-pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
+pub fn resolve_capture(args: &ResolveArgs) -> Result<(), Failure> {
     if !cfg!(feature = "exr") {
-        return Err(super::lacking("exr"));
+        return Err(super::lacking_feature("exr"));
     }
     check_extension(args)?;
-    files::try_file(&args.out, false).map_err(Failure::of)?;
-    let capture = Capture::read(&args.capture).map_err(Failure::of)?;
+    files::try_file(&args.out, false).map_err(Failure::from_error)?;
+    let capture = Capture::read(&args.capture).map_err(Failure::from_error)?;
     let kernel = Kernel::builtin("sraa")?;
     let settings = with_capture(&kernel, &args.options, &capture)?;
     let compiled = kernel.compile(&settings)?;
-    let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
-    let warnings = warnings(&capture, &compiled.options);
+    let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::from_error)?;
+    let warnings = capture_warnings(&capture, &compiled.options);
     for warning in &warnings {
         errln!("warning: {warning}");
     }
@@ -33,20 +33,23 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
             let resolved = gpu.bench().run(&compiled, args.stage, &inputs);
-            (resolved.map_err(Failure::of)?, gpu.describe())
+            (resolved.map_err(Failure::from_error)?, gpu.describe())
         }
         Executor::Cpu => {
-            let resolved = interpret::<f32>(&compiled, &inputs, false).map_err(Failure::of)?;
+            let resolved = interpret::<f32>(&compiled, &inputs, false).map_err(Failure::from_error)?;
             (resolved.frame(&inputs), "CPU interpreter".to_owned())
         }
     };
-    let errors = args.reference.then(|| errors(&capture, &resolved)).transpose()?;
-    picture::write(&args.out, &resolved).map_err(Failure::of)?;
-    report(args, &compiled, &by, &resolved, errors, &warnings)
+    let errors = args
+        .reference
+        .then(|| measure_errors(&capture, &resolved))
+        .transpose()?;
+    picture::write(&args.out, &resolved).map_err(Failure::from_error)?;
+    print_report(args, &compiled, &by, &resolved, errors, &warnings)
 }
 
 /// Warns of flaws that make a picture worse than it need be, and show in the capture.
-fn warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
+fn capture_warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(misplaced) = gbuffer::misplaced(capture) {
         warnings.push(misplaced.words().to_owned());
@@ -75,7 +78,7 @@ fn warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
     warnings
 }
 
-fn report(
+fn print_report(
     args: &ResolveArgs,
     compiled: &Compiled,
     by: &str,
@@ -107,7 +110,7 @@ fn report(
 }
 
 /// PSNR of the capture's own colour, and of the resolved picture.
-fn errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failure> {
+fn measure_errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failure> {
     let Some(reference) = &capture.reference else {
         return Err(Failure::Failed(
             "the capture has no reference.exr to compare with; capture with --reference 256, or leave --reference out"

@@ -6,7 +6,7 @@ use serde_json::json;
 use straightline_scene::scene::{NAMES, OF_SHADING};
 
 /// Prints every scene's name and purpose.
-pub fn run(args: &ScenesArgs) -> Result<(), Failure> {
+pub fn print_scenes(args: &ScenesArgs) -> Result<(), Failure> {
     let all = NAMES.into_iter().chain(OF_SHADING);
     if args.json {
         let scenes: Vec<_> = all

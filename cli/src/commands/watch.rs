@@ -15,15 +15,15 @@ const INTERVAL: Duration = Duration::from_millis(100);
 type Stamp = Option<(SystemTime, u64)>;
 
 /// Emits, and again after every change, until it is interrupted or its output is closed.
-pub fn run(args: &WatchArgs) -> Result<(), Failure> {
-    let paths = files(args)?;
+pub fn watch_kernel(args: &WatchArgs) -> Result<(), Failure> {
+    let paths = kernel_files(args)?;
     refuse_inputs_without_picture(args)?;
     let mut gpu = None;
-    let mut seen = stamps(&paths);
+    let mut seen = file_stamps(&paths);
     loop {
         // Of a file that was saved while it was compiled, the older stamp has been taken.
-        once(args, &mut gpu);
-        seen = changed(&paths, &seen);
+        emit_once(args, &mut gpu);
+        seen = wait_for_change(&paths, &seen);
         if output::is_refused() {
             return Ok(());
         }
@@ -31,7 +31,7 @@ pub fn run(args: &WatchArgs) -> Result<(), Failure> {
 }
 
 /// The kernel's files.
-fn files(args: &WatchArgs) -> Result<Vec<PathBuf>, Failure> {
+fn kernel_files(args: &WatchArgs) -> Result<Vec<PathBuf>, Failure> {
     let kernel = &args.emit.kernel.kernel;
     let file = match kernel.split_once(".rs::") {
         Some((path, _)) => format!("{path}.rs"),
@@ -47,7 +47,7 @@ fn files(args: &WatchArgs) -> Result<Vec<PathBuf>, Failure> {
         .chain(args.emit.kernel.source.iter().cloned())
         .collect();
     // Later a file may be missing while it is saved; now its name is wrong.
-    args.emit.kernel.locate()?;
+    args.emit.kernel.locate_kernel()?;
     Ok(paths)
 }
 
@@ -63,9 +63,9 @@ fn refuse_inputs_without_picture(args: &WatchArgs) -> Result<(), Failure> {
 }
 
 /// Emits, and prints one line of what was written, or the errors.
-fn once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
+fn emit_once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
     let start = Instant::now();
-    match made(args, gpu) {
+    match write_outputs(args, gpu) {
         Ok((name, written)) => {
             let time = start.elapsed().as_millis();
             outln!("{name}: wrote {} in {time} ms", written.join(", "));
@@ -75,22 +75,22 @@ fn once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
     }
 }
 
-fn made(args: &WatchArgs, gpu: &mut Option<Gpu>) -> Result<(String, Vec<String>), Failure> {
-    let ready = emit::compile(&args.emit)?;
-    let mut files = emit::write(&args.emit, &ready)?;
-    if let Some(run) = args.run() {
-        files.append(&mut run::make(&run, &ready.compiled, gpu)?.files);
+fn write_outputs(args: &WatchArgs, gpu: &mut Option<Gpu>) -> Result<(String, Vec<String>), Failure> {
+    let ready = emit::compile_kernel(&args.emit)?;
+    let mut files = emit::write_shaders(&args.emit, &ready)?;
+    if let Some(run) = args.to_run_args() {
+        files.append(&mut run::run_compiled(&run, &ready.compiled, gpu)?.files);
     }
     let written = files.iter().map(|path| path.display().to_string());
     Ok((ready.compiled.kernel, written.collect()))
 }
 
 /// Waits until the files are others than they were seen, and have stayed so for a while: an editor may write in several steps.
-fn changed(paths: &[PathBuf], seen: &[Stamp]) -> Vec<Stamp> {
+fn wait_for_change(paths: &[PathBuf], seen: &[Stamp]) -> Vec<Stamp> {
     let mut last = seen.to_vec();
     loop {
         std::thread::sleep(INTERVAL);
-        let now = stamps(paths);
+        let now = file_stamps(paths);
         if now == last && now != seen {
             return now;
         }
@@ -101,7 +101,7 @@ fn changed(paths: &[PathBuf], seen: &[Stamp]) -> Vec<Stamp> {
     }
 }
 
-fn stamps(paths: &[PathBuf]) -> Vec<Stamp> {
+fn file_stamps(paths: &[PathBuf]) -> Vec<Stamp> {
     let stamp = |path: &PathBuf| {
         let metadata = std::fs::metadata(path).ok()?;
         Some((metadata.modified().ok()?, metadata.len()))

@@ -10,7 +10,7 @@ use straightline_codegen::{Kernel, ShaderSpec, Stage};
 
 /// A knob's example as arguments, with what it needs beside.
 fn arguments(knob: &Knob, spec: &ShaderSpec) -> Vec<String> {
-    let texts = knob.texts(spec);
+    let texts = knob.value_texts(spec);
     match knob.arity {
         Arity::Flag => vec![format!("--{}", knob.name)],
         _ => texts.iter().map(|text| format!("--{}={text}", knob.name)).collect(),
@@ -43,12 +43,12 @@ fn case(knob: &Knob) -> (&'static str, ShaderSpec) {
 fn all_arguments(spec: &ShaderSpec) -> Vec<String> {
     let changed = KNOBS
         .iter()
-        .filter(|knob| knob.texts(spec) != knob.texts(&ShaderSpec::new()));
+        .filter(|knob| knob.value_texts(spec) != knob.value_texts(&ShaderSpec::new()));
     changed.flat_map(|knob| arguments(knob, spec)).collect()
 }
 
 fn built(kernel: &str, spec: &ShaderSpec) -> Result<Emitted, Errors> {
-    spec.emit(&Kernel::locate(kernel)?).map(|(_, emitted)| emitted)
+    spec.emit(&Kernel::from_argument(kernel)?).map(|(_, emitted)| emitted)
 }
 
 /// The kernel as the command and this program both find it.
@@ -77,7 +77,7 @@ fn emit_writes_what_a_build_script_does() {
         match built(&kernel, &spec) {
             Ok(emitted) => {
                 finishes(&words);
-                let files = emitted.named(&emitted.manifest.kernel);
+                let files = emitted.named_files(&emitted.manifest.kernel);
                 assert_eq!(
                     std::fs::read_dir(&out).expect("a folder").count(),
                     files.len(),

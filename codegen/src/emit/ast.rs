@@ -17,7 +17,7 @@ pub struct Ty {
 
 impl Ty {
     /// Returns the same shape with components of another kind, in full precision.
-    pub fn of(self, scalar: Scalar) -> Ty {
+    pub fn with_kind(self, scalar: Scalar) -> Ty {
         self.shape.with_scalar(scalar).into()
     }
 
@@ -59,7 +59,7 @@ impl Ty {
     }
 
     /// Returns this type in full precision.
-    pub fn full(self) -> Ty {
+    pub fn to_full_precision(self) -> Ty {
         self.shape.into()
     }
 }
@@ -244,7 +244,7 @@ impl Expr {
     /// `self op other`.
     pub fn binary(self, op: BinaryOp, other: Expr) -> Expr {
         let ty = if op.is_comparison() {
-            self.ty.of(Scalar::Bool)
+            self.ty.with_kind(Scalar::Bool)
         } else {
             self.ty
         };
@@ -252,7 +252,7 @@ impl Expr {
     }
 
     /// The value as another type, cut off or rounded; every value fits.
-    pub fn to(self, ty: impl Into<Ty>) -> Expr {
+    pub fn convert_to(self, ty: impl Into<Ty>) -> Expr {
         Expr::new(Op::Convert { fits: true }, vec![self], ty)
     }
 
@@ -293,7 +293,7 @@ impl Expr {
     }
 
     /// Number of operators and calls in it.
-    pub fn operations(&self) -> usize {
+    pub fn operation_count(&self) -> usize {
         let mut count = 0;
         self.visit(&mut |expr| {
             let free = matches!(
@@ -406,7 +406,7 @@ impl<'g> Stmt<'g> {
     }
 
     /// Expressions of the statement itself, without those of its blocks.
-    pub fn own(&self) -> impl Iterator<Item = &Expr> {
+    pub fn own_exprs(&self) -> impl Iterator<Item = &Expr> {
         let (few, many): (_, &[Expr]) = match &self.kind {
             StmtKind::Let(_, value) => ([Some(value), None], &[]),
             StmtKind::Output(values) => ([None; 2], values),
@@ -422,13 +422,13 @@ impl<'g> Stmt<'g> {
 
     /// Shows every expression of the statement, those of its blocks too.
     pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
-        self.own().for_each(|expr| expr.visit(see));
+        self.own_exprs().for_each(|expr| expr.visit(see));
         for block in self.blocks() {
             block.iter().for_each(|stmt| stmt.visit(see));
         }
     }
 
-    /// As [`Stmt::own`], to change them.
+    /// As [`Stmt::own_exprs`], to change them.
     pub fn own_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
         let (few, many): (_, &mut [Expr]) = match &mut self.kind {
             StmtKind::Let(_, value) => ([Some(value), None], &mut []),
@@ -467,11 +467,18 @@ impl<'g> Stmt<'g> {
 }
 
 /// Statements of a block and of the blocks in it; comments are none.
-pub fn count(block: &[Stmt<'_>]) -> u32 {
+pub fn count_statements(block: &[Stmt<'_>]) -> u32 {
     let own = |stmt: &Stmt<'_>| u32::from(!matches!(stmt.kind, StmtKind::Comment(_)));
     block
         .iter()
-        .map(|stmt| own(stmt) + stmt.blocks().into_iter().map(|inner| count(inner)).sum::<u32>())
+        .map(|stmt| {
+            own(stmt)
+                + stmt
+                    .blocks()
+                    .into_iter()
+                    .map(|inner| count_statements(inner))
+                    .sum::<u32>()
+        })
         .sum()
 }
 
@@ -505,7 +512,7 @@ pub struct Module<'g> {
 
 impl<'g> Module<'g> {
     /// A new variable.
-    pub fn variable(&mut self, name: impl Into<String>, ty: impl Into<Ty>) -> VarId {
+    pub fn new_variable(&mut self, name: impl Into<String>, ty: impl Into<Ty>) -> VarId {
         let (name, ty) = (name.into(), ty.into());
         self.variables.push(Variable {
             name,
@@ -524,13 +531,13 @@ impl<'g> Module<'g> {
     }
 
     /// A variable's type.
-    pub fn ty(&self, var: VarId) -> Ty {
+    pub fn variable_type(&self, var: VarId) -> Ty {
         self.variables[var.0 as usize].ty
     }
 
     /// A variable as an expression.
-    pub fn read(&self, var: VarId) -> Expr {
-        Expr::var(var, self.ty(var))
+    pub fn read_variable(&self, var: VarId) -> Expr {
+        Expr::var(var, self.variable_type(var))
     }
 
     /// Rewrites every expression, arguments first. What the rule adds to the module is not rewritten.
@@ -548,7 +555,7 @@ impl<'g> Module<'g> {
     }
 
     /// Adds a function unless it is there; gives its name.
-    pub fn function(&mut self, name: &str, result: Ty, make: impl FnOnce(&mut Self) -> Function<'g>) -> Op {
+    pub fn add_function(&mut self, name: &str, result: Ty, make: impl FnOnce(&mut Self) -> Function<'g>) -> Op {
         if !self.functions.iter().any(|f| f.name == name && f.result == result) {
             let function = make(self);
             self.functions.push(function);

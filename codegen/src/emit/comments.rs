@@ -1,7 +1,7 @@
 //! Comments that say where statements come from: one for each group of statements of a place.
 
 use super::ast::{Block, Stmt, StmtKind};
-use super::prose::comment;
+use super::prose::single_line_comment;
 use std::collections::{HashMap, HashSet};
 use straightline_evaluator::ir::{Counter, Graph, Origin};
 
@@ -21,13 +21,13 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
         commented: None,
         places: HashSet::new(),
     };
-    groups.block(block)
+    groups.group_block(block)
 }
 
 /// Takes the comments away, those of blocks in the block too.
-pub fn strip(block: &mut Block<'_>) {
+pub fn strip_comments(block: &mut Block<'_>) {
     block.retain(|stmt| !matches!(stmt.kind, StmtKind::Comment(_)));
-    block.iter_mut().flat_map(Stmt::blocks_mut).for_each(strip);
+    block.iter_mut().flat_map(Stmt::blocks_mut).for_each(strip_comments);
 }
 
 /// Counters that a comment of nothing else has.
@@ -53,21 +53,21 @@ struct Group<'g> {
 }
 
 impl<'g> Groups<'g> {
-    fn block(&mut self, block: Block<'g>) -> Block<'g> {
+    fn group_block(&mut self, block: Block<'g>) -> Block<'g> {
         let mut out = Vec::new();
         for mut stmt in block {
             match &mut stmt.kind {
                 StmtKind::For { body, .. } | StmtKind::Loop(body) => {
                     self.flush(&mut out);
-                    *body = self.block(std::mem::take(body));
+                    *body = self.group_block(std::mem::take(body));
                     out.push(stmt);
                     // Statements after the loop belong neither to the group before it nor to that of its body.
                     self.commented = None;
                 }
                 StmtKind::If { then, otherwise, .. } => {
                     self.flush(&mut out);
-                    *then = self.block(std::mem::take(then));
-                    *otherwise = self.block(std::mem::take(otherwise));
+                    *then = self.group_block(std::mem::take(then));
+                    *otherwise = self.group_block(std::mem::take(otherwise));
                     out.push(stmt);
                 }
                 StmtKind::Barrier { .. } => {
@@ -118,9 +118,9 @@ impl<'g> Groups<'g> {
             let before = self.commented.take().map(|(_, outer)| outer);
             // Prints a place's purpose once; later groups print only the next iteration of the surrounding loops.
             if self.places.insert((file, line)) {
-                out.push(StmtKind::Comment(self.said(&counters, file, line)).into());
+                out.push(StmtKind::Comment(self.comment_text(&counters, file, line)).into());
             } else if before.is_none_or(|before| !before.starts_with(&outer)) && !outer.is_empty() {
-                out.push(StmtKind::Comment(values(&outer)).into());
+                out.push(StmtKind::Comment(counter_values(&outer)).into());
             }
             self.commented = Some((file, outer));
         }
@@ -128,23 +128,23 @@ impl<'g> Groups<'g> {
     }
 
     /// `sample 1, tap 2: what the function is for (file:line)`.
-    fn said(&self, counters: &[Counter], file: u32, line: u32) -> String {
-        let values = values(counters);
+    fn comment_text(&self, counters: &[Counter], file: u32, line: u32) -> String {
+        let values = counter_values(counters);
         let mut functions = self.graph.purposes.iter().rev();
         let purpose = functions.find(|function| function.file == file && function.line <= line);
         let purpose = purpose.map_or("", |purpose| purpose.words.as_str());
-        let place = place(self.graph, file, line);
+        let place = source_place(self.graph, file, line);
         let colon = if values.is_empty() { "" } else { ": " };
         let said = match purpose {
             "" => format!("{values}{colon}{place}"),
             purpose => format!("{values}{colon}{purpose} ({place})"),
         };
-        comment(&said)
+        single_line_comment(&said)
     }
 }
 
 /// `file:line` of the source, as readers of a shader are told it.
-pub fn place(graph: &Graph, file: u32, line: u32) -> String {
+pub fn source_place(graph: &Graph, file: u32, line: u32) -> String {
     let path = graph.files.get(file as usize).map_or("", String::as_str);
     // An absolute path says more about the author's machine than the shader should.
     let shown = match std::path::Path::new(path).is_absolute() {
@@ -155,7 +155,7 @@ pub fn place(graph: &Graph, file: u32, line: u32) -> String {
 }
 
 /// `sample 1, tap 2`.
-pub fn values(counters: &[Counter]) -> String {
+pub fn counter_values(counters: &[Counter]) -> String {
     let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
     values.join(", ")
 }

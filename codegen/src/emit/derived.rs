@@ -42,7 +42,7 @@ enum What {
 
 impl What {
     /// Prefix of the function's name, before the texture's.
-    fn prefix(self) -> &'static str {
+    fn name_prefix(self) -> &'static str {
         match self {
             What::Load => "load_",
             What::Sample => "sample_",
@@ -51,7 +51,7 @@ impl What {
     }
 
     /// Description of the function's result, for a manifest.
-    fn gives(self) -> &'static str {
+    fn result_description(self) -> &'static str {
         match self {
             What::Load => "the texel at a pixel (two integers)",
             What::Sample => "the colour, filtered, at a place (two floats, 0 to 1), at the finest level",
@@ -71,7 +71,7 @@ pub struct HostFunction {
 impl HostFunction {
     /// The name that it has unless something else does.
     pub fn default_name(self, texture: &str) -> String {
-        format!("{}{texture}", self.what.prefix())
+        format!("{}{texture}", self.what.name_prefix())
     }
 
     /// Returns parameters and result in WGSL.
@@ -84,8 +84,8 @@ impl HostFunction {
     }
 
     /// Description of its result.
-    pub fn gives(self) -> &'static str {
-        self.what.gives()
+    pub fn result_description(self) -> &'static str {
+        self.what.result_description()
     }
 
     /// The function that stands for a read, if there can be one.
@@ -101,7 +101,7 @@ impl HostFunction {
 }
 
 /// All functions of the host's that a kernel calls, in one order.
-pub fn functions(ops: &[&Op], sized: Option<u32>) -> Vec<HostFunction> {
+pub fn host_functions(ops: &[&Op], sized: Option<u32>) -> Vec<HostFunction> {
     let mut all: Vec<HostFunction> = ops.iter().filter_map(|op| HostFunction::of_read(op)).collect();
     all.extend(sized.map(|texture| HostFunction {
         texture,

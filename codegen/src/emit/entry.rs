@@ -2,7 +2,7 @@
 
 use super::own_words::is_own;
 use super::refusal::Refusal;
-use super::words::{LONGEST, Words, identifier, is_among};
+use super::words::{LONGEST, Words, is_among, to_identifier};
 use crate::spec::{EmitOptions, Target};
 use straightline_evaluator::shorten;
 
@@ -12,7 +12,7 @@ use straightline_evaluator::shorten;
 /// # Errors
 ///
 /// The name that is asked for is none in a language that is written.
-pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, Refusal> {
+pub fn resolve_entry_name(kernel: &str, options: &EmitOptions) -> Result<String, Refusal> {
     let Some(name) = &options.entry else {
         return Ok(entry_point(kernel, options));
     };
@@ -24,10 +24,10 @@ pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, Refusal> {
 
 /// The entry point of a kernel: its name, changed where a shading language or an engine would not take it.
 fn entry_point(kernel: &str, options: &EmitOptions) -> String {
-    let name = identifier(kernel);
+    let name = to_identifier(kernel);
     let is_word = |name: &str| {
         let languages = [Words::Wgsl, Words::Glsl, Words::Hlsl];
-        is_own(name) || is_among(&options.reserved, name) || languages.iter().any(|language| language.reserve(name))
+        is_own(name) || is_among(&options.reserved, name) || languages.iter().any(|language| language.is_reserved(name))
     };
     match is_word(&name) {
         true => format!("{name}_kernel"),
@@ -52,13 +52,13 @@ fn why_not(name: &str, options: &EmitOptions) -> Option<String> {
     // Every text is checked as WGSL. A whole GLSL has `main`, and no other name; of MSL naga tells.
     let is_written = |target: Target| options.targets.contains(&target);
     let languages = [
-        (true, Words::Wgsl.reserve(name), "WGSL"),
+        (true, Words::Wgsl.is_reserved(name), "WGSL"),
         (
             !whole && Target::ALL.into_iter().any(|t| t.is_glsl() && is_written(t)),
-            Words::Glsl.reserve(name),
+            Words::Glsl.is_reserved(name),
             "GLSL",
         ),
-        (is_written(Target::Hlsl), Words::Hlsl.reserve(name), "HLSL"),
+        (is_written(Target::Hlsl), Words::Hlsl.is_reserved(name), "HLSL"),
     ];
     if let Some((.., language)) = languages.into_iter().find(|(written, is_word, _)| *written && *is_word) {
         return Some(format!("is a word of {language}"));

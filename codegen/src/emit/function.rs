@@ -10,7 +10,7 @@ use crate::spec::{EmitOptions, Target};
 /// # Errors
 ///
 /// The first obstacle, with its remedy.
-pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
+pub fn check_function_form(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
     let EmitOptions {
         targets,
         region,
@@ -18,7 +18,7 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> 
         workgroup,
         ..
     } = &resources.options;
-    let refused = |why: &str, help: &str| Refusal::function(&compiled.kernel, why, help);
+    let refused = |why: &str, help: &str| Refusal::no_function_form(&compiled.kernel, why, help);
     if *region {
         return Err(refused(
             "it computes any position that it is called with",
@@ -43,13 +43,13 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> 
     if let Some((buffer, _)) = resources.read_buffers.iter().find(|(k, _)| resources.is_written(*k)) {
         let name = &resources.buffer(*buffer).name;
         let why = format!("it writes to `{name}`, and a function only gives values");
-        return Err(refused(&why, "emit the form `entry`").about(name));
+        return Err(refused(&why, "emit the form `entry`").about_input(name));
     }
     let takes_no_buffers = targets.iter().find(|t| **t != Target::Hlsl);
     if let (Some((buffer, _)), Some(target)) = (resources.read_buffers.first(), takes_no_buffers) {
         let name = &resources.buffer(*buffer).name;
         let why = format!("it reads the buffer `{name}`, which is no parameter in {target}");
-        return Err(refused(&why, "read a texture, write hlsl, or emit the form `entry`").about(name));
+        return Err(refused(&why, "read a texture, write hlsl, or emit the form `entry`").about_input(name));
     }
     Ok(())
 }

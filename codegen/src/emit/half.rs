@@ -5,13 +5,13 @@ use half::f16;
 
 /// The `f16` nearest to an `f32`, with the fewest digits that give it back. What becomes of numbers that it cannot
 /// hold, `ir::Real::made` says.
-pub fn literal(bits: u32) -> Text {
+pub fn half_literal(bits: u32) -> Text {
     let x = straightline_evaluator::ir::F16::nearest(f32::from_bits(bits).into());
-    Text::literal(format!("{}h", shortest(x)), x.is_sign_negative())
+    Text::literal(format!("{}h", shortest_decimal(x)), x.is_sign_negative())
 }
 
 /// All digits of an integer; of others so many that they give the number back, whether they are read at once or by way of `f32`, as naga does.
-fn shortest(x: f16) -> String {
+fn shortest_decimal(x: f16) -> String {
     let exact = x.to_f64();
     if exact.fract() == 0.0 {
         return format!("{exact:?}");
@@ -25,8 +25,8 @@ fn shortest(x: f16) -> String {
 mod tests {
     use super::*;
 
-    fn code(x: f32) -> String {
-        literal(x.to_bits()).code
+    fn literal_code(x: f32) -> String {
+        half_literal(x.to_bits()).code
     }
 
     #[test]
@@ -40,16 +40,16 @@ mod tests {
             (-2.5, "-2.5h"),
         ];
         for (x, expected) in cases {
-            assert_eq!(code(x), expected);
+            assert_eq!(literal_code(x), expected);
         }
     }
 
     #[test]
     fn what_does_not_fit() {
-        assert_eq!(code(1.0e30), "65504.0h");
-        assert_eq!(code(-65520.0), "-65504.0h");
-        assert_eq!(code(1.0e-12), "6e-8h");
-        assert_eq!(code(-1.0e-12), "-6e-8h");
+        assert_eq!(literal_code(1.0e30), "65504.0h");
+        assert_eq!(literal_code(-65520.0), "-65504.0h");
+        assert_eq!(literal_code(1.0e-12), "6e-8h");
+        assert_eq!(literal_code(-1.0e-12), "-6e-8h");
     }
 
     #[test]
@@ -57,7 +57,7 @@ mod tests {
         for bits in 0..=u16::MAX {
             let x = f16::from_bits(bits);
             if x.is_finite() {
-                let text = code(x.to_f32());
+                let text = literal_code(x.to_f32());
                 let digits = text.trim_end_matches('h');
                 let back: f16 = digits.parse().expect("a number");
                 assert_eq!(back.to_bits(), bits, "{text}");

@@ -12,21 +12,21 @@ use straightline_evaluator::ir::{Op, Scalar, TextureKind};
 
 /// Functions of the host as WGSL declares them, with bodies that only have their types: for readers of a text that calls them
 /// before the host's are there.
-pub fn stubs(resources: &Resources) -> String {
+pub fn host_stubs(resources: &Resources) -> String {
     let stub = |function: &HostFunction| {
         let (takes, gives) = function.signature();
-        let name = resources.derived(Derived::Host(*function));
+        let name = resources.derived_name(Derived::Host(*function));
         format!("fn {name}({takes}) -> {gives} {{ return {gives}(); }}\n")
     };
     resources.host.iter().map(stub).collect()
 }
 
 /// The call of a host's function that stands for a read.
-pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
+pub fn host_call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
     if !resources.options.calls_host() {
         return None;
     }
-    let name = resources.derived(Derived::Host(HostFunction::of_read(op)?));
+    let name = resources.derived_name(Derived::Host(HostFunction::of_read(op)?));
     Some(Text::call(name, &args.iter().collect::<Vec<_>>()))
 }
 
@@ -35,8 +35,8 @@ pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
 /// # Errors
 ///
 /// The first read or language that they do not have.
-pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
-    let refused = |why: &str, help: &str| Refusal::function(&compiled.kernel, why, help);
+pub fn check_host_reads(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
+    let refused = |why: &str, help: &str| Refusal::no_function_form(&compiled.kernel, why, help);
     let options = &resources.options;
     if !(options.calls_host() || options.global_uniforms) {
         return Ok(());
@@ -60,7 +60,7 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> 
                 "a function of the host's gives texels of a two-dimensional texture of floats, and `{}` is none",
                 texture.name
             );
-            return Err(refused(&why, "give it as a texture").about(&texture.name));
+            return Err(refused(&why, "give it as a texture").about_input(&texture.name));
         }
     }
     let graph = &compiled.graph;
@@ -77,7 +77,7 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> 
             _ => "and asks how many levels or layers it has",
         };
         let why = format!("it reads `{name}` {how}, for which the host has no function");
-        return Err(refused(&why, "give it as a texture").about(name));
+        return Err(refused(&why, "give it as a texture").about_input(name));
     }
     Ok(())
 }

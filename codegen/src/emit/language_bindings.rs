@@ -14,7 +14,7 @@ impl Resources {
     ///
     /// # Errors
     ///
-    /// As [`Resources::spelled`].
+    /// As [`Resources::spelled_for`].
     pub fn language_bindings(&self) -> Result<Vec<LanguageBinding>, Refusal> {
         let mut all = Vec::new();
         for target in &self.options.targets {
@@ -22,14 +22,14 @@ impl Resources {
                 language: target.to_string(),
                 bindings: Vec::new(),
             };
-            let spelled = self.spelled(*target)?;
+            let spelled = self.spelled_for(*target)?;
             match target {
-                _ if self.options.is_function() => spelled.parameters(self, *target, &mut list),
-                Target::Wgsl | Target::Spirv => spelled.renamed(self, &mut list),
-                Target::Hlsl => spelled.registers(self, &mut list),
-                Target::Glsl450 => spelled.sets(self, &mut list),
-                Target::Msl => spelled.indices(self, &mut list),
-                _ => spelled.units(self, *target, &mut list),
+                _ if self.options.is_function() => spelled.list_parameters(self, *target, &mut list),
+                Target::Wgsl | Target::Spirv => spelled.list_renamed(self, &mut list),
+                Target::Hlsl => spelled.list_registers(self, &mut list),
+                Target::Glsl450 => spelled.list_descriptor_sets(self, &mut list),
+                Target::Msl => spelled.list_metal_indices(self, &mut list),
+                _ => spelled.list_texture_units(self, *target, &mut list),
             }
             all.append(&mut list.bindings);
         }
@@ -38,11 +38,11 @@ impl Resources {
 
     /// WGSL and SPIR-V: the bindings with another name in the text. As below, `self` has the names there, and `original` those
     /// of the manifest.
-    fn renamed(&self, original: &Resources, list: &mut List) {
-        self.each(original, |kind, _, name, of, binding| {
+    fn list_renamed(&self, original: &Resources, list: &mut List) {
+        self.for_each_binding(original, |kind, _, name, of, binding| {
             if name != of {
                 let bound = list.add(kind, name, Some(of));
-                (bound.group, bound.binding) = (Some(self.places.group()), Some(binding));
+                (bound.group, bound.binding) = (Some(self.places.bind_group()), Some(binding));
             }
         });
         if self.options.stage == Stage::Fragment {
@@ -52,11 +52,11 @@ impl Resources {
                 }
             }
         }
-        self.members(original, list);
+        self.list_members(original, list);
     }
 
     /// Members of the uniform buffer with another name in the text.
-    fn members(&self, original: &Resources, list: &mut List) {
+    fn list_members(&self, original: &Resources, list: &mut List) {
         for (uniform, of) in self.uniforms.iter().zip(&original.uniforms) {
             if uniform.name != of.name {
                 list.add(Kind::Member, &uniform.name, Some(&of.name));
@@ -65,9 +65,9 @@ impl Resources {
     }
 
     /// Vulkan's GLSL: numbers in a descriptor set.
-    fn sets(&self, original: &Resources, list: &mut List) {
-        let group = Some(self.places.group());
-        self.each(original, |kind, _, name, of, binding| {
+    fn list_descriptor_sets(&self, original: &Resources, list: &mut List) {
+        let group = Some(self.places.bind_group());
+        self.for_each_binding(original, |kind, _, name, of, binding| {
             let bound = list.add(kind, name, Some(of));
             (bound.group, bound.binding) = (group, Some(binding));
         });
@@ -76,25 +76,25 @@ impl Resources {
             (bound.group, bound.binding) = (group, Some(self.sampler_binding()));
             bound.what = Some("any sampler: texels are named with one, and not filtered".to_owned());
         }
-        self.interpolated(list, original, true);
-        self.members(original, list);
+        self.list_varyings(list, original, true);
+        self.list_members(original, list);
     }
 
     /// HLSL: registers.
-    fn registers(&self, original: &Resources, list: &mut List) {
-        self.each(original, |kind, class, name, of, binding| {
-            let register = self.places.register(class, binding);
+    fn list_registers(&self, original: &Resources, list: &mut List) {
+        self.for_each_binding(original, |kind, class, name, of, binding| {
+            let register = self.places.register_at(class, binding);
             let bound = list.add(kind, name, Some(of));
             bound.register = Some(format!("{}{}", register.class, register.number));
             bound.space = register.space.filter(|space| *space != 0);
         });
-        self.interpolated(list, original, true);
-        self.members(original, list);
+        self.list_varyings(list, original, true);
+        self.list_members(original, list);
     }
 
     /// Metal: indices of textures, buffers and samplers.
-    fn indices(&self, original: &Resources, list: &mut List) {
-        self.each(original, |kind, _, name, of, binding| {
+    fn list_metal_indices(&self, original: &Resources, list: &mut List) {
+        self.for_each_binding(original, |kind, _, name, of, binding| {
             list.add(kind, name, Some(of)).binding = Some(binding);
         });
         if !self.read_buffers.is_empty() {
@@ -102,12 +102,12 @@ impl Resources {
             bound.binding = Some(self.sizes_binding());
             bound.what = Some("one u32 for each storage buffer, in order of binding: its length in bytes".to_owned());
         }
-        self.interpolated(list, original, true);
-        self.members(original, list);
+        self.list_varyings(list, original, true);
+        self.list_members(original, list);
     }
 
     /// The languages of OpenGL: units, where the version numbers them, and names.
-    fn units(&self, original: &Resources, target: Target, list: &mut List) {
+    fn list_texture_units(&self, original: &Resources, target: Target, list: &mut List) {
         let numbered = matches!(target, Target::Glsl430 | Target::Essl310);
         self.combined_samplers(original, numbered, list);
         for (k, binding) in &self.read_buffers {
@@ -127,7 +127,7 @@ impl Resources {
                 list.add(Kind::Uniform, name, Some(of));
             }
         }
-        self.interpolated(list, original, numbered);
+        self.list_varyings(list, original, numbered);
     }
 
     fn combined_samplers(&self, original: &Resources, numbered: bool, list: &mut List) {
@@ -142,18 +142,18 @@ impl Resources {
     }
 
     /// Lists the parameters of a function, in order.
-    fn parameters(&self, original: &Resources, target: Target, list: &mut List) {
+    fn list_parameters(&self, original: &Resources, target: Target, list: &mut List) {
         if self.options.calls_host() {
             for function in &self.host {
                 let of = &original.texture(function.texture).name;
-                let bound = list.add(Kind::Function, self.derived(Derived::Host(*function)), Some(of));
+                let bound = list.add(Kind::Function, self.derived_name(Derived::Host(*function)), Some(of));
                 bound.texture = Some(self.texture(function.texture).name.clone());
-                bound.what = Some(function.gives().to_owned());
+                bound.what = Some(function.result_description().to_owned());
             }
         } else if Target::OPENGL.contains(&target) {
             self.combined_samplers(original, false, list);
         } else {
-            self.each(original, |kind, _, name, of, _| {
+            self.for_each_binding(original, |kind, _, name, of, _| {
                 if kind != Kind::UniformBuffer {
                     list.add(kind, name, Some(of));
                 }
@@ -164,13 +164,13 @@ impl Resources {
             }
         }
         list.add(Kind::Position, "position", None);
-        self.interpolated(list, original, false);
+        self.list_varyings(list, original, false);
         for (uniform, of) in self.uniforms.iter().zip(&original.uniforms) {
             list.add(Kind::Uniform, &uniform.name, Some(&of.name));
         }
     }
 
-    fn interpolated(&self, list: &mut List, original: &Resources, numbered: bool) {
+    fn list_varyings(&self, list: &mut List, original: &Resources, numbered: bool) {
         if self.options.stage == Stage::Fragment {
             for ((varying, of), location) in self.varyings.iter().zip(&original.varyings).zip(0..) {
                 list.add(Kind::Varying, &varying.name, Some(&of.name)).location = numbered.then_some(location);
@@ -180,7 +180,7 @@ impl Resources {
 
     /// Everything that is bound at a number: what it is, the class of its registers, its name here and in the manifest, the
     /// number.
-    fn each(&self, original: &Resources, mut see: impl FnMut(Kind, char, &str, &str, u32)) {
+    fn for_each_binding(&self, original: &Resources, mut see: impl FnMut(Kind, char, &str, &str, u32)) {
         for bound in &self.read {
             let [name, of] = [self, original].map(|r| &r.texture(bound.index).name);
             see(Kind::Texture, 't', name, of, bound.binding);

@@ -4,7 +4,7 @@ use straightline_evaluator::ir::{self, Type, Uniform};
 use straightline_manifest::{Part, Scalar, UniformField, ValueType};
 
 /// Members at their offsets, in order of declaration, and the buffer's size in bytes, a multiple of 16.
-pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
+pub fn layout_uniforms(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
     let mut at = 0u32;
     let mut fields = Vec::new();
     for uniform in uniforms {
@@ -18,7 +18,7 @@ pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
             default: uniform.default,
             part: uniform.part.as_ref().map(|part| Part {
                 of: part.of.clone(),
-                ty: whole(uniform.ty, part),
+                ty: whole_type(uniform.ty, part),
                 index: part.index,
             }),
         });
@@ -28,7 +28,7 @@ pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
 }
 
 /// The type of what a uniform of type `ty` is a part of.
-fn whole(ty: Type, part: &ir::Part) -> ValueType {
+fn whole_type(ty: Type, part: &ir::Part) -> ValueType {
     let ty = value_type(ty);
     match part.columns {
         true => ValueType::Matrix {

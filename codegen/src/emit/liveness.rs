@@ -10,12 +10,12 @@ use straightline_evaluator::ir::{self, Origin, Scalar};
 /// Scalars alive at once at most in a kernel, and the first place where they are.
 pub fn most_alive<'g>(module: &Module<'g>) -> (u32, Option<&'g Origin>) {
     let mut walk = Walk::new(module);
-    walk.block(&module.body);
+    walk.walk_block(&module.body);
     walk.most
 }
 
 /// Registers that a variable of a type takes; an array takes one for each number.
-pub fn width(ty: ir::Type) -> u32 {
+pub fn register_count(ty: ir::Type) -> u32 {
     match ty {
         ir::Type::Array { components, len, .. } => u32::from(components).saturating_mul(len),
         _ if ty.kind() == Some(Scalar::Bool) => 0,
@@ -62,9 +62,9 @@ impl<'g> Walk<'g> {
             let scalars = if ty.is_array() { 1 } else { u32::from(ty.components()) };
             walk.slots.push((walk.width.len() as Slot, scalars));
             let each = if ty.is_array() {
-                width(ty)
+                register_count(ty)
             } else {
-                width(ty) / scalars.max(1)
+                register_count(ty) / scalars.max(1)
             };
             walk.width.extend((0..scalars).map(|_| each));
         }
@@ -88,7 +88,7 @@ impl<'g> Walk<'g> {
             {
                 let (first, count) = self.slots[var.0 as usize];
                 for k in 0..count {
-                    self.renames[(first + k) as usize] = self.component(value, k, changes);
+                    self.renames[(first + k) as usize] = self.renamed_component(value, k, changes);
                 }
             }
             let blocks = stmt.blocks().into_iter();
@@ -97,55 +97,55 @@ impl<'g> Walk<'g> {
     }
 
     /// Returns the component that component `k` of an expression renames, if nothing has to be computed for it.
-    fn component(&self, value: &Expr, k: u32, changes: &[bool]) -> Option<Renamed> {
+    fn renamed_component(&self, value: &Expr, k: u32, changes: &[bool]) -> Option<Renamed> {
         match &value.op {
             Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_)) => Some(Renamed::Constant),
             Op::Var(var) if !value.ty.is_array() && !changes[var.0 as usize] => {
                 let slot = self.slots[var.0 as usize].0 + k;
                 Some(self.renames[slot as usize].unwrap_or(Renamed::As(slot)))
             }
-            Op::Swizzle(of) => self.component(&value.args[0], u32::from(of[k as usize]), changes),
-            Op::Construct if value.args.len() == 1 => self.component(&value.args[0], 0, changes),
+            Op::Swizzle(of) => self.renamed_component(&value.args[0], u32::from(of[k as usize]), changes),
+            Op::Construct if value.args.len() == 1 => self.renamed_component(&value.args[0], 0, changes),
             Op::Construct => {
                 let mut before = 0;
                 let part = value.args.iter().find(|part| {
                     before += u32::from(part.ty.components());
                     k < before
                 })?;
-                self.component(part, k + u32::from(part.ty.components()) - before, changes)
+                self.renamed_component(part, k + u32::from(part.ty.components()) - before, changes)
             }
             _ => None,
         }
     }
 
     /// Looks at statements from the last to the first, with what is alive behind them.
-    fn block(&mut self, block: &[Stmt<'g>]) {
+    fn walk_block(&mut self, block: &[Stmt<'g>]) {
         for stmt in block.iter().rev() {
-            self.stmt(stmt);
+            self.walk_statement(stmt);
         }
     }
 
-    fn stmt(&mut self, stmt: &Stmt<'g>) {
-        self.note(self.sum, stmt.origin);
+    fn walk_statement(&mut self, stmt: &Stmt<'g>) {
+        self.record_pressure(self.sum, stmt.origin);
         match &stmt.kind {
             StmtKind::Let(var, value) => {
                 // An unread value needs a register when it is written, too.
-                self.note(self.written(*var), stmt.origin);
+                self.record_pressure(self.registers_after_write(*var), stmt.origin);
                 self.kill(*var);
                 if self.is_computed(*var) {
-                    self.read(value);
+                    self.read_expr(value);
                 }
             }
             StmtKind::Var(var, value) => {
                 self.kill(*var);
-                value.iter().for_each(|value| self.read(value));
+                value.iter().for_each(|value| self.read_expr(value));
             }
             StmtKind::Assign(place, op, value) => {
                 match (&place.op, op) {
                     (Op::Var(var), None) => self.kill(*var),
-                    _ => self.read(place),
+                    _ => self.read_expr(place),
                 }
-                self.read(value);
+                self.read_expr(value);
             }
             StmtKind::If {
                 condition,
@@ -153,35 +153,35 @@ impl<'g> Walk<'g> {
                 otherwise,
             } => {
                 let behind = (self.alive.clone(), self.sum);
-                self.block(otherwise);
+                self.walk_block(otherwise);
                 let other = std::mem::replace(&mut self.alive, behind.0);
                 self.sum = behind.1;
-                self.block(then);
+                self.walk_block(then);
                 let of_other = (0..other.len()).filter(|slot| other[*slot]);
                 of_other.for_each(|slot| self.wake(slot));
-                self.read(condition);
+                self.read_expr(condition);
             }
             StmtKind::For { body, .. } | StmtKind::Loop(body) => {
                 // Values that the next iteration may read are alive throughout.
                 let outside = mentioned_of_outside(stmt);
                 outside.iter().for_each(|var| self.wake_all(*var));
-                self.block(body);
+                self.walk_block(body);
                 outside.iter().for_each(|var| self.wake_all(*var));
                 if let StmtKind::For { counter, .. } = &stmt.kind {
                     self.kill(*counter);
                 }
-                stmt.own().for_each(|value| self.read(value));
+                stmt.own_exprs().for_each(|value| self.read_expr(value));
             }
             StmtKind::Effect(effect) => {
                 effect.before.iter().for_each(|var| self.kill(*var));
-                stmt.own().for_each(|value| self.read(value));
+                stmt.own_exprs().for_each(|value| self.read_expr(value));
             }
-            _ => stmt.own().for_each(|value| self.read(value)),
+            _ => stmt.own_exprs().for_each(|value| self.read_expr(value)),
         }
-        self.note(self.sum, stmt.origin);
+        self.record_pressure(self.sum, stmt.origin);
     }
 
-    fn note(&mut self, alive: u32, origin: Option<&'g Origin>) {
+    fn record_pressure(&mut self, alive: u32, origin: Option<&'g Origin>) {
         if alive > self.most.0 || (alive == self.most.0 && origin.is_some()) {
             self.most = (alive, origin);
         }
@@ -194,7 +194,7 @@ impl<'g> Walk<'g> {
     }
 
     /// Returns the number of registers in use once a variable is written, including its components that are never read.
-    fn written(&self, var: VarId) -> u32 {
+    fn registers_after_write(&self, var: VarId) -> u32 {
         let (first, count) = self.slots[var.0 as usize];
         let is_new = |slot: &Slot| !self.alive[*slot as usize] && self.renames[*slot as usize].is_none();
         self.sum
@@ -233,7 +233,7 @@ impl<'g> Walk<'g> {
     }
 
     /// Marks the variables that an expression reads as alive before it.
-    fn read(&mut self, value: &Expr) {
+    fn read_expr(&mut self, value: &Expr) {
         match &value.op {
             Op::Var(var) => self.wake_all(*var),
             Op::Swizzle(of) if matches!(value.args[0].op, Op::Var(_)) => {
@@ -242,7 +242,7 @@ impl<'g> Walk<'g> {
                     of.iter().for_each(|k| self.wake_renamed(first + u32::from(*k)));
                 }
             }
-            _ => value.args.iter().for_each(|arg| self.read(arg)),
+            _ => value.args.iter().for_each(|arg| self.read_expr(arg)),
         }
     }
 }

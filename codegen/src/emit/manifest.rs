@@ -13,7 +13,7 @@ use straightline_manifest::{
 
 impl Resources {
     /// Optional device features that the shader needs.
-    fn features(&self) -> Vec<String> {
+    fn device_features(&self) -> Vec<String> {
         let half = self.options.precision == Precision::F16;
         let features = [(self.subgroups, "subgroup"), (half, "shader-f16")];
         let needed = features.into_iter().filter(|(needed, _)| *needed);
@@ -24,10 +24,10 @@ impl Resources {
     ///
     /// # Errors
     ///
-    /// As [`Resources::spelled`].
-    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Result<Manifest, Refusal> {
+    /// As [`Resources::spelled_for`].
+    pub fn build_manifest(&self, compiled: &Compiled, counts: &Counts) -> Result<Manifest, Refusal> {
         let mut bindings = Vec::new();
-        let group = self.places.group();
+        let group = self.places.bind_group();
         let mut add = |binding: u32, name: &str, kind: BindingKind| {
             bindings.push(Binding {
                 group,
@@ -54,7 +54,7 @@ impl Resources {
                 stride: buffer.element.stride(),
                 fields: match &buffer.element {
                     Element::Value(_) => Vec::new(),
-                    Element::Struct(structure) => structure.fields.iter().map(field).collect(),
+                    Element::Struct(structure) => structure.fields.iter().map(uniform_field).collect(),
                 },
             };
             add(*binding, &buffer.name, kind);
@@ -115,10 +115,10 @@ impl Resources {
             origin: self.options.origin,
             entry_point: self.entry.clone(),
             entry_points: Default::default(),
-            workgroup_size: compute.then_some(self.workgroup()),
+            workgroup_size: compute.then_some(self.workgroup_size()),
             block: self.block,
-            features: self.features(),
-            varyings: self.varyings().collect(),
+            features: self.device_features(),
+            varyings: self.manifest_varyings().collect(),
             bindings,
             language_bindings: self.language_bindings()?,
             outputs: outputs.collect(),
@@ -133,7 +133,7 @@ impl Resources {
 }
 
 /// A field of a structure, as the manifest describes it.
-fn field(field: &Field) -> UniformField {
+fn uniform_field(field: &Field) -> UniformField {
     UniformField {
         name: field.name.clone(),
         ty: value_type(field.ty),

@@ -13,7 +13,7 @@ use straightline_manifest::{Precision, Stage};
 /// # Errors
 ///
 /// The first missing feature, and the languages that have it.
-pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), Refusal> {
+pub fn check_features(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), Refusal> {
     let (name, old, combined) = match target {
         Target::Glsl430 => ("glsl430", false, true),
         Target::Glsl330 => ("glsl330", true, true),

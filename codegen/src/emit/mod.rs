@@ -43,7 +43,7 @@ pub use crate::spec::{EmitOptions, Register, Target, Texels};
 
 use crate::compiled::Compiled;
 use refusal::Refusal;
-use shader::{Shader, Wgsl, kernel, tree};
+use shader::{Shader, Wgsl, kernel_tree, shader_tree};
 use statements::count_text;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -55,8 +55,8 @@ use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
-pub use bindings::{Module, bindings};
-pub use prose::comment;
+pub use bindings::{Module, render_bindings};
+pub use prose::single_line_comment;
 pub use statements::{statements_at_least, statements_at_most};
 pub use words::is_among;
 
@@ -64,7 +64,7 @@ pub use words::is_among;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Emitted {
-    /// Description for the host; the file names in it are set by [`Emitted::named`].
+    /// Description for the host; the file names in it are set by [`Emitted::named_files`].
     pub manifest: Manifest,
     /// Contents by language.
     pub files: BTreeMap<Target, Vec<u8>>,
@@ -72,7 +72,7 @@ pub struct Emitted {
 
 impl Emitted {
     /// Files by name, with the manifest that names them: `stem.wgsl`, `stem.json`, ...
-    pub fn named(&self, stem: &str) -> BTreeMap<String, Vec<u8>> {
+    pub fn named_files(&self, stem: &str) -> BTreeMap<String, Vec<u8>> {
         let mut manifest = self.manifest.clone();
         let mut files = BTreeMap::new();
         for (target, bytes) in &self.files {
@@ -120,7 +120,7 @@ impl Compiled {
     /// The counts, with those of the text of the kernel's body, which is the same in every language and stage.
     pub fn text_counts(&self) -> Counts {
         let mut counts = self.counts.clone();
-        count_text(&kernel(self, Precision::F32), &self.graph, &mut counts);
+        count_text(&kernel_tree(self, Precision::F32), &self.graph, &mut counts);
         counts
     }
 
@@ -133,12 +133,12 @@ impl Compiled {
     pub fn describe(&self, options: &EmitOptions) -> Result<Manifest, Errors> {
         let described = || {
             let _meter = Meter::resume(self.limits, self.time);
-            let (compiled, resources) = planned(self, options)?;
-            let (_, counts) = tree(&compiled, &resources);
+            let (compiled, resources) = plan_emission(self, options)?;
+            let (_, counts) = shader_tree(&compiled, &resources);
             within_limits(&compiled, counts.statements, limits::exceeded(0))?;
-            resources.manifest(&compiled, &counts)
+            resources.build_manifest(&compiled, &counts)
         };
-        described().map_err(|refusal: Refusal| refusal.located(self))
+        described().map_err(|refusal: Refusal| refusal.into_errors(self))
     }
 
     /// The kernel as a shader, in every language asked for.
@@ -147,7 +147,7 @@ impl Compiled {
     ///
     /// Codes E07xx: what the stage or the language does not have, at the input that needs it or at the kernel.
     pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, Errors> {
-        emit(self, options).map_err(|refusal| refusal.located(self))
+        emit_compiled(self, options).map_err(|refusal| refusal.into_errors(self))
     }
 }
 
@@ -171,7 +171,7 @@ fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Ex
 }
 
 /// The kernel as it is to be written, and what the shader binds.
-fn planned<'c>(
+fn plan_emission<'c>(
     compiled: &'c Compiled,
     options: &EmitOptions,
 ) -> Result<(Cow<'c, Compiled>, resources::Resources), Refusal> {
@@ -219,23 +219,23 @@ fn planned<'c>(
         options.stage = Stage::Fragment;
     }
     let compiled = match for_stage(compiled, options.stage)? {
-        Cow::Borrowed(compiled) => origin::turned(compiled, &options)?,
-        Cow::Owned(compiled) => Cow::Owned(origin::turned(&compiled, &options)?.into_owned()),
+        Cow::Borrowed(compiled) => origin::apply_origin(compiled, &options)?,
+        Cow::Owned(compiled) => Cow::Owned(origin::apply_origin(&compiled, &options)?.into_owned()),
     };
-    let resources = resources::Resources::of(&compiled, &options)?;
+    let resources = resources::Resources::from_compiled(&compiled, &options)?;
     if options.is_function() {
-        function::check(&compiled, &resources)?;
-        host_reads::check(&compiled, &resources)?;
+        function::check_function_form(&compiled, &resources)?;
+        host_reads::check_host_reads(&compiled, &resources)?;
     }
     Ok((compiled, resources))
 }
 
 /// Emits a kernel. Nothing is given out that naga does not validate.
-fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> {
+fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> {
     let _meter = Meter::resume(compiled.limits, compiled.time);
-    let (compiled, resources) = planned(compiled, options)?;
+    let (compiled, resources) = plan_emission(compiled, options)?;
     let (compiled, options) = (&*compiled, &resources.options);
-    let (tree, counts) = tree(compiled, &resources);
+    let (tree, counts) = shader_tree(compiled, &resources);
     let statements = counts.statements;
     within_limits(
         compiled,
@@ -248,30 +248,30 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
         tree: &tree,
         wgsl: Wgsl::new(&tree, &resources, false)?,
     };
-    let module = shader.validated(&counts, false)?;
-    let mut manifest = resources.manifest(compiled, &counts)?;
+    let module = shader.validated_module(&counts, false)?;
+    let mut manifest = resources.build_manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
     for target in &options.targets {
         within_limits(compiled, statements, limits::exceeded(0))?;
         let bytes = match target {
-            Target::Wgsl => shader.wgsl(&counts)?.into_bytes(),
+            Target::Wgsl => shader.print_wgsl(&counts)?.into_bytes(),
             Target::Glsl450 | Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => {
-                missing::check(compiled, &resources, *target)?;
+                missing::check_features(compiled, &resources, *target)?;
                 if !options.is_function() {
                     manifest.entry_points.insert(target.to_string(), "main".to_owned());
                 }
-                let (text, is_validated) = shader.glsl(*target, &counts)?;
+                let (text, is_validated) = shader.print_glsl(*target, &counts)?;
                 manifest.validated.extend(is_validated.then(|| target.to_string()));
                 text.into_bytes()
             }
             Target::Spirv => {
                 let words = match tree.has_exact() {
-                    true => shader.validated(&counts, true)?.spirv(&resources)?,
-                    false => module.spirv(&resources)?,
+                    true => shader.validated_module(&counts, true)?.to_spirv(&resources)?,
+                    false => module.to_spirv(&resources)?,
                 };
                 words.iter().flat_map(|word| word.to_le_bytes()).collect()
             }
-            Target::Hlsl => shader.hlsl(&counts)?.into_bytes(),
+            Target::Hlsl => shader.print_hlsl(&counts)?.into_bytes(),
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 let what = format!(
                     "`{}` sends messages by fine derivatives, which msl does not have",
@@ -280,18 +280,18 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> 
                 return Err(Refusal::new(Code::NotInTarget, what).help("use the transport `subgroup` or `block`"));
             }
             Target::Msl => {
-                let (text, name) = module.msl(&resources)?;
+                let (text, name) = module.to_msl(&resources)?;
                 if name != resources.entry {
                     manifest.entry_points.insert(target.to_string(), name);
                 }
-                let mut header = print::header(compiled, &counts, &resources);
+                let mut header = print::header_lines(compiled, &counts, &resources);
                 if !options.strip_comments {
                     header.push(
                         "Translated by naga; resources are bound at the numbers of the manifest, each kind by itself."
                             .to_owned(),
                     );
                 }
-                format!("{}\n{text}", print::commented(&header)).into_bytes()
+                format!("{}\n{text}", print::header_comment(&header)).into_bytes()
             }
         };
         let hash = match std::str::from_utf8(&bytes) {

@@ -4,7 +4,7 @@ use super::ast::{Expr, Module, Stmt, StmtKind, VarId, Variable};
 use super::own_words::is_own;
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::words::{Reserved, Words, free, identifier, numbered};
+use super::words::{Reserved, Words, free_name, numbered_name, to_identifier};
 use crate::spec::Target;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
@@ -34,7 +34,7 @@ impl Wanted {
     }
 
     /// Returns the preferred name of a node.
-    pub fn of(&self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
+    pub fn preferred_name(&self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
         match origin {
             Some(origin) if !origin.name.is_empty() => {
                 let mut name = origin.name.to_string();
@@ -43,16 +43,16 @@ impl Wanted {
                     if k == 0 || origin.counters.len() <= 2 {
                         name.push('_');
                     }
-                    self.counter(counter, &mut name);
+                    self.push_counter(counter, &mut name);
                 }
                 name
             }
-            _ => plain(graph, id),
+            _ => value_name(graph, id),
         }
     }
 
     /// Adds `s2`, or `jn1` for -1.
-    fn counter(&self, counter: &Counter, name: &mut String) {
+    fn push_counter(&self, counter: &Counter, name: &mut String) {
         name.push_str(self.short.get(&*counter.name).map_or(&*counter.name, String::as_str));
         if counter.value < 0 {
             name.push('n');
@@ -67,29 +67,32 @@ impl Wanted {
 /// # Errors
 ///
 /// There are a million names like one of them.
-pub fn assign(module: &mut Module<'_>, resources: &Resources, target: Target) -> Result<(), Refusal> {
-    let mut taken: HashSet<String> = resources.taken(target).into_iter().collect();
+pub fn assign_names(module: &mut Module<'_>, resources: &Resources, target: Target) -> Result<(), Refusal> {
+    let mut taken: HashSet<String> = resources.taken_names(target).into_iter().collect();
     rename_functions(module, &resources.kernel, &taken)?;
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
     let mut scopes = Scopes {
         kernel: &resources.kernel,
         variables: &mut module.variables,
-        language: Words::of(target),
+        language: Words::from_target(target),
         reserved: Reserved::new(target, &resources.options),
         taken,
         numbers: HashMap::new(),
     };
     // Tables are seen by all; what a function declares is its own.
     for (var, _) in &module.tables {
-        scopes.declare(*var)?;
+        scopes.name_variable(*var)?;
     }
     for function in &module.functions {
-        let declared: Result<Vec<String>, Refusal> =
-            function.params.iter().map(|param| scopes.declare(*param)).collect();
-        scopes.block(&function.body)?;
-        scopes.leave(declared?);
+        let declared: Result<Vec<String>, Refusal> = function
+            .params
+            .iter()
+            .map(|param| scopes.name_variable(*param))
+            .collect();
+        scopes.name_block(&function.body)?;
+        scopes.leave_scope(declared?);
     }
-    scopes.block(&module.body)
+    scopes.name_block(&module.body)
 }
 
 /// Gives functions beside the entry point other names where the kernel has a use for theirs.
@@ -102,7 +105,7 @@ fn rename_functions(module: &mut Module<'_>, kernel: &str, taken: &HashSet<Strin
                     || module.functions.iter().any(|other| other.name == name)
                     || renamed.values().any(|other| other == name)
             };
-            let other = free(kernel, &function.name, is_taken)?;
+            let other = free_name(kernel, &function.name, is_taken)?;
             renamed.insert(function.name.clone(), other);
         }
     }
@@ -141,41 +144,41 @@ struct Scopes<'m> {
 }
 
 impl Scopes<'_> {
-    fn block(&mut self, block: &[Stmt<'_>]) -> Result<(), Refusal> {
+    fn name_block(&mut self, block: &[Stmt<'_>]) -> Result<(), Refusal> {
         let mut declared = Vec::new();
         for stmt in block {
             match stmt.kind {
-                StmtKind::Let(var, _) | StmtKind::Var(var, _) => declared.push(self.declare(var)?),
+                StmtKind::Let(var, _) | StmtKind::Var(var, _) => declared.push(self.name_variable(var)?),
                 StmtKind::For { counter, .. } => {
-                    let name = self.declare(counter)?;
+                    let name = self.name_variable(counter)?;
                     for inner in stmt.blocks() {
-                        self.block(inner)?;
+                        self.name_block(inner)?;
                     }
                     match self.language {
                         // A counter of HLSL lives until the end of the block around its loop.
                         Words::Hlsl => declared.push(name),
-                        Words::Wgsl | Words::Glsl => self.leave(vec![name]),
+                        Words::Wgsl | Words::Glsl => self.leave_scope(vec![name]),
                     }
                 }
                 _ => {
                     for inner in stmt.blocks() {
-                        self.block(inner)?;
+                        self.name_block(inner)?;
                     }
                 }
             }
         }
-        self.leave(declared);
+        self.leave_scope(declared);
         Ok(())
     }
 
     /// Gives a variable its name. The entry point's own are named as they are.
-    fn declare(&mut self, var: VarId) -> Result<String, Refusal> {
+    fn name_variable(&mut self, var: VarId) -> Result<String, Refusal> {
         let variable = &mut self.variables[var.0 as usize];
         if var <= VarId::PLACE {
             return Ok(variable.name.clone());
         }
         // naga keeps a digit at the end of a name for its own suffixes.
-        let base = identifier(&variable.name);
+        let base = to_identifier(&variable.name);
         let mut name = match self.reserved.has(&base) {
             true => format!("{base}_value"),
             false => base.clone(),
@@ -183,7 +186,7 @@ impl Scopes<'_> {
         let is_taken = |name: &str| self.taken.contains(name) || self.reserved.has(name);
         if is_taken(&name) {
             let from = self.numbers.get(&base).copied().unwrap_or(2);
-            let (numbered, next) = numbered(self.kernel, &base, from, is_taken)?;
+            let (numbered, next) = numbered_name(self.kernel, &base, from, is_taken)?;
             self.numbers.insert(base, next);
             name = numbered;
         }
@@ -192,7 +195,7 @@ impl Scopes<'_> {
         Ok(name)
     }
 
-    fn leave(&mut self, declared: Vec<String>) {
+    fn leave_scope(&mut self, declared: Vec<String>) {
         if !declared.is_empty() {
             self.numbers.clear();
         }
@@ -205,7 +208,7 @@ impl Scopes<'_> {
 }
 
 /// Returns the name of a value without a variable.
-fn plain(graph: &Graph, id: NodeId) -> String {
+fn value_name(graph: &Graph, id: NodeId) -> String {
     let node = graph.node(id);
     match &node.op {
         Op::Load { texture, .. } | Op::Sample { texture, .. } => graph.textures[*texture as usize].name.clone(),
@@ -229,8 +232,8 @@ fn plain(graph: &Graph, id: NodeId) -> String {
         Op::TextureLevels(texture) => graph.textures[*texture as usize].name.clone() + "_levels",
         Op::TextureLayers(texture) => graph.textures[*texture as usize].name.clone() + "_layers",
         Op::BufferLen(buffer) => graph.buffers[*buffer as usize].name.clone() + "_len",
-        Op::Unary(op) => unary(*op).to_owned(),
-        Op::Binary(op) => binary(*op, node.ty).to_owned(),
+        Op::Unary(op) => unary_name(*op).to_owned(),
+        Op::Binary(op) => binary_name(*op, node.ty).to_owned(),
         Op::Lane => "lane".to_owned(),
         Op::Message(_) => "swapped".to_owned(),
         Op::Derivative(_) => "slope".to_owned(),
@@ -247,7 +250,7 @@ fn plain(graph: &Graph, id: NodeId) -> String {
             _ => "as_integer".to_owned(),
         },
         Op::Bitcast => "bits".to_owned(),
-        Op::Exact => plain(graph, node.args[0]),
+        Op::Exact => value_name(graph, node.args[0]),
         Op::Param(_, 0) => "k".to_owned(),
         Op::Param(..) => "carried".to_owned(),
         _ => "vector".to_owned(),
@@ -255,7 +258,7 @@ fn plain(graph: &Graph, id: NodeId) -> String {
 }
 
 /// Returns a name for the result of an operation.
-fn unary(op: UnaryOp) -> &'static str {
+fn unary_name(op: UnaryOp) -> &'static str {
     use UnaryOp::*;
     match op {
         Neg => "negated",
@@ -280,7 +283,7 @@ fn unary(op: UnaryOp) -> &'static str {
 }
 
 /// Returns a name for the result of an operation.
-fn binary(op: BinaryOp, ty: Type) -> &'static str {
+fn binary_name(op: BinaryOp, ty: Type) -> &'static str {
     use BinaryOp::*;
     match op {
         Add => "sum",

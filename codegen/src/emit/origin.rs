@@ -14,7 +14,7 @@ use straightline_manifest::Precision;
 /// # Errors
 ///
 /// It has something that cannot be turned exactly.
-pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, Refusal> {
+pub fn apply_origin<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, Refusal> {
     if !options.counts_from_below() {
         return Ok(Cow::Borrowed(compiled));
     }
@@ -37,7 +37,7 @@ pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'
         ));
     }
     let graph = passes::clean(&passes::from_below(graph));
-    verify::verify(&graph).map_err(|why| Refusal::invalid(&compiled.kernel, "graph", &why))?;
+    verify::verify(&graph).map_err(|why| Refusal::invalid_text(&compiled.kernel, "graph", &why))?;
     let schedule = passes::schedule(&graph, compiled.policy.reads);
     let turned = Compiled {
         counts: passes::count(&graph, &schedule),

@@ -23,30 +23,30 @@ impl BoundOutput {
         BoundOutput {
             name: target.name.clone(),
             ty: target.ty,
-            format: format(target.ty, colour),
+            format: texel_format(target.ty, colour),
             binding: None,
         }
     }
 
     /// Type of the entry point's result: with all components of the texel.
-    pub fn texel(&self) -> Type {
-        widened(self.ty)
+    pub fn texel_type(&self) -> Type {
+        widen_texel(self.ty)
     }
 }
 
 /// The texel format of a value: of 3 or 4 floats that of colours.
-fn format(ty: Type, colour: Format) -> Format {
+fn texel_format(ty: Type, colour: Format) -> Format {
     let component = match ty.kind() {
         Some(Scalar::I32) => Component::Sint,
         Some(Scalar::U32) => Component::Uint,
         _ => Component::Float,
     };
-    let components = widened(ty).components();
+    let components = widen_texel(ty).components();
     match (component, components) {
         (Component::Float, 4) => colour,
         _ => {
             let mut all = Format::ALL.into_iter();
-            let wide = |f: &Format| !Format::COLOURS.contains(f) && f.component() == component;
+            let wide = |f: &Format| !Format::COLOURS.contains(f) && f.component_type() == component;
             let found = all.find(|f| wide(f) && f.components() == components);
             found.expect("there is a format of 1, 2 and 4 components of each kind")
         }
@@ -54,7 +54,7 @@ fn format(ty: Type, colour: Format) -> Format {
 }
 
 /// Texels have 1, 2 or 4 components.
-fn widened(ty: Type) -> Type {
+fn widen_texel(ty: Type) -> Type {
     match ty {
         Type::Value { scalar, components: 3 } => Type::value(scalar, 4),
         other => other,
@@ -63,17 +63,17 @@ fn widened(ty: Type) -> Type {
 
 /// A value with all components of its texel: the fourth is 1.
 pub fn whole_texel(value: Expr) -> Expr {
-    let shape = widened(value.ty.shape);
+    let shape = widen_texel(value.ty.shape);
     if shape == value.ty.shape {
         return value;
     }
     let ty = Ty { shape, ..value.ty };
-    let one = Expr::splat(value.ty.element_of(), one(value.ty.kind()));
+    let one = Expr::splat(value.ty.element_of(), one_bits(value.ty.kind()));
     Expr::new(Op::Construct, vec![value, one], ty)
 }
 
 /// The bits of 1.
-pub fn one(kind: Option<Scalar>) -> u32 {
+pub fn one_bits(kind: Option<Scalar>) -> u32 {
     match kind {
         Some(Scalar::F32) => 1.0f32.to_bits(),
         _ => 1,

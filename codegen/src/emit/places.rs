@@ -42,7 +42,7 @@ impl Places {
         outputs: &[String],
         sampler: &str,
     ) -> Result<Places, Refusal> {
-        let refused = |what: String, help: String| Refusal::binding(kernel, &what, help);
+        let refused = |what: String, help: String| Refusal::invalid_binding(kernel, &what, help);
         if options.is_function() {
             return match no_places(options) {
                 None => Ok(Places::in_order(bound)),
@@ -62,7 +62,7 @@ impl Places {
             group: options.group,
             ..Places::default()
         };
-        let unknown = |name: &str| unknown(options, bound, outputs, sampler, name);
+        let unknown = |name: &str| unknown_name(options, bound, outputs, sampler, name);
         for (name, number) in &options.bindings {
             if let Some((what, help)) = unknown(name) {
                 return Err(refused(what, help));
@@ -72,7 +72,7 @@ impl Places {
                     format!("the binding number {number} is given to `{name}`"),
                     format!("binding numbers are 0 to {LAST_BINDING}"),
                 )
-                .about(name));
+                .about_input(name));
             }
             if let Some((other, _)) = places.numbers.iter().find(|(_, n)| *n == number)
                 && other != name
@@ -81,7 +81,7 @@ impl Places {
                     format!("the binding number {number} is given to `{other}` and to `{name}`"),
                     "give each a number of its own".to_owned(),
                 )
-                .about(name));
+                .about_input(name));
             }
             if let Some(other) = places.numbers.insert(name.clone(), *number)
                 && other != *number
@@ -90,23 +90,23 @@ impl Places {
                     format!("`{name}` is given the binding numbers {other} and {number}"),
                     "give it one".to_owned(),
                 )
-                .about(name));
+                .about_input(name));
             }
         }
-        places.fill(bound);
-        let registers = places.registers(options, bound, sampler, &unknown);
+        places.fill_numbers(bound);
+        let registers = places.assign_registers(options, bound, sampler, &unknown);
         places.registers = registers.map_err(|(what, help)| refused(what, help))?;
         Ok(places)
     }
 
     fn in_order(bound: &[Named]) -> Places {
         let mut places = Places::default();
-        places.fill(bound);
+        places.fill_numbers(bound);
         places
     }
 
     /// Gives the lowest free numbers to all that have none.
-    fn fill(&mut self, bound: &[Named]) {
+    fn fill_numbers(&mut self, bound: &[Named]) {
         let mut next = 0;
         for Named { name, .. } in bound {
             if !self.numbers.contains_key(name) {
@@ -120,7 +120,7 @@ impl Places {
     }
 
     /// The registers that are given.
-    fn registers(
+    fn assign_registers(
         &self,
         options: &EmitOptions,
         bound: &[Named],
@@ -163,7 +163,7 @@ impl Places {
             let space = Some(register.space.unwrap_or(self.group));
             let register = Register { space, ..*register };
             if given
-                .insert(self.number(name), register)
+                .insert(self.binding_number(name), register)
                 .is_some_and(|other| other != register)
             {
                 return Err((format!("`{name}` is given two registers"), "give it one".to_owned()));
@@ -171,7 +171,7 @@ impl Places {
         }
         let in_hlsl = || bound.iter().filter(|b| b.name != sampler);
         let register = |b: &Named| {
-            let number = self.number(&b.name);
+            let number = self.binding_number(&b.name);
             let default = self.default_register(b.class, number);
             given.get(&number).copied().unwrap_or(default)
         };
@@ -197,17 +197,17 @@ impl Places {
     }
 
     /// The bind group.
-    pub fn group(&self) -> u32 {
+    pub fn bind_group(&self) -> u32 {
         self.group
     }
 
     /// The binding number of a name that is bound.
-    pub fn number(&self, name: &str) -> u32 {
+    pub fn binding_number(&self, name: &str) -> u32 {
         self.numbers.get(name).copied().unwrap_or_default()
     }
 
     /// The register of what is bound at a number.
-    pub fn register(&self, class: char, number: u32) -> Register {
+    pub fn register_at(&self, class: char, number: u32) -> Register {
         let default = self.default_register(class, number);
         self.registers.get(&number).copied().unwrap_or(default)
     }
@@ -228,7 +228,7 @@ fn no_places(options: &EmitOptions) -> Option<String> {
 }
 
 /// Why a name is that of nothing bound, and what helps.
-fn unknown(
+fn unknown_name(
     options: &EmitOptions,
     bound: &[Named],
     outputs: &[String],

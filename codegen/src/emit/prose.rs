@@ -9,7 +9,7 @@
 /// | `*/`, `/*` | `* /`, `/ *` | comments of C, JavaScript and C#, which nest in Rust and WGSL |
 /// | `\` | `/` | at the end of a line, the next one would be part of the comment in C, GLSL and HLSL |
 /// | `??/` | `?? /` | the trigraph of `\` in C |
-pub fn comment(text: &str) -> String {
+pub fn single_line_comment(text: &str) -> String {
     let harmless = text.chars().filter(|c| !is_invisible(*c)).map(|c| match c {
         '\\' => '/',
         c if c.is_control() => ' ',
@@ -58,8 +58,8 @@ mod tests {
             ("\u{feff}right \u{202e}tfel", "right tfel"),
             ("", ""),
         ] {
-            assert_eq!(comment(text), line, "{text:?}");
-            assert_eq!(comment(line), line, "twice: {text:?}");
+            assert_eq!(single_line_comment(text), line, "{text:?}");
+            assert_eq!(single_line_comment(line), line, "twice: {text:?}");
         }
     }
 }

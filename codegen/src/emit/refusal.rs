@@ -4,7 +4,7 @@ use crate::compiled::Compiled;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors};
 
-/// An error of emission, made where the kernel's source is out of sight. [`Compiled::locate`] gives it a place.
+/// An error of emission, made where the kernel's source is out of sight. [`Compiled::locate_error`] gives it a place.
 #[derive(Debug)]
 pub struct Refusal(Box<Parts>);
 
@@ -25,7 +25,7 @@ impl Refusal {
     }
 
     /// An emitted text that a validator refuses: a mistake of the emitter's.
-    pub fn invalid(kernel: &str, target: &str, message: &str) -> Self {
+    pub fn invalid_text(kernel: &str, target: &str, message: &str) -> Self {
         Refusal::new(
             Code::InvalidText,
             format!("the {target} text of `{kernel}` is not valid"),
@@ -44,40 +44,40 @@ impl Refusal {
     }
 
     /// A binding number, register or group that the shader cannot have.
-    pub fn binding(kernel: &str, what: &str, help: impl Into<String>) -> Self {
+    pub fn invalid_binding(kernel: &str, what: &str, help: impl Into<String>) -> Self {
         Refusal::new(Code::Binding, format!("`{kernel}` cannot be bound so: {what}")).help(help)
     }
 
     /// A kernel that cannot be a function, and why.
-    pub fn function(kernel: &str, why: &str, help: impl Into<String>) -> Self {
+    pub fn no_function_form(kernel: &str, why: &str, help: impl Into<String>) -> Self {
         Refusal::new(Code::FunctionForm, format!("`{kernel}` cannot be a function: {why}")).help(help)
     }
 
     /// Names the input that the error is about.
-    pub fn about(mut self, input: &str) -> Self {
+    pub fn about_input(mut self, input: &str) -> Self {
         self.0.input = Some(input.to_owned());
         self
     }
 
     /// Adds the help.
     pub fn help(self, help: impl Into<String>) -> Self {
-        self.changed(|diagnostic| diagnostic.help(help))
+        self.map_diagnostic(|diagnostic| diagnostic.help(help))
     }
 
     /// Adds a reason.
     pub fn note(self, note: impl Into<String>) -> Self {
-        self.changed(|diagnostic| diagnostic.note(note))
+        self.map_diagnostic(|diagnostic| diagnostic.note(note))
     }
 
-    fn changed(self, change: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
+    fn map_diagnostic(self, change: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
         let Parts { diagnostic, input } = *self.0;
         let diagnostic = change(diagnostic);
         Refusal(Box::new(Parts { diagnostic, input }))
     }
 
     /// The error at its place.
-    pub fn located(self, compiled: &Compiled) -> Errors {
-        compiled.locate(self.0.diagnostic, self.0.input.as_deref())
+    pub fn into_errors(self, compiled: &Compiled) -> Errors {
+        compiled.locate_error(self.0.diagnostic, self.0.input.as_deref())
     }
 }
 
@@ -86,7 +86,7 @@ impl Compiled {
     ///
     /// `input` is a parameter's name, or that of a part of a structure or array, such as `light_color`. A kernel that comes
     /// from no text has no places.
-    pub fn locate(&self, mut error: Diagnostic, input: Option<&str>) -> Errors {
+    pub fn locate_error(&self, mut error: Diagnostic, input: Option<&str>) -> Errors {
         let named = input.and_then(|input| {
             // Parts of structures and arrays are called by both names.
             let is_part = |name: &str| {

@@ -2,12 +2,12 @@
 
 use super::EmitOptions;
 use super::derived::{self, Combined, Derived, HostFunction};
-use super::layout::{layout, value_type};
+use super::layout::{layout_uniforms, value_type};
 use super::outputs::BoundOutput;
 use super::own_words::{OF_OUTPUT, OUTPUT, OUTPUTS, SAMPLER, UNIFORMS};
 use super::places::{Named, Places};
 use super::refusal::Refusal;
-use super::words::free;
+use super::words::free_name;
 use crate::compiled::Compiled;
 use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
@@ -111,7 +111,7 @@ pub struct Resources {
 
 impl Resources {
     /// Collects the bindings of a scheduled graph.
-    pub fn of(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, Refusal> {
+    pub fn from_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, Refusal> {
         let graph = &compiled.graph;
         let live = |id: &NodeId| compiled.schedule.has(*id);
         let ops: Vec<&Op> = graph.ids().filter(live).map(|id| &graph.node(id).op).collect();
@@ -153,7 +153,7 @@ impl Resources {
             let what = format!("`{kernel}` writes to `{image}` at any place, which {narrow} cannot");
             return Err(Refusal::new(code, what)
                 .help("emit it as a compute shader of the whole frame")
-                .about(image));
+                .about_input(image));
         }
         let mut read = Vec::new();
         let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
@@ -180,7 +180,7 @@ impl Resources {
                 );
                 Refusal::new(Code::UnboundedLayers, what)
                     .help("bound it with `.min(...)`")
-                    .about(texture)
+                    .about_input(texture)
             })?;
             read.push(BoundTexture {
                 index,
@@ -228,13 +228,13 @@ impl Resources {
             .collect();
         let uses = |k: u32| ops.iter().any(|op| op.memory() == Some(Memory::Shared(k)));
         let used_shared: Vec<u32> = (0..graph.shared.len() as u32).filter(|k| uses(*k)).collect();
-        let entry = super::entry::name(&compiled.kernel, options)?;
+        let entry = super::entry::resolve_entry_name(&compiled.kernel, options)?;
         let mut outputs: Vec<BoundOutput> = graph.pictures().map(|t| BoundOutput::new(t, options.format)).collect();
         let subgroups = ops.iter().any(|op| matches!(op, Op::Message(_)));
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
         let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
         let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
-        let (fields, uniform_size) = layout(&uniforms);
+        let (fields, uniform_size) = layout_uniforms(&uniforms);
         let compute = options.stage == Stage::Compute;
         let needs_frame = compute || options.counts_from_below() || ops.contains(&&Op::FrameSize);
         let named = |class: char, name: &str| Named {
@@ -242,11 +242,12 @@ impl Resources {
             class,
         };
         let all_bound = read.iter().map(|t| named('t', &graph.textures[t.index as usize].name));
-        let all_bound = all_bound.chain(
-            read_buffers
-                .iter()
-                .map(|(k, _)| named(class(&graph.buffers[*k as usize]), &graph.buffers[*k as usize].name)),
-        );
+        let all_bound = all_bound.chain(read_buffers.iter().map(|(k, _)| {
+            named(
+                register_class(&graph.buffers[*k as usize]),
+                &graph.buffers[*k as usize].name,
+            )
+        }));
         let all_bound = all_bound.chain(
             used_samplers
                 .iter()
@@ -263,7 +264,7 @@ impl Resources {
             })
             .collect();
         let own = |name: &str| {
-            free(&compiled.kernel, name, |name| {
+            free_name(&compiled.kernel, name, |name| {
                 all_bound.iter().any(|bound| bound.name == name) || given.iter().any(|output| output == name)
             })
         };
@@ -288,23 +289,23 @@ impl Resources {
         all_bound.extend(own.map(|(_, class, name)| named(class, name)));
         let places = Places::new(&compiled.kernel, options, &all_bound, &given, &own_names.sampler)?;
         for (output, name) in outputs.iter_mut().zip(&given).filter(|_| compute) {
-            output.binding = Some(places.number(name));
+            output.binding = Some(places.binding_number(name));
         }
         for bound in &mut read {
-            bound.binding = places.number(&graph.textures[bound.index as usize].name);
+            bound.binding = places.binding_number(&graph.textures[bound.index as usize].name);
         }
         for (k, binding) in &mut read_buffers {
-            *binding = places.number(&graph.buffers[*k as usize].name);
+            *binding = places.binding_number(&graph.buffers[*k as usize].name);
         }
         for (k, binding) in &mut used_samplers {
-            *binding = places.number(&graph.samplers[*k as usize].name);
+            *binding = places.binding_number(&graph.samplers[*k as usize].name);
         }
         let framed = read
             .iter()
             .map(|t| t.index)
             .find(|t| graph.textures[*t as usize].framed);
         let host = match options.calls_host() {
-            true => derived::functions(&ops, framed.filter(|_| needs_frame)),
+            true => derived::host_functions(&ops, framed.filter(|_| needs_frame)),
             false => Vec::new(),
         };
         let resources = Resources {
@@ -345,7 +346,7 @@ impl Resources {
             let what = format!("`{kernel}` gives nothing for a pixel, and a fragment shader gives a colour");
             return Err(Refusal::new(Code::StageUnfit, what).help("emit it for compute"));
         }
-        let told = resources.framed().is_some() || sized_by_output;
+        let told = resources.frame_texture().is_some() || sized_by_output;
         if needs_frame
             && !told
             && (options.stage == Stage::Fragment || !options.region || ops.contains(&&Op::FrameSize))
@@ -369,7 +370,7 @@ impl Resources {
     }
 
     /// The structures of buffers that are read, each once.
-    pub fn structures(&self) -> Vec<&Structure> {
+    pub fn read_structures(&self) -> Vec<&Structure> {
         let mut all: Vec<&Structure> = Vec::new();
         for (k, _) in &self.read_buffers {
             if let Element::Struct(structure) = &self.buffer(*k).element
@@ -383,7 +384,7 @@ impl Resources {
 
     /// The class of a buffer's registers in HLSL, by its index in the graph.
     pub fn buffer_class(&self, index: u32) -> char {
-        class(self.buffer(index))
+        register_class(self.buffer(index))
     }
 
     /// Returns whether a buffer is written, by its index in the graph.
@@ -392,7 +393,7 @@ impl Resources {
     }
 
     /// The type of the elements of memory, and its name.
-    pub fn memory(&self, memory: Memory) -> (Type, &str) {
+    pub fn element_and_name(&self, memory: Memory) -> (Type, &str) {
         match memory {
             Memory::Buffer(k) => (self.buffer(k).value(), &self.buffer(k).name),
             Memory::Shared(k) => (self.shared[k as usize].element, &self.shared[k as usize].name),
@@ -401,17 +402,17 @@ impl Resources {
     }
 
     /// Workgroup memory that is used.
-    pub fn shared(&self) -> impl Iterator<Item = &Shared> {
+    pub fn shared_memory(&self) -> impl Iterator<Item = &Shared> {
         self.used_shared.iter().map(|k| &self.shared[*k as usize])
     }
 
     /// Returns whether some workgroup memory has to be 0 at first: not all of it is written before it is read.
     pub fn is_zeroed(&self) -> bool {
-        self.shared().any(|shared| !shared.filled)
+        self.shared_memory().any(|shared| !shared.filled)
     }
 
     /// Invocations of a compute workgroup.
-    pub fn workgroup(&self) -> [u32; 3] {
+    pub fn workgroup_size(&self) -> [u32; 3] {
         match self.group {
             Some([x, y]) => [x, y, 1],
             None => self.options.workgroup_size(),
@@ -424,22 +425,22 @@ impl Resources {
     }
 
     /// Name of a uniform by its index in the graph.
-    pub fn uniform(&self, index: u32) -> &str {
+    pub fn uniform_name(&self, index: u32) -> &str {
         &self.uniform_names[index as usize]
     }
 
     /// Name of a varying by its index in the graph.
-    pub fn varying(&self, index: u32) -> &str {
+    pub fn varying_name(&self, index: u32) -> &str {
         &self.varying_names[index as usize]
     }
 
     /// A texture that is read and has the output's size.
-    pub fn framed(&self) -> Option<u32> {
+    pub fn frame_texture(&self) -> Option<u32> {
         self.read.iter().map(|t| t.index).find(|t| self.texture(*t).framed)
     }
 
     /// Names of everything that is bound but the uniforms.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
+    pub fn bound_names(&self) -> impl Iterator<Item = &str> {
         let textures = self.read.iter().map(|t| self.texture(t.index).name.as_str());
         let buffers = self.read_buffers.iter().map(|(k, _)| self.buffer(*k).name.as_str());
         let samplers = self.used_samplers.iter().map(|(k, _)| self.sampler(*k).name.as_str());
@@ -468,7 +469,7 @@ impl Resources {
     }
 
     /// Interpolated values that are used, as the manifest describes them.
-    pub fn varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
+    pub fn manifest_varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
         self.varyings
             .iter()
             .zip(0..)
@@ -481,17 +482,19 @@ impl Resources {
 
     /// Binding number of the uniform buffer, if there is one.
     pub fn uniform_binding(&self) -> Option<u32> {
-        (!self.fields.is_empty()).then(|| self.places.number(&self.own_names.uniforms))
+        (!self.fields.is_empty()).then(|| self.places.binding_number(&self.own_names.uniforms))
     }
 
     /// Binding number of the rectangle's uniform buffer, if there is one.
     pub fn region_binding(&self) -> Option<u32> {
-        self.options.region.then(|| self.places.number(&self.own_names.region))
+        self.options
+            .region
+            .then(|| self.places.binding_number(&self.own_names.region))
     }
 
     /// Binding number of the sampler that only GLSL 4.50 has.
     pub fn sampler_binding(&self) -> u32 {
-        self.places.number(&self.own_names.sampler)
+        self.places.binding_number(&self.own_names.sampler)
     }
 
     /// Comment that explains the fields of a region.
@@ -543,7 +546,7 @@ impl Resources {
 }
 
 /// The class of a buffer's registers in HLSL.
-fn class(buffer: &Buffer) -> char {
+fn register_class(buffer: &Buffer) -> char {
     match buffer.access {
         Access::Read => 't',
         Access::Write | Access::Atomic => 'u',

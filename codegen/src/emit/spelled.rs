@@ -8,7 +8,7 @@ use super::own_words::{OF_GROUPS, OF_REGIONS, OUTPUT, OWN, UNIFORMS, VARIABLE};
 use super::print::LOOSE_REGION;
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::words::{Reserved, free, is_plain};
+use super::words::{Reserved, free_name, is_plain};
 use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::ir::{Element, Structure};
@@ -52,7 +52,7 @@ impl Resources {
     }
 
     /// A name that is made of others.
-    pub fn derived(&self, which: Derived) -> &str {
+    pub fn derived_name(&self, which: Derived) -> &str {
         self.derived.get(&which).map_or("", String::as_str)
     }
 
@@ -76,10 +76,10 @@ impl Resources {
     }
 
     /// Every name at module scope of a text in a language, and of every parameter: of bindings that are spelled for it.
-    pub fn taken(&self, target: Target) -> BTreeSet<String> {
+    pub fn taken_names(&self, target: Target) -> BTreeSet<String> {
         let mut all = self.own_names(target);
-        all.extend(self.names().map(str::to_owned));
-        all.extend(self.structures().iter().map(|structure| structure.name.clone()));
+        all.extend(self.bound_names().map(str::to_owned));
+        all.extend(self.read_structures().iter().map(|structure| structure.name.clone()));
         all.extend(self.derived.values().cloned());
         if self.has_loose_uniforms(target) {
             all.extend(self.uniforms.iter().map(|uniform| uniform.name.clone()));
@@ -98,7 +98,7 @@ impl Resources {
     /// # Errors
     ///
     /// There are a million names like one of them.
-    pub fn spelled(&self, target: Target) -> Result<Resources, Refusal> {
+    pub fn spelled_for(&self, target: Target) -> Result<Resources, Refusal> {
         let mut spelled = self.clone();
         let reserved = Reserved::new(target, &self.options);
         let mut scope = Scope {
@@ -107,7 +107,7 @@ impl Resources {
             taken: self.own_names(target),
         };
         let loose = self.has_loose_uniforms(target);
-        let structures = self.structures();
+        let structures = self.read_structures();
         // Names that the text can have are kept, whatever stands before them.
         let mut all: Vec<Given> = Vec::new();
         all.extend(self.read.iter().map(|bound| Given::Texture(bound.index)));
@@ -120,7 +120,7 @@ impl Resources {
             all.extend((0..self.uniforms.len()).map(Given::Uniform));
         }
         all.extend((0..structures.len()).map(Given::Structure));
-        let names = scope.give(all.iter().map(|given| self.given(*given, &structures)))?;
+        let names = scope.give_names(all.iter().map(|given| self.given_name(*given, &structures)))?;
         let structures: BTreeMap<&str, (String, Vec<String>)> = structures
             .iter()
             .zip(names[names.len() - structures.len()..].iter())
@@ -128,7 +128,7 @@ impl Resources {
                 let fields = structure.fields.iter().map(|field| field.name.as_str());
                 Ok((
                     structure.name.as_str(),
-                    (name.clone(), scope.members(target, fields, &[])?),
+                    (name.clone(), scope.member_names(target, fields, &[])?),
                 ))
             })
             .collect::<Result<_, Refusal>>()?;
@@ -136,7 +136,7 @@ impl Resources {
             if let Element::Struct(structure) = &mut buffer.element
                 && let Some((name, fields)) = structures.get(structure.name.as_str())
             {
-                rename(structure, name, fields);
+                rename_structure(structure, name, fields);
             }
         }
         let mut uniforms: BTreeMap<&str, String> = BTreeMap::new();
@@ -157,19 +157,19 @@ impl Resources {
         if !loose {
             // naga's reader of GLSL sees the members of a block beside what else is bound.
             let seen: &[String] = if target == Target::Glsl450 { &names } else { &[] };
-            let names = scope.members(target, self.uniforms.iter().map(|uniform| uniform.name.as_str()), seen)?;
+            let names = scope.member_names(target, self.uniforms.iter().map(|uniform| uniform.name.as_str()), seen)?;
             uniforms.extend(self.uniforms.iter().map(|uniform| uniform.name.as_str()).zip(names));
         }
-        spelled.follow(self, &uniforms);
+        spelled.follow_names(self, &uniforms);
         for (which, name) in spelled.derived_names(target) {
-            let name = scope.free(&name)?;
+            let name = scope.free_name(&name)?;
             spelled.derived.insert(which, name);
         }
         Ok(spelled)
     }
 
     /// Gives what is listed twice the names that it has in the other list.
-    fn follow(&mut self, original: &Resources, uniforms: &BTreeMap<&str, String>) {
+    fn follow_names(&mut self, original: &Resources, uniforms: &BTreeMap<&str, String>) {
         let renamed = |name: &mut String| {
             if let Some(other) = uniforms.get(name.as_str()) {
                 name.clone_from(other);
@@ -193,7 +193,7 @@ impl Resources {
     }
 
     /// The name of something in the kernel.
-    fn given<'r>(&'r self, which: Given, structures: &[&'r Structure]) -> &'r str {
+    fn given_name<'r>(&'r self, which: Given, structures: &[&'r Structure]) -> &'r str {
         match which {
             Given::Texture(k) => &self.textures[k as usize].name,
             Given::Buffer(k) => &self.buffers[k as usize].name,
@@ -221,7 +221,7 @@ enum Given {
 }
 
 /// Gives a structure and its fields other names.
-fn rename(structure: &mut Structure, name: &str, fields: &[String]) {
+fn rename_structure(structure: &mut Structure, name: &str, fields: &[String]) {
     name.clone_into(&mut structure.name);
     for (field, name) in structure.fields.iter_mut().zip(fields) {
         field.name.clone_from(name);
@@ -237,8 +237,8 @@ struct Scope<'r> {
 
 impl Scope<'_> {
     /// A name for something.
-    fn free(&mut self, name: &str) -> Result<String, Refusal> {
-        let name = free(self.kernel, name, |name| {
+    fn free_name(&mut self, name: &str) -> Result<String, Refusal> {
+        let name = free_name(self.kernel, name, |name| {
             self.taken.contains(name) || self.reserved.has(name)
         })?;
         self.taken.insert(name.clone());
@@ -246,7 +246,7 @@ impl Scope<'_> {
     }
 
     /// Names for many: first for those that can keep theirs.
-    fn give<'n>(&mut self, names: impl Iterator<Item = &'n str>) -> Result<Vec<String>, Refusal> {
+    fn give_names<'n>(&mut self, names: impl Iterator<Item = &'n str>) -> Result<Vec<String>, Refusal> {
         let names: Vec<&str> = names.collect();
         let mut given: Vec<Option<String>> = Vec::new();
         for name in &names {
@@ -254,12 +254,12 @@ impl Scope<'_> {
             given.push(kept.then(|| (*name).to_owned()));
         }
         let each = names.iter().zip(given);
-        each.map(|(name, kept)| kept.map_or_else(|| self.free(name), Ok))
+        each.map(|(name, kept)| kept.map_or_else(|| self.free_name(name), Ok))
             .collect()
     }
 
     /// Names for the members of a structure, which have a scope of their own, and others than those `seen` beside them.
-    fn members<'n>(
+    fn member_names<'n>(
         &self,
         target: Target,
         names: impl Iterator<Item = &'n str>,
@@ -281,6 +281,6 @@ impl Scope<'_> {
                 .chain(seen.iter().cloned())
                 .collect(),
         };
-        scope.give(names.into_iter())
+        scope.give_names(names.into_iter())
     }
 }

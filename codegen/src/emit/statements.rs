@@ -9,7 +9,7 @@ use straightline_manifest::Counts;
 
 /// Adds to a kernel's counts what its text says: statements, and the scalars that are alive at once.
 pub fn count_text(kernel: &ast::Module<'_>, graph: &Graph, counts: &mut Counts) {
-    counts.statements = count(kernel);
+    counts.statements = count_kernel_statements(kernel);
     let (most, place) = most_alive(kernel);
     counts.max_live = most;
     counts.max_live_at = place.map(|origin| place_of(origin, graph)).unwrap_or_default();
@@ -19,11 +19,11 @@ pub fn count_text(kernel: &ast::Module<'_>, graph: &Graph, counts: &mut Counts) 
 fn place_of(origin: &Origin, graph: &Graph) -> String {
     let place = match origin.line {
         Origin::NOWHERE => origin.name.to_string(),
-        line => comments::place(graph, origin.file, line),
+        line => comments::source_place(graph, origin.file, line),
     };
     match origin.counters.is_empty() {
         true => place,
-        false => format!("{place}, {}", comments::values(&origin.counters)),
+        false => format!("{place}, {}", comments::counter_values(&origin.counters)),
     }
 }
 
@@ -42,12 +42,12 @@ pub fn basic_blocks(block: &[Stmt<'_>]) -> u32 {
 }
 
 /// Statements of a kernel's tree. Results are none: how they are written is the entry point's affair.
-pub fn count(kernel: &ast::Module<'_>) -> u32 {
+pub fn count_kernel_statements(kernel: &ast::Module<'_>) -> u32 {
     let results = kernel
         .body
         .iter()
         .filter(|stmt| matches!(stmt.kind, ast::StmtKind::Output(_)));
-    ast::count(&kernel.body) - results.count() as u32
+    ast::count_statements(&kernel.body) - results.count() as u32
 }
 
 /// Lower bound of a kernel's statements, without lowering.

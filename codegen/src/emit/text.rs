@@ -77,7 +77,7 @@ impl Text {
     /// `left op right`.
     pub fn infix(left: &Text, op: &str, right: &Text, binds: Binds) -> Text {
         // Left to right as evaluated: a right side of the same strength keeps its parentheses, so that no rounding moves.
-        let [left, right] = [left.inside(binds, false), right.inside(binds, true)];
+        let [left, right] = [left.as_operand(binds, false), right.as_operand(binds, true)];
         Text {
             code: format!("{} {op} {}", left.code, right.code),
             binds,
@@ -142,7 +142,7 @@ impl Text {
     }
 
     /// The text as an operand of an operator that binds so.
-    fn inside(&self, outer: Binds, right: bool) -> Text {
+    fn as_operand(&self, outer: Binds, right: bool) -> Text {
         let loose = self.binds < outer || (right && self.binds == outer);
         let mixed = (outer == Binds::Mixed || self.binds == Binds::Mixed) && self.binds < Binds::Prefix;
         let compared = outer == Binds::Comparison && self.binds == Binds::Comparison;
@@ -154,7 +154,7 @@ impl Text {
 
     /// The text in lines of at most [`WIDEST`] columns where it can be broken: the first begins at column `at`, and leaves room
     /// for `rest` columns behind the last; the others are indented by `indent`.
-    pub fn wrapped(&self, at: usize, rest: usize, indent: usize) -> String {
+    pub fn wrap_lines(&self, at: usize, rest: usize, indent: usize) -> String {
         if at + self.code.len() + rest <= WIDEST {
             return self.code.clone();
         }
@@ -176,7 +176,7 @@ impl Text {
                         lines.push(String::new());
                     }
                     let line = lines.last_mut().expect("begins with one");
-                    let broken = arg.wrapped(deeper + line.len(), comma, deeper);
+                    let broken = arg.wrap_lines(deeper + line.len(), comma, deeper);
                     *line += &broken;
                     if comma > 0 {
                         line.push(',');
@@ -186,8 +186,8 @@ impl Text {
                 format!("{open}\n{}\n{}{close}", lines.join("\n"), " ".repeat(indent))
             }
             Breaks::Operator(left, op, right) => {
-                let begin = left.wrapped(at, 0, indent);
-                let end = right.wrapped(deeper + op.len() + 1, rest, deeper);
+                let begin = left.wrap_lines(at, 0, indent);
+                let end = right.wrap_lines(deeper + op.len() + 1, rest, deeper);
                 format!("{begin}\n{margin}{op} {end}")
             }
         }

@@ -24,9 +24,9 @@ pub struct Module {
 impl Module {
     /// Parses and validates WGSL.
     pub fn parse_wgsl(kernel: &str, text: &str) -> Result<Module, Refusal> {
-        let invalid = |message: String| Refusal::invalid(kernel, "wgsl", &message);
+        let invalid = |message: String| Refusal::invalid_text(kernel, "wgsl", &message);
         let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
-        let info = validate(&module, text).map_err(invalid)?;
+        let info = validate_module(&module, text).map_err(invalid)?;
         Ok(Module {
             kernel: kernel.to_owned(),
             module,
@@ -34,11 +34,11 @@ impl Module {
         })
     }
 
-    fn stage(resources: &Resources) -> naga::ShaderStage {
-        stage(resources.options.stage)
+    fn entry_stage(resources: &Resources) -> naga::ShaderStage {
+        naga_stage(resources.options.stage)
     }
 
-    fn failed(&self, target: &'static str, message: impl ToString) -> Refusal {
+    fn translation_error(&self, target: &'static str, message: impl ToString) -> Refusal {
         let what = format!(
             "`{}` cannot be written in {target}: {}",
             self.kernel,
@@ -48,12 +48,12 @@ impl Module {
     }
 
     /// SPIR-V 1.3.
-    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u32>, Refusal> {
+    pub fn to_spirv(&self, resources: &Resources) -> Result<Vec<u32>, Refusal> {
         let options = spv::Options {
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
             force_loop_bounding: !resources.options.unbounded_loops,
-            bounds_check_policies: checks(resources),
+            bounds_check_policies: bounds_checks(resources),
             zero_initialize_workgroup_memory: match resources.is_zeroed() {
                 true => spv::ZeroInitializeWorkgroupMemoryMode::Polyfill,
                 false => spv::ZeroInitializeWorkgroupMemoryMode::None,
@@ -61,27 +61,27 @@ impl Module {
             ..Default::default()
         };
         let pipeline = spv::PipelineOptions {
-            shader_stage: Self::stage(resources),
+            shader_stage: Self::entry_stage(resources),
             entry_point: resources.entry.clone(),
         };
-        let words =
-            spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
-        let words = super::spirv::joined(&super::spirv::uncontracted(&words));
-        Ok(super::spirv::inlined(&words))
+        let words = spv::write_vec(&self.module, &self.info, &options, Some(&pipeline))
+            .map_err(|e| self.translation_error("spirv", e))?;
+        let words = super::spirv::join_blocks(&super::spirv::forbid_contraction(&words));
+        Ok(super::spirv::inline_functions(&words))
     }
 
     /// Metal, and what the entry point is called there: textures, buffers and samplers by their binding numbers, each kind by
     /// itself.
-    pub fn msl(&self, resources: &Resources) -> Result<(String, String), Refusal> {
+    pub fn to_msl(&self, resources: &Resources) -> Result<(String, String), Refusal> {
         let mut slots = msl::EntryPointResources::default();
-        let group = resources.places.group();
+        let group = resources.places.bind_group();
         let mut bind = |binding: u32, target: msl::BindTarget| {
             slots.resources.insert(naga::ResourceBinding { group, binding }, target);
         };
         let textures = resources.read.iter().map(|t| (t.binding, false));
         let written = resources.outputs.iter().filter_map(|output| output.binding);
         for (binding, mutable) in textures.chain(written.map(|binding| (binding, true))) {
-            let texture = Some(self.slot("texture", binding, LAST_TEXTURE)?);
+            let texture = Some(self.msl_slot("texture", binding, LAST_TEXTURE)?);
             bind(
                 binding,
                 msl::BindTarget {
@@ -92,7 +92,7 @@ impl Module {
             );
         }
         for (_, binding) in &resources.used_samplers {
-            let slot = self.slot("sampler", *binding, LAST_SAMPLER)?;
+            let slot = self.msl_slot("sampler", *binding, LAST_SAMPLER)?;
             let sampler = Some(msl::BindSamplerTarget::Resource(slot));
             bind(
                 *binding,
@@ -109,7 +109,7 @@ impl Module {
         let uniforms = [resources.uniform_binding(), resources.region_binding()];
         let uniforms = uniforms.into_iter().flatten().map(|binding| (binding, false));
         for (binding, mutable) in buffers.chain(uniforms) {
-            let buffer = Some(self.slot("buffer", binding, LAST_BUFFER)?);
+            let buffer = Some(self.msl_slot("buffer", binding, LAST_BUFFER)?);
             bind(
                 binding,
                 msl::BindTarget {
@@ -121,25 +121,25 @@ impl Module {
         }
         if !resources.read_buffers.is_empty() {
             // Metal does not tell a shader how long a buffer is: the host writes the lengths here.
-            slots.sizes_buffer = Some(self.slot("buffer", resources.sizes_binding(), LAST_BUFFER)?);
+            slots.sizes_buffer = Some(self.msl_slot("buffer", resources.sizes_binding(), LAST_BUFFER)?);
         }
         let entry = resources.entry.clone();
         let options = msl::Options {
             lang_version: (2, 0),
             per_entry_point_map: [(entry, slots)].into_iter().collect(),
             fake_missing_bindings: false,
-            bounds_check_policies: checks(resources),
+            bounds_check_policies: bounds_checks(resources),
             zero_initialize_workgroup_memory: resources.is_zeroed(),
             force_loop_bounding: !resources.options.unbounded_loops,
             ..Default::default()
         };
         let pipeline = msl::PipelineOptions::default();
-        let (text, info) =
-            msl::write_string(&self.module, &self.info, &options, &pipeline).map_err(|e| self.failed("msl", e))?;
+        let (text, info) = msl::write_string(&self.module, &self.info, &options, &pipeline)
+            .map_err(|e| self.translation_error("msl", e))?;
         let name = match info.entry_point_names.into_iter().next() {
             Some(Ok(name)) => name,
-            Some(Err(error)) => return Err(self.failed("msl", error)),
-            None => return Err(self.failed("msl", "it has no entry point")),
+            Some(Err(error)) => return Err(self.translation_error("msl", error)),
+            None => return Err(self.translation_error("msl", "it has no entry point")),
         };
         // naga puts an underscore behind digits, and behind words of the language.
         let is_word = name != resources.entry && !resources.entry.ends_with(|c: char| c.is_ascii_digit());
@@ -150,10 +150,10 @@ impl Module {
     }
 
     /// A number that Metal has a place for.
-    fn slot(&self, kind: &str, binding: u32, last: u32) -> Result<u8, Refusal> {
+    fn msl_slot(&self, kind: &str, binding: u32, last: u32) -> Result<u8, Refusal> {
         match u8::try_from(binding) {
             Ok(slot) if binding <= last => Ok(slot),
-            _ => Err(Refusal::binding(
+            _ => Err(Refusal::invalid_binding(
                 &self.kernel,
                 &format!("the binding number {binding} is that of a {kind}, and MSL numbers {kind}s 0 to {last}"),
                 "give it a lower number, or leave the language msl out",
@@ -169,7 +169,7 @@ const LAST_BUFFER: u32 = 30;
 
 /// An index outside of an array is that of its last element, as it is to who reads the WGSL; none is where a shader has only tiles of
 /// texels. Coordinates of texels and indices of buffers are clamped in the text.
-fn checks(resources: &Resources) -> BoundsCheckPolicies {
+fn bounds_checks(resources: &Resources) -> BoundsCheckPolicies {
     BoundsCheckPolicies {
         index: match resources.indexes_tiles_alone {
             true => BoundsCheckPolicy::Unchecked,
@@ -181,22 +181,22 @@ fn checks(resources: &Resources) -> BoundsCheckPolicies {
 
 /// Parses and validates GLSL 4.50.
 pub fn validate_glsl(kernel: &str, of: Stage, text: &str) -> Result<(), Refusal> {
-    let invalid = |message: String| Refusal::invalid(kernel, "glsl450", &message);
-    let options = naga::front::glsl::Options::from(stage(of));
+    let invalid = |message: String| Refusal::invalid_text(kernel, "glsl450", &message);
+    let options = naga::front::glsl::Options::from(naga_stage(of));
     let module = naga::front::glsl::Frontend::default()
         .parse(&options, text)
         .map_err(|error| invalid(error.emit_to_string(text)))?;
-    validate(&module, text).map_err(invalid).map(drop)
+    validate_module(&module, text).map_err(invalid).map(drop)
 }
 
-fn stage(stage: Stage) -> naga::ShaderStage {
+fn naga_stage(stage: Stage) -> naga::ShaderStage {
     match stage {
         Stage::Compute => naga::ShaderStage::Compute,
         Stage::Fragment => naga::ShaderStage::Fragment,
     }
 }
 
-fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
+fn validate_module(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
     let mut validator = Validator::new(
         ValidationFlags::all(),
         Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16,

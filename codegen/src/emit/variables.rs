@@ -12,9 +12,9 @@ impl Expr {
     }
 
     /// The variable that a place is a part of.
-    pub fn root(&self) -> Option<VarId> {
+    pub fn root_variable(&self) -> Option<VarId> {
         match self.op {
-            Op::Index { .. } | Op::Swizzle(_) => self.args[0].root(),
+            Op::Index { .. } | Op::Swizzle(_) => self.args[0].root_variable(),
             _ => self.as_var(),
         }
     }
@@ -32,19 +32,19 @@ impl Stmt<'_> {
     pub fn mentions(&self, var: VarId) -> bool {
         let mut found = false;
         self.visit(&mut |expr| found |= expr.as_var() == Some(var));
-        found || self.gives(var)
+        found || self.sets_old_value(var)
     }
 
     /// Returns whether an effect in the statement or its blocks puts the old value into a variable.
-    fn gives(&self, var: VarId) -> bool {
+    fn sets_old_value(&self, var: VarId) -> bool {
         matches!(&self.kind, StmtKind::Effect(effect) if effect.before == Some(var))
-            || self.blocks().into_iter().flatten().any(|stmt| stmt.gives(var))
+            || self.blocks().into_iter().flatten().any(|stmt| stmt.sets_old_value(var))
     }
 
     /// Returns whether the statement or one of its blocks assigns to a variable or a part of it.
     pub fn assigns(&self, var: VarId) -> bool {
-        matches!(&self.kind, StmtKind::Assign(place, ..) if place.root() == Some(var))
-            || self.gives(var)
+        matches!(&self.kind, StmtKind::Assign(place, ..) if place.root_variable() == Some(var))
+            || self.sets_old_value(var)
             || self.blocks().into_iter().flatten().any(|stmt| stmt.assigns(var))
     }
 }

@@ -103,7 +103,7 @@ impl Knob {
     }
 
     /// Texts of its value; none of a value that is not set.
-    pub fn texts(&self, spec: &ShaderSpec) -> Vec<String> {
+    pub fn value_texts(&self, spec: &ShaderSpec) -> Vec<String> {
         (self.read)(spec)
     }
 

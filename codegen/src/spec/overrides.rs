@@ -17,8 +17,8 @@ impl Overrides {
     pub fn of_changed(spec: &ShaderSpec) -> Overrides {
         let unset = ShaderSpec::new();
         let changed = super::KNOBS.iter().filter_map(|knob| {
-            let texts = knob.texts(spec);
-            (texts != knob.texts(&unset)).then_some((knob, texts))
+            let texts = knob.value_texts(spec);
+            (texts != knob.value_texts(&unset)).then_some((knob, texts))
         });
         Overrides(changed.collect())
     }

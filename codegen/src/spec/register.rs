@@ -28,11 +28,11 @@ impl FromStr for Register {
                 None => (text, None),
                 Some((register, space)) => (
                     register,
-                    Some(number(space.trim_start().strip_prefix("space")?, LAST_GROUP)?),
+                    Some(parse_number(space.trim_start().strip_prefix("space")?, LAST_GROUP)?),
                 ),
             };
             let class = register.chars().next().filter(|class| "tsbu".contains(*class))?;
-            let number = number(&register[1..], LAST_BINDING)?;
+            let number = parse_number(&register[1..], LAST_BINDING)?;
             Some(Register { class, number, space })
         };
         parse().ok_or_else(|| {
@@ -46,7 +46,7 @@ impl FromStr for Register {
 }
 
 /// A number of digits alone, up to a largest one.
-fn number(text: &str, last: u32) -> Option<u32> {
+fn parse_number(text: &str, last: u32) -> Option<u32> {
     let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let number = digits.then(|| text.parse().ok()).flatten();
     number.filter(|number| *number <= last)

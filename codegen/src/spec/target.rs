@@ -83,7 +83,7 @@ impl Target {
     }
 
     /// The `#version` of a GLSL.
-    pub(crate) fn version(self) -> &'static str {
+    pub(crate) fn glsl_version(self) -> &'static str {
         match self {
             Target::Glsl430 => "430",
             Target::Glsl330 => "330",

@@ -182,7 +182,7 @@ impl KnobValue for [u32; 2] {
 }
 
 /// Words, each text one of them or several with commas between.
-fn words<'a>(texts: &[&'a str]) -> impl Iterator<Item = &'a str> {
+fn split_words<'a>(texts: &[&'a str]) -> impl Iterator<Item = &'a str> {
     texts.iter().flat_map(|text| text.split(','))
 }
 
@@ -190,7 +190,7 @@ impl KnobValue for BTreeSet<Target> {
     const ARITY: Arity = Arity::Many;
 
     fn from_texts(texts: &[&str]) -> Result<Self, String> {
-        words(texts).map(str::parse).collect()
+        split_words(texts).map(str::parse).collect()
     }
 
     fn texts(&self) -> Vec<String> {
@@ -206,7 +206,7 @@ impl KnobValue for BTreeSet<String> {
             true => Err("an empty word: separate words by one comma".to_owned()),
             false => Ok(word.to_owned()),
         };
-        words(texts).map(word).collect()
+        split_words(texts).map(word).collect()
     }
 
     fn texts(&self) -> Vec<String> {

@@ -162,10 +162,14 @@ fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
         manifest: &emitted.manifest,
         wgsl: &wgsl,
     };
-    for (file, contents) in emitted.named("shader") {
+    for (file, contents) in emitted.named_files("shader") {
         std::fs::write(folder.join(file), contents).expect("written");
     }
-    std::fs::write(folder.join(file), emit::bindings(&[module]).map_err(|e| e.to_string())?).expect("written");
+    std::fs::write(
+        folder.join(file),
+        emit::render_bindings(&[module]).map_err(|e| e.to_string())?,
+    )
+    .expect("written");
     rustc(folder, file, &BINDINGS);
     Ok(())
 }

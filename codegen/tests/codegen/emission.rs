@@ -324,7 +324,7 @@ fn absolute_paths_stay_at_home() {
     let emitted = compiled.emit(&EmitOptions::new()).unwrap_or_else(|e| panic!("{e}"));
     let manifest = emitted.manifest.to_json();
     assert!(text(&emitted, Target::Wgsl).contains("k.rs:1") && manifest.contains("\"max_live_at\": \"k.rs:1"));
-    for (name, bytes) in emitted.named("k") {
+    for (name, bytes) in emitted.named_files("k") {
         assert!(!String::from_utf8_lossy(&bytes).contains("secret"), "{name}");
     }
 }

@@ -38,7 +38,7 @@ fn page() -> String {
             };
             page += &format!("\n### {}\n\n{}.\n\n", knob.name, knob.help().replace(". ", ".\n"));
             page += &format!("`--{}{value}`, `{}`", knob.name, knob.call);
-            let default = knob.texts(&ShaderSpec::new()).join(",");
+            let default = knob.value_texts(&ShaderSpec::new()).join(",");
             page += &match (knob.arity, default.as_str()) {
                 (Arity::Flag, _) | (_, "") => "\n".to_owned(),
                 (_, default) => format!("; by default `{default}`\n"),
@@ -60,7 +60,7 @@ fn the_page_has_every_knob() {
 
 /// Texts of a knob in its example.
 fn texts(knob: &Knob) -> Vec<String> {
-    knob.texts(&knob.example(ShaderSpec::new()))
+    knob.value_texts(&knob.example(ShaderSpec::new()))
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn each_text_is_read_as_the_value_that_wrote_it() {
         let example = knob.example(ShaderSpec::new());
         assert_ne!(example, ShaderSpec::new(), "{}: the example is the default", knob.name);
         for spec in [example, ShaderSpec::new()] {
-            let (mut read, texts) = (knob.example(ShaderSpec::new()), knob.texts(&spec));
+            let (mut read, texts) = (knob.example(ShaderSpec::new()), knob.value_texts(&spec));
             let borrowed: Vec<&str> = texts.iter().map(String::as_str).collect();
             let set = if knob.arity == Arity::Many || !texts.is_empty() {
                 knob.set(&mut read, &borrowed)
@@ -184,7 +184,7 @@ fn configurations_write_what_a_description_says() {
     let (_, emitted) = spec
         .emit(&Kernel::builtin("sraa").expect("a kernel"))
         .unwrap_or_else(|e| panic!("{e}"));
-    for (name, bytes) in emitted.named("aa") {
+    for (name, bytes) in emitted.named_files("aa") {
         assert_eq!(std::fs::read(folder.join(&name)).expect(&name), bytes, "{name}");
     }
     std::fs::remove_dir_all(&folder).expect("a folder of ours");

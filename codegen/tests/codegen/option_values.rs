@@ -108,7 +108,7 @@ fn every_spelling_gives_the_same_bytes() {
                     assert_eq!(found.options, expected.options, "{said}");
                     assert_eq!(found.changed, expected.changed, "{said}");
                     assert_eq!(found.half_precision(), expected.half_precision(), "{said}");
-                    assert_eq!(found.paper(), expected.paper(), "{said}");
+                    assert_eq!(found.paper_counts(), expected.paper_counts(), "{said}");
                     assert_eq!(emitted(&found), texts, "{said}");
                     let parsed = kernel.option_values(&[(name.to_owned(), other)]).expect("values");
                     assert_eq!(parsed, expected.options, "{said}");

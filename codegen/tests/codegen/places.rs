@@ -421,7 +421,7 @@ fn a_function_takes_what_it_reads() {
         ["color", "image", "linear_", "position", "tau", "frame_"]
     );
     assert_eq!(taken("glsl330"), ["color", "image", "position", "tau", "frame_"]);
-    let names = all.named("takes");
+    let names = all.named_files("takes");
     assert!(
         names.contains_key("takes.es300.glsl") && names.contains_key("takes.wgsl"),
         "{:?}",

@@ -40,7 +40,7 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
 }
 
 /// A storage buffer of elements of `element`, or of structures of `fields`, `stride` bytes apart.
-pub(super) fn buffer(
+pub(super) fn plan_buffer(
     element: &Element,
     stride: u32,
     fields: &[UniformField],
@@ -86,7 +86,7 @@ pub(super) fn buffer(
 }
 
 /// A field of a struct of `block` bytes.
-pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, String> {
+pub(super) fn plan_field(field: &UniformField, block: u32) -> Result<FieldPlan, String> {
     let UniformField {
         name,
         ty,
@@ -116,7 +116,7 @@ pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, Strin
         Some(value) => Some(
             Some(ty.scalar())
                 .filter(|_| ty.components() == 1)
-                .and_then(|scalar| scalar.word(*value))
+                .and_then(|scalar| scalar.encode_word(*value))
                 .ok_or_else(|| format!("the default {value} of field `{name}` is no {ty}"))?,
         ),
     };

@@ -129,7 +129,7 @@ pub struct FieldPlan {
 
 impl FieldPlan {
     /// The name that the kernel's source has for the value: that of the whole.
-    pub fn whole(&self) -> &str {
+    pub fn source_name(&self) -> &str {
         self.part.as_ref().map_or(&self.name, |part| &part.of)
     }
 }
@@ -192,7 +192,7 @@ impl Plan {
     }
 
     /// Group and binding number of everything, sorted.
-    pub fn places(&self) -> Vec<(u32, u32)> {
+    pub fn binding_places(&self) -> Vec<(u32, u32)> {
         let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
         places.extend(self.uniform_structs().map(|u| (u.group, u.binding)));
         places.extend(self.outputs.iter().filter_map(|output| output.place));
@@ -201,8 +201,8 @@ impl Plan {
     }
 
     /// The first binding number that leaves one out: group, number, and the number that is left out.
-    pub fn hole(&self) -> Option<(u32, u32, u32)> {
-        let places = self.places();
+    pub fn find_gap(&self) -> Option<(u32, u32, u32)> {
+        let places = self.binding_places();
         let mut groups = places.chunk_by(|a, b| a.0 == b.0);
         groups.find_map(|group| {
             let mut numbered = group.iter().zip(0..);

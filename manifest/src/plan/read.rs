@@ -29,11 +29,11 @@ impl Plan {
                            the form `entry`";
             return Err(bad("form".to_owned(), problem.to_owned()));
         }
-        let stage = stage(manifest).map_err(|problem| bad("output".to_owned(), problem))?;
-        let varyings = varyings(manifest).map_err(|problem| bad("varyings".to_owned(), problem))?;
+        let stage = plan_stage(manifest).map_err(|problem| bad("output".to_owned(), problem))?;
+        let varyings = plan_varyings(manifest).map_err(|problem| bad("varyings".to_owned(), problem))?;
         let mut outputs = Vec::new();
         for (location, source) in (0..).zip(&manifest.outputs) {
-            let read = output(manifest, source, location);
+            let read = plan_output(manifest, source, location);
             let place = match manifest.outputs.len() {
                 1 => "output".to_owned(),
                 _ => format!("output `{}`", source.name),
@@ -71,7 +71,7 @@ impl Plan {
 
     /// Each place and each name is used once.
     fn check_unique(&self) -> Result<(), String> {
-        let mut places = self.places();
+        let mut places = self.binding_places();
         let mut inputs: Vec<&str> = self.inputs.iter().map(|i| i.name.as_ref()).collect();
         let mut outputs: Vec<&str> = self.outputs.iter().map(|o| o.name.as_ref()).collect();
         let mut fields: Vec<&str> = self
@@ -80,16 +80,16 @@ impl Plan {
             .flat_map(|u| u.fields.iter())
             .map(|f| f.name.as_ref())
             .collect();
-        if let Some((group, binding)) = repeated(&mut places) {
+        if let Some((group, binding)) = find_repeated(&mut places) {
             return Err(format!("@group({group}) @binding({binding}) is listed twice"));
         }
-        if let Some(name) = repeated(&mut inputs) {
+        if let Some(name) = find_repeated(&mut inputs) {
             return Err(format!("input `{name}` is listed twice"));
         }
-        if let Some(name) = repeated(&mut outputs) {
+        if let Some(name) = find_repeated(&mut outputs) {
             return Err(format!("output `{name}` is listed twice"));
         }
-        if let Some(name) = repeated(&mut fields) {
+        if let Some(name) = find_repeated(&mut fields) {
             return Err(format!("uniform `{name}` is listed twice"));
         }
         Ok(())
@@ -138,7 +138,7 @@ impl Bound {
                 require(fits, || {
                     "its buffer_type is neither read-only-storage nor storage".to_owned()
                 })?;
-                InputKind::Buffer(binding::buffer(
+                InputKind::Buffer(binding::plan_buffer(
                     element,
                     *stride,
                     fields,
@@ -161,7 +161,7 @@ impl Bound {
                 }
                 let fields = fields
                     .iter()
-                    .map(|f| binding::field(f, *size))
+                    .map(|f| binding::plan_field(f, *size))
                     .collect::<Result<Vec<_>, _>>()?;
                 let uniform = UniformPlan {
                     name,
@@ -190,7 +190,7 @@ impl Bound {
 }
 
 /// The stage of `manifest`.
-fn stage(manifest: &Manifest) -> Result<StagePlan, String> {
+fn plan_stage(manifest: &Manifest) -> Result<StagePlan, String> {
     let writes = |binding: &Binding| matches!(&binding.kind, BindingKind::Buffer { buffer_type, .. } if *buffer_type == BufferType::Storage);
     let given = !manifest.outputs.is_empty();
     require(given || manifest.bindings.iter().any(writes), || {
@@ -216,17 +216,17 @@ fn stage(manifest: &Manifest) -> Result<StagePlan, String> {
 }
 
 /// The varyings of `manifest`.
-fn varyings(manifest: &Manifest) -> Result<Vec<VaryingPlan>, String> {
+fn plan_varyings(manifest: &Manifest) -> Result<Vec<VaryingPlan>, String> {
     let all = &manifest.varyings;
     require(all.is_empty() || manifest.stage == Stage::Fragment, || {
         "the stage is compute, which interpolates nothing".to_owned()
     })?;
     let mut names: Vec<&str> = all.iter().map(|varying| varying.name.as_str()).collect();
     let mut locations: Vec<u32> = all.iter().map(|varying| varying.location).collect();
-    if let Some(name) = repeated(&mut names) {
+    if let Some(name) = find_repeated(&mut names) {
         return Err(format!("`{name}` is listed twice"));
     }
-    if let Some(location) = repeated(&mut locations) {
+    if let Some(location) = find_repeated(&mut locations) {
         return Err(format!("location {location} is listed twice"));
     }
     match all.iter().find(|varying| varying.ty.scalar() != Scalar::F32) {
@@ -249,7 +249,7 @@ impl From<&crate::Varying> for VaryingPlan {
 }
 
 /// An output of `manifest`, which is to be at `location` in a fragment shader.
-fn output(manifest: &Manifest, output: &Output, location: u32) -> Result<OutputPlan, String> {
+fn plan_output(manifest: &Manifest, output: &Output, location: u32) -> Result<OutputPlan, String> {
     require(output.access == Access::WriteOnly, || {
         "the result is only written".to_owned()
     })?;
@@ -288,7 +288,7 @@ pub(super) fn require(holds: bool, problem: impl FnOnce() -> String) -> Result<(
     if holds { Ok(()) } else { Err(problem()) }
 }
 
-fn repeated<T: Ord + Copy>(items: &mut [T]) -> Option<T> {
+fn find_repeated<T: Ord + Copy>(items: &mut [T]) -> Option<T> {
     items.sort_unstable();
     items.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }

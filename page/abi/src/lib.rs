@@ -14,7 +14,7 @@ pub struct Message {
 
 impl Message {
     /// Without bytes.
-    pub fn of(json: Value) -> Message {
+    pub fn from_json(json: Value) -> Message {
         Message {
             json,
             bytes: Vec::new(),

@@ -221,13 +221,13 @@ pub const ENTRIES: &[Entry] = &[
 ];
 
 /// Every kernel of the page.
-pub fn entries() -> &'static [Entry] {
+pub fn page_entries() -> &'static [Entry] {
     ENTRIES
 }
 
 impl Entry {
     /// The kernel's function.
-    pub fn function(&self) -> &'static str {
+    pub fn function_name(&self) -> &'static str {
         self.id.split_once('/').map_or(self.id, |(_, name)| name)
     }
 
@@ -245,11 +245,11 @@ impl Entry {
 }
 
 /// A kernel by its name.
-pub fn kernel(id: &str) -> Result<Kernel, Refusal> {
+pub fn find_kernel(id: &str) -> Result<Kernel, Refusal> {
     let entry = ENTRIES.iter().find(|entry| entry.id == id);
-    let entry = entry.ok_or_else(|| Refusal::of(&format!("the page has no kernel `{id}`")))?;
+    let entry = entry.ok_or_else(|| Refusal::from_message(&format!("the page has no kernel `{id}`")))?;
     match entry.example {
-        Some((path, text)) => Ok(Kernel::from_text(path, text, entry.function())),
+        Some((path, text)) => Ok(Kernel::from_text(path, text, entry.function_name())),
         None => Ok(Kernel::builtin(id)?),
     }
 }
@@ -260,7 +260,7 @@ pub fn to_json() -> Value {
         let uniforms = entry.uniforms.iter();
         let uniforms = uniforms.map(|u| json!({ "name": u.name, "value": u.value, "min": u.min, "max": u.max }));
         json!({
-            "id": entry.id, "name": entry.function(), "group": entry.group, "summary": entry.summary(),
+            "id": entry.id, "name": entry.function_name(), "group": entry.group, "summary": entry.summary(),
             "example": entry.example.map(|(path, _)| path), "scale": entry.scale, "unroll": entry.unroll,
             "uniforms": uniforms.collect::<Vec<_>>(),
         })
@@ -271,7 +271,7 @@ pub fn to_json() -> Value {
         .iter()
         .filter(|knob| knob.part == Part::Settings && !own.contains(&knob.name));
     let knobs = computing.map(|knob| {
-        let initial = knob.texts(&ShaderSpec::new()).join(" ");
+        let initial = knob.value_texts(&ShaderSpec::new()).join(" ");
         json!({
             "name": knob.name, "value": knob.value, "help": knob.help(), "initial": initial,
             "many": knob.arity == Arity::Many,

@@ -54,8 +54,8 @@ pub struct CompileRequest {
 
 impl KernelText {
     /// The kernel's function and files.
-    pub fn source(&self, state: &mut State) -> Result<Value, Refusal> {
-        let kernel = state.kernel(self)?;
+    pub fn source_json(&self, state: &mut State) -> Result<Value, Refusal> {
+        let kernel = state.cached_kernel(self)?;
         let files = kernel.files().iter();
         let files = files.map(|file| json!({ "path": file.path, "text": file.text }));
         Ok(json!({ "function": kernel.name(), "files": files.collect::<Vec<_>>() }))
@@ -63,14 +63,14 @@ impl KernelText {
 }
 
 /// Compiles a kernel and emits it.
-pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Refusal> {
-    let kernel = state.kernel(&request.asked.kernel)?;
+pub fn compile_kernel(state: &mut State, request: &CompileRequest) -> Result<Value, Refusal> {
+    let kernel = state.cached_kernel(&request.asked.kernel)?;
     let infos: Vec<Value> = kernel.options()?.iter().map(options::to_json).collect();
-    let compiled = state.compiled(&request.asked)?;
+    let compiled = state.cached_compiled(&request.asked)?;
     let shaders = request
         .shaders
         .iter()
-        .map(|written| shader(&compiled, &request.asked.shader, written));
+        .map(|written| shader_json(&compiled, &request.asked.shader, written));
     let shaders = shaders.collect::<Result<Vec<Value>, Refusal>>()?;
     let loops = compiled.loops.iter().map(|report| {
         json!({
@@ -83,7 +83,7 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
         "summary": compiled.summary,
         "options": infos,
         "values": compiled.options.spelled(),
-        "paper": paper(&compiled),
+        "paper": paper_json(&compiled),
         "loops": loops.collect::<Vec<_>>(),
         "quad": compiled.quad.is_some() || compiled.transport.is_some(),
         "shaders": shaders,
@@ -91,15 +91,15 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
 }
 
 /// The counts of a built-in kernel's publication, for one pixel.
-fn paper(compiled: &Compiled) -> Value {
-    compiled.paper().map_or(
+fn paper_json(compiled: &Compiled) -> Value {
+    compiled.paper_counts().map_or(
         Value::Null,
         |counts| json!({ "texture_reads": counts.texture_reads, "weight_evaluations": counts.weight_evaluations }),
     )
 }
 
 /// Makes one shader: its manifest and texts, and the languages that cannot have it with the reason.
-fn shader(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> Result<Value, Refusal> {
+fn shader_json(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> Result<Value, Refusal> {
     let options = written.apply(spec.clone()).emit.enable_subgroups(true);
     let emitted = |targets: &[Target]| compiled.emit(&options.clone().targets(targets.iter().copied()));
     let targets: Vec<Target> = options.targets.iter().copied().collect();

@@ -48,7 +48,7 @@ pub struct Place {
 
 impl Refusal {
     /// For one reason that is in no file.
-    pub fn of(message: &str) -> Refusal {
+    pub fn from_message(message: &str) -> Refusal {
         Refusal {
             text: format!("error: {message}"),
             errors: vec![Error {
@@ -70,11 +70,11 @@ impl From<Errors> for Refusal {
             code: diagnostic.code().map(Code::number),
             message: diagnostic.message.clone(),
             label: diagnostic.label.clone(),
-            place: diagnostic.span.and_then(|span| place(&errors.files, span)),
+            place: diagnostic.span.and_then(|span| find_place(&errors.files, span)),
             others: diagnostic
                 .others
                 .iter()
-                .filter_map(|(span, label)| Some((place(&errors.files, *span)?, label.clone())))
+                .filter_map(|(span, label)| Some((find_place(&errors.files, *span)?, label.clone())))
                 .collect(),
             notes: diagnostic.notes.clone(),
             help: diagnostic.help.clone(),
@@ -87,7 +87,7 @@ impl From<Errors> for Refusal {
 }
 
 /// Converts a span to a place; `None` if it is in none of the files, such as the generator's own.
-fn place(files: &[File], span: Span) -> Option<Place> {
+fn find_place(files: &[File], span: Span) -> Option<Place> {
     let text = &files.get(span.file as usize)?.text;
     let units = |byte: u32| Some(text.get(..byte as usize)?.encode_utf16().count());
     Some(Place {

@@ -52,27 +52,27 @@ struct Wanted<'a> {
 
 impl Wanted<'_> {
     /// Choice of an option; empty of a kernel that has none of this name.
-    fn choice(&self, name: &str) -> &str {
+    fn option_choice(&self, name: &str) -> &str {
         self.compiled.options.choice(name).unwrap_or_default()
     }
 
     /// Numbers of an option that is a list.
-    fn numbers(&self, name: &str) -> impl Iterator<Item = f32> {
+    fn option_numbers(&self, name: &str) -> impl Iterator<Item = f32> {
         let numbers = self.compiled.options.numbers(name).unwrap_or_default().iter();
         numbers.map(|number| *number as f32)
     }
 }
 
 /// Textures as bytes, one after the other, and the uniforms that go with the scene.
-pub fn inputs(state: &mut State, request: &InputsRequest) -> Result<Message, Refusal> {
-    let planes = planes(state, &request.asked, request.size)?;
+pub fn fill_inputs(state: &mut State, request: &InputsRequest) -> Result<Message, Refusal> {
+    let planes = fill_planes(state, &request.asked, request.size)?;
     let (mut bytes, mut textures) = (Vec::new(), Vec::new());
     for plane in &planes {
         let offset = bytes.len();
         let texels: usize = plane.layers.iter().map(Vec::len).sum();
-        bytes.reserve(texels * plane.format.size() + 8);
+        bytes.reserve(texels * plane.format.texel_bytes() + 8);
         for texel in plane.layers.iter().flatten() {
-            plane.format.put(*texel, &mut bytes);
+            plane.format.write_texel(*texel, &mut bytes);
         }
         textures.push(json!({
             "name": plane.name, "width": plane.size[0], "height": plane.size[1], "layers": plane.layers.len(),
@@ -83,7 +83,7 @@ pub fn inputs(state: &mut State, request: &InputsRequest) -> Result<Message, Ref
     }
     let json = json!({
         "textures": textures,
-        "uniforms": uniforms(request.size),
+        "uniforms": scene_uniforms(request.size),
         "geometry": planes.iter().any(|plane| plane.geometry),
         "picture": !planes.is_empty(),
     });
@@ -91,8 +91,8 @@ pub fn inputs(state: &mut State, request: &InputsRequest) -> Result<Message, Ref
 }
 
 /// Uniforms whose values are the scene's, by the names that the kernels have for them.
-fn uniforms(size: [u32; 2]) -> Map<String, Value> {
-    let [corner, right, down] = scene::rays(size);
+fn scene_uniforms(size: [u32; 2]) -> Map<String, Value> {
+    let [corner, right, down] = scene::picture_rays(size);
     let all = [
         ("ray_corner", json!(corner.to_array())),
         ("ray_right", json!(right.to_array())),
@@ -100,7 +100,7 @@ fn uniforms(size: [u32; 2]) -> Map<String, Value> {
         ("origin", json!([0, 0])),
         ("near", json!([NEAR])),
         ("far", json!([FAR])),
-        ("focal", json!([scene::focal(size)])),
+        ("focal", json!([scene::focal_length(size)])),
     ];
     all.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
@@ -110,9 +110,9 @@ fn uniforms(size: [u32; 2]) -> Map<String, Value> {
 /// # Errors
 ///
 /// The first texture of a kind that the page cannot fill, by name.
-pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Plane>, Refusal> {
-    let compiled = state.compiled(asked)?;
-    let manifest = state.manifest(asked)?;
+pub fn fill_planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Plane>, Refusal> {
+    let compiled = state.cached_compiled(asked)?;
+    let manifest = state.cached_manifest(asked)?;
     let mut wanted = Vec::new();
     for binding in &manifest.bindings {
         match &binding.kind {
@@ -123,7 +123,7 @@ pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Pl
                 extent,
                 ..
             } => {
-                let refuse = |what: &str| Err(Refusal::of(&format!("`{}` is {what}", binding.name)));
+                let refuse = |what: &str| Err(Refusal::from_message(&format!("`{}` is {what}", binding.name)));
                 let layered = match dimension {
                     Dimension::D2 => false,
                     Dimension::D2Array => true,
@@ -149,7 +149,7 @@ pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Pl
                 });
             }
             BindingKind::Buffer { .. } => {
-                return Err(Refusal::of(&format!(
+                return Err(Refusal::from_message(&format!(
                     "`{}` is a buffer, and the page has none to fill it with",
                     binding.name
                 )));
@@ -157,15 +157,15 @@ pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Pl
             BindingKind::Sampler { .. } | BindingKind::Uniform { .. } => {}
         }
     }
-    let by_geometry = wanted.iter().any(geometry::is);
+    let by_geometry = wanted.iter().any(geometry::is_geometry);
     let filled = wanted.iter().map(|wanted| {
-        geometry::plane(state, wanted, size).unwrap_or_else(|| {
+        geometry::fill_plane(state, wanted, size).unwrap_or_else(|| {
             let base = if wanted.framed { size } else { scene::SIZE };
             let texels = match &state.picture {
-                Some(picture) if !by_geometry => fitted(picture, wanted, size),
-                _ => Picture::clone(&state.scene.picture(base, 1)),
+                Some(picture) if !by_geometry => fit_picture(picture, wanted, size),
+                _ => Picture::clone(&state.scene.trace_picture(base, 1)),
             };
-            pictured(wanted, texels)
+            picture_plane(wanted, texels)
         })
     });
     let mut planes: Vec<Plane> = filled.collect();
@@ -176,7 +176,7 @@ pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Pl
 }
 
 /// The visitor's picture at the size that a texture must have: that of the result, texel by texel.
-fn fitted(picture: &Picture, wanted: &Wanted<'_>, size: [u32; 2]) -> Picture {
+fn fit_picture(picture: &Picture, wanted: &Wanted<'_>, size: [u32; 2]) -> Picture {
     if !wanted.framed || picture.size == size {
         return picture.clone();
     }
@@ -185,12 +185,12 @@ fn fitted(picture: &Picture, wanted: &Wanted<'_>, size: [u32; 2]) -> Picture {
     let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x * across / width, y * down / height)));
     Picture {
         size,
-        texels: texels.map(|(x, y)| picture.at(x, y)).collect(),
+        texels: texels.map(|(x, y)| picture.texel_at(x, y)).collect(),
     }
 }
 
 /// A texture that shows a picture: its colour, or of one component how bright it is.
-fn pictured(wanted: &Wanted<'_>, picture: Picture) -> Plane {
+fn picture_plane(wanted: &Wanted<'_>, picture: Picture) -> Plane {
     let format = match (wanted.components, wanted.filtered) {
         (1, true) => TexelFormat::R16,
         (1, false) => TexelFormat::R32,
@@ -213,10 +213,10 @@ fn pictured(wanted: &Wanted<'_>, picture: Picture) -> Plane {
 }
 
 /// The picture that is filtered; or the scene, with so many samples a pixel: four floats a pixel.
-pub fn reference(state: &mut State, samples: u32, scene: bool) -> Message {
+pub fn reference_picture(state: &mut State, samples: u32, scene: bool) -> Message {
     let picture = match &state.picture {
         Some(picture) if !scene => picture.clone(),
-        _ => Picture::clone(&state.scene.picture(scene::SIZE, samples)),
+        _ => Picture::clone(&state.scene.trace_picture(scene::SIZE, samples)),
     };
     let values = picture.texels.iter().flatten();
     Message {

@@ -24,11 +24,13 @@ pub struct InterpretRequest {
 }
 
 /// The picture: four floats a pixel, rows from the top.
-pub fn interpret(state: &mut State, request: &InterpretRequest) -> Result<Message, Refusal> {
-    let compiled = state.compiled(&request.asked)?;
-    let planes = inputs::planes(state, &request.asked, request.size)?;
+pub fn interpret_kernel(state: &mut State, request: &InterpretRequest) -> Result<Message, Refusal> {
+    let compiled = state.cached_compiled(&request.asked)?;
+    let planes = inputs::fill_planes(state, &request.asked, request.size)?;
     let compiled = &*compiled.in_blocks();
-    let images = planes.iter().map(|plane| Ok((plane.name.as_str(), image(plane)?)));
+    let images = planes
+        .iter()
+        .map(|plane| Ok((plane.name.as_str(), plane_image(plane)?)));
     let images = images.collect::<Result<Vec<(&str, Image)>, Refusal>>()?;
     let mut bindings = Bindings::new();
     for (name, image) in &images {
@@ -38,7 +40,7 @@ pub fn interpret(state: &mut State, request: &InterpretRequest) -> Result<Messag
         bindings = bindings.uniform(name, lanes);
     }
     let interpreter = Interpreter::<f32>::new(&compiled.graph, &compiled.schedule, request.size, &bindings)
-        .map_err(|why| Refusal::of(&why.to_string()))?;
+        .map_err(|why| Refusal::from_message(&why.to_string()))?;
     let [width, height] = request.size.map(|n| n as usize);
     let [across, down] = compiled.graph.invocation.pixels().map(|n| n as usize);
     let mut texels = vec![[0.0_f32; 4]; width * height];
@@ -60,9 +62,9 @@ pub fn interpret(state: &mut State, request: &InterpretRequest) -> Result<Messag
     })
 }
 
-fn image(plane: &Plane) -> Result<Image, Refusal> {
+fn plane_image(plane: &Plane) -> Result<Image, Refusal> {
     let layers = plane.layers.iter();
-    let layers = layers.map(|layer| layer.iter().map(|texel| plane.format.held(*texel)).collect());
+    let layers = layers.map(|layer| layer.iter().map(|texel| plane.format.round_texel(*texel)).collect());
     Image::new(plane.size, layers.collect())
-        .ok_or_else(|| Refusal::of(&format!("the layers of `{}` have different sizes", plane.name)))
+        .ok_or_else(|| Refusal::from_message(&format!("the layers of `{}` have different sizes", plane.name)))
 }

@@ -16,7 +16,7 @@ mod scene;
 mod state;
 mod texels;
 
-pub use catalogue::{Entry, UniformRange, entries};
+pub use catalogue::{Entry, UniformRange, page_entries};
 pub use message::answer;
 pub use straightline_page_abi::Message;
 

@@ -1,8 +1,8 @@
 //! Requests of the page to the generator, and the answers.
 
-use crate::compiled::{Asked, CompileRequest, KernelText, compile};
-use crate::inputs::{InputsRequest, inputs, reference};
-use crate::interpret::{InterpretRequest, interpret};
+use crate::compiled::{Asked, CompileRequest, KernelText, compile_kernel};
+use crate::inputs::{InputsRequest, fill_inputs, reference_picture};
+use crate::interpret::{InterpretRequest, interpret_kernel};
 use crate::state::State;
 use crate::{catalogue, engines, errors::Refusal};
 use serde::Deserialize;
@@ -47,32 +47,32 @@ thread_local! {
 /// Answers one message: `{"ok": ...}`, or `{"refused": {"text": ..., "errors": [...]}}`.
 pub fn answer(request: &[u8]) -> Vec<u8> {
     let given = match Message::decode(request) {
-        None => Err(Refusal::of("the page sent what is no message")),
-        Some(message) => STATE.with_borrow_mut(|state| act(state, message)),
+        None => Err(Refusal::from_message("the page sent what is no message")),
+        Some(message) => STATE.with_borrow_mut(|state| answer_request(state, message)),
     };
     let message = match given {
         Ok(given) => Message {
             json: json!({ "ok": given.json }),
             bytes: given.bytes,
         },
-        Err(refusal) => Message::of(json!({ "refused": refusal })),
+        Err(refusal) => Message::from_json(json!({ "refused": refusal })),
     };
     message.encode()
 }
 
-fn act(state: &mut State, message: Message) -> Result<Message, Refusal> {
+fn answer_request(state: &mut State, message: Message) -> Result<Message, Refusal> {
     let request = serde_json::from_value::<Request>(message.json);
-    match request.map_err(|error| Refusal::of(&error.to_string()))? {
-        Request::Catalogue => Ok(Message::of(catalogue::to_json())),
-        Request::Source { kernel } => Ok(Message::of(kernel.source(state)?)),
-        Request::Compile(request) => compile(state, &request).map(Message::of),
-        Request::Engine { engine, asked } => engines::context(state, &engine, &asked).map(Message::of),
-        Request::Inputs(request) => inputs(state, &request),
-        Request::Interpret(request) => interpret(state, &request),
+    match request.map_err(|error| Refusal::from_message(&error.to_string()))? {
+        Request::Catalogue => Ok(Message::from_json(catalogue::to_json())),
+        Request::Source { kernel } => Ok(Message::from_json(kernel.source_json(state)?)),
+        Request::Compile(request) => compile_kernel(state, &request).map(Message::from_json),
+        Request::Engine { engine, asked } => engines::engine_context(state, &engine, &asked).map(Message::from_json),
+        Request::Inputs(request) => fill_inputs(state, &request),
+        Request::Interpret(request) => interpret_kernel(state, &request),
         Request::Picture { width, height } => {
             state.set_picture(width, height, &message.bytes)?;
-            Ok(Message::of(Value::Null))
+            Ok(Message::from_json(Value::Null))
         }
-        Request::Reference { samples, scene } => Ok(reference(state, samples, scene)),
+        Request::Reference { samples, scene } => Ok(reference_picture(state, samples, scene)),
     }
 }

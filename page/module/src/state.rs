@@ -28,45 +28,47 @@ pub struct State {
 
 impl State {
     /// The kernel of a text, read once.
-    pub fn kernel(&mut self, text: &KernelText) -> Result<Arc<Kernel>, Refusal> {
+    pub fn cached_kernel(&mut self, text: &KernelText) -> Result<Arc<Kernel>, Refusal> {
         if let Some((_, kernel)) = self.kernels.iter().find(|(known, _)| known == text) {
             return Ok(Arc::clone(kernel));
         }
         let kernel = Arc::new(match &text.files {
-            None => catalogue::kernel(&text.id)?,
+            None => catalogue::find_kernel(&text.id)?,
             Some(files) => {
                 let (first, others) = files
                     .split_first()
-                    .ok_or_else(|| Refusal::of("the kernel has no file"))?;
+                    .ok_or_else(|| Refusal::from_message("the kernel has no file"))?;
                 let kernel = Kernel::from_text(&first.path, &first.text, &text.function);
                 others
                     .iter()
                     .fold(kernel, |kernel, file| kernel.with_text(&file.path, &file.text))
             }
         });
-        keep(&mut self.kernels, text.clone(), Arc::clone(&kernel));
+        cache_entry(&mut self.kernels, text.clone(), Arc::clone(&kernel));
         Ok(kernel)
     }
 
     /// A kernel in one form, compiled once.
-    pub fn compiled(&mut self, asked: &Asked) -> Result<Arc<Compiled>, Refusal> {
+    pub fn cached_compiled(&mut self, asked: &Asked) -> Result<Arc<Compiled>, Refusal> {
         if let Some((_, compiled)) = self.compiled.iter().find(|(known, _)| known == asked) {
             return Ok(Arc::clone(compiled));
         }
-        let kernel = self.kernel(&asked.kernel)?;
+        let kernel = self.cached_kernel(&asked.kernel)?;
         let compiled = Arc::new(asked.shader.compile(&kernel)?);
-        keep(&mut self.compiled, asked.clone(), Arc::clone(&compiled));
+        cache_entry(&mut self.compiled, asked.clone(), Arc::clone(&compiled));
         Ok(compiled)
     }
 
     /// Returns the manifest of a kernel's compute shader.
-    pub fn manifest(&mut self, asked: &Asked) -> Result<Arc<Manifest>, Refusal> {
+    pub fn cached_manifest(&mut self, asked: &Asked) -> Result<Arc<Manifest>, Refusal> {
         if let Some((_, manifest)) = self.manifests.iter().find(|(known, _)| known == asked) {
             return Ok(Arc::clone(manifest));
         }
-        let emitted = self.compiled(asked)?.emit(&asked.shader.emit.clone().targets([]));
+        let emitted = self
+            .cached_compiled(asked)?
+            .emit(&asked.shader.emit.clone().targets([]));
         let manifest = Arc::new(emitted?.manifest);
-        keep(&mut self.manifests, asked.clone(), Arc::clone(&manifest));
+        cache_entry(&mut self.manifests, asked.clone(), Arc::clone(&manifest));
         Ok(manifest)
     }
 
@@ -78,7 +80,7 @@ impl State {
             return Ok(());
         }
         if pixels > MOST_PIXELS || bytes.len() as u64 != 4 * pixels {
-            return Err(Refusal::of(&format!(
+            return Err(Refusal::from_message(&format!(
                 "a picture of {width}x{height} pixels has {} bytes: give 4 a pixel, and at most {MOST_PIXELS} pixels",
                 bytes.len()
             )));
@@ -89,7 +91,7 @@ impl State {
 }
 
 /// Adds an entry, and forgets the oldest if there are too many.
-fn keep<K, V>(entries: &mut Vec<(K, V)>, key: K, value: V) {
+fn cache_entry<K, V>(entries: &mut Vec<(K, V)>, key: K, value: V) {
     if entries.len() == KEPT {
         entries.remove(0);
     }

@@ -14,10 +14,10 @@ pub struct Picture {
 impl Picture {
     /// From 8-bit sRGB and alpha.
     pub fn from_srgb(size: [u32; 2], bytes: &[u8]) -> Picture {
-        let table: [f32; 256] = std::array::from_fn(|k| rounded(linear(k as f32 / 255.0)));
+        let table: [f32; 256] = std::array::from_fn(|k| round_to_half(srgb_to_linear(k as f32 / 255.0)));
         let texel = |p: &[u8]| {
             let colour = [p[0], p[1], p[2]].map(|byte| table[usize::from(byte)]);
-            [colour[0], colour[1], colour[2], rounded(f32::from(p[3]) / 255.0)]
+            [colour[0], colour[1], colour[2], round_to_half(f32::from(p[3]) / 255.0)]
         };
         Picture {
             size,
@@ -26,7 +26,7 @@ impl Picture {
     }
 
     /// The texel at a place; beyond the border, that of the border.
-    pub fn at(&self, x: i64, y: i64) -> [f32; 4] {
+    pub fn texel_at(&self, x: i64, y: i64) -> [f32; 4] {
         let [width, height] = self.size.map(i64::from);
         let (x, y) = (x.clamp(0, width - 1), y.clamp(0, height - 1));
         self.texels[(y * width + x) as usize]
@@ -34,7 +34,7 @@ impl Picture {
 }
 
 /// Linear light of an sRGB value.
-fn linear(value: f32) -> f32 {
+fn srgb_to_linear(value: f32) -> f32 {
     match value <= 0.04045 {
         true => value / 12.92,
         false => ((value + 0.055) / 1.055).powf(2.4),
@@ -42,7 +42,7 @@ fn linear(value: f32) -> f32 {
 }
 
 /// The nearest number that a 16-bit float holds.
-pub fn rounded(value: f32) -> f32 {
+pub fn round_to_half(value: f32) -> f32 {
     f16::from_f32(value).to_f32()
 }
 
@@ -82,7 +82,7 @@ impl TexelFormat {
     }
 
     /// Bytes of a texel.
-    pub fn size(self) -> usize {
+    pub fn texel_bytes(self) -> usize {
         self.components() * if self.is_half() { 2 } else { 4 }
     }
 
@@ -91,16 +91,16 @@ impl TexelFormat {
     }
 
     /// A texel as this format holds it; components that it lacks are 0.
-    pub fn held(self, texel: [f32; 4]) -> [f32; 4] {
+    pub fn round_texel(self, texel: [f32; 4]) -> [f32; 4] {
         std::array::from_fn(|k| match (k < self.components(), self.is_half()) {
             (false, _) => 0.0,
-            (true, true) => rounded(texel[k]),
+            (true, true) => round_to_half(texel[k]),
             (true, false) => texel[k],
         })
     }
 
     /// Adds a texel's bytes.
-    pub fn put(self, texel: [f32; 4], bytes: &mut Vec<u8>) {
+    pub fn write_texel(self, texel: [f32; 4], bytes: &mut Vec<u8>) {
         for value in &texel[..self.components()] {
             match self.is_half() {
                 true => bytes.extend(f16::from_f32(*value).to_le_bytes()),
@@ -128,9 +128,12 @@ mod tests {
     #[test]
     fn formats_hold_what_they_write() {
         let mut bytes = Vec::new();
-        TexelFormat::Rg16.put([1.0, 0.1, 7.0, 7.0], &mut bytes);
+        TexelFormat::Rg16.write_texel([1.0, 0.1, 7.0, 7.0], &mut bytes);
         assert_eq!(bytes.len(), 4);
         let second = f16::from_le_bytes([bytes[2], bytes[3]]).to_f32();
-        assert_eq!(TexelFormat::Rg16.held([1.0, 0.1, 7.0, 7.0]), [1.0, second, 0.0, 0.0]);
+        assert_eq!(
+            TexelFormat::Rg16.round_texel([1.0, 0.1, 7.0, 7.0]),
+            [1.0, second, 0.0, 0.0]
+        );
     }
 }

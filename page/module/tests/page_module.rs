@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use straightline_codegen::emit::Target;
 use straightline_codegen::spec::KNOBS;
 use straightline_codegen::{Kernel, Overrides, ShaderSpec};
-use straightline_page_module::{Message, answer, entries};
+use straightline_page_module::{Message, answer, page_entries};
 
 /// Returns the module's answer.
 fn ask(json: Value, bytes: &[u8]) -> Result<Message, Value> {
@@ -33,7 +33,7 @@ const SIZE: [u32; 2] = [24, 16];
 const UNDRAWN: [(&str, &str); 2] = [("pcf", "shadow map"), ("pcss", "shadow map")];
 
 fn unroll(id: &str) -> &'static str {
-    entries()
+    page_entries()
         .iter()
         .find(|entry| entry.id == id)
         .map_or("full", |entry| entry.unroll)
@@ -54,9 +54,12 @@ fn compile(id: &str) -> Value {
 #[test]
 fn every_kernel_compiles_in_every_language() {
     let catalogue = ask(json!({ "do": "catalogue" }), &[]).expect("a catalogue").json;
-    assert_eq!(catalogue["kernels"].as_array().expect("a list").len(), entries().len());
+    assert_eq!(
+        catalogue["kernels"].as_array().expect("a list").len(),
+        page_entries().len()
+    );
     let mut webgl = 0;
-    for entry in entries() {
+    for entry in page_entries() {
         let compiled = compile(entry.id);
         let compute = &compiled["shaders"][0];
         for target in ["wgsl", "glsl450", "hlsl", "msl"] {
@@ -95,7 +98,7 @@ fn every_kernel_compiles_in_every_language() {
 
 #[test]
 fn every_kernel_draws_or_says_why_not() {
-    for entry in entries() {
+    for entry in page_entries() {
         let uniforms: serde_json::Map<String, Value> = entry
             .uniforms
             .iter()
@@ -253,7 +256,7 @@ fn a_kernel_is_had_as_the_folder_of_an_engine() {
         let asked =
             json!({ "do": "engine", "engine": engine, "kernel": { "id": id }, "shader": { "unroll": unroll(id) } });
         let context = ask(asked, &[])?.json;
-        let request = Message::of(json!({ "engine": engine, "context": context })).encode();
+        let request = Message::from_json(json!({ "engine": engine, "context": context })).encode();
         let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");
         Ok::<Value, Value>(made.json["ok"].clone())
     };
@@ -273,7 +276,7 @@ fn a_kernel_is_had_as_the_folder_of_an_engine() {
     let nobody = folder("../secrets", "sraa").expect_err("no engine");
     assert!(reason(&nobody).contains("there is no engine"), "{nobody}");
     for request in [
-        Message::of(json!({ "engine": "../secrets", "context": {} })).encode(),
+        Message::from_json(json!({ "engine": "../secrets", "context": {} })).encode(),
         Vec::new(),
     ] {
         let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");

@@ -23,7 +23,7 @@ pub fn answer(request: &[u8]) -> Vec<u8> {
         Ok(files) => json!({ "ok": files }),
         Err(why) => json!({ "refused": { "text": format!("error: {why}"), "errors": [] } }),
     };
-    Message::of(json).encode()
+    Message::from_json(json).encode()
 }
 
 fn files(request: &[u8]) -> Result<Value, String> {

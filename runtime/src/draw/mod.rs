@@ -5,7 +5,7 @@ mod vertices;
 
 use crate::error::Error;
 use crate::guard::LossProbe;
-use crate::inputs::{Abilities, arrange, check_inputs, frame_size};
+use crate::inputs::{Abilities, arrange_inputs, check_inputs, frame_size};
 use crate::layout::{BoundGroup, Layout};
 use crate::module::Source;
 use crate::pass::check_features;
@@ -87,14 +87,14 @@ impl Draw {
     /// [`Error::VertexShader`].
     pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &DrawOptions<'_>) -> Result<Self, Error> {
         let plan = shader.plan.clone();
-        drawable(&plan)?;
+        check_drawable(&plan)?;
         check_features(device, &plan)?;
         let formats = check_formats(device, &plan, &options.pass)?;
         let doing = format!("making a pipeline of `{}`", plan.kernel);
         let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::with_groups(device, &plan, &options.groups)?;
-        let vertices = vertices::module(device, &plan, &options.vertex)?;
-        let fragment = Source::wgsl(shader, &options.pass).module(device, &plan)?;
+        let vertices = vertices::vertex_module(device, &plan, &options.vertex)?;
+        let fragment = Source::from_shader(shader, &options.pass).create_module(device, &plan)?;
         let side = VertexSide {
             module: &vertices,
             entry_point: options.vertex.entry_point(),
@@ -105,7 +105,7 @@ impl Draw {
             blend: options.blend,
         };
         let pipeline = render_pipeline(device, &plan, &layout, (side, &fragment), &formats);
-        let pipeline = pipeline.map_err(|error| vertices::explained(error, &plan, &options.vertex))?;
+        let pipeline = pipeline.map_err(|error| vertices::explain_error(error, &plan, &options.vertex))?;
         loss_probe.check(device, &doing)?;
         Ok(Draw {
             device: device.clone(),
@@ -170,14 +170,14 @@ impl Draw {
         let inputs: Vec<(&str, Resource<'r>)> = inputs.iter().map(|(name, input)| (*name, (*input).into())).collect();
         self.loss_probe
             .check(&self.device, &format!("binding `{}`", plan.kernel))?;
-        let resources = arrange(plan, &inputs)?;
+        let resources = arrange_inputs(plan, &inputs)?;
         // Without a texture of the frame's size none is compared with it.
         let frame = frame_size(plan, &resources).unwrap_or_default();
         check_inputs(plan, &self.abilities, &resources, frame)?;
         let uniforms = Uniforms::new(&self.device, plan, options)?;
         let groups = self
             .layout
-            .bind(&self.device, plan, &uniforms, &resources, (&[], None))?;
+            .bind_resources(&self.device, plan, &uniforms, &resources, (&[], None))?;
         Ok(BoundDraw {
             plan: Arc::clone(plan),
             pipeline: self.pipeline.clone(),
@@ -188,7 +188,7 @@ impl Draw {
 }
 
 /// Refuses what no triangles are drawn with.
-fn drawable(plan: &Plan) -> Result<(), Error> {
+fn check_drawable(plan: &Plan) -> Result<(), Error> {
     let refused = |description: &str| {
         Err(Error::Pipeline {
             kernel: plan.kernel.to_string(),
@@ -238,7 +238,7 @@ impl BoundDraw {
     ///
     /// [`Error::UnknownUniform`], or [`Error::UniformType`] for a value of another type. Nothing has been written then.
     pub fn write_uniform(&self, queue: &Queue, name: &str, value: impl Into<UniformValue>) -> Result<(), Error> {
-        self.uniforms.write(&self.plan, queue, name, &value.into())
+        self.uniforms.write_value(&self.plan, queue, name, &value.into())
     }
 
     /// Sets all uniforms at once: see [`Bound::write_uniforms`](crate::Bound::write_uniforms).

@@ -2,13 +2,13 @@
 
 use super::VertexShader;
 use crate::error::{Error, Names};
-use crate::guard::guarded;
+use crate::guard::run_guarded;
 use crate::plan::Plan;
 use straightline_manifest::plan::VaryingPlan;
 use wgpu::{Device, ShaderModule};
 
 /// The module of the vertex shader, whose text gives all varyings of `plan`.
-pub(super) fn module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) -> Result<ShaderModule, Error> {
+pub(super) fn vertex_module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) -> Result<ShaderModule, Error> {
     let (text, entry_point) = match *vertex {
         VertexShader::Wgsl { text, entry_point } => (text, entry_point),
         VertexShader::Module { module, .. } => return Ok(module.clone()),
@@ -18,8 +18,8 @@ pub(super) fn module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) ->
         description,
     };
     #[cfg(feature = "manifest")]
-    check(plan, text, entry_point)?;
-    guarded(device, "compiling a vertex shader", refused, || {
+    check_text(plan, text, entry_point)?;
+    run_guarded(device, "compiling a vertex shader", refused, || {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(entry_point),
             source: wgpu::ShaderSource::Wgsl(text.into()),
@@ -29,7 +29,7 @@ pub(super) fn module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) ->
 
 /// Names what the vertex shader lacks, before wgpu finds it.
 #[cfg(feature = "manifest")]
-fn check(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
+fn check_text(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
     use straightline_reflect::VertexProblem;
     let refused = |description| Error::VertexShader {
         kernel: plan.kernel.to_string(),
@@ -52,7 +52,7 @@ fn check(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
 }
 
 /// An error of a pipeline; where only wgpu has looked into the vertex shader, with what the kernel takes of it.
-pub(super) fn explained(error: Error, plan: &Plan, vertex: &VertexShader<'_>) -> Error {
+pub(super) fn explain_error(error: Error, plan: &Plan, vertex: &VertexShader<'_>) -> Error {
     let checked = cfg!(feature = "manifest") && matches!(vertex, VertexShader::Wgsl { .. });
     match error {
         Error::Pipeline { kernel, description } if !checked && !plan.varyings.is_empty() => {

@@ -11,7 +11,7 @@ use texture::check_texture;
 use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
 
 pub(crate) use target::check_targets;
-pub(crate) use texture::{is_one_image, size};
+pub(crate) use texture::{is_one_image, texture_size};
 
 /// Bytes of which the size of a storage binding must be a multiple, by WebGPU.
 const SIZE_ALIGNMENT: u64 = 4;
@@ -37,7 +37,7 @@ impl Abilities {
 }
 
 /// The resources for `plan.inputs`, in that order: each exactly once, of its kind, and nothing else.
-pub(crate) fn arrange<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Result<Vec<Resource<'r>>, Error> {
+pub(crate) fn arrange_inputs<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Result<Vec<Resource<'r>>, Error> {
     let kernel = || plan.kernel.to_string();
     let known = || plan.inputs.iter().map(|input| input.name.as_ref()).collect::<Names>();
     for (i, (name, _)) in inputs.iter().enumerate() {
@@ -79,13 +79,13 @@ pub(crate) fn frame_size(plan: &Plan, resources: &[Resource<'_>]) -> Option<[u32
     let mut pairs = plan.inputs.iter().zip(resources);
     pairs.find_map(|(input, resource)| match (&input.kind, resource) {
         (InputKind::Texture(texture), Resource::Texture(view)) if texture.extent == Extent::Output => {
-            Some(size(view.texture()))
+            Some(texture_size(view.texture()))
         }
         _ => None,
     })
 }
 
-/// Checks each input against the manifest, the device and the frame's size. `resources` is as [`arrange`] made it.
+/// Checks each input against the manifest, the device and the frame's size. `resources` is as [`arrange_inputs`] made it.
 pub(crate) fn check_inputs(
     plan: &Plan,
     abilities: &Abilities,
@@ -158,7 +158,7 @@ fn check_buffer(plan: &BufferPlan, abilities: &Abilities, buffer: &Buffer) -> Re
 }
 
 /// The first input that is of a target's texture, and which target that is. Whether it shows the same part of it, only wgpu knows.
-pub(crate) fn shared<'p, 't>(
+pub(crate) fn find_shared<'p, 't>(
     plan: &'p Plan,
     resources: &[Resource<'_>],
     targets: &[&'t TextureView],

@@ -1,7 +1,7 @@
 //! Checks the targets.
 
 use super::Abilities;
-use super::texture::{check_shape, check_usage, is_one_image, size};
+use super::texture::{check_shape, check_usage, is_one_image, texture_size};
 use crate::error::{Error, ViewProblem};
 use crate::plan::{Plan, StagePlan};
 use straightline_manifest::Dimension;
@@ -16,7 +16,8 @@ pub(crate) fn check_targets(
     targets: &[&TextureView],
 ) -> Result<(), Error> {
     for (k, (view, format)) in targets.iter().zip(formats).enumerate() {
-        let checked = check(plan, *format, abilities, view).and_then(|()| beside(plan, targets, k));
+        let checked =
+            check_target(plan, *format, abilities, view).and_then(|()| check_against_earlier(plan, targets, k));
         checked.map_err(|problem| Error::Target {
             kernel: plan.kernel.to_string(),
             name: plan.target_name(k),
@@ -27,8 +28,8 @@ pub(crate) fn check_targets(
 }
 
 /// Checks a target against those before it.
-fn beside(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewProblem> {
-    let [own, first] = [k, 0].map(|k| size(targets[k].texture()));
+fn check_against_earlier(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewProblem> {
+    let [own, first] = [k, 0].map(|k| texture_size(targets[k].texture()));
     if own != first {
         return Err(ViewProblem::TargetSize { size: own, first });
     }
@@ -44,7 +45,12 @@ fn beside(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewPro
     }
 }
 
-fn check(plan: &Plan, format: TextureFormat, abilities: &Abilities, target: &TextureView) -> Result<(), ViewProblem> {
+fn check_target(
+    plan: &Plan,
+    format: TextureFormat,
+    abilities: &Abilities,
+    target: &TextureView,
+) -> Result<(), ViewProblem> {
     let texture = target.texture();
     check_shape(Dimension::D2, 1, texture)?;
     let found = texture.format();
@@ -59,7 +65,7 @@ fn check(plan: &Plan, format: TextureFormat, abilities: &Abilities, target: &Tex
                 });
             }
             check_usage(texture, TextureUsages::STORAGE_BINDING, "STORAGE_BINDING")?;
-            for (size, workgroup) in size(texture).into_iter().zip(workgroup) {
+            for (size, workgroup) in texture_size(texture).into_iter().zip(workgroup) {
                 if size.div_ceil(workgroup) > abilities.max_workgroups {
                     return Err(ViewProblem::TooLarge {
                         size,

@@ -21,7 +21,9 @@ pub(super) fn check_texture(
         return Err(ViewProblem::Layers { needed, found });
     }
     if cube && texture.width() != texture.height() {
-        return Err(ViewProblem::NotSquare { size: size(texture) });
+        return Err(ViewProblem::NotSquare {
+            size: texture_size(texture),
+        });
     }
     let format = texture.format();
     match plan.sample_type {
@@ -38,12 +40,12 @@ pub(super) fn check_texture(
         SampleType::Sint => check_integer(format, TextureSampleType::Sint)?,
         SampleType::Uint => check_integer(format, TextureSampleType::Uint)?,
     }
-    if components(format) < plan.components {
-        let (needed, found) = (plan.components, components(format));
+    if component_count(format) < plan.components {
+        let (needed, found) = (plan.components, component_count(format));
         return Err(ViewProblem::Components { format, needed, found });
     }
     check_usage(texture, TextureUsages::TEXTURE_BINDING, "TEXTURE_BINDING")?;
-    let input = size(texture);
+    let input = texture_size(texture);
     match plan.extent {
         Extent::Output if input != frame => Err(ViewProblem::Size { input, target: frame }),
         Extent::Output | Extent::Any => Ok(()),
@@ -51,7 +53,7 @@ pub(super) fn check_texture(
 }
 
 /// Width and height in texels.
-pub(crate) fn size(texture: &Texture) -> [u32; 2] {
+pub(crate) fn texture_size(texture: &Texture) -> [u32; 2] {
     [texture.width(), texture.height()]
 }
 
@@ -118,7 +120,7 @@ fn check_integer(format: TextureFormat, needed: TextureSampleType) -> Result<(),
 }
 
 /// Components that a read yields. Of a depth texture, combined with stencil or not, only the first is defined.
-fn components(format: TextureFormat) -> u8 {
+fn component_count(format: TextureFormat) -> u8 {
     if format.has_depth_aspect() {
         1
     } else {

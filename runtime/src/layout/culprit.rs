@@ -3,14 +3,14 @@
 use super::{binding_type, sampler_type, storage_type, texture_type};
 use crate::Resource;
 use crate::error::{BufferProblem, Error, SamplerProblem, ViewProblem};
-use crate::guard::scoped;
+use crate::guard::run_scoped;
 use crate::plan::{InputKind, Plan, TexturePlan};
 use straightline_manifest::{Dimension, SamplerType};
 use wgpu::{BindGroupLayoutEntry, BindingResource, BindingType, ShaderStages};
 
 /// Binds each resource alone, and where one is refused, tries the other type that it could be of, to tell a wrong
 /// type from anything else. `whole` is what wgpu said of all of them together.
-pub(super) fn culprit(
+pub(super) fn find_culprit(
     device: &wgpu::Device,
     plan: &Plan,
     resources: &[Resource<'_>],
@@ -18,11 +18,11 @@ pub(super) fn culprit(
     whole: String,
 ) -> Error {
     for (input, resource) in plan.inputs.iter().zip(resources) {
-        let Err(description) = bind_alone(device, binding_type(&input.kind), resource.binding()) else {
+        let Err(description) = bind_alone(device, binding_type(&input.kind), resource.as_binding()) else {
             continue;
         };
         let (kernel, name) = (plan.kernel.to_string(), input.name.to_string());
-        let fits = |other| bind_alone(device, other, resource.binding()).is_ok();
+        let fits = |other| bind_alone(device, other, resource.as_binding()).is_ok();
         return match &input.kind {
             InputKind::Texture(texture) => {
                 let problem = view_problem(texture, description, fits);
@@ -99,7 +99,7 @@ fn sampler_problem(needed: SamplerType, description: String, fits: impl Fn(Bindi
 }
 
 fn bind_alone(device: &wgpu::Device, ty: BindingType, resource: BindingResource<'_>) -> Result<(), String> {
-    let made = scoped(device, || {
+    let made = run_scoped(device, || {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: None,
             entries: &[BindGroupLayoutEntry {

@@ -3,11 +3,11 @@
 mod culprit;
 mod limits;
 
-use crate::guard::{guarded, scoped};
+use crate::guard::{run_guarded, run_scoped};
 use crate::plan::{InputKind, Plan, StagePlan, TexturePlan};
 use crate::uniforms::Uniforms;
 use crate::{Error, Resource};
-use culprit::culprit;
+use culprit::find_culprit;
 use limits::check_limits;
 use straightline_manifest::{Format, SampleType, SamplerType, ViewDimension};
 use wgpu::{BindGroupLayoutEntry, BindingType, ShaderStages, TextureViewDimension};
@@ -40,7 +40,7 @@ impl Layout {
         plan: &Plan,
         others: &[(u32, &wgpu::BindGroupLayout)],
     ) -> Result<Self, Error> {
-        let mut entries = entries(plan);
+        let mut entries = layout_entries(plan);
         entries.sort_by_key(|(group, entry)| (*group, entry.binding));
         let used = entries.iter().map(|(group, _)| *group);
         let last = used.chain(others.iter().map(|(index, _)| *index)).max();
@@ -64,7 +64,7 @@ impl Layout {
                 )));
             }
         }
-        guarded(device, &format!("making the layouts of `{kernel}`"), refused, || {
+        run_guarded(device, &format!("making the layouts of `{kernel}`"), refused, || {
             let groups: Vec<Group> = entries
                 .chunk_by(|a, b| a.0 == b.0)
                 .map(|chunk| {
@@ -98,7 +98,7 @@ impl Layout {
 
     /// Bind groups of `resources`, which are in the order of `plan.inputs`, and of `targets` that are storage textures, and of
     /// the region's buffer if the shader has one.
-    pub(crate) fn bind(
+    pub(crate) fn bind_resources(
         &self,
         device: &wgpu::Device,
         plan: &Plan,
@@ -106,13 +106,13 @@ impl Layout {
         resources: &[Resource<'_>],
         (targets, region): (&[&wgpu::TextureView], Option<&wgpu::Buffer>),
     ) -> Result<Vec<BoundGroup>, Error> {
-        let made = scoped(device, || {
+        let made = run_scoped(device, || {
             self.groups
                 .iter()
                 .map(|group| {
                     (
                         group.index,
-                        group.bind(device, plan, uniforms, resources, (targets, region)),
+                        group.create_bind_group(device, plan, uniforms, resources, (targets, region)),
                     )
                 })
                 .collect()
@@ -121,13 +121,13 @@ impl Layout {
             wgpu::Error::OutOfMemory { .. } => Error::OutOfMemory {
                 doing: format!("binding `{}`", plan.kernel),
             },
-            other => culprit(device, plan, resources, targets, other.to_string()),
+            other => find_culprit(device, plan, resources, targets, other.to_string()),
         })
     }
 }
 
 impl Group {
-    fn bind(
+    fn create_bind_group(
         &self,
         device: &wgpu::Device,
         plan: &Plan,
@@ -142,7 +142,7 @@ impl Group {
             }
         };
         for (input, resource) in plan.inputs.iter().zip(resources) {
-            add(input.group, input.binding, resource.binding());
+            add(input.group, input.binding, resource.as_binding());
         }
         for (block, buffer) in plan.uniforms.iter().zip(uniforms.buffers()) {
             add(block.group, block.binding, buffer.as_entire_binding());
@@ -164,7 +164,7 @@ impl Group {
 }
 
 /// Every entry with its group.
-fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
+fn layout_entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
     let visibility = match plan.stage {
         StagePlan::Compute { .. } => ShaderStages::COMPUTE,
         StagePlan::Fragment => ShaderStages::FRAGMENT,

@@ -1,6 +1,6 @@
 //! Shader modules: of WGSL, which wgpu checks, and of SPIR-V, which it hands to the driver as it is.
 
-use crate::guard::guarded;
+use crate::guard::run_guarded;
 use crate::plan::{Loops, LoopsEnd, Plan};
 use crate::{Error, PassOptions, Shader};
 use wgpu::{Device, ShaderModule};
@@ -23,7 +23,7 @@ pub(crate) enum Source<'a> {
 
 impl<'a> Source<'a> {
     /// The text of a shader.
-    pub(crate) fn wgsl(shader: &'a Shader<'_>, options: &PassOptions) -> Self {
+    pub(crate) fn from_shader(shader: &'a Shader<'_>, options: &PassOptions) -> Self {
         Source::Wgsl {
             text: shader.wgsl,
             unbounded_loops: options.unbounded_loops.then_some(&shader.loops),
@@ -31,7 +31,7 @@ impl<'a> Source<'a> {
     }
 
     /// The module on a device.
-    pub(crate) fn module(self, device: &Device, plan: &Plan) -> Result<ShaderModule, Error> {
+    pub(crate) fn create_module(self, device: &Device, plan: &Plan) -> Result<ShaderModule, Error> {
         let kernel = &plan.kernel;
         let refused = |description| Error::Shader {
             kernel: kernel.to_string(),
@@ -41,8 +41,8 @@ impl<'a> Source<'a> {
             Source::Wgsl { text, unbounded_loops } => (text, unbounded_loops),
             #[cfg(feature = "manifest")]
             Source::Spirv(words) => {
-                return guarded(device, &format!("compiling `{kernel}`"), refused, || {
-                    spirv::unchecked(device, plan, words)
+                return run_guarded(device, &format!("compiling `{kernel}`"), refused, || {
+                    spirv::create_unchecked(device, plan, words)
                 });
             }
         };
@@ -56,7 +56,7 @@ impl<'a> Source<'a> {
                 });
             }
         };
-        guarded(device, &format!("compiling `{kernel}`"), refused, || {
+        run_guarded(device, &format!("compiling `{kernel}`"), refused, || {
             let descriptor = wgpu::ShaderModuleDescriptor {
                 label: Some(kernel),
                 source: wgpu::ShaderSource::Wgsl(text.into()),

@@ -11,7 +11,7 @@ use wgpu::{Device, ShaderModule};
 /// A module of words that nothing checks: the caller of [`Pass::from_spirv`] has promised that they are what the manifest
 /// describes.
 #[allow(unsafe_code)]
-pub(super) fn unchecked(device: &Device, plan: &Plan, words: &[u32]) -> ShaderModule {
+pub(super) fn create_unchecked(device: &Device, plan: &Plan, words: &[u32]) -> ShaderModule {
     let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
         label: Some(&plan.kernel),
         entry_points: vec![wgpu::PassthroughShaderEntryPoint {
@@ -53,7 +53,7 @@ impl Pass {
     ) -> Result<Self, Error> {
         let plan = read_plan(manifest)?;
         check_varyings(&plan)?;
-        if let Some((group, binding, free)) = plan.hole() {
+        if let Some((group, binding, free)) = plan.find_gap() {
             return Err(Error::Pipeline {
                 kernel: plan.kernel.into_owned(),
                 description: format!(
@@ -69,6 +69,6 @@ impl Pass {
                 feature: "PASSTHROUGH_SHADERS",
             });
         }
-        Self::made(device, plan, Source::Spirv(words), options)
+        Self::from_plan(device, plan, Source::Spirv(words), options)
     }
 }

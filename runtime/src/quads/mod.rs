@@ -5,7 +5,7 @@
 //! draws a few pixels that show it.
 
 use crate::Error;
-use crate::guard::guarded;
+use crate::guard::run_guarded;
 use wgpu::{Device, Features, Queue};
 
 /// Transport of messages between the lanes of a quad; see the generator's option of the same name.
@@ -47,7 +47,7 @@ impl Arrivals {
     const NAMES: [&str; 3] = ["horizontal", "vertical", "diagonal"];
 
     /// Returns whether every message arrived.
-    pub fn all(&self) -> bool {
+    pub fn all_arrived(&self) -> bool {
         self.0.iter().flatten().all(|arrived| *arrived)
     }
 
@@ -63,7 +63,7 @@ impl Arrivals {
         lost.collect::<Vec<_>>().join(", ")
     }
 
-    fn axis(&self, message: usize) -> bool {
+    fn axis_arrived(&self, message: usize) -> bool {
         self.0.iter().all(|lane| lane[message])
     }
 }
@@ -103,16 +103,18 @@ impl Quads {
     /// Those of [`detect`](Self::detect).
     pub fn detect_with(device: &Device, queue: &Queue, control: DerivativeControl) -> Result<Quads, Error> {
         let subgroups = device.features().contains(Features::SUBGROUP);
-        let text = shader(subgroups, control);
+        let text = probe_text(subgroups, control);
         let refused = |description| Error::Pipeline {
             kernel: PROBE.to_owned(),
             description,
         };
-        let bytes = guarded(device, "looking at pixel quads", refused, || draw(device, queue, &text))?;
+        let bytes = run_guarded(device, "looking at pixel quads", refused, || {
+            draw_probe(device, queue, &text)
+        })?;
         let bytes = bytes.ok_or_else(|| Error::DeviceLost {
             doing: "looking at pixel quads".to_owned(),
         })?;
-        Ok(judge(&bytes, subgroups))
+        Ok(judge_pixels(&bytes, subgroups))
     }
 
     /// The transport to take: quad operations where they arrive, else fine derivatives.
@@ -131,17 +133,17 @@ impl Quads {
             false => Err("quads that stick out of a target of an odd size answer otherwise".to_owned()),
         };
         let ground = place.and(odd);
-        if ground.is_ok() && self.subgroup.is_some_and(|arrivals| arrivals.all()) {
+        if ground.is_ok() && self.subgroup.is_some_and(|arrivals| arrivals.all_arrived()) {
             return Ok(QuadTransport::Subgroup);
         }
-        if ground.is_ok() && self.kind == DerivativeKind::Fine && self.derivatives.all() {
+        if ground.is_ok() && self.kind == DerivativeKind::Fine && self.derivatives.all_arrived() {
             return Ok(QuadTransport::Derivatives);
         }
         let mut reasons = Vec::new();
         reasons.extend(ground.err());
         match self.subgroup {
             None => reasons.push("the device was created without the feature SUBGROUP".to_owned()),
-            Some(arrivals) if !arrivals.all() => {
+            Some(arrivals) if !arrivals.all_arrived() => {
                 reasons.push(format!(
                     "of messages by quad operations these get lost: {}",
                     arrivals.lost()
@@ -149,7 +151,7 @@ impl Quads {
             }
             Some(_) => {}
         }
-        if self.kind != DerivativeKind::Fine || !self.derivatives.all() {
+        if self.kind != DerivativeKind::Fine || !self.derivatives.all_arrived() {
             let kind = match self.kind {
                 DerivativeKind::Fine => "fine",
                 DerivativeKind::Coarse => "coarse",
@@ -170,7 +172,7 @@ impl Quads {
 const PROBE: &str = "quad probe";
 
 /// The probe's text: for each lane in turn, a value that it alone has, sent three ways by each transport.
-fn shader(subgroups: bool, control: DerivativeControl) -> String {
+fn probe_text(subgroups: bool, control: DerivativeControl) -> String {
     let mut answers = String::new();
     for hot in 0..4 {
         answers += &format!("    let hot{hot} = select(0.0, 4.0, lane == {hot}u);\n");
@@ -206,7 +208,7 @@ fn shader(subgroups: bool, control: DerivativeControl) -> String {
 }
 
 /// Draws the probe and reads it back; `None` if the device is lost meanwhile.
-fn draw(device: &Device, queue: &Queue, text: &str) -> Option<Vec<u8>> {
+fn draw_probe(device: &Device, queue: &Queue, text: &str) -> Option<Vec<u8>> {
     let label = Some(PROBE);
     let format = wgpu::TextureFormat::Rgba32Uint;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -293,7 +295,7 @@ fn draw(device: &Device, queue: &Queue, text: &str) -> Option<Vec<u8>> {
 const ROW: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
 /// Evaluates the pixels of the probe.
-fn judge(bytes: &[u8], subgroups: bool) -> Quads {
+fn judge_pixels(bytes: &[u8], subgroups: bool) -> Quads {
     let word = |x: u32, y: u32, k: u32| {
         let at = (y * ROW + x * 16 + k * 4) as usize;
         u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
@@ -321,7 +323,7 @@ fn judge(bytes: &[u8], subgroups: bool) -> Quads {
         (belongs && parities.all(|p| p == first)).then_some(first)
     };
     let derivatives = arrivals(all(0, true));
-    let kind = match (derivatives.axis(0), derivatives.axis(1)) {
+    let kind = match (derivatives.axis_arrived(0), derivatives.axis_arrived(1)) {
         (true, true) => DerivativeKind::Fine,
         (false, false) => DerivativeKind::Coarse,
         _ => DerivativeKind::Mixed,

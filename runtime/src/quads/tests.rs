@@ -3,7 +3,7 @@
 use super::*;
 
 /// The answers of a device whose derivatives are of the given kind and whose quads begin at a parity.
-fn answers(fine: [bool; 2], origin: [u32; 2]) -> Vec<u8> {
+fn probe_answers(fine: [bool; 2], origin: [u32; 2]) -> Vec<u8> {
     let mut bytes = vec![0; (ROW * SIZE[1]) as usize];
     for y in 0..SIZE[1] {
         for x in 0..SIZE[0] {
@@ -52,10 +52,10 @@ fn kinds_of_derivatives_are_told_apart() {
         ([false, true], DerivativeKind::Mixed),
         ([true, false], DerivativeKind::Mixed),
     ] {
-        let quads = judge(&answers(fine, [0, 0]), false);
+        let quads = judge_pixels(&probe_answers(fine, [0, 0]), false);
         assert_eq!((quads.kind, quads.origin, quads.odd_sizes), (kind, Some([0, 0]), true));
         assert_eq!(
-            quads.derivatives.all(),
+            quads.derivatives.all_arrived(),
             kind == DerivativeKind::Fine,
             "{fine:?}: {}",
             quads.derivatives.lost()
@@ -70,7 +70,7 @@ fn kinds_of_derivatives_are_told_apart() {
 /// The chapter's test, a mean of a value that one lane has, passes here; each message by itself does not.
 #[test]
 fn a_mean_would_not_have_told() {
-    let quads = judge(&answers([false, true], [0, 0]), false);
+    let quads = judge_pixels(&probe_answers([false, true], [0, 0]), false);
     assert_eq!(quads.kind, DerivativeKind::Mixed);
     assert!(quads.choose().is_err());
 }
@@ -78,21 +78,21 @@ fn a_mean_would_not_have_told() {
 #[test]
 fn quads_elsewhere_are_refused() {
     for origin in [[1, 0], [0, 1], [1, 1]] {
-        let quads = judge(&answers([true, true], origin), false);
+        let quads = judge_pixels(&probe_answers([true, true], origin), false);
         assert_eq!(quads.origin, Some(origin));
         let why = quads.choose().expect_err("not at even pixels");
         assert!(why.contains("parity"), "{why}");
     }
-    let mut mixed = answers([true, true], [0, 0]);
+    let mut mixed = probe_answers([true, true], [0, 0]);
     mixed[8] = 1;
-    assert_eq!(judge(&mixed, false).origin, None);
+    assert_eq!(judge_pixels(&mixed, false).origin, None);
 }
 
 #[test]
 fn borders_that_answer_otherwise_are_refused() {
-    let mut bytes = answers([true, true], [0, 0]);
+    let mut bytes = probe_answers([true, true], [0, 0]);
     bytes[(SIZE[0] as usize - 1) * 16] = 0;
-    let quads = judge(&bytes, false);
-    assert!(quads.derivatives.all() && !quads.odd_sizes);
+    let quads = judge_pixels(&bytes, false);
+    assert!(quads.derivatives.all_arrived() && !quads.odd_sizes);
     assert!(quads.choose().expect_err("odd sizes").contains("odd size"));
 }

@@ -2,7 +2,7 @@
 
 mod value;
 
-use crate::guard::guarded;
+use crate::guard::run_guarded;
 use crate::plan::{FieldPlan, Plan, UniformPlan};
 use crate::{BindOptions, Error, Names};
 pub use value::{Component, UniformValue};
@@ -18,13 +18,13 @@ impl Uniforms {
     /// Buffers that hold the manifest's defaults and what `options` say. Filled while mapped, so that no queue is needed and the
     /// first submission already sees them.
     pub(crate) fn new(device: &wgpu::Device, plan: &Plan, options: &BindOptions<'_>) -> Result<Self, Error> {
-        let contents = start(plan, options)?;
+        let contents = initial_blocks(plan, options)?;
         let buffers = plan.uniforms.iter().zip(contents).map(|(block, bytes)| {
             let refused = |description| Error::Pipeline {
                 kernel: plan.kernel.to_string(),
                 description,
             };
-            filled(device, &plan.kernel, &block.name, &bytes, refused)
+            filled_buffer(device, &plan.kernel, &block.name, &bytes, refused)
         });
         Ok(Uniforms {
             buffers: buffers.collect::<Result<_, _>>()?,
@@ -37,14 +37,14 @@ impl Uniforms {
     }
 
     /// Puts `value` into the uniform `name`, ahead of the queue's next submission.
-    pub(crate) fn write(
+    pub(crate) fn write_value(
         &self,
         plan: &Plan,
         queue: &wgpu::Queue,
         name: &str,
         value: &UniformValue,
     ) -> Result<(), Error> {
-        place(plan, name, value, |block, offset, bytes| {
+        place_value(plan, name, value, |block, offset, bytes| {
             queue.write_buffer(&self.buffers[block], u64::from(offset), bytes);
         })
     }
@@ -58,7 +58,7 @@ impl Uniforms {
 
     /// Puts `bytes` into all structs, one after the other, ahead of the queue's next submission.
     pub(crate) fn write_all(&self, plan: &Plan, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
-        for (buffer, bytes) in self.buffers.iter().zip(divided(plan, bytes)?) {
+        for (buffer, bytes) in self.buffers.iter().zip(split_blocks(plan, bytes)?) {
             queue.write_buffer(buffer, 0, bytes);
         }
         Ok(())
@@ -66,7 +66,7 @@ impl Uniforms {
 }
 
 /// A uniform buffer with these contents.
-pub(crate) fn filled(
+pub(crate) fn filled_buffer(
     device: &wgpu::Device,
     kernel: &str,
     name: &str,
@@ -74,7 +74,7 @@ pub(crate) fn filled(
     refused: impl Fn(String) -> Error,
 ) -> Result<wgpu::Buffer, Error> {
     let doing = format!("making the uniform buffer `{name}` of `{kernel}`");
-    let buffer = guarded(device, &doing, &refused, || {
+    let buffer = run_guarded(device, &doing, &refused, || {
         device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(name),
             size: bytes.len() as u64,
@@ -88,31 +88,31 @@ pub(crate) fn filled(
         .map_err(|_| Error::DeviceLost { doing: doing.clone() })?;
     mapping.copy_from_slice(bytes);
     drop(mapping);
-    guarded(device, &doing, &refused, || buffer.unmap())?;
+    run_guarded(device, &doing, &refused, || buffer.unmap())?;
     Ok(buffer)
 }
 
 /// Initial bytes of the structs of `plan`. A field without a value is an error.
-fn start(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> {
+fn initial_blocks(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> {
     let mut blocks: Vec<Vec<u8>> = plan.uniforms.iter().map(|block| vec![0; block.size as usize]).collect();
     let mut missing: Vec<(usize, u32)> = Vec::new();
     for (k, block) in plan.uniforms.iter().enumerate() {
         for FieldPlan { offset, default, .. } in block.fields.iter() {
             match default {
-                Some(word) => put(&mut blocks[k], *offset, word),
+                Some(word) => copy_bytes(&mut blocks[k], *offset, word),
                 None => missing.push((k, *offset)),
             }
         }
     }
     if let Some(bytes) = options.uniforms {
-        for (block, bytes) in blocks.iter_mut().zip(divided(plan, bytes)?) {
+        for (block, bytes) in blocks.iter_mut().zip(split_blocks(plan, bytes)?) {
             block.copy_from_slice(bytes);
         }
         missing.clear();
     }
     for (name, value) in &options.values {
-        place(plan, name, value, |block, offset, bytes| {
-            put(&mut blocks[block], offset, bytes);
+        place_value(plan, name, value, |block, offset, bytes| {
+            copy_bytes(&mut blocks[block], offset, bytes);
             missing.retain(|place| *place != (block, offset));
         })?;
     }
@@ -124,19 +124,24 @@ fn start(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> 
         None => Ok(blocks),
         Some(field) => Err(Error::UniformUnset {
             kernel: plan.kernel.to_string(),
-            name: field.whole().to_owned(),
+            name: field.source_name().to_owned(),
         }),
     }
 }
 
-fn put(block: &mut [u8], offset: u32, bytes: &[u8]) {
+fn copy_bytes(block: &mut [u8], offset: u32, bytes: &[u8]) {
     let offset = offset as usize;
     block[offset..offset + bytes.len()].copy_from_slice(bytes);
 }
 
 /// Gives `put` the struct, the offset and the bytes of what `value` is for `name`: a field, or the parts of a matrix or an array that
 /// the shader reads.
-fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usize, u32, &[u8])) -> Result<(), Error> {
+fn place_value(
+    plan: &Plan,
+    name: &str,
+    value: &UniformValue,
+    mut put: impl FnMut(usize, u32, &[u8]),
+) -> Result<(), Error> {
     let mismatch = |needed: String| Error::UniformType {
         kernel: plan.kernel.to_string(),
         name: name.to_owned(),
@@ -155,7 +160,7 @@ fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usiz
                 return Err(mismatch(ty.to_string()));
             }
             found = true;
-            put(k, field.offset, value.part(index));
+            put(k, field.offset, value.part_bytes(index));
         }
     }
     match found {
@@ -163,25 +168,25 @@ fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usiz
         false => Err(Error::UnknownUniform {
             kernel: plan.kernel.to_string(),
             name: name.to_owned(),
-            known: names(plan),
+            known: settable_names(plan),
         }),
     }
 }
 
 /// Names that can be set; a matrix or an array has one.
-fn names(plan: &Plan) -> Names {
+fn settable_names(plan: &Plan) -> Names {
     let mut names: Vec<&str> = plan
         .uniforms
         .iter()
         .flat_map(|block| block.fields.iter())
-        .map(FieldPlan::whole)
+        .map(FieldPlan::source_name)
         .collect();
     names.dedup();
     names.into_iter().collect()
 }
 
 /// `bytes` as the structs of `plan`.
-fn divided<'b>(plan: &Plan, bytes: &'b [u8]) -> Result<impl Iterator<Item = &'b [u8]>, Error> {
+fn split_blocks<'b>(plan: &Plan, bytes: &'b [u8]) -> Result<impl Iterator<Item = &'b [u8]>, Error> {
     if plan.uniforms.is_empty() {
         return Err(Error::NoUniforms {
             kernel: plan.kernel.to_string(),

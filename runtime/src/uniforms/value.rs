@@ -78,14 +78,14 @@ matrices!(2 x 2, 2 x 3, 2 x 4, 3 x 2, 3 x 3, 3 x 4, 4 x 2, 4 x 3, 4 x 4);
 impl UniformValue {
     /// An array of numbers. `None` of an empty one.
     pub fn array<T: Component>(elements: &[T]) -> Option<Self> {
-        UniformValue::elements(elements.len(), 1, elements.iter().copied())
+        UniformValue::from_elements(elements.len(), 1, elements.iter().copied())
     }
 
     /// An array of vectors of two to four components. `None` of an empty one, and of other numbers of components.
     pub fn vectors<T: Component, const N: usize>(elements: &[[T; N]]) -> Option<Self> {
         let fits = (2..=4).contains(&N);
         let components = u8::try_from(N).ok().filter(|_| fits)?;
-        UniformValue::elements(elements.len(), components, elements.iter().flatten().copied())
+        UniformValue::from_elements(elements.len(), components, elements.iter().flatten().copied())
     }
 
     /// A value of any type, of the bits of its components in order: of a matrix column by column, of an array element by element,
@@ -112,13 +112,13 @@ impl UniformValue {
     }
 
     /// Bytes of a part: of the value itself, of a column, of an element. No parts beyond the last.
-    pub(crate) fn part(&self, index: u32) -> &[u8] {
+    pub(crate) fn part_bytes(&self, index: u32) -> &[u8] {
         let each = usize::from(self.ty.components());
         let words = self.words().chunks_exact(each).nth(index as usize);
         words.map_or(&[], <[[u8; 4]]>::as_flattened)
     }
 
-    fn elements<T: Component>(count: usize, components: u8, numbers: impl Iterator<Item = T>) -> Option<Self> {
+    fn from_elements<T: Component>(count: usize, components: u8, numbers: impl Iterator<Item = T>) -> Option<Self> {
         let count = u32::try_from(count).ok().filter(|count| *count > 0)?;
         let ty = ValueType::Array {
             of: T::SCALAR,
@@ -173,18 +173,18 @@ mod tests {
     fn parts_lie_component_by_component() {
         let value = UniformValue::from([1u32, 2, 3]);
         assert_eq!(value.ty().to_string(), "vec3u");
-        assert_eq!(value.part(0), [1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0]);
+        assert_eq!(value.part_bytes(0), [1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0]);
         let matrix = UniformValue::from([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
         assert_eq!(matrix.ty().to_string(), "mat3x2f");
-        assert_eq!(matrix.part(2), [5.0f32, 6.0].map(f32::to_le_bytes).as_flattened());
-        assert!(matrix.part(3).is_empty());
+        assert_eq!(matrix.part_bytes(2), [5.0f32, 6.0].map(f32::to_le_bytes).as_flattened());
+        assert!(matrix.part_bytes(3).is_empty());
         let array: Vec<i32> = (0..40).collect();
         let array = UniformValue::array(&array).expect("elements");
         assert_eq!(
             (array.ty().to_string().as_str(), array.words().len()),
             ("array<i32, 40>", 40)
         );
-        assert_eq!(array.part(39), 39i32.to_le_bytes());
+        assert_eq!(array.part_bytes(39), 39i32.to_le_bytes());
         assert_eq!(
             format!("{:?}", UniformValue::vectors(&[[1.0, 2.5]])),
             "Some([1.0, 2.5])"

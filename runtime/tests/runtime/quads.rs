@@ -14,7 +14,7 @@ fn messages_arrive() {
     println!("{quads:#?}");
     assert_eq!(quads.origin, Some([0, 0]));
     assert_eq!(quads.kind, DerivativeKind::Fine);
-    assert!(quads.odd_sizes && quads.derivatives.all());
+    assert!(quads.odd_sizes && quads.derivatives.all_arrived());
     assert_eq!(quads.subgroup, None);
     assert_eq!(quads.choose(), Ok(QuadTransport::Derivatives));
     let subgroups = Gpu::with(Features::SUBGROUP, Default::default());
@@ -32,7 +32,7 @@ fn coarse_derivatives_are_seen() {
     match quads.kind {
         DerivativeKind::Fine => assert_eq!(quads.choose(), Ok(QuadTransport::Derivatives)),
         _ => {
-            assert!(!quads.derivatives.all());
+            assert!(!quads.derivatives.all_arrived());
             let why = quads.choose().expect_err("no transport is left");
             assert!(
                 why.contains("coarse") && why.contains("of every lane") && why.contains("`block`"),

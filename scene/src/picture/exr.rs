@@ -70,7 +70,7 @@ pub(crate) fn write(path: &Path, size: UVec2, layers: Vec<Layer>) -> Result<(), 
             .to_buffered(file)
             .map_err(|error| failure("write", path, error))
     };
-    files::fill(path, encode, refused(path))
+    files::fill_file(path, encode, refused(path))
 }
 
 /// Reads the first layer with channels `R`, `G` and `B`, and `A` if it has that. `expected` is the size that
@@ -159,7 +159,7 @@ pub(crate) struct Source {
 impl Source {
     /// Opens a file and reads its headers.
     pub(crate) fn open(path: &Path) -> Result<Self, PictureError> {
-        let file = files::open(path, MAX_BYTES).map_err(|source| PictureError::Io {
+        let file = files::open_file(path, MAX_BYTES).map_err(|source| PictureError::Io {
             action: "read",
             path: path.to_owned(),
             source,

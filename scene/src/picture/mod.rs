@@ -76,7 +76,7 @@ pub fn write(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
 /// becomes 0. Whole or not at all, as [`write()`].
 pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     check_size(path, frame.size())?;
-    files::fill(path, |file| png::encode(path, file, frame), refused(path))
+    files::fill_file(path, |file| png::encode(path, file, frame), refused(path))
 }
 
 /// The bytes of what [`write_png`] writes.

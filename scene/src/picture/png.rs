@@ -64,7 +64,7 @@ struct Stored {
 
 impl Stored {
     fn read(path: &Path) -> Result<Self, PictureError> {
-        let file = files::open(path, MAX_BYTES).map_err(|source| PictureError::Io {
+        let file = files::open_file(path, MAX_BYTES).map_err(|source| PictureError::Io {
             action: "read",
             path: path.to_owned(),
             source,

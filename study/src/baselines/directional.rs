@@ -22,9 +22,9 @@ const EXPLAINED: f64 = 0.5;
 
 /// The picture that the filter resolves: `samples` has the colours of each sample, linear, which lies at its offset from the pixel's
 /// centre, in pixels, y down.
-pub fn directional(samples: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
+pub fn resolve_directional(samples: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
     let size = samples.first().map_or(UVec2::ZERO, Frame::size);
-    let lumas: Vec<Frame<f32>> = samples.iter().map(luma).collect();
+    let lumas: Vec<Frame<f32>> = samples.iter().map(luma_frame).collect();
     let texels = (0..size.x * size.y).into_par_iter().map(|k| {
         let pixel = uvec2_at(k, size).as_ivec2();
         let own = |frame: &Frame<Vec4>| frame.texels()[k as usize];
@@ -44,12 +44,12 @@ pub fn directional(samples: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
                 (place, f64::from(lumas[sample].load(pixel + by)))
             })
             .collect();
-        let Some(along) = isolines(&places) else {
+        let Some(along) = isoline_direction(&places) else {
             return even();
         };
         let (mut sum, mut total) = (Vec4::ZERO, 0.0);
         for ((by, sample), (place, _)) in around().zip(&places) {
-            let weight = chord(*place, along) as f32;
+            let weight = chord_length(*place, along) as f32;
             sum += weight * samples[sample].load(pixel + by);
             total += weight;
         }
@@ -63,7 +63,7 @@ fn uvec2_at(k: u32, size: UVec2) -> UVec2 {
 }
 
 /// Luma of the picture that a display is sent.
-fn luma(linear: &Frame<Vec4>) -> Frame<f32> {
+fn luma_frame(linear: &Frame<Vec4>) -> Frame<f32> {
     let shown = |texel: &Vec4| {
         let [r, g, b] = texel
             .truncate()
@@ -75,7 +75,7 @@ fn luma(linear: &Frame<Vec4>) -> Frame<f32> {
 }
 
 /// The direction in which the picture does not change, if the plane that fits the values at the places explains them well enough.
-fn isolines(values: &[(DVec2, f64)]) -> Option<DVec2> {
+fn isoline_direction(values: &[(DVec2, f64)]) -> Option<DVec2> {
     let count = values.len() as f64;
     let middle = values.iter().map(|(place, _)| *place).sum::<DVec2>() / count;
     let mean = values.iter().map(|(_, value)| value).sum::<f64>() / count;
@@ -92,7 +92,7 @@ fn isolines(values: &[(DVec2, f64)]) -> Option<DVec2> {
 }
 
 /// Returns the length of the line through `place` in the direction `along`, of length 1, within the pixel around the origin.
-fn chord(place: DVec2, along: DVec2) -> f64 {
+fn chord_length(place: DVec2, along: DVec2) -> f64 {
     let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..2 {
         if along[axis].abs() < 1.0e-12 {
@@ -122,7 +122,7 @@ mod tests {
             let place = dvec2((f64::from(k) * 0.71).sin(), (f64::from(k) * 1.13).cos()) * 1.4;
             let inside = |step: i32| (place + along * (f64::from(step) * 1.0e-4)).abs().max_element() <= 0.5;
             let counted = (-40_000..40_000).filter(|step| inside(*step)).count() as f64 * 1.0e-4;
-            assert!((chord(place, along) - counted).abs() < 4.0e-4, "{place} {along}");
+            assert!((chord_length(place, along) - counted).abs() < 4.0e-4, "{place} {along}");
         }
     }
 
@@ -133,14 +133,14 @@ mod tests {
             .map(|k| dvec2(f64::from(k % 6) * 0.5, f64::from(k / 6) * 0.4))
             .map(|place| (place, 2.0 + slope.dot(place)))
             .collect();
-        let along = isolines(&places).expect("it is a plane");
+        let along = isoline_direction(&places).expect("it is a plane");
         assert!(along.dot(slope).abs() < 1.0e-12);
         let noise: Vec<(DVec2, f64)> = places
             .iter()
             .enumerate()
             .map(|(k, (p, _))| (*p, (k * 7919 % 13) as f64))
             .collect();
-        assert_eq!(isolines(&noise), None);
+        assert_eq!(isoline_direction(&noise), None);
     }
 
     /// A straight edge: nearer to how much of each pixel it covers than the mean of the samples is.
@@ -162,7 +162,7 @@ mod tests {
         };
         let samples: Vec<Frame<Vec4>> = offsets.iter().map(drawn).collect();
         let (found, plain) = (
-            directional(&samples, &offsets),
+            resolve_directional(&samples, &offsets),
             straightline_scene::capture::mean(&samples),
         );
         let plain = plain.expect("pictures");
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn an_even_picture_stays() {
         let even = Frame::new(UVec2::new(5, 4), vec![Vec4::new(0.3, 0.2, 0.1, 1.0); 20]);
-        let found = directional(&[even.clone(), even.clone()], &[Vec2::splat(0.25), Vec2::splat(-0.25)]);
+        let found = resolve_directional(&[even.clone(), even.clone()], &[Vec2::splat(0.25), Vec2::splat(-0.25)]);
         let far = |(a, b): (&Vec4, &Vec4)| (*a - *b).abs().max_element();
         assert!(found.texels().iter().zip(even.texels()).all(|pair| far(pair) < 1.0e-6));
     }

@@ -20,7 +20,7 @@ const EDGE: f32 = 16.0 / 255.0;
 const ROUNDING: f32 = 1.0e-4;
 
 /// The picture antialiased: numbers as a display is sent them, each in 0..=1. Alpha stays.
-pub fn mlaa(picture: &Frame<Vec4>) -> Frame<Vec4> {
+pub fn apply_mlaa(picture: &Frame<Vec4>) -> Frame<Vec4> {
     let UVec2 { x: width, y: height } = picture.size();
     let (width, height) = (width as usize, height as usize);
     let colors: Vec<Vec3> = picture.texels().iter().map(|texel| texel.truncate()).collect();
@@ -38,8 +38,8 @@ pub fn mlaa(picture: &Frame<Vec4>) -> Frame<Vec4> {
         stride: 1,
         ..rows
     };
-    let mut blends: Vec<(usize, usize, f32)> = rows.blends();
-    blends.extend(columns.blends());
+    let mut blends: Vec<(usize, usize, f32)> = rows.find_blends();
+    blends.extend(columns.find_blends());
     let mut sums = vec![(Vec3::ZERO, 0.0f32); colors.len()];
     for (pixel, other, area) in blends {
         sums[pixel].0 += area * colors[other];
@@ -80,19 +80,19 @@ impl Grid<'_> {
         row * self.stride + k * self.step
     }
 
-    fn differ(&self, a: usize, b: usize) -> bool {
+    fn has_edge(&self, a: usize, b: usize) -> bool {
         (self.colors[a] - self.colors[b]).abs().max_element() >= EDGE - ROUNDING
     }
 
     /// Every pixel that a silhouette cuts, the one across the separation line, and the area that changes hands.
-    fn blends(&self) -> Vec<(usize, usize, f32)> {
+    fn find_blends(&self) -> Vec<(usize, usize, f32)> {
         let lines = (0..self.across.saturating_sub(1)).into_par_iter();
         lines.flat_map_iter(|row| self.of_line(row)).collect()
     }
 
     /// Blends of the separation lines between a row and the next.
     fn of_line(&self, row: usize) -> Vec<(usize, usize, f32)> {
-        let is_edge = |k: usize| self.differ(self.at(row, k), self.at(row + 1, k));
+        let is_edge = |k: usize| self.has_edge(self.at(row, k), self.at(row + 1, k));
         let mut found = Vec::new();
         let mut k = 0;
         while k < self.along {
@@ -110,7 +110,7 @@ impl Grid<'_> {
 
     /// Blends of the line between pixels `first..end` of a row and the next.
     fn of_run(&self, row: usize, first: usize, end: usize, found: &mut Vec<(usize, usize, f32)>) {
-        let ends = [self.end(row, first), self.end(row, end)];
+        let ends = [self.line_end(row, first), self.line_end(row, end)];
         let length = (end - first) as f32;
         let whole = match ends {
             [End::None, _] | [_, End::None] => length,
@@ -123,7 +123,7 @@ impl Grid<'_> {
                 End::None => continue,
             };
             for k in 0..end - first {
-                let area = cut(k as f32, whole);
+                let area = cut_area(k as f32, whole);
                 if area <= 0.0 {
                     break;
                 }
@@ -134,11 +134,11 @@ impl Grid<'_> {
     }
 
     /// Returns the edge that meets the separation line after `row` between its pixels `k - 1` and `k`.
-    fn end(&self, row: usize, k: usize) -> End {
+    fn line_end(&self, row: usize, k: usize) -> End {
         if k == 0 || k >= self.along {
             return End::None;
         }
-        let meets = |row: usize| self.differ(self.at(row, k - 1), self.at(row, k));
+        let meets = |row: usize| self.has_edge(self.at(row, k - 1), self.at(row, k));
         match (meets(row), meets(row + 1)) {
             (true, false) => End::Before,
             (false, true) => End::After,
@@ -148,7 +148,7 @@ impl Grid<'_> {
 }
 
 /// Area below a silhouette that falls from one half to zero over `whole` pixels, in the pixel that begins after `start` of them.
-fn cut(start: f32, whole: f32) -> f32 {
+fn cut_area(start: f32, whole: f32) -> f32 {
     let end = (start + 1.0).min(whole);
     if end <= start {
         return 0.0;
@@ -188,17 +188,17 @@ mod tests {
     #[test]
     fn stairs_are_zs() {
         let stairs = picture(&["############", "....########", "........####", "............"]);
-        let found = mlaa(&stairs);
+        let found = apply_mlaa(&stairs);
         assert_eq!(&light(&found)[1][4..8], &[0.375 + 0.125, 0.125, 0.0, 0.0]);
         assert_eq!(&light(&found)[2][4..8], &[1.0, 1.0, 0.875, 1.0 - 0.375 - 0.125]);
         // Columns must give the mirrored result.
-        assert_eq!(mirrored(&found), mlaa(&mirrored(&stairs)));
+        assert_eq!(mirrored(&found), apply_mlaa(&mirrored(&stairs)));
     }
 
     /// From one half to zero over two pixels, from either side; its walls are Zs of one pixel.
     #[test]
     fn a_notch_is_a_u() {
-        let found = mlaa(&picture(&["........", "##....##", "########"]));
+        let found = apply_mlaa(&picture(&["........", "##....##", "########"]));
         assert_eq!(&light(&found)[1][2..6], &[0.625 - 0.125, 0.875, 0.875, 0.625 - 0.125]);
     }
 
@@ -206,7 +206,7 @@ mod tests {
     /// column. The corner has both.
     #[test]
     fn a_step_at_one_end_is_an_l() {
-        let found = mlaa(&picture(&["##..", "##..", "####", "####"]));
+        let found = apply_mlaa(&picture(&["##..", "##..", "####", "####"]));
         let expected: [&[f32]; 3] = [&[0.0, 0.0, 0.875, 1.0], &[0.0, 0.0, 0.25, 0.875], &[0.0; 4]];
         assert_eq!(light(&found)[..3], expected);
     }
@@ -218,22 +218,22 @@ mod tests {
             ["....", "####", "####"],
             ["..##", "..##", "..##"],
         ] {
-            assert_eq!(mlaa(&picture(&rows)), picture(&rows));
+            assert_eq!(apply_mlaa(&picture(&rows)), picture(&rows));
         }
         let stairs = |step: f32| {
             let texels = picture(&["....####", "....####", "########"]).texels().to_vec();
             let faint = texels.iter().map(|texel| Vec4::splat(0.5) + step * *texel);
             Frame::new(uvec2(8, 3), faint.collect())
         };
-        assert_eq!(mlaa(&stairs(15.0 / 255.0)), stairs(15.0 / 255.0));
-        assert_ne!(mlaa(&stairs(16.0 / 255.0)), stairs(16.0 / 255.0));
+        assert_eq!(apply_mlaa(&stairs(15.0 / 255.0)), stairs(15.0 / 255.0));
+        assert_ne!(apply_mlaa(&stairs(16.0 / 255.0)), stairs(16.0 / 255.0));
         // Nothing to compare with.
-        assert_eq!(mlaa(&picture(&["#"])), picture(&["#"]));
+        assert_eq!(apply_mlaa(&picture(&["#"])), picture(&["#"]));
     }
 
     #[test]
     fn crossed_lines_have_no_shape() {
         let board = picture(&["##..", "##..", "..##", "..##"]);
-        assert_eq!(mlaa(&board), board);
+        assert_eq!(apply_mlaa(&board), board);
     }
 }

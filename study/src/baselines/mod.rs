@@ -7,8 +7,8 @@ mod mlaa;
 mod smaa;
 mod transfer;
 
-pub use directional::directional;
-pub use fxaa::fxaa;
-pub use mlaa::mlaa;
+pub use directional::resolve_directional;
+pub use fxaa::fxaa_kernel;
+pub use mlaa::apply_mlaa;
 pub use smaa::Smaa;
 pub use transfer::Transfer;

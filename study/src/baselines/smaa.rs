@@ -73,7 +73,7 @@ impl Smaa {
     /// If the device fails.
     pub fn run(&mut self, picture: &Frame<Vec4>) -> Result<Frame<Vec4>, ExecuteError> {
         let bench = self.bench.clone();
-        let given = self.transfer.given(picture);
+        let given = self.transfer.encode_picture(picture);
         let given = bench.texture(&[given], Dimension::D2, SampleType::Unfilterable, 4)?;
         let result = bench.target(picture.size(), TextureFormat::Rgba32Float);
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -85,7 +85,7 @@ impl Smaa {
             self.copy_out.submit(&bench, &output, &view(&result));
         });
         ran.map_err(of_device)?;
-        Ok(self.transfer.taken(&bench.download(&result)?))
+        Ok(self.transfer.decode_picture(&bench.download(&result)?))
     }
 
     /// Runs the three passes once more on the picture of the last [`run`](Self::run), and returns their duration.
@@ -93,7 +93,7 @@ impl Smaa {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn time(&mut self) -> Result<Duration, ExecuteError> {
+    pub fn time_passes(&mut self) -> Result<Duration, ExecuteError> {
         let bench = self.bench.clone();
         let output = self.output.create_view(&wgpu::TextureViewDescriptor::default());
         let frame = self.target.start_frame(bench.device(), bench.queue(), &output);
@@ -109,7 +109,7 @@ impl Smaa {
     }
 
     /// Bytes that it reads and writes: picture, edges, weights, output.
-    pub fn bytes(&self) -> u64 {
+    pub fn traffic_bytes(&self) -> u64 {
         let texels = u64::from(self.output.width()) * u64::from(self.output.height());
         2 * texture_bytes(&self.output) + BETWEEN * texels
     }
@@ -117,12 +117,12 @@ impl Smaa {
 
 fn of_device(error: RenderError) -> ExecuteError {
     match error {
-        RenderError::Device { doing, description } => failed(doing, description),
-        other => failed("running SMAA", other),
+        RenderError::Device { doing, description } => device_error(doing, description),
+        other => device_error("running SMAA", other),
     }
 }
 
-fn failed(doing: &'static str, error: impl ToString) -> ExecuteError {
+fn device_error(doing: &'static str, error: impl ToString) -> ExecuteError {
     ExecuteError::Device {
         doing,
         message: error.to_string(),
@@ -177,10 +177,10 @@ fn between_stamps(bench: &Bench, submit: impl FnOnce()) -> Result<Duration, Exec
     bench.wait()?;
     match receiver.try_recv() {
         Ok(Ok(())) => {}
-        Ok(Err(error)) => return Err(failed(doing, error)),
-        Err(error) => return Err(failed(doing, error)),
+        Ok(Err(error)) => return Err(device_error(doing, error)),
+        Err(error) => return Err(device_error(doing, error)),
     }
-    let bytes = read.get_mapped_range(..).map_err(|error| failed(doing, error))?;
+    let bytes = read.get_mapped_range(..).map_err(|error| device_error(doing, error))?;
     let ticks: Vec<u64> = bytes
         .as_chunks::<8>()
         .0

@@ -20,8 +20,8 @@ pub enum Transfer {
 
 impl Transfer {
     /// A linear picture as the filter takes it, each number in 0..=1. What is not a number becomes 0.
-    pub fn given(self, linear: &Frame<Vec4>) -> Frame<Vec4> {
-        each(linear, |color| {
+    pub fn encode_picture(self, linear: &Frame<Vec4>) -> Frame<Vec4> {
+        map_colors(linear, |color| {
             let shown = color.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
             match self {
                 Transfer::Srgb => shown.map(srgb::encode),
@@ -31,15 +31,15 @@ impl Transfer {
     }
 
     /// Makes a filter's result linear again.
-    pub fn taken(self, filtered: &Frame<Vec4>) -> Frame<Vec4> {
+    pub fn decode_picture(self, filtered: &Frame<Vec4>) -> Frame<Vec4> {
         match self {
-            Transfer::Srgb => each(filtered, |color| color.map(|v| srgb::decode(v.clamp(0.0, 1.0)))),
+            Transfer::Srgb => map_colors(filtered, |color| color.map(|v| srgb::decode(v.clamp(0.0, 1.0)))),
             Transfer::Linear => filtered.clone(),
         }
     }
 }
 
-fn each(frame: &Frame<Vec4>, change: impl Fn(Vec3) -> Vec3) -> Frame<Vec4> {
+fn map_colors(frame: &Frame<Vec4>, change: impl Fn(Vec3) -> Vec3) -> Frame<Vec4> {
     let texels = frame.texels().iter().map(|t| change(t.truncate()).extend(t.w));
     Frame::new(frame.size(), texels.collect())
 }
@@ -56,12 +56,12 @@ mod tests {
             vec![vec4(0.2, 7.0, f32::NAN, 1.0), vec4(0.5, -1.0, 1.0, 0.5)],
         );
         for transfer in [Transfer::Srgb, Transfer::Linear] {
-            let back = transfer.taken(&transfer.given(&picture));
+            let back = transfer.decode_picture(&transfer.encode_picture(&picture));
             let expected = [vec4(0.2, 1.0, 0.0, 1.0), vec4(0.5, 0.0, 1.0, 0.5)];
             for (found, expected) in back.texels().iter().zip(expected) {
                 assert!((*found - expected).abs().max_element() < 1e-6, "{found} {expected}");
             }
         }
-        assert!((Transfer::Srgb.given(&picture).texels()[0].x - 0.484_529).abs() < 1e-5);
+        assert!((Transfer::Srgb.encode_picture(&picture).texels()[0].x - 0.484_529).abs() < 1e-5);
     }
 }

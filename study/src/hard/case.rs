@@ -84,49 +84,49 @@ impl Case {
     }
 
     /// Of another size.
-    pub const fn size(mut self, width: u32, height: u32) -> Case {
+    pub const fn with_size(mut self, width: u32, height: u32) -> Case {
         self.size = UVec2::new(width, height);
         self
     }
 
     /// Scenes really have this.
-    pub const fn common(mut self) -> Case {
+    pub const fn mark_common(mut self) -> Case {
         self.common = true;
         self
     }
 
     /// With options of SRAA.
-    pub const fn options(mut self, options: &'static [(&'static str, &'static str)]) -> Case {
+    pub const fn with_options(mut self, options: &'static [(&'static str, &'static str)]) -> Case {
         self.options = options;
         self
     }
 
     /// With numbers of SRAA that are given at run time.
-    pub const fn uniforms(mut self, uniforms: &'static [(&'static str, f64)]) -> Case {
+    pub const fn with_uniforms(mut self, uniforms: &'static [(&'static str, f64)]) -> Case {
         self.uniforms = uniforms;
         self
     }
 
     /// With an encoded depth held otherwise.
-    pub const fn stored(mut self, storage: DepthStorage) -> Case {
+    pub const fn with_storage(mut self, storage: DepthStorage) -> Case {
         self.storage = storage;
         self
     }
 
     /// With other planes.
-    pub const fn planes(mut self, near: f32, far: f32) -> Case {
+    pub const fn with_planes(mut self, near: f32, far: f32) -> Case {
         self.planes = [near, far];
         self
     }
 
     /// With coordinates of its own, for filters of shadow maps.
-    pub const fn coordinates(mut self, coord: fn(&Place) -> Vec3) -> Case {
+    pub const fn with_coordinates(mut self, coord: fn(&Place) -> Vec3) -> Case {
         self.coord = Some(coord);
         self
     }
 
     /// With a shadow map of another size.
-    pub const fn map(mut self, width: u32, height: u32) -> Case {
+    pub const fn with_shadow_map(mut self, width: u32, height: u32) -> Case {
         self.map = UVec2::new(width, height);
         self
     }
@@ -134,27 +134,27 @@ impl Case {
     /// Returns the place of `pixel` in the shadow map, and its depth there: as a light close to the eye sees it, unless the
     /// case says otherwise.
     pub fn coordinates_at(&self, pixel: UVec2) -> Vec3 {
-        let place = self.place(pixel.as_vec2() + 0.5);
+        let place = self.place_at(pixel.as_vec2() + 0.5);
         if let Some(coord) = self.coord {
             return coord(&place);
         }
         let depth = (self.seen)(&place).depth;
         let across = place.centred() * (LIGHT_SCALE * depth) + LIGHT_CENTRE;
-        across.extend(LIGHT_SCALE * depth - 0.01 + 0.02 * place.noise(12))
+        across.extend(LIGHT_SCALE * depth - 0.01 + 0.02 * place.pixel_noise(12))
     }
 
     /// Depth that the shadow map holds at `texel`, 0 to 1: that of what is seen there, with grain; 1 where that is not finite.
     pub fn shadow_at(&self, texel: UVec2) -> f32 {
         let at = (texel.as_vec2() + 0.5) / self.map.as_vec2() * self.size.as_vec2();
-        let depth = (self.seen)(&self.place(at)).depth;
-        let grain = noise(texel.x + 257 * texel.y + 7_000_003);
+        let depth = (self.seen)(&self.place_at(at)).depth;
+        let grain = hash_noise(texel.x + 257 * texel.y + 7_000_003);
         match depth.is_finite() {
             true => (LIGHT_SCALE * depth + 0.03 * (grain - 0.5)).clamp(0.0, 1.0),
             false => 1.0,
         }
     }
 
-    fn place(&self, at: Vec2) -> Place {
+    fn place_at(&self, at: Vec2) -> Place {
         Place {
             pixel: at.as_uvec2().min(self.size - 1),
             size: self.size,
@@ -164,7 +164,7 @@ impl Case {
     }
 
     /// Returns the surface seen in `pixel`, `offset` from its centre.
-    pub fn at(&self, pixel: UVec2, offset: Vec2, sample: Option<usize>) -> Seen {
+    pub fn surface_at(&self, pixel: UVec2, offset: Vec2, sample: Option<usize>) -> Seen {
         (self.seen)(&Place {
             pixel,
             size: self.size,
@@ -187,24 +187,24 @@ impl Place {
     }
 
     /// Noise in 0..1 that is the same all over a pixel, another one for each `kind`.
-    pub fn noise(&self, kind: u32) -> f32 {
-        noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind)
+    pub fn pixel_noise(&self, kind: u32) -> f32 {
+        hash_noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind)
     }
 
     /// Noise that differs at each sample.
     pub fn sample_noise(&self, kind: u32) -> f32 {
         let sample = self.sample.map_or(64, |k| k as u32);
-        noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind + 1_000_003 * (sample + 1))
+        hash_noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind + 1_000_003 * (sample + 1))
     }
 
     /// Returns whether the pixel is one of a few, at least one in every picture.
     pub fn is_spot(&self) -> bool {
-        self.pixel == self.size / 2 || self.noise(99) < 0.06
+        self.pixel == self.size / 2 || self.pixel_noise(99) < 0.06
     }
 
     /// A colour that differs from pixel to pixel, each component in 0..1.
     pub fn color(&self) -> Vec4 {
-        Vec4::new(self.noise(1), self.noise(2), self.noise(3), 1.0)
+        Vec4::new(self.pixel_noise(1), self.pixel_noise(2), self.pixel_noise(3), 1.0)
     }
 
     /// Returns whether the pixel is one lane of its quad: the second of the first row.
@@ -216,7 +216,7 @@ impl Place {
     pub fn shadow_coordinates(&self) -> Vec3 {
         let across = self.centred() * 0.35 + LIGHT_CENTRE;
         let depth = if self.is_behind() { 0.4 } else { 0.25 };
-        vec3(across.x, across.y, depth - 0.01 + 0.02 * self.noise(12))
+        vec3(across.x, across.y, depth - 0.01 + 0.02 * self.pixel_noise(12))
     }
 
     /// Returns whether the place lies behind a slanted edge through the picture's middle.
@@ -227,7 +227,7 @@ impl Place {
 }
 
 /// In 0..1, the same for the same number (PCG).
-fn noise(k: u32) -> f32 {
+fn hash_noise(k: u32) -> f32 {
     let state = k.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     (((word >> 22) ^ word) >> 8) as f32 / (1 << 24) as f32

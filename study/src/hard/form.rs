@@ -2,7 +2,7 @@
 
 use super::HardError;
 use super::case::Case;
-use crate::builtin::builtin;
+use crate::builtin::load_builtin;
 use straightline_codegen::Math;
 use straightline_kernels::{HalfPrecision, OptionText, OptionValues};
 use straightline_scene::render::PlacedBy;
@@ -79,21 +79,21 @@ impl Form {
     fn new(name: &str, family: Family, options: &[(&str, &str)]) -> Form {
         Form {
             name: name.to_owned(),
-            kernel: family.kernel().to_owned(),
+            kernel: family.kernel_name().to_owned(),
             family,
-            options: owned(options),
+            options: to_option_texts(options),
             math: Math::Exact,
             promises: true,
             takes_options: false,
         }
     }
 
-    fn unpromised(mut self) -> Form {
+    fn without_promises(mut self) -> Form {
         self.promises = false;
         self
     }
 
-    fn fast(mut self) -> Form {
+    fn with_fast_math(mut self) -> Form {
         self.math = Math::Fast;
         self
     }
@@ -109,7 +109,7 @@ impl Form {
         vec![
             Form::new("sraa", Sraa, &[]).taking_options(),
             Form::new("sraa fallback", Sraa, &[("guards", "fallback")]).taking_options(),
-            Form::new("sraa fast", Sraa, &[]).fast().taking_options(),
+            Form::new("sraa fast", Sraa, &[]).with_fast_math().taking_options(),
             Form::new("sraa 16", Sraa, &[("pattern", "latin16")]),
             Form::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
             Form::new("sraa normals", Sraa, &[("metric", "normals")]),
@@ -141,18 +141,18 @@ impl Form {
                 &[PlacedBy::Planes.options(), KEPT_EVEN].concat(),
             ),
             Form::new("sraa mask", Sraa, &[("mask", "select")]),
-            Form::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).unpromised(),
-            Form::new("sraa paper", Sraa, PAPER).unpromised().taking_options(),
+            Form::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).without_promises(),
+            Form::new("sraa paper", Sraa, PAPER).without_promises().taking_options(),
             Form::new("stalker", Stalker, &[]),
             Form::new("stalker linear", Stalker, &[("depth", "linear")]),
-            Form::new("stalker paper", Stalker, &[("form", "paper"), ("non-finite", "spread")]).unpromised(),
+            Form::new("stalker paper", Stalker, &[("form", "paper"), ("non-finite", "spread")]).without_promises(),
             Form::new("tabula-rasa", TabulaRasa, &[]),
             Form::new(
                 "tabula-rasa paper",
                 TabulaRasa,
                 &[("form", "paper"), ("non-finite", "spread")],
             )
-            .unpromised(),
+            .without_promises(),
             Form::new("upsampling", Upsampling, &[]),
             Form::new(
                 "upsampling normals",
@@ -161,7 +161,7 @@ impl Form {
             ),
             Form::new("upsampling gaussian", Upsampling, &[("screen", "gaussian")]),
             Form::new("bilateral", Bilateral, &[]),
-            Form::new("bilateral fast", Bilateral, &[]).fast(),
+            Form::new("bilateral fast", Bilateral, &[]).with_fast_math(),
             Form::new("convolution", Convolution, &[]),
             Form::new(
                 "convolution 7x7",
@@ -193,8 +193,8 @@ impl Form {
     }
 
     /// A built-in kernel with options, if it is of a family that is studied.
-    pub fn of(kernel: &str, options: &[OptionText]) -> Option<Form> {
-        let family = Family::ALL.into_iter().find(|family| family.kernel() == kernel)?;
+    pub fn from_kernel(kernel: &str, options: &[OptionText]) -> Option<Form> {
+        let family = Family::ALL.into_iter().find(|family| family.kernel_name() == kernel)?;
         let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
         Some(Form {
             name: [&[kernel.to_owned()], &words[..]].concat().join(" "),
@@ -214,11 +214,11 @@ impl Form {
         }
         let own = |name: &str| self.options.iter().any(|(known, _)| known == name);
         let fits = self.family == Family::Sraa && self.takes_options && !case.options.iter().any(|(name, _)| own(name));
-        fits.then(|| [self.options.clone(), owned(case.options)].concat())
+        fits.then(|| [self.options.clone(), to_option_texts(case.options)].concat())
     }
 
     /// Returns the reason why 11 bits cannot hold the numbers of a kernel with `options`.
-    pub fn why(&self, options: &OptionValues) -> &'static str {
+    pub fn loss_reason(&self, options: &OptionValues) -> &'static str {
         match straightline_kernels::find(&self.kernel).map(|entry| (entry.half)(options)) {
             Some(HalfPrecision::Lost(reason)) => reason,
             _ => "what it reads has 11 bits, and so has all that is computed of it",
@@ -230,8 +230,8 @@ impl Form {
     /// # Errors
     ///
     /// [`HardError::Kernel`] if the kernel does not take them.
-    pub fn values(&self, settings: &[OptionText]) -> Result<OptionValues, HardError> {
-        let values = builtin(&self.kernel).and_then(|kernel| kernel.option_values(settings));
+    pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, HardError> {
+        let values = load_builtin(&self.kernel).and_then(|kernel| kernel.option_values(settings));
         values.map_err(|errors| HardError::Kernel {
             form: self.name.clone(),
             errors,
@@ -240,7 +240,7 @@ impl Form {
 }
 
 /// A kernel's choice, or `default` of a kernel without such an option.
-pub fn choice<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
+pub fn choice_or<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
     options.choice(name).unwrap_or(default)
 }
 
@@ -273,7 +273,7 @@ impl Family {
     }
 
     /// The name of the built-in kernel.
-    pub fn kernel(self) -> &'static str {
+    pub fn kernel_name(self) -> &'static str {
         match self {
             Family::Sraa => "sraa",
             Family::Stalker => "stalker",
@@ -289,8 +289,8 @@ impl Family {
 }
 
 /// Texels on an axis of a filter of shadow maps.
-pub fn texels(options: &OptionValues) -> i64 {
-    match choice(options, "width", "eight") {
+pub fn shadow_filter_width(options: &OptionValues) -> i64 {
+    match choice_or(options, "width", "eight") {
         "four" => 4,
         "eight" => 8,
         "twelve" => 12,
@@ -298,7 +298,7 @@ pub fn texels(options: &OptionValues) -> i64 {
     }
 }
 
-fn owned(options: &[(&str, &str)]) -> Vec<OptionText> {
+fn to_option_texts(options: &[(&str, &str)]) -> Vec<OptionText> {
     options
         .iter()
         .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))

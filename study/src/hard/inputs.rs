@@ -2,7 +2,7 @@
 
 use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
-use super::form::{self, Family, Form, choice};
+use super::form::{self, Family, Form, choice_or};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_bench::execute::Inputs;
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -19,51 +19,55 @@ pub struct Reads {
 }
 
 /// Makes the inputs of a form with `options` in a case.
-pub fn reads(case: &Case, form: &Form, options: &OptionValues) -> Result<Reads, HardError> {
+pub fn build_reads(case: &Case, form: &Form, options: &OptionValues) -> Result<Reads, HardError> {
     let inputs = match form.family {
         Family::Sraa => {
-            let params = params(case, options)?;
+            let params = sraa_params(case, options)?;
             return Ok(Reads {
-                inputs: sraa(case, &params),
+                inputs: sraa_inputs(case, &params),
                 params: Some(params),
             });
         }
         Family::Stalker | Family::TabulaRasa => {
-            let projected = form.family == Family::Stalker && choice(options, "depth", "projected") == "projected";
+            let projected = form.family == Family::Stalker && choice_or(options, "depth", "projected") == "projected";
             let near = f64::from(case.planes[0]);
-            let depth = centres(case, |seen| {
+            let depth = image_at_centres(case, |seen| {
                 Vec4::splat(match projected {
                     true => DepthEncoding::InfiniteReversed { near }.encode(seen.depth.into()) as f32,
                     false => seen.depth,
                 })
             });
-            let normal = centres(case, |seen| vector(seen).extend(0.0));
+            let normal = image_at_centres(case, |seen| normal_vector(seen).extend(0.0));
             Inputs::new(case.size)
                 .image("depth", depth)
                 .image("normal", normal)
-                .image("color", centres(case, |seen| seen.color))
+                .image("color", image_at_centres(case, |seen| seen.color))
         }
-        Family::Upsampling => upsampling(case, options),
-        Family::Bilateral => {
-            Inputs::new(case.size).image("image", centres(case, |seen| seen.color.truncate().extend(seen.depth)))
-        }
-        Family::Convolution => Inputs::new(case.size).image("image", centres(case, |seen| seen.color)),
+        Family::Upsampling => upsampling_inputs(case, options),
+        Family::Bilateral => Inputs::new(case.size).image(
+            "image",
+            image_at_centres(case, |seen| seen.color.truncate().extend(seen.depth)),
+        ),
+        Family::Convolution => Inputs::new(case.size).image("image", image_at_centres(case, |seen| seen.color)),
         Family::Ssao => Inputs::new(case.size)
-            .image("depth", centres(case, |seen| Vec4::splat(seen.depth)))
-            .image("normal", centres(case, |seen| vector(seen).extend(0.0))),
+            .image("depth", image_at_centres(case, |seen| Vec4::splat(seen.depth)))
+            .image("normal", image_at_centres(case, |seen| normal_vector(seen).extend(0.0))),
         Family::Pcf | Family::Pcss => Inputs::new(case.size)
-            .image("shadow", image(case.map, |texel| Vec4::splat(case.shadow_at(texel))))
+            .image(
+                "shadow",
+                image_from_fn(case.map, |texel| Vec4::splat(case.shadow_at(texel))),
+            )
             .image(
                 "coord",
-                image(case.size, |pixel| case.coordinates_at(pixel).extend(0.0)),
+                image_from_fn(case.size, |pixel| case.coordinates_at(pixel).extend(0.0)),
             )
-            .image("lookup", cubic_table(form::texels(options) as f32 / 2.0)),
+            .image("lookup", cubic_table(form::shadow_filter_width(options) as f32 / 2.0)),
     };
     Ok(Reads { inputs, params: None })
 }
 
 /// The definition's numbers: those that are uniforms as the case gives them.
-fn params(case: &Case, options: &OptionValues) -> Result<SraaParams, OracleFailure> {
+fn sraa_params(case: &Case, options: &OptionValues) -> Result<SraaParams, OracleFailure> {
     let mut params = SraaParams::default();
     for (name, value) in options {
         if *value != OptionValue::Uniform {
@@ -84,7 +88,7 @@ fn params(case: &Case, options: &OptionValues) -> Result<SraaParams, OracleFailu
 
 type OracleFailure = oracle::OracleError;
 
-fn sraa(case: &Case, params: &SraaParams) -> Inputs {
+fn sraa_inputs(case: &Case, params: &SraaParams) -> Inputs {
     let places = params.samples().into_iter().map(|[x, y]| vec2(x as f32, y as f32));
     let mut places: Vec<(Vec2, Option<usize>)> = places.enumerate().map(|(k, at)| (at, Some(k))).collect();
     if matches!(params.shading, Shading::Centre | Shading::Placed) {
@@ -92,14 +96,14 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
     }
     let layers = |texel: &dyn Fn(&Seen) -> Vec4| -> Vec<Frame<Vec4>> {
         let layer = |(offset, sample): &(Vec2, Option<usize>)| {
-            image(case.size, |pixel| texel(&case.at(pixel, *offset, *sample)))
+            image_from_fn(case.size, |pixel| texel(&case.surface_at(pixel, *offset, *sample)))
         };
         places.iter().map(layer).collect()
     };
     let size = case.size.as_dvec2();
     let [near, far] = case.planes.map(f64::from);
     let mut inputs = Inputs::new(case.size)
-        .image("color", centres(case, |seen| seen.color))
+        .image("color", image_at_centres(case, |seen| seen.color))
         .uniform("near", &[near])
         .uniform("far", &[far])
         .uniform("ray_corner", &[-1.0, 1.0, -1.0])
@@ -111,9 +115,9 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
     if params.shading == Shading::Placed {
         // No two neighbours at the same sample.
         let layer = |pixel: UVec2| ((3 * pixel.x + 7 * pixel.y) % places.len() as u32) as usize;
-        let shaded = image(case.size, |pixel| {
+        let shaded = image_from_fn(case.size, |pixel| {
             let (offset, sample) = places[layer(pixel)];
-            case.at(pixel, offset, sample).color
+            case.surface_at(pixel, offset, sample).color
         });
         let pixels = (0..case.size.y).flat_map(|y| (0..case.size.x).map(move |x| uvec2(x, y)));
         let texels = pixels.map(|pixel| UVec4::new(layer(pixel) as u32, 0, 0, 1));
@@ -122,12 +126,12 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
     }
     if params.normals == oracle::Normals::Packed {
         let part = |of: &dyn Fn(&Seen) -> Vec4| FrameLayers::new(layers(of));
-        let normals = each(&part(&|seen| vector(seen).extend(0.0)), Vec4::truncate);
-        let depths = each(&part(&|seen| Vec4::splat(seen.depth)), |texel| texel.x);
+        let normals = map_layers(&part(&|seen| normal_vector(seen).extend(0.0)), Vec4::truncate);
+        let depths = map_layers(&part(&|seen| Vec4::splat(seen.depth)), |texel| texel.x);
         let packed = encode::packed(&normals, &depths, DepthEncoding::Linear);
         return inputs.layers("packed", packed.layers().to_vec());
     }
-    let depths = layers(&|seen| Vec4::splat(stored(case, params.depth, seen.depth)));
+    let depths = layers(&|seen| Vec4::splat(encode_depth(case, params.depth, seen.depth)));
     inputs = match params.layout {
         oracle::Layout::Split => {
             let texels = depths.iter().flat_map(Frame::texels);
@@ -135,16 +139,16 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
         }
         _ => inputs.layers("depth", depths),
     };
-    inputs.layers("normal", layers(&|seen| normal(params.normals, seen)))
+    inputs.layers("normal", layers(&|seen| encode_normal(params.normals, seen)))
 }
 
-fn each<A: Copy, B: Copy>(stack: &FrameLayers<A>, of: impl Fn(A) -> B) -> FrameLayers<B> {
+fn map_layers<A: Copy, B: Copy>(stack: &FrameLayers<A>, of: impl Fn(A) -> B) -> FrameLayers<B> {
     let layer = |l: &Frame<A>| Frame::new(l.size(), l.texels().iter().map(|t| of(*t)).collect());
     FrameLayers::new(stack.layers().iter().map(layer).collect())
 }
 
 /// A linear depth as a texture holds it.
-fn stored(case: &Case, encoding: oracle::Depth, depth: f32) -> f32 {
+fn encode_depth(case: &Case, encoding: oracle::Depth, depth: f32) -> f32 {
     let ([near, far], depth) = (case.planes.map(f64::from), f64::from(depth));
     // The definitions' products of infinities are no numbers.
     let endless = far.is_infinite() || depth.is_infinite();
@@ -160,7 +164,7 @@ fn stored(case: &Case, encoding: oracle::Depth, depth: f32) -> f32 {
 }
 
 /// A normal as a texture holds it.
-fn normal(encoding: oracle::Normals, seen: &Seen) -> Vec4 {
+fn encode_normal(encoding: oracle::Normals, seen: &Seen) -> Vec4 {
     let vector = match seen.normal {
         Normal::Texel(texel) => return texel,
         Normal::Vector(vector) => vector,
@@ -182,7 +186,7 @@ fn cubic_table(half: f32) -> Frame<Vec4> {
         x if x < 2.0 => (2.0 - x).powi(3) / 6.0,
         _ => 0.0,
     };
-    image(uvec2(513, 1), |texel| {
+    image_from_fn(uvec2(513, 1), |texel| {
         let first = texel.x as f32 / 512.0 * (2.0 * half - 1.0) - half;
         let [near, far] = [first, first + 1.0].map(weight);
         let share = if near + far > 0.0 { far / (near + far) } else { 0.5 };
@@ -191,7 +195,7 @@ fn cubic_table(half: f32) -> Frame<Vec4> {
 }
 
 /// Returns the normal of a case, without any encoding.
-fn vector(seen: &Seen) -> Vec3 {
+fn normal_vector(seen: &Seen) -> Vec3 {
     match seen.normal {
         Normal::Vector(vector) => vector,
         Normal::Texel(texel) => texel.truncate(),
@@ -199,15 +203,15 @@ fn vector(seen: &Seen) -> Vec3 {
 }
 
 /// The frame in full, and every corner of 2×2 pixels (or 4×4) as the low resolution.
-fn upsampling(case: &Case, options: &OptionValues) -> Inputs {
-    let factor = match choice(options, "factor", "twice") {
+fn upsampling_inputs(case: &Case, options: &OptionValues) -> Inputs {
+    let factor = match choice_or(options, "factor", "twice") {
         "four-times" => 4,
         _ => 2,
     };
-    let packed = choice(options, "reads", "packed") == "packed";
+    let packed = choice_or(options, "reads", "packed") == "packed";
     let size = case.size.map(|n| n.div_ceil(factor) + 1);
     let low = |texel: &dyn Fn(&Seen) -> Vec4| {
-        image(size, |corner| {
+        image_from_fn(size, |corner| {
             let at = corner * factor;
             texel(&(case.seen)(&Place {
                 pixel: at.min(case.size - 1),
@@ -225,16 +229,16 @@ fn upsampling(case: &Case, options: &OptionValues) -> Inputs {
                 false => seen.color,
             }),
         )
-        .image("low_surface", low(&|seen| vector(seen).extend(seen.depth)))
-        .image("depth", centres(case, |seen| Vec4::splat(seen.depth)))
-        .image("normal", centres(case, |seen| vector(seen).extend(0.0)))
+        .image("low_surface", low(&|seen| normal_vector(seen).extend(seen.depth)))
+        .image("depth", image_at_centres(case, |seen| Vec4::splat(seen.depth)))
+        .image("normal", image_at_centres(case, |seen| normal_vector(seen).extend(0.0)))
 }
 
-fn centres(case: &Case, texel: impl Fn(&Seen) -> Vec4) -> Frame<Vec4> {
-    image(case.size, |pixel| texel(&case.at(pixel, Vec2::ZERO, None)))
+fn image_at_centres(case: &Case, texel: impl Fn(&Seen) -> Vec4) -> Frame<Vec4> {
+    image_from_fn(case.size, |pixel| texel(&case.surface_at(pixel, Vec2::ZERO, None)))
 }
 
-fn image(size: UVec2, texel: impl Fn(UVec2) -> Vec4) -> Frame<Vec4> {
+fn image_from_fn(size: UVec2, texel: impl Fn(UVec2) -> Vec4) -> Frame<Vec4> {
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| uvec2(x, y)));
     Frame::new(size, pixels.map(texel).collect())
 }

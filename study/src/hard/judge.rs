@@ -2,11 +2,11 @@
 
 use super::HardError;
 use super::case::Case;
-use super::expected::{Expected, expected, half_limit};
+use super::expected::{Expected, expected_result, half_limit};
 use super::form::Form;
-use super::inputs::{Reads, reads};
+use super::inputs::{Reads, build_reads};
 use super::reals::{Flushed, Loose};
-use crate::builtin::builtin;
+use crate::builtin::load_builtin;
 use crate::record::{Executor, HardResult};
 use straightline_bench::execute::{Bench, ExecuteError, Inputs, interpret};
 use straightline_codegen::ir::{F16, Real};
@@ -33,9 +33,9 @@ struct Found {
 impl<'a> Trial<'a> {
     /// A form with `options` on a case.
     pub fn new(case: &'a Case, form: &'a Form, options: Vec<OptionText>) -> Result<Trial<'a>, HardError> {
-        let values = form.values(&options)?;
-        let reads = reads(case, form, &values)?;
-        let expected = expected(form, &values, &reads)?;
+        let values = form.option_values(&options)?;
+        let reads = build_reads(case, form, &values)?;
+        let expected = expected_result(form, &values, &reads)?;
         Ok(Trial {
             case,
             form,
@@ -46,7 +46,7 @@ impl<'a> Trial<'a> {
     }
 
     /// By every executor that is no device.
-    pub fn interpreted(&self, compiled: &Compiled, precision: Precision) -> Result<Vec<HardResult>, HardError> {
+    pub fn run_interpreters(&self, compiled: &Compiled, precision: Precision) -> Result<Vec<HardResult>, HardError> {
         let found = match precision {
             Precision::F32 => [
                 self.interpret::<f32>(compiled, true),
@@ -66,12 +66,12 @@ impl<'a> Trial<'a> {
         ];
         let judged = found.into_iter().zip(executors);
         judged
-            .map(|(found, executor)| Ok(self.judged(&self.executed(found)?, precision, executor)))
+            .map(|(found, executor)| Ok(self.judge_result(&self.locate_error(found)?, precision, executor)))
             .collect()
     }
 
     /// By a device.
-    pub fn shown(
+    pub fn run_device(
         &self,
         bench: &Bench,
         pass: &Pass,
@@ -84,11 +84,11 @@ impl<'a> Trial<'a> {
             texels: frame.texels().iter().map(|t| t.to_array().map(f64::from)).collect(),
             non_finite_origins: Vec::new(),
         });
-        Ok(self.judged(&self.executed(found)?, precision, Executor::Gpu))
+        Ok(self.judge_result(&self.locate_error(found)?, precision, Executor::Gpu))
     }
 
     /// Records a run that did not take place, and the reason.
-    pub fn refused(&self, precision: Precision, executor: Executor, why: &str) -> HardResult {
+    pub fn record_refusal(&self, precision: Precision, executor: Executor, why: &str) -> HardResult {
         HardResult {
             kernel: self.form.name.clone(),
             options: self.options.clone(),
@@ -111,7 +111,7 @@ impl<'a> Trial<'a> {
         &self.reads.inputs
     }
 
-    fn executed(&self, found: Result<Found, ExecuteError>) -> Result<Found, HardError> {
+    fn locate_error(&self, found: Result<Found, ExecuteError>) -> Result<Found, HardError> {
         found.map_err(|source| HardError::Execute {
             form: self.form.name.clone(),
             case: self.case.name.to_owned(),
@@ -127,7 +127,7 @@ impl<'a> Trial<'a> {
         })
     }
 
-    fn judged(&self, found: &Found, precision: Precision, executor: Executor) -> HardResult {
+    fn judge_result(&self, found: &Found, precision: Precision, executor: Executor) -> HardResult {
         let half = precision == Precision::F16;
         let limit = half_limit(self.case, self.form.family);
         let watched = half && !self.case.common;
@@ -156,7 +156,7 @@ impl<'a> Trial<'a> {
             for (lane, exact) in texel.iter().zip(expected).take(self.expected.lanes) {
                 let off = (lane - exact).abs();
                 difference = Some(difference.unwrap_or(0.0).max(off));
-                ulps = Some(ulps.unwrap_or(0.0).max(off / place(*exact, precision)));
+                ulps = Some(ulps.unwrap_or(0.0).max(off / ulp_at(*exact, precision)));
                 kept &= watched || off <= own;
             }
         }
@@ -194,7 +194,7 @@ impl<'a> Trial<'a> {
 }
 
 /// The distance of neighbouring numbers at `x`; at 0 and below the smallest normal number, at that.
-fn place(x: f64, precision: Precision) -> f64 {
+fn ulp_at(x: f64, precision: Precision) -> f64 {
     let (digits, smallest) = match precision {
         Precision::F32 => (23, f64::from(f32::MIN_POSITIVE)),
         Precision::F16 => (10, 1.0 / 16384.0),
@@ -204,7 +204,7 @@ fn place(x: f64, precision: Precision) -> f64 {
 }
 
 /// A form compiled with the options that it has in a case.
-pub fn compile(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
+pub fn compile_form(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
     let settings = straightline_codegen::Settings::new()
         .set_all(options.to_vec())
         // Each invocation computes a quad: the stage is a compute shader.
@@ -214,7 +214,7 @@ pub fn compile(form: &Form, options: &[OptionText]) -> Result<Compiled, HardErro
                 .then_some(straightline_codegen::Transport::Block),
         )
         .math(form.math);
-    let compiled = builtin(&form.kernel).and_then(|kernel| kernel.compile(&settings));
+    let compiled = load_builtin(&form.kernel).and_then(|kernel| kernel.compile(&settings));
     compiled.map_err(|errors| HardError::Kernel {
         form: form.name.clone(),
         errors,

@@ -1,6 +1,6 @@
 //! Numerical stability: named cases that are hard to compute, kernels in several options, precisions and executors.
 //!
-//! [`run`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by the
+//! [`run_cases`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by the
 //! interpreter with subnormal numbers flushed, by the interpreter as inexact as WGSL allows, and by the shader that is
 //! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`straightline_oracle::oracle`]) and held to a
 //! bound that follows from an error analysis of the case's inputs ([`straightline_oracle::oracle::bound`]).
@@ -21,7 +21,7 @@ mod verdict;
 pub use case::{Case, Normal, Place, Seen};
 pub use form::{Family, Form, PAPER};
 pub use reals::{Flushed, Loose};
-pub use run::{Selection, judged_as, run};
+pub use run::{Selection, judged_as, run_cases};
 pub use verdict::half_precision_verdict;
 
 use straightline_bench::execute::ExecuteError;
@@ -29,8 +29,8 @@ use straightline_codegen::diagnostic::Errors;
 use straightline_oracle::oracle::OracleError;
 
 /// Every case.
-pub fn cases() -> Vec<Case> {
-    cases::all()
+pub fn all_cases() -> Vec<Case> {
+    cases::all_cases()
 }
 
 /// The case of a name.
@@ -38,8 +38,8 @@ pub fn cases() -> Vec<Case> {
 /// # Errors
 ///
 /// [`HardError::UnknownCase`].
-pub fn case(name: &str) -> Result<Case, HardError> {
-    cases()
+pub fn find_case(name: &str) -> Result<Case, HardError> {
+    all_cases()
         .into_iter()
         .find(|case| case.name == name)
         .ok_or_else(|| HardError::UnknownCase(name.to_owned()))

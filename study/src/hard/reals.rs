@@ -20,7 +20,7 @@ pub struct Flushed<R>(R);
 pub struct Loose<R>(R);
 
 /// The smallest normal number of a precision.
-fn smallest<R: Real>() -> f64 {
+fn smallest_normal<R: Real>() -> f64 {
     match R::NAME {
         "f16" => 1.0 / 16384.0,
         "f32" => f32::MIN_POSITIVE.into(),
@@ -30,7 +30,7 @@ fn smallest<R: Real>() -> f64 {
 
 fn flushed<R: Real>(x: R) -> R {
     let value = x.to_f64();
-    match value != 0.0 && value.abs() < smallest::<R>() {
+    match value != 0.0 && value.abs() < smallest_normal::<R>() {
         true => R::from_f64(0.0f64.copysign(value)),
         false => x,
     }
@@ -122,7 +122,7 @@ impl<R: Real> Loose<R> {
             Log | Log2 => 3.0,
             _ => return Some(result),
         };
-        Some(nudged(result, most, hash(&[x.to_bits(), op as u64])))
+        Some(nudge_ulps(result, most, hash(&[x.to_bits(), op as u64])))
     }
 
     fn two(a: R, op: BinaryOp, b: R) -> Option<R> {
@@ -130,10 +130,10 @@ impl<R: Real> Loose<R> {
         let (x, y) = (a.to_f64(), b.to_f64());
         let key = hash(&[a.to_bits(), b.to_bits(), op as u64]);
         match op {
-            Add => Some(rounded(x + y, key)),
-            Sub => Some(rounded(x - y, key)),
-            Mul => Some(rounded(x * y, key)),
-            Div => Some(nudged(a.binary(op, b)?, 2.0, key)),
+            Add => Some(round_loosely(x + y, key)),
+            Sub => Some(round_loosely(x - y, key)),
+            Mul => Some(round_loosely(x * y, key)),
+            Div => Some(nudge_ulps(a.binary(op, b)?, 2.0, key)),
             Min | Max if x.is_nan() || y.is_nan() => Some(R::from_f64(f64::NAN)),
             _ => a.binary(op, b),
         }
@@ -141,31 +141,31 @@ impl<R: Real> Loose<R> {
 }
 
 /// Rounds a number that has two neighbours to one of them.
-fn rounded<R: Real>(exact: f64, key: u64) -> R {
+fn round_loosely<R: Real>(exact: f64, key: u64) -> R {
     let nearest = R::from_f64(exact);
     let found = nearest.to_f64();
     if found == exact || !found.is_finite() || key & 1 == 0 {
         return nearest;
     }
-    let other = stepped(nearest, if found.abs() < exact.abs() { 1 } else { -1 });
+    let other = step_ulps(nearest, if found.abs() < exact.abs() { 1 } else { -1 });
     if other.to_f64().is_finite() { other } else { nearest }
 }
 
 /// At most `most` units in the last place away; zeros, infinities and NaNs as they are.
-fn nudged<R: Real>(x: R, most: f64, key: u64) -> R {
+fn nudge_ulps<R: Real>(x: R, most: f64, key: u64) -> R {
     let value = x.to_f64();
     if value == 0.0 || !value.is_finite() {
         return x;
     }
     let most = most.min(1.0e6) as i64;
     let by = (key % (2 * most as u64 + 1)) as i64 - most;
-    let moved = stepped(x, by);
+    let moved = step_ulps(x, by);
     let kept = moved.to_f64().is_finite() && moved.to_f64().signum() == value.signum();
     if kept { moved } else { x }
 }
 
 /// So many numbers farther from zero.
-fn stepped<R: Real>(x: R, by: i64) -> R {
+fn step_ulps<R: Real>(x: R, by: i64) -> R {
     let sign = match R::NAME {
         "f16" => 1 << 15,
         "f32" => 1 << 31,

@@ -2,8 +2,8 @@
 
 use super::case::Case;
 use super::form::Form;
-use super::judge::{Trial, compile};
-use super::verdict::verdicts;
+use super::judge::{Trial, compile_form};
+use super::verdict::half_verdicts;
 use super::{HardError, cases};
 use crate::progress::Progress;
 use crate::record::{Circumstances, Executor, HardCase, HardRecord, HardResult};
@@ -30,7 +30,7 @@ impl Default for Selection {
     /// All.
     fn default() -> Self {
         Selection {
-            cases: cases::all(),
+            cases: cases::all_cases(),
             forms: Form::all(),
             precisions: Precision::ALL.to_vec(),
         }
@@ -49,33 +49,34 @@ type Shader = Result<(Pass, Manifest), String>;
 /// # Errors
 ///
 /// If a kernel cannot be compiled or run at all. A result that is bad is no error: it is in the record.
-pub fn run(
+pub fn run_cases(
     selection: &Selection,
     bench: Option<&Bench>,
     mut circumstances: Circumstances,
     progress: &mut dyn Progress,
 ) -> Result<HardRecord, HardError> {
-    let compiled = compiled(selection, progress)?;
+    let compiled = compile_forms(selection, progress)?;
     let mut shaders: BTreeMap<(Key, Precision), Shader> = BTreeMap::new();
     let mut done = Vec::new();
     progress.begin("hard cases", selection.cases.len());
     for case in &selection.cases {
-        if progress.stopped() {
+        if progress.is_stopped() {
             break;
         }
-        let trials = trials(case, &selection.forms)?;
+        let trials = build_trials(case, &selection.forms)?;
         let mut results: Vec<Vec<HardResult>> = trials
             .par_iter()
             .map(|(key, trial)| {
                 let precisions = selection.precisions.iter();
-                let found = precisions.filter_map(|precision| Some(trial.interpreted(compiled.get(key)?, *precision)));
+                let found =
+                    precisions.filter_map(|precision| Some(trial.run_interpreters(compiled.get(key)?, *precision)));
                 Ok(found.collect::<Result<Vec<_>, HardError>>()?.concat())
             })
             .collect::<Result<_, HardError>>()?;
         for ((key, trial), results) in trials.iter().zip(&mut results) {
             for precision in &selection.precisions {
                 let Some(bench) = bench else {
-                    results.push(trial.refused(*precision, Executor::Gpu, "there is no adapter"));
+                    results.push(trial.record_refusal(*precision, Executor::Gpu, "there is no adapter"));
                     continue;
                 };
                 let shader = shaders.entry((key.clone(), *precision)).or_insert_with(|| {
@@ -85,8 +86,8 @@ pub fn run(
                         .map_err(|error: ExecuteError| error.to_string())
                 });
                 results.push(match shader {
-                    Ok((pass, manifest)) => trial.shown(bench, pass, manifest, *precision)?,
-                    Err(why) => trial.refused(*precision, Executor::Gpu, why),
+                    Ok((pass, manifest)) => trial.run_device(bench, pass, manifest, *precision)?,
+                    Err(why) => trial.record_refusal(*precision, Executor::Gpu, why),
                 });
             }
         }
@@ -101,7 +102,7 @@ pub fn run(
     circumstances.complete = done.len() == selection.cases.len();
     Ok(HardRecord {
         circumstances,
-        half: verdicts(&selection.forms, &done)?,
+        half: half_verdicts(&selection.forms, &done)?,
         cases: done,
     })
 }
@@ -112,12 +113,12 @@ pub fn run(
 ///
 /// If either cannot be compiled or run.
 pub fn judged_as(case: &Case, form: &Form, promise: &Form) -> Result<Vec<HardResult>, HardError> {
-    let compiled = compile(form, &form.options)?;
-    Trial::new(case, promise, promise.options.clone())?.interpreted(&compiled, Precision::F32)
+    let compiled = compile_form(form, &form.options)?;
+    Trial::new(case, promise, promise.options.clone())?.run_interpreters(&compiled, Precision::F32)
 }
 
 /// The forms that a case is for.
-pub fn trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'a>)>, HardError> {
+pub fn build_trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'a>)>, HardError> {
     let for_it = forms.iter().filter_map(|form| Some((form, form.in_case(case)?)));
     for_it
         .map(|(form, options)| {
@@ -128,7 +129,7 @@ pub fn trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'
 }
 
 /// Every form with the options of every case that it is for, compiled once.
-fn compiled(selection: &Selection, progress: &mut dyn Progress) -> Result<BTreeMap<Key, Compiled>, HardError> {
+fn compile_forms(selection: &Selection, progress: &mut dyn Progress) -> Result<BTreeMap<Key, Compiled>, HardError> {
     let mut needed: BTreeMap<Key, &Form> = BTreeMap::new();
     for case in &selection.cases {
         for form in &selection.forms {
@@ -141,12 +142,12 @@ fn compiled(selection: &Selection, progress: &mut dyn Progress) -> Result<BTreeM
     progress.begin("compiling kernels", needed.len());
     let mut all = BTreeMap::new();
     for some in needed.chunks(8) {
-        if progress.stopped() {
+        if progress.is_stopped() {
             break;
         }
         let compiled = some
             .par_iter()
-            .map(|(key, form)| Ok((key.clone(), compile(form, &key.1)?)));
+            .map(|(key, form)| Ok((key.clone(), compile_form(form, &key.1)?)));
         all.extend(compiled.collect::<Result<Vec<_>, HardError>>()?);
         some.iter().for_each(|_| progress.step());
     }

@@ -2,8 +2,8 @@
 
 use super::case::Case;
 use super::form::Form;
-use super::judge::compile;
-use super::run::trials;
+use super::judge::compile_form;
+use super::run::build_trials;
 use super::{HardError, cases};
 use crate::record::{Executor, HalfVerdict, HardCase, HardResult};
 use rayon::prelude::*;
@@ -22,8 +22,8 @@ use straightline_kernels::{OptionText, OptionValue, OptionValues};
 /// small, and for demodulated colours and earlier frames, which none has; others if it does not compile.
 pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
-    let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
-    let values = form.values(&options)?;
+    let form = Form::from_kernel(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
+    let values = form.option_values(&options)?;
     let is_plain = |value: &OptionValue| value.choice() == Some("none") || value.number() == Some(0.0);
     for name in ["demodulate", "history"] {
         if let Some(value) = values.get(name).filter(|value| !is_plain(value)) {
@@ -35,13 +35,13 @@ pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<Ha
         return Err(HardError::NotStudied(kernel.to_owned()));
     }
     let forms = [form];
-    let common: Vec<Case> = cases::all().into_iter().filter(|case| case.common).collect();
+    let common: Vec<Case> = cases::all_cases().into_iter().filter(|case| case.common).collect();
     let plain = common.iter().filter(|case| case.options.is_empty());
-    let compiled = compile(&forms[0], &forms[0].options)?;
+    let compiled = compile_form(&forms[0], &forms[0].options)?;
     let done = plain.par_bridge().map(|case| {
         let mut results = Vec::new();
-        for (_, trial) in trials(case, &forms)? {
-            results.extend(trial.interpreted(&compiled, Precision::F16)?);
+        for (_, trial) in build_trials(case, &forms)? {
+            results.extend(trial.run_interpreters(&compiled, Precision::F16)?);
         }
         Ok(HardCase {
             name: case.name.to_owned(),
@@ -52,7 +52,7 @@ pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<Ha
     });
     let mut done = done.collect::<Result<Vec<_>, HardError>>()?;
     done.sort_by(|a, b| a.name.cmp(&b.name));
-    Ok(verdict(&forms[0], &values, &done))
+    Ok(half_verdict(&forms[0], &values, &done))
 }
 
 /// The verdict on every form that ran in half precision.
@@ -60,14 +60,14 @@ pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<Ha
 /// # Errors
 ///
 /// [`HardError::Kernel`] for a form with an option that its kernel does not take.
-pub fn verdicts(forms: &[Form], done: &[HardCase]) -> Result<Vec<HalfVerdict>, HardError> {
-    let ran = |form: &&Form| done.iter().any(|case| own(case, form).next().is_some());
+pub fn half_verdicts(forms: &[Form], done: &[HardCase]) -> Result<Vec<HalfVerdict>, HardError> {
+    let ran = |form: &&Form| done.iter().any(|case| half_results(case, form).next().is_some());
     let ran = forms.iter().filter(ran);
-    ran.map(|form| Ok(verdict(form, &form.values(&form.options)?, done)))
+    ran.map(|form| Ok(half_verdict(form, &form.option_values(&form.options)?, done)))
         .collect()
 }
 
-fn own<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardResult> {
+fn half_results<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardResult> {
     let half = case
         .results
         .iter()
@@ -75,9 +75,11 @@ fn own<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardR
     half.filter(|r| r.kernel == form.name)
 }
 
-fn verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict {
+fn half_verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict {
     let common = done.iter().filter(|case| case.common);
-    let all: Vec<(&HardCase, &HardResult)> = common.flat_map(|c| own(c, form).map(move |r| (c, r))).collect();
+    let all: Vec<(&HardCase, &HardResult)> = common
+        .flat_map(|c| half_results(c, form).map(move |r| (c, r)))
+        .collect();
     let is_loose = |r: &HardResult| r.executor == Executor::InterpreterLoose;
     let results: Vec<_> = all.iter().filter(|(_, r)| !is_loose(r)).copied().collect();
     // Error as a multiple of the limit, greatest for results that are not even finite.
@@ -108,7 +110,7 @@ fn verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict
             2 => ", and more than can be seen on another".to_owned(),
             n => format!(", and more than can be seen on {} others", n - 1),
         };
-        format!("{what}{others}: {}", form.why(values))
+        format!("{what}{others}: {}", form.loss_reason(values))
     });
     HalfVerdict {
         kernel: form.name.clone(),
@@ -123,7 +125,7 @@ fn verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict
         broken: broken.len(),
         cases: done
             .iter()
-            .filter(|case| case.common && own(case, form).next().is_some())
+            .filter(|case| case.common && half_results(case, form).next().is_some())
             .count(),
         reason,
     }

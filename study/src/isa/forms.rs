@@ -23,11 +23,11 @@ pub struct Spirv {
 }
 
 /// All forms of a kernel, by naga and, where it is there, by glslang.
-pub fn forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
+pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
     let subject = &asking.subject;
     let mut all = Vec::new();
     for kind in IsaForm::ALL {
-        let Some(compiled) = compiled(subject, kind)? else {
+        let Some(compiled) = compile_form(subject, kind)? else {
             continue;
         };
         for path in SpirvPath::ALL {
@@ -37,7 +37,7 @@ pub fn forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaS
                 SpirvPath::Glslang => glslang.is_some(),
             };
             if is_asked {
-                all.push(by(path, kind, &compiled, glslang));
+                all.push(emit_spirv(path, kind, &compiled, glslang));
             }
         }
     }
@@ -60,7 +60,7 @@ fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
     Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
 }
 
-fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Spirv {
+fn emit_spirv(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Spirv {
     let stage = match compiled.graph.invocation {
         Invocation::Lane => Stage::Fragment,
         _ => Stage::Compute,
@@ -87,7 +87,7 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
     }
 }
 
-fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStudyError> {
+fn compile_form(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStudyError> {
     let settings = |unroll, options: &[OptionText]| Settings::new().unroll(unroll).set_all(options.to_vec());
     let compile = |kernel: &Kernel, settings: &Settings| {
         kernel.compile(settings).map_err(|errors| IsaStudyError::Kernel {

@@ -7,13 +7,13 @@ mod subjects;
 
 use crate::progress::Progress;
 use crate::record::{Asked, IsaRecord};
-use forms::forms;
+use forms::emit_forms;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_isa::{Compiler, Family, IsaError};
 
-pub use subjects::{Asking, further};
+pub use subjects::{Asking, further_askings};
 
 /// Why there is no record.
 #[derive(Debug, thiserror::Error)]
@@ -48,7 +48,7 @@ pub struct Question {
 /// # Errors
 ///
 /// [`IsaStudyError`]; a form that a compiler refuses is part of the record, with the reason.
-pub fn ask(
+pub fn ask_compilers(
     question: &Question,
     askings: &[Asking],
     command: String,
@@ -80,10 +80,10 @@ pub fn ask(
     progress.begin("kernels", askings.len());
     for asking in askings {
         let subject = &asking.subject;
-        if progress.stopped() {
+        if progress.is_stopped() {
             break;
         }
-        for form in forms(asking, question.glslang.as_deref())? {
+        for form in emit_forms(asking, question.glslang.as_deref())? {
             let mut asked = Asked {
                 kernel: subject.name.clone(),
                 options: subject.options.clone(),

@@ -42,7 +42,7 @@ const AGAIN: [&str; 2] = [
 
 /// SRAA of which nothing is computed again, so that what is left is the path that nearly every pixel takes, the test at its end
 /// among it. A compiler that is asked about the whole adds the other path, which it cannot know to be rare.
-fn taken() -> Result<Kernel, Errors> {
+fn taken_path_kernel() -> Result<Kernel, Errors> {
     let changed = |what: &str| {
         Errors::of(Diagnostic::new(
             Code::Internal,
@@ -69,7 +69,7 @@ fn taken() -> Result<Kernel, Errors> {
 /// # Errors
 ///
 /// The kernel is none.
-pub fn further() -> Result<Vec<Asking>, Errors> {
+pub fn further_askings() -> Result<Vec<Asking>, Errors> {
     let of = |kernel: Kernel, name: &str, options: &[(&str, &str)], slang| -> Asking {
         Asking {
             subject: Subject {
@@ -100,13 +100,13 @@ pub fn further() -> Result<Vec<Asking>, Errors> {
         asking("SRAA 16, no tests", &[("pattern", "latin16"), ("guards", "none")], None)?,
         asking("SRAA 4, fallback", &[("guards", "fallback")], None)?,
         of(
-            taken()?,
+            taken_path_kernel()?,
             "SRAA 4, fallback, the path taken",
             &[("guards", "fallback")],
             None,
         ),
         of(
-            taken()?,
+            taken_path_kernel()?,
             "SRAA 16, fallback, the path taken",
             &[("pattern", "latin16"), ("guards", "fallback")],
             None,

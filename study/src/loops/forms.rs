@@ -29,7 +29,7 @@ impl Forms {
     /// # Errors
     ///
     /// If the kernel is not one, looped or unrolled, or what was written by hand is none.
-    pub fn of(subject: &Subject, half: bool) -> Result<Forms, LoopsError> {
+    pub fn from_subject(subject: &Subject, half: bool) -> Result<Forms, LoopsError> {
         let settings = |unroll| Settings::new().unroll(unroll).set_all(subject.options.clone());
         let compile = |kernel: &Kernel, settings: &Settings| {
             kernel.compile(settings).map_err(|errors| LoopsError::Kernel {
@@ -70,7 +70,7 @@ impl Forms {
                         .kernel
                         .compile(&settings)
                         .map_err(|errors| errors.first_message().to_owned());
-                    unshared.and_then(|unshared| match reads(&unshared) == reads(&full) {
+                    unshared.and_then(|unshared| match read_count(&unshared) == read_count(&full) {
                         true => Err("the source asks for each read once, as the full form does".to_owned()),
                         false => Ok(unshared),
                     })
@@ -128,7 +128,7 @@ impl Forms {
 }
 
 /// Texture and buffer reads of one compute invocation.
-fn reads(compiled: &Compiled) -> u32 {
+fn read_count(compiled: &Compiled) -> u32 {
     compiled.in_blocks().counts.reads.values().sum()
 }
 
@@ -159,7 +159,7 @@ const INSIDE: &str = "let inside = all(pixel < frame);";
 
 /// Returns the shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
 /// that no picture has are beyond the border, too.
-fn unseen(emitted: &Emitted) -> Emitted {
+fn make_uncached(emitted: &Emitted) -> Emitted {
     static MADE: AtomicU32 = AtomicU32::new(0);
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     let number = (now.as_nanos() as u32).wrapping_add(MADE.fetch_add(1, Ordering::Relaxed));
@@ -233,17 +233,17 @@ impl<'a> Stand<'a> {
     /// # Errors
     ///
     /// If it cannot be emitted or run.
-    pub fn put(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
+    pub fn prepare_form(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
         let emitted = compiled
             .emit(&emit_options(kind))
             .map_err(straightline_bench::execute::ExecuteError::from)?;
         let options = PassOptions::default().unbounded_loops(is_unbounded(kind));
         let mut made = Vec::new();
         for _ in 0..times.max(1) {
-            let unseen = unseen(&emitted);
+            let unseen = make_uncached(&emitted);
             let pass = self.bench.made(&unseen, &options)?;
             let uploaded = self.uploads.of(&unseen.manifest)?;
-            let first = self.frame(&pass, &uploaded)?;
+            let first = self.time_frame(&pass, &uploaded)?;
             made.push((pass.creation_time(), first));
         }
         let pass = self.bench.made(&emitted, &options)?;
@@ -258,7 +258,7 @@ impl<'a> Stand<'a> {
     }
 
     /// Returns the duration of a frame, by the wall clock.
-    fn frame(&self, pass: &Pass, uploaded: &Uploaded) -> Result<Duration, LoopsError> {
+    fn time_frame(&self, pass: &Pass, uploaded: &Uploaded) -> Result<Duration, LoopsError> {
         let bench = self.bench;
         let target = bench.target(self.inputs.size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
@@ -298,7 +298,7 @@ mod tests {
                 .expect("a kernel");
             let emitted = compiled.emit(&EmitOptions::new()).expect("a shader");
             let wgsl = |emitted: &Emitted| emitted.files.get(&Target::Wgsl).cloned();
-            let (first, second) = (unseen(&emitted), unseen(&emitted));
+            let (first, second) = (make_uncached(&emitted), make_uncached(&emitted));
             assert!(
                 wgsl(&first) != wgsl(&emitted) && wgsl(&first) != wgsl(&second),
                 "{block:?}, {share}"

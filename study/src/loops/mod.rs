@@ -21,7 +21,7 @@ use straightline_scene::render::RenderError;
 use straightline_scene::scene::SceneError;
 use truth::Truth;
 
-pub use subjects::{ByHand, Input, Subject, subjects};
+pub use subjects::{ByHand, Input, Subject, list_subjects};
 
 /// Setup of the measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +91,7 @@ pub enum LoopsError {
 /// # Errors
 ///
 /// [`LoopsError`] names the kernel that is refused or cannot be run. Of a form that a kernel does not have the record says why.
-pub fn study(
+pub fn study_loops(
     bench: &Bench,
     subjects: &[Subject],
     setup: &Setup,
@@ -100,7 +100,7 @@ pub fn study(
     let mut truth = Truth::new(bench, setup.size);
     let mut all = Vec::new();
     for subject in subjects {
-        match measured(bench, subject, setup, &mut truth, progress)? {
+        match measure_subject(bench, subject, setup, &mut truth, progress)? {
             Some(studied) => all.push(studied),
             None => break,
         }
@@ -109,7 +109,7 @@ pub fn study(
 }
 
 /// Measures one kernel; `None` if it was stopped before anything was measured.
-fn measured(
+fn measure_subject(
     bench: &Bench,
     subject: &Subject,
     setup: &Setup,
@@ -117,30 +117,30 @@ fn measured(
     progress: &mut dyn Progress,
 ) -> Result<Option<Studied>, LoopsError> {
     let half = bench.device().features().contains(wgpu::Features::SHADER_F16);
-    let forms = Forms::of(subject, half)?;
+    let forms = Forms::from_subject(subject, half)?;
     progress.begin(&subject.name, forms.made.len() + 1 + setup.rounds as usize);
     let inputs = truth.inputs(subject, &forms.full)?;
-    if progress.stopped() {
+    if progress.is_stopped() {
         return Ok(None);
     }
-    let exact = truth::exact(subject, &forms.full, &inputs)?;
+    let exact = truth::expected_colors(subject, &forms.full, &inputs)?;
     progress.step();
 
     let mut stand = Stand::new(bench, &inputs);
     let mut ready: Vec<(Ready, Option<(f64, f64)>)> = Vec::new();
     let mut picture = None;
     for (kind, compiled) in &forms.made {
-        if progress.stopped() {
+        if progress.is_stopped() {
             return Ok(None);
         }
         let in_form = |source: LoopsError| LoopsError::Form {
             name: subject.name.clone(),
-            form: crate::record::name(kind),
+            form: crate::record::json_name(kind),
             source: Box::new(source),
         };
-        let form = stand.put(*kind, compiled, setup.pipelines).map_err(in_form)?;
+        let form = stand.prepare_form(*kind, compiled, setup.pipelines).map_err(in_form)?;
         let frame = bench.picture_of(&form.pass, &form.uploaded, setup.size)?;
-        let off = (*kind != FormKind::Floor).then(|| truth::differences(frame.texels(), &exact));
+        let off = (*kind != FormKind::Floor).then(|| truth::largest_differences(frame.texels(), &exact));
         if *kind == FormKind::Full {
             picture = Some(frame);
         }
@@ -160,7 +160,7 @@ fn measured(
         if round > 0 {
             progress.step();
         }
-        !progress.stopped()
+        !progress.is_stopped()
     })?;
     let mut measured = Vec::new();
     for (k, (form, off)) in ready.iter().enumerate() {
@@ -184,7 +184,7 @@ fn measured(
     let forms = KernelForms {
         kernel: subject.name.clone(),
         options: subject.options.clone(),
-        input: truth::name(subject, &forms.full, &inputs),
+        input: truth::input_name(subject, &forms.full, &inputs),
         forms: measured,
         absent: forms.absent,
     };

@@ -71,11 +71,11 @@ const NOT_QUICK: [&str; 8] = [
 /// # Errors
 ///
 /// If a built-in kernel is gone.
-pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
+pub fn list_subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
     let mut all = vec![
-        sraa("SRAA 4", &[])?,
-        sraa("SRAA 16", &[("pattern", "latin16")])?,
-        sraa("SRAA 4, depth", &[("metric", "depth")])?,
+        sraa_subject("SRAA 4", &[])?,
+        sraa_subject("SRAA 16", &[("pattern", "latin16")])?,
+        sraa_subject("SRAA 4, depth", &[("metric", "depth")])?,
     ];
     for name in ["stalker", "tabula_rasa"] {
         all.push(Subject {
@@ -108,7 +108,7 @@ pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
     Ok(all)
 }
 
-fn sraa(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
+fn sraa_subject(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
     let owned = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
     let options: Vec<OptionText> = options.iter().map(owned).collect();
     Ok(Subject {
@@ -126,7 +126,7 @@ fn sraa(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
 
 impl Subject {
     /// A user's own kernel, and perhaps a hand-optimised version of it.
-    pub fn own(kernel: Kernel, by_hand: Option<Kernel>) -> Subject {
+    pub fn from_kernel(kernel: Kernel, by_hand: Option<Kernel>) -> Subject {
         let by_hand = by_hand.map(|kernel| ByHand {
             kernel,
             options: Vec::new(),

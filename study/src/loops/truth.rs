@@ -71,7 +71,7 @@ impl<'a> Truth<'a> {
 }
 
 /// Names an input for a record: what it is, and of the test card the values of uniforms that were given, or have no default.
-pub fn name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
+pub fn input_name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
     match subject.input {
         Input::Roof => format!("the scene `{SCENE}`"),
         Input::TestCard => {
@@ -96,7 +96,11 @@ pub fn name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
 /// # Errors
 ///
 /// If something that it reads is missing.
-pub fn exact(subject: &Subject, full: &Compiled, inputs: &Inputs) -> Result<Vec<Option<[f64; 4]>>, LoopsError> {
+pub fn expected_colors(
+    subject: &Subject,
+    full: &Compiled,
+    inputs: &Inputs,
+) -> Result<Vec<Option<[f64; 4]>>, LoopsError> {
     match subject.input {
         Input::TestCard => Ok(interpret::<f64>(full, inputs, false)?
             .texels
@@ -116,7 +120,7 @@ pub fn exact(subject: &Subject, full: &Compiled, inputs: &Inputs) -> Result<Vec<
 
 /// The largest difference of any colour, and the largest but for the thousandth of the pixels that differ most. Of two
 /// numbers of which one alone is finite it is the largest `f64`.
-pub fn differences(found: &[Vec4], exact: &[Option<[f64; 4]>]) -> (f64, f64) {
+pub fn largest_differences(found: &[Vec4], exact: &[Option<[f64; 4]>]) -> (f64, f64) {
     let apart = |a: f64, b: f64| match (a.is_finite(), b.is_finite()) {
         (true, true) => (a - b).abs(),
         (false, false) => 0.0,
@@ -144,11 +148,11 @@ mod tests {
         let exact: Vec<_> = (0..1001).map(|k| Some([f64::from(k), 0.0, 0.0, 0.0])).collect();
         let mut found: Vec<Vec4> = (0..1001).map(|k| Vec4::new(k as f32, 0.0, 0.0, 0.25)).collect();
         found[500].x += 3.0;
-        assert_eq!(differences(&found, &exact), (3.0, 0.25));
+        assert_eq!(largest_differences(&found, &exact), (3.0, 0.25));
         found[3].y = f32::NAN;
-        assert_eq!(differences(&found, &exact).0, f64::MAX);
+        assert_eq!(largest_differences(&found, &exact).0, f64::MAX);
         let mut unsure = exact.clone();
         unsure[3] = None;
-        assert_eq!(differences(&found, &unsure).0, 3.0);
+        assert_eq!(largest_differences(&found, &unsure).0, 3.0);
     }
 }

@@ -1,6 +1,6 @@
 //! Inputs of full-screen filters: a rendered frame, and its occlusion at a lower resolution.
 
-use super::subject::{OCCLUSION, compile};
+use super::subject::{OCCLUSION, compile_filter};
 use super::{QUAD, QuadsError};
 use glam::{UVec2, Vec2, Vec4, vec3};
 use straightline_bench::execute::{Bench, Inputs};
@@ -10,7 +10,7 @@ use straightline_scene::render::{GpuRenderer, Renderer};
 use straightline_scene::scene::Scene;
 
 /// A rendered frame: its colours with depth, its depths, normals, and the angle of a pixel.
-pub fn screen(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, QuadsError> {
+pub fn screen_inputs(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, QuadsError> {
     let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, size)?;
     let color = renderer.shaded(Vec2::ZERO)?;
     let (depth, normal) = renderer.geometry(Vec2::ZERO)?;
@@ -35,7 +35,7 @@ pub fn screen(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, Quads
 /// Adds the inputs of upsampling: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
 /// is taken from that of the full resolution, so that what upsampling loses is seen alone.
 pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Inputs, QuadsError> {
-    let occlusion = compile(
+    let occlusion = compile_filter(
         "quad_ssao",
         &[&[("sharing", "alone")], &OCCLUSION[..]].concat(),
         None,
@@ -46,7 +46,7 @@ pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Input
     low.size = full.size.map(|n| n.div_ceil(factor) + 1);
     let factor = if factor == 2 { "twice" } else { "four-times" };
     let down = |gives: &str| -> Result<Frame<Vec4>, QuadsError> {
-        let compiled = compile("downsampling", &[("gives", gives), ("factor", factor)], None, QUAD)?;
+        let compiled = compile_filter("downsampling", &[("gives", gives), ("factor", factor)], None, QUAD)?;
         Ok(bench.run(&compiled, Stage::Compute, &low)?)
     };
     let (packed, surface) = (down("packed")?, down("surface")?);

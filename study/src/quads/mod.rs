@@ -10,7 +10,7 @@ use crate::record::{QuadWay, QuadsRecord};
 use crate::sweep::median_of;
 use families::{FAMILIES, Source};
 use glam::{UVec2, Vec4};
-use inputs::{low_resolution, screen};
+use inputs::{low_resolution, screen_inputs};
 use std::time::Duration;
 use straightline_bench::execute::{Bench, ExecuteError, Forward, Inputs, Shadowed, Work};
 use straightline_codegen::Transport;
@@ -87,7 +87,7 @@ impl Studied {
     }
 
     /// The figures under their circumstances.
-    pub fn record(&self, circumstances: crate::record::Circumstances) -> QuadsRecord {
+    pub fn to_record(&self, circumstances: crate::record::Circumstances) -> QuadsRecord {
         QuadsRecord {
             circumstances,
             quads: self.quads.clone(),
@@ -103,7 +103,12 @@ impl Studied {
 /// # Errors
 ///
 /// [`QuadsError`], if the device fails or lacks something.
-pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Progress) -> Result<Studied, QuadsError> {
+pub fn study_quads(
+    bench: &Bench,
+    scene: &Scene,
+    setup: &Setup,
+    progress: &mut dyn Progress,
+) -> Result<Studied, QuadsError> {
     let quads = Quads::detect(bench.device(), bench.queue())?;
     let chosen = match quads.choose() {
         Ok(transport) => format!("{transport:?}").to_lowercase(),
@@ -115,7 +120,7 @@ pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Pro
     );
     let shadowed = Shadowed::new(bench, scene, setup.size, setup.texels, 9.0)?;
     let of_triangles = shadowed.inputs(bench)?;
-    let screen = screen(bench, scene, setup.size)?;
+    let screen = screen_inputs(bench, scene, setup.size)?;
     let half = low_resolution(bench, &screen, 2)?;
     let quarter = low_resolution(bench, &screen, 4)?;
     let mut subjects = Vec::new();
@@ -126,7 +131,7 @@ pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Pro
             Source::Triangles => &of_triangles,
         };
         for (way, options) in family.ways {
-            for transport in transports(way, quads.subgroup.is_some()) {
+            for transport in way_transports(way, quads.subgroup.is_some()) {
                 subjects.push(Subject::new(
                     bench,
                     family,
@@ -144,7 +149,7 @@ pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Pro
         }
     }
     let coordinates = shadowed.coordinates(bench)?;
-    let rounds = timed(bench, setup, &subjects, &coordinates, progress)?;
+    let rounds = time_subjects(bench, setup, &subjects, &coordinates, progress)?;
     // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
     let drawn = of_triangles.images.iter().find(|(name, _)| name == "coord");
     let covered: Option<Vec<bool>> =
@@ -154,9 +159,9 @@ pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Pro
         .split_last()
         .map_or((&[][..], &[][..]), |(c, all)| (c.as_slice(), all));
     Ok(Studied {
-        ways: ways(&subjects, rounds, coordinates, covered),
+        ways: build_ways(&subjects, rounds, coordinates, covered),
         pictures: subjects.into_iter().map(|subject| subject.image).collect(),
-        coordinates_ms: median(coordinates),
+        coordinates_ms: median_or_zero(coordinates),
         quads: described,
         shadowed,
         screen: half,
@@ -164,7 +169,7 @@ pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Pro
 }
 
 /// A way that shares nothing sends nothing: one fragment shader, and one compute shader, stand for it.
-fn transports(way: &str, subgroup: bool) -> Vec<Transport> {
+fn way_transports(way: &str, subgroup: bool) -> Vec<Transport> {
     let alone = way == "naive" || way == "bilinear";
     let fragment = match subgroup {
         true => Transport::Subgroup,
@@ -180,7 +185,7 @@ fn transports(way: &str, subgroup: bool) -> Vec<Transport> {
 }
 
 /// Milliseconds of every round of each subject, and last of the pass that draws coordinates.
-fn timed(
+fn time_subjects(
     bench: &Bench,
     setup: &Setup,
     subjects: &[Subject],
@@ -195,13 +200,18 @@ fn timed(
         .collect();
     let timed = bench.in_turn(&mut works?, setup.rounds, |_| {
         progress.step();
-        !progress.stopped()
+        !progress.is_stopped()
     })?;
     let milliseconds = |rounds: &Vec<Duration>| rounds.iter().map(|t| t.as_secs_f64() * 1.0e3).collect();
     Ok(timed.rounds.iter().map(milliseconds).collect())
 }
 
-fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered: Option<&[bool]>) -> Vec<QuadWay> {
+fn build_ways(
+    subjects: &[Subject],
+    rounds: &[Vec<f64>],
+    coordinates: &[f64],
+    covered: Option<&[bool]>,
+) -> Vec<QuadWay> {
     // From triangles to picture in every way of a filter: what is dispatched needs the pass that draws coordinates.
     let whole = |k: usize| -> Vec<f64> {
         let needs = subjects[k].family.from == Source::Triangles && subjects[k].stage == Stage::Compute;
@@ -223,7 +233,7 @@ fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered:
         };
         let forward = subject.family.from == Source::Triangles;
         let covered = covered.filter(|_| forward);
-        let (mean_difference, largest_difference) = differences(&subject.image, &subjects[first].image, covered);
+        let (mean_difference, largest_difference) = color_differences(&subject.image, &subjects[first].image, covered);
         ways.push(QuadWay {
             filter: subject.family.name.to_owned(),
             way: subject.way.to_owned(),
@@ -233,7 +243,7 @@ fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered:
             reads: subject.counts.texture_reads,
             messages: subject.counts.messages,
             statements: subject.counts.statements,
-            median_ms: median(&rounds_ms),
+            median_ms: median_or_zero(&rounds_ms),
             rounds_ms,
             speedup,
             mean_difference,
@@ -243,13 +253,13 @@ fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered:
     ways
 }
 
-fn median(values: &[f64]) -> f64 {
+fn median_or_zero(values: &[f64]) -> f64 {
     median_of(values, CONFIDENCE).map_or(0.0, |of| of.median)
 }
 
 /// Mean and largest difference over all colours, of the pixels that are covered; of all pixels, if nothing says which are. A
 /// pixel in full shadow is covered, and its colour is 0.
-fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>, covered: Option<&[bool]>) -> (f64, f64) {
+fn color_differences(a: &Frame<Vec4>, b: &Frame<Vec4>, covered: Option<&[bool]>) -> (f64, f64) {
     let pairs = a.texels().iter().zip(b.texels()).enumerate();
     let counted = pairs.filter(|(k, _)| covered.is_none_or(|covered| covered[*k]));
     let (mut sum, mut largest, mut count) = (0.0, 0.0f64, 0.0);
@@ -272,7 +282,7 @@ mod tests {
         // In the umbra one is 0 and the other is not; the last pixel is sky.
         let (a, b) = (frame([0.0, 0.5, 1.0, 0.0]), frame([0.25, 0.5, 1.0, 1.0]));
         let covered = [true, true, true, false];
-        assert_eq!(differences(&a, &b, Some(&covered)), (0.25 / 3.0, 0.25));
-        assert_eq!(differences(&a, &b, None), (1.25 / 4.0, 1.0));
+        assert_eq!(color_differences(&a, &b, Some(&covered)), (0.25 / 3.0, 0.25));
+        assert_eq!(color_differences(&a, &b, None), (1.25 / 4.0, 1.0));
     }
 }

@@ -44,7 +44,7 @@ impl Subject {
         if family.kernel == "quad_ssao" {
             options.extend(OCCLUSION);
         }
-        let compiled = compile(family.kernel, &options, Some(transport), block)?;
+        let compiled = compile_filter(family.kernel, &options, Some(transport), block)?;
         let stage = match transport {
             Transport::Block => Stage::Compute,
             _ => Stage::Fragment,
@@ -94,7 +94,7 @@ impl Subject {
 }
 
 /// A filter of the catalogue.
-pub fn compile(
+pub fn compile_filter(
     kernel: &str,
     options: &[(&str, &str)],
     transport: Option<Transport>,

@@ -2,7 +2,7 @@
 
 use super::classes::seen_around;
 use super::surfaces::{Point, Surfaces};
-use crate::baselines::directional;
+use crate::baselines::resolve_directional;
 use glam::{UVec2, Vec2, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
@@ -11,35 +11,35 @@ use straightline_kernels::prelude::Frame;
 /// surface is shaded once. `shaded` holds the picture at each sample.
 pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
-        let colors = (0..shaded.len()).map(|sample| multisampled(surfaces, shaded, pixel, sample).texels()[k]);
+        let colors = (0..shaded.len()).map(|sample| multisampled_frame(surfaces, shaded, pixel, sample).texels()[k]);
         colors.sum::<Vec4>() / shaded.len() as f32
     })
 }
 
 /// Multisampling resolved by the directionally adaptive filter, each surface shaded once.
 pub fn along_edges(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
-    directional(&stored(surfaces, shaded), offsets)
+    resolve_directional(&multisampled_frames(surfaces, shaded), offsets)
 }
 
 /// The colours that a multisampled target has of its samples.
-pub fn stored(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Vec<Frame<Vec4>> {
+pub fn multisampled_frames(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Vec<Frame<Vec4>> {
     let stored = (0..shaded.len()).map(|sample| {
         each_pixel(surfaces.size(), |pixel, k| {
-            multisampled(surfaces, shaded, pixel, sample).texels()[k]
+            multisampled_frame(surfaces, shaded, pixel, sample).texels()[k]
         })
     });
     stored.collect()
 }
 
 /// Returns the picture that has the colour of a sample: that of the first that sees its surface.
-fn multisampled<'a>(
+fn multisampled_frame<'a>(
     surfaces: &Surfaces<'_>,
     shaded: &'a [Frame<Vec4>],
     pixel: UVec2,
     sample: usize,
 ) -> &'a Frame<Vec4> {
     let own = surfaces.point(pixel, sample);
-    let first = (0..sample).find(|other| surfaces.same(&own, &surfaces.point(pixel, *other)));
+    let first = (0..sample).find(|other| surfaces.is_same_surface(&own, &surfaces.point(pixel, *other)));
     &shaded[first.unwrap_or(sample)]
 }
 
@@ -48,7 +48,7 @@ fn multisampled<'a>(
 pub fn where_edges_are(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
         let first = surfaces.point(pixel, 0);
-        let even = (1..shaded.len()).all(|sample| surfaces.same(&first, &surfaces.point(pixel, sample)));
+        let even = (1..shaded.len()).all(|sample| surfaces.is_same_surface(&first, &surfaces.point(pixel, sample)));
         let shaded = if even { &shaded[..1] } else { shaded };
         shaded.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() / shaded.len() as f32
     })
@@ -58,16 +58,16 @@ pub fn where_edges_are(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame
 /// those surfaces they see. Those that see another surface say nothing.
 pub fn by_coverage(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], stored: &[usize]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
-        let seen = (0..shaded.len()).filter_map(|sample| whose(surfaces, stored, pixel, sample));
+        let seen = (0..shaded.len()).filter_map(|sample| find_stored_sample(surfaces, stored, pixel, sample));
         let colors: Vec<Vec4> = seen.map(|kept| shaded[stored[kept]].texels()[k]).collect();
         colors.iter().sum::<Vec4>() / colors.len().max(1) as f32
     })
 }
 
 /// Returns the stored sample that sees the surface that a sample sees, if one does.
-pub fn whose(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec2, sample: usize) -> Option<usize> {
+pub fn find_stored_sample(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec2, sample: usize) -> Option<usize> {
     let point = surfaces.point(pixel, sample);
-    let is_same = |kept: &usize| surfaces.same(&point, &surfaces.point(pixel, *kept));
+    let is_same = |kept: &usize| surfaces.is_same_surface(&point, &surfaces.point(pixel, *kept));
     stored.iter().position(is_same)
 }
 
@@ -77,7 +77,7 @@ pub fn whose(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec2, sample: us
 /// sample saw; SRAA's gap to it is the price of borrowed colours.
 ///
 /// `shaded` holds the picture at each sample, `color` at the shading sample.
-pub fn ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4>) -> Frame<Vec4> {
+pub fn reconstruct_ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4>) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
         let around = seen_around(surfaces, pixel);
         let sum: Vec4 = shaded
@@ -85,10 +85,10 @@ pub fn ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4
             .enumerate()
             .map(|(sample, shaded)| {
                 let point = surfaces.point(pixel, sample);
-                if around.iter().any(|tap| surfaces.same(&point, tap)) {
+                if around.iter().any(|tap| surfaces.is_same_surface(&point, tap)) {
                     shaded.texels()[k]
                 } else {
-                    nearest(&point, &around).map_or(shaded.texels()[k], |tap| color.load(tap))
+                    nearest_pixel(&point, &around).map_or(shaded.texels()[k], |tap| color.load(tap))
                 }
             })
             .sum();
@@ -97,10 +97,10 @@ pub fn ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4
 }
 
 /// The pixel whose shading sample is most like a point.
-fn nearest(point: &Point, around: &[Point]) -> Option<glam::IVec2> {
+fn nearest_pixel(point: &Point, around: &[Point]) -> Option<glam::IVec2> {
     let nearest = around
         .iter()
-        .min_by(|a, b| point.unlike(a).total_cmp(&point.unlike(b)))?;
+        .min_by(|a, b| point.difference_to(a).total_cmp(&point.difference_to(b)))?;
     let pixel = nearest.pixel();
     Some(ivec2(pixel.x as i32, pixel.y as i32))
 }

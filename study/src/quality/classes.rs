@@ -28,7 +28,7 @@ impl Classes {
         let found: Vec<(bool, bool)> = (0..size.y)
             .into_par_iter()
             .flat_map_iter(|y| (0..size.x).map(move |x| UVec2::new(x, y)))
-            .map(|pixel| look(surfaces, pixel))
+            .map(|pixel| classify_pixel(surfaces, pixel))
             .collect();
         let geometry: Vec<bool> = found.iter().map(|(edge, _)| *edge).collect();
         Classes {
@@ -43,7 +43,7 @@ impl Classes {
     }
 
     /// Returns whether a pixel has an edge of neither kind.
-    pub fn flat(&self, pixel: usize) -> bool {
+    pub fn is_flat(&self, pixel: usize) -> bool {
         !self.geometry[pixel] && !self.shading[pixel]
     }
 
@@ -62,15 +62,15 @@ impl Classes {
 }
 
 /// Returns whether a pixel has an edge of geometry, and whether it has a surface that was not seen.
-fn look(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
+fn classify_pixel(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
     let around = seen_around(surfaces, pixel);
     let (mut edge, mut unseen) = (false, false);
-    for sample in 0..surfaces.samples() {
+    for sample in 0..surfaces.sample_count() {
         let point = surfaces.point(pixel, sample);
         // The first is the pixel's own.
-        if !surfaces.same(&point, &around[0]) {
+        if !surfaces.is_same_surface(&point, &around[0]) {
             edge = true;
-            unseen |= !around[1..].iter().any(|tap| surfaces.same(&point, tap));
+            unseen |= !around[1..].iter().any(|tap| surfaces.is_same_surface(&point, tap));
         }
     }
     (edge, unseen)
@@ -78,12 +78,14 @@ fn look(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
 
 /// Returns the points that the shading samples of a pixel and its neighbours see, its own first.
 pub(super) fn seen_around(surfaces: &Surfaces<'_>, pixel: UVec2) -> Vec<super::surfaces::Point> {
-    let places = std::iter::once(IVec2::ZERO).chain(neighbours());
-    places.flat_map(|by| surfaces.shaded(pixel.as_ivec2() + by)).collect()
+    let places = std::iter::once(IVec2::ZERO).chain(neighbour_offsets());
+    places
+        .flat_map(|by| surfaces.shaded_points(pixel.as_ivec2() + by))
+        .collect()
 }
 
 /// The eight pixels around a pixel.
-pub(super) fn neighbours() -> impl Iterator<Item = IVec2> {
+pub(super) fn neighbour_offsets() -> impl Iterator<Item = IVec2> {
     (-1..=1)
         .flat_map(|y| (-1..=1).map(move |x| IVec2::new(x, y)))
         .filter(|by| *by != IVec2::ZERO)
@@ -95,7 +97,7 @@ pub fn varies_within(shaded: &[Frame<Vec4>]) -> Vec<bool> {
     (0..pixels)
         .into_par_iter()
         .map(|k| {
-            let colors = shaded.iter().map(|frame| shown(frame.texels()[k]));
+            let colors = shaded.iter().map(|frame| display_color(frame.texels()[k]));
             let (low, high) = colors.fold((Vec3::ONE, Vec3::ZERO), |(low, high), c| (low.min(c), high.max(c)));
             (high - low).max_element() > STEP
         })
@@ -106,17 +108,17 @@ pub fn varies_within(shaded: &[Frame<Vec4>]) -> Vec<bool> {
 /// below, left or right that sees the same surface.
 pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> {
     let size = color.size();
-    let at = |p: IVec2| shown(color.texels()[(p.y * size.x as i32 + p.x) as usize]);
+    let at = |p: IVec2| display_color(color.texels()[(p.y * size.x as i32 + p.x) as usize]);
     (0..size.x * size.y)
         .into_par_iter()
         .map(|k| {
             let pixel = IVec2::new((k % size.x) as i32, (k / size.x) as i32);
-            let Some(own) = surfaces.shaded(pixel).next() else {
+            let Some(own) = surfaces.shaded_points(pixel).next() else {
                 return false;
             };
             [IVec2::X, IVec2::NEG_X, IVec2::Y, IVec2::NEG_Y].into_iter().any(|by| {
-                let near = surfaces.shaded(pixel + by).next();
-                near.is_some_and(|near| surfaces.same(&own, &near))
+                let near = surfaces.shaded_points(pixel + by).next();
+                near.is_some_and(|near| surfaces.is_same_surface(&own, &near))
                     && (at(pixel) - at(pixel + by)).abs().max_element() > STEP
             })
         })
@@ -124,6 +126,6 @@ pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> 
 }
 
 /// As a display shows it.
-fn shown(color: Vec4) -> Vec3 {
+fn display_color(color: Vec4) -> Vec3 {
     color.truncate().clamp(Vec3::ZERO, Vec3::ONE).map(srgb::encode)
 }

@@ -10,7 +10,7 @@ use straightline_scene::render::RenderError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum QualityError {
-    /// The study was stopped; [`study`](super::study) makes of this a result that is not complete.
+    /// The study was stopped; [`study_quality`](super::study_quality) makes of this a result that is not complete.
     #[error("stopped")]
     Stopped,
     /// A capture lacks what is needed.

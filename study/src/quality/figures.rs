@@ -1,10 +1,10 @@
 //! The pictures of the SRAA paper, made again of the built-in scenes.
 
 use super::filters::Filters;
-use super::methods::{Method, methods};
-use super::shot::{Shot, supersampled};
-use super::{QualityError, SIDE, check};
-use crate::builtin::builtin;
+use super::methods::{Method, list_methods};
+use super::shot::{Shot, render_supersampled};
+use super::{QualityError, SIDE, check_stopped};
+use crate::builtin::load_builtin;
 use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
 use straightline_bench::execute::Bench;
@@ -130,18 +130,18 @@ impl Figure {
     /// # Errors
     ///
     /// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
-    pub fn make(&self, bench: &Bench, size: UVec2, progress: &mut dyn Progress) -> Result<Made, QualityError> {
-        let listed = self.methods();
+    pub fn render_panes(&self, bench: &Bench, size: UVec2, progress: &mut dyn Progress) -> Result<Made, QualityError> {
+        let listed = self.pane_methods();
         progress.begin(self.name, listed.len() + SIDE as usize);
         let scene = Scene::named(self.scene).map_err(|error| QualityError::Capture(error.to_string()))?;
         let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, size)?;
         let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
-        let reference = supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
+        let reference = render_supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
         let reference = picture::at_eight_bits(&reference);
-        let plain = picture::at_eight_bits(&shot.any()?.color);
+        let plain = picture::at_eight_bits(&shot.any_capture()?.color);
         let corner = picture::busiest(&plain, &reference, DETAIL);
         if self.panes.contains(&Interleaved) {
-            let picture = interleaved(shot.any()?, corner)?;
+            let picture = interleave_samples(shot.any_capture()?, corner)?;
             return Ok(Made {
                 picture,
                 psnr: Vec::new(),
@@ -150,8 +150,11 @@ impl Figure {
         let mut filters = Filters::new(bench, &listed, size, progress)?;
         let mut pictures = Vec::new();
         for (k, method) in listed.iter().enumerate() {
-            check(progress)?;
-            pictures.push((method.name.as_str(), picture::at_eight_bits(&filters.run(k, &shot)?)));
+            check_stopped(progress)?;
+            pictures.push((
+                method.name.as_str(),
+                picture::at_eight_bits(&filters.filter_shot(k, &shot)?),
+            ));
         }
         let psnr = pictures
             .iter()
@@ -166,8 +169,8 @@ impl Figure {
     }
 
     /// The methods of its panes, in their order; those of geometry alone need a capture too.
-    fn methods(&self) -> Vec<Method> {
-        let all = methods(false);
+    fn pane_methods(&self) -> Vec<Method> {
+        let all = list_methods(false);
         let named = |pane: &Pane| {
             let name = match pane {
                 Of(name) => *name,
@@ -180,8 +183,8 @@ impl Figure {
 }
 
 /// The detail, of which each pixel is 2x2 texels.
-fn interleaved(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, QualityError> {
-    let options = builtin("sraa")?.option_values(&[("layout".to_owned(), "superresolution".to_owned())])?;
+fn interleave_samples(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, QualityError> {
+    let options = load_builtin("sraa")?.option_values(&[("layout".to_owned(), "superresolution".to_owned())])?;
     let inputs = gbuffer::inputs(capture, &options)?;
     let grid = |name: &str, shown: &dyn Fn(Vec4) -> Vec4| {
         let found = inputs.images.iter().find(|(known, _)| known == name);
@@ -218,7 +221,7 @@ mod tests {
         let names: BTreeSet<&str> = FIGURES.iter().map(|figure| figure.name).collect();
         assert_eq!(names.len(), FIGURES.len());
         for figure in FIGURES {
-            assert_eq!(figure.methods().len(), figure.panes.len(), "{}", figure.name);
+            assert_eq!(figure.pane_methods().len(), figure.panes.len(), "{}", figure.name);
             assert!(Scene::named(figure.scene).is_ok(), "{}", figure.name);
         }
     }

@@ -2,7 +2,7 @@
 //! paper's web page.
 
 use super::filters::Filters;
-use super::pan::{self, changes};
+use super::pan::{self, measure_changes};
 use super::{Method, QualityError};
 use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
@@ -38,7 +38,7 @@ pub struct Film {
 /// # Errors
 ///
 /// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
-pub fn film(
+pub fn film_scene(
     bench: &Bench,
     scene: &Scene,
     methods: &[Method],
@@ -55,16 +55,16 @@ pub fn film(
         let mut panes: Vec<(&str, &Frame<Vec4>)> = Vec::new();
         panes.extend(methods.iter().map(|method| method.name.as_str()).zip(shown));
         panes.push((REFERENCE, reference));
-        frames.push(tiled(&panes));
+        frames.push(tile_pictures(&panes));
     };
     let pan = (shooting.frames, shooting.step);
-    let mut errors = changes(&renderer, methods, &all, &mut filters, pan, progress, &mut see)?;
+    let mut errors = measure_changes(&renderer, methods, &all, &mut filters, pan, progress, &mut see)?;
     errors.iter_mut().flatten().for_each(|error| *error = error.sqrt());
     Ok(Film { frames, errors })
 }
 
 /// Pictures with their names: up to three in a row, more in about as many rows as columns.
-fn tiled(pictures: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
+fn tile_pictures(pictures: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
     let columns = match pictures.len() {
         few @ 0..=3 => few.max(1),
         many => (many as f64).sqrt().ceil() as usize,
@@ -93,7 +93,7 @@ mod tests {
     fn panes_stand_in_rows() {
         let picture = Frame::new(UVec2::new(40, 20), vec![Vec4::ONE; 800]);
         let panes = [("a", &picture); 5];
-        let [one, three, four, five] = [1, 3, 4, 5].map(|count| tiled(&panes[..count]).size());
+        let [one, three, four, five] = [1, 3, 4, 5].map(|count| tile_pictures(&panes[..count]).size());
         assert_eq!(one.y, three.y);
         assert_eq!((four.y, five.y), (2 * one.y, 2 * one.y));
         assert!(one.x < four.x && four.x < three.x && five.x == three.x);

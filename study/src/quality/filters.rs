@@ -3,8 +3,8 @@
 use super::methods::{Kind, Method};
 use super::resolves;
 use super::shot::Shot;
-use super::{QualityError, check};
-use crate::baselines::{Smaa, Transfer, fxaa, mlaa};
+use super::{QualityError, check_stopped};
+use crate::baselines::{Smaa, Transfer, apply_mlaa, fxaa_kernel};
 use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::Instant;
@@ -62,8 +62,8 @@ impl<'a> Filters<'a> {
     ) -> Result<Filters<'a>, QualityError> {
         let mut runners = Vec::new();
         for method in methods {
-            check(progress)?;
-            runners.push(runner(bench, method, size)?);
+            check_stopped(progress)?;
+            runners.push(make_runner(bench, method, size)?);
             progress.step();
         }
         Ok(Filters {
@@ -74,44 +74,46 @@ impl<'a> Filters<'a> {
     }
 
     /// The picture that method `k` makes of a shot, linear.
-    pub fn run(&mut self, k: usize, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
+    pub fn filter_shot(&mut self, k: usize, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
         let method = &self.methods[k];
         match (&mut self.runners[k], method.kind) {
-            (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
-            (Runner::Mlaa, _) => Ok(by_mlaa(&shown(shot.any()?))),
+            (Runner::Smaa(smaa), _) => Ok(smaa.run(&display_picture(shot.any_capture()?))?),
+            (Runner::Mlaa, _) => Ok(by_mlaa(&display_picture(shot.any_capture()?))),
             (Runner::Kernel(shaders), kind) => {
                 let filter = shaders.last();
                 let filter = filter.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
-                let filtered = filter.picture(self.bench, method, shot)?;
+                let filtered = filter.filter_shot(self.bench, method, shot)?;
                 Ok(match kind {
-                    Kind::Fxaa(transfer) => transfer.taken(&filtered),
+                    Kind::Fxaa(transfer) => transfer.decode_picture(&filtered),
                     _ => filtered,
                 })
             }
             (Runner::Merged(shader), _) => {
-                let filtered = shader.picture(self.bench, method, shot)?;
-                Ok(merged(&filtered, shot.capture(method)?))
+                let filtered = shader.filter_shot(self.bench, method, shot)?;
+                Ok(merge_mlaa(&filtered, shot.capture_for(method)?))
             }
-            (Runner::Resolved(_), _) => resolves::picture(method, shot),
+            (Runner::Resolved(_), _) => resolves::resolve_picture(method, shot),
         }
     }
 
     /// Bytes that each method reads and writes of a shot, as they lie on the device.
     ///
     /// Of what is no filter here: its samples' geometry as SRAA would read it and their colours, and the target.
-    pub fn bytes(&self, shot: &Shot) -> Result<Vec<u64>, QualityError> {
-        let size = shot.any()?.size;
+    pub fn traffic_bytes(&self, shot: &Shot) -> Result<Vec<u64>, QualityError> {
+        let size = shot.any_capture()?.size;
         let pixels = u64::from(size.x) * u64::from(size.y);
         let mut all = Vec::new();
         for (method, runner) in self.methods.iter().zip(&self.runners) {
             all.push(match (runner, method.kind) {
-                (Runner::Smaa(smaa), _) => smaa.bytes(),
+                (Runner::Smaa(smaa), _) => smaa.traffic_bytes(),
                 (Runner::Kernel(shaders), _) => {
-                    let each = shaders.iter().map(|shader| shader.bytes(self.bench, method, shot));
+                    let each = shaders
+                        .iter()
+                        .map(|shader| shader.traffic_bytes(self.bench, method, shot));
                     each.sum::<Result<u64, _>>()?
                 }
                 (Runner::Mlaa, _) => 2 * PICTURE * pixels,
-                (Runner::Merged(shader), _) => shader.bytes(self.bench, method, shot)? + 2 * PICTURE * pixels,
+                (Runner::Merged(shader), _) => shader.traffic_bytes(self.bench, method, shot)? + 2 * PICTURE * pixels,
                 (Runner::Resolved(_), Kind::Plain) => PICTURE * pixels,
                 (Runner::Resolved(_), Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
                 // Depth and normal of every sample, which of two aggregates it is of, and what is known of those.
@@ -128,7 +130,7 @@ impl<'a> Filters<'a> {
     }
 
     /// Times all filters in turn on one shot. The second value says which shader of the first each method is.
-    pub fn time(
+    pub fn time_filters(
         &mut self,
         shot: &Shot,
         rounds: u32,
@@ -138,27 +140,29 @@ impl<'a> Filters<'a> {
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
             let each = |shaders: &[Shader]| -> Result<Vec<_>, QualityError> {
                 let shaders = shaders.iter();
-                shaders.map(|shader| shader.upload(self.bench, method, shot)).collect()
+                shaders
+                    .map(|shader| shader.upload_shot(self.bench, method, shot))
+                    .collect()
             };
             uploads.push(match runner {
                 Runner::Kernel(shaders) => each(shaders)?,
                 Runner::Merged(shader) => each(std::slice::from_ref(&**shader))?,
                 Runner::Resolved(shaders) if shaders.is_empty() => Vec::new(),
                 Runner::Resolved(shaders) => {
-                    let inputs = resolves::inputs(method, shot)?;
+                    let inputs = resolves::resolve_inputs(method, shot)?;
                     let given = shaders.iter().zip(&inputs);
                     given
                         .map(|(shader, inputs)| Ok((inputs.size, self.bench.upload(&shader.manifest, inputs)?)))
                         .collect::<Result<_, QualityError>>()?
                 }
                 Runner::Smaa(smaa) => {
-                    smaa.run(&shown(shot.any()?))?;
+                    smaa.run(&display_picture(shot.any_capture()?))?;
                     Vec::new()
                 }
                 Runner::Mlaa => Vec::new(),
             });
         }
-        let given = Transfer::Srgb.given(&shown(shot.any()?));
+        let given = Transfer::Srgb.encode_picture(&display_picture(shot.any_capture()?));
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
         for (runner, uploads) in self.runners.iter_mut().zip(&uploads) {
             let work = match runner {
@@ -169,20 +173,20 @@ impl<'a> Filters<'a> {
                 Runner::Kernel(shaders) | Runner::Resolved(shaders) => {
                     one_after_the_other(self.bench, shaders, uploads)?
                 }
-                Runner::Smaa(smaa) => Box::new(|| smaa.time()),
+                Runner::Smaa(smaa) => Box::new(|| smaa.time_passes()),
                 Runner::Merged(shader) => {
                     let mut filter = one_after_the_other(self.bench, std::slice::from_ref(&**shader), uploads)?;
                     let given = &given;
                     Box::new(move || {
                         let filtered = filter()?;
                         let start = Instant::now();
-                        mlaa(given);
+                        apply_mlaa(given);
                         Ok(filtered + start.elapsed())
                     })
                 }
                 Runner::Mlaa => Box::new(|| {
                     let start = Instant::now();
-                    mlaa(&given);
+                    apply_mlaa(&given);
                     Ok(start.elapsed())
                 }),
             };
@@ -191,14 +195,14 @@ impl<'a> Filters<'a> {
         }
         let timed = self.bench.in_turn(&mut works, rounds, |_| {
             progress.step();
-            !progress.stopped()
+            !progress.is_stopped()
         })?;
         drop(works);
         Ok((timed, places))
     }
 }
 
-fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, QualityError> {
+fn make_runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, QualityError> {
     let kernel = match method.kind {
         Kind::Sraa | Kind::Merged => Kernel::builtin("sraa")?,
         Kind::Edge(name) => Kernel::builtin(name)?,
@@ -206,7 +210,7 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
             .kernel
             .clone()
             .ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?,
-        Kind::Fxaa(_) => fxaa(),
+        Kind::Fxaa(_) => fxaa_kernel(),
         Kind::Mlaa => return Ok(Runner::Mlaa),
         Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
         Kind::Plain
@@ -216,13 +220,13 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         | Kind::Covered
         | Kind::Aggregated
         | Kind::Supersampled(_) => {
-            let passes = resolves::kernels(method);
+            let passes = resolves::resolve_kernels(method);
             let shaders = passes.iter().map(|kernel| Shader::new(bench, kernel, &[]));
             return Ok(Runner::Resolved(shaders.collect::<Result<_, _>>()?));
         }
     };
     let shader = Shader::new(bench, &kernel, method.options())?;
-    Ok(match method.shading() {
+    Ok(match method.shading_sample() {
         _ if method.kind == Kind::Merged => Runner::Merged(Box::new(shader)),
         shading => {
             let mut shaders = Vec::new();
@@ -256,12 +260,12 @@ fn one_after_the_other<'a>(
 
 /// Filters a linear picture by MLAA.
 fn by_mlaa(shown: &Frame<Vec4>) -> Frame<Vec4> {
-    Transfer::Srgb.taken(&mlaa(&Transfer::Srgb.given(shown)))
+    Transfer::Srgb.decode_picture(&apply_mlaa(&Transfer::Srgb.encode_picture(shown)))
 }
 
 /// A filtered picture, and MLAA's where a mask kept the pixel as it was shaded.
-fn merged(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
-    let by_picture = by_mlaa(&shown(capture));
+fn merge_mlaa(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
+    let by_picture = by_mlaa(&display_picture(capture));
     let pixels = filtered
         .texels()
         .iter()
@@ -286,31 +290,31 @@ impl Shader {
         })
     }
 
-    fn bytes(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<u64, QualityError> {
-        let (inputs, uploaded) = self.uploaded(bench, method, shot)?;
+    fn traffic_bytes(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<u64, QualityError> {
+        let (inputs, uploaded) = self.upload_inputs(bench, method, shot)?;
         let target = bench.target(inputs.size, self.pass.target_format());
         Ok(uploaded.bytes() + texture_bytes(&target))
     }
 
     /// Filters a shot.
-    fn picture(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
-        let (size, uploaded) = self.upload(bench, method, shot)?;
+    fn filter_shot(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
+        let (size, uploaded) = self.upload_shot(bench, method, shot)?;
         Ok(bench.picture_of(&self.pass, &uploaded, size)?)
     }
 
     /// Uploads the method's inputs, to the device alone: as floats in memory they are several times as large.
-    fn upload(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(UVec2, Uploaded), QualityError> {
-        let (inputs, uploaded) = self.uploaded(bench, method, shot)?;
+    fn upload_shot(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(UVec2, Uploaded), QualityError> {
+        let (inputs, uploaded) = self.upload_inputs(bench, method, shot)?;
         Ok((inputs.size, uploaded))
     }
 
-    fn uploaded(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
-        let capture = shot.capture(method)?;
+    fn upload_inputs(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
+        let capture = shot.capture_for(method)?;
         let inputs = match method.kind {
             Kind::Edge(_) => one_a_pixel(capture, &self.compiled)?,
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
             Kind::Own => gbuffer_of(capture, &self.manifest)?,
-            _ => match shot.extra(method) {
+            _ => match shot.extra_for(method) {
                 None => gbuffer::inputs(capture, &self.compiled.options)?,
                 Some(extra) => extra.inputs(capture, &self.compiled.options)?,
             },
@@ -321,12 +325,12 @@ impl Shader {
 }
 
 fn of_the_picture(capture: &Capture, transfer: Transfer) -> Inputs {
-    Inputs::new(capture.size).image("color", transfer.given(&shown(capture)))
+    Inputs::new(capture.size).image("color", transfer.encode_picture(&display_picture(capture)))
 }
 
 /// The picture that a display is sent, which filters of pictures read: then their 16 bits, or whatever they compute in, give
 /// back the bytes of what they do not change.
-fn shown(capture: &Capture) -> Frame<Vec4> {
+fn display_picture(capture: &Capture) -> Frame<Vec4> {
     picture::at_eight_bits(&capture.color)
 }
 

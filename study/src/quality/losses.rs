@@ -8,7 +8,7 @@ const EVEN_FLIP: f64 = 0.000_1;
 
 /// Lists methods that SRAA, with default options and each number of samples, loses to: no antialiasing, filters of the picture,
 /// and filters of edges. Returns a sentence for each of those methods, or none.
-pub fn losses(scene: &SceneErrors) -> Vec<String> {
+pub fn list_losses(scene: &SceneErrors) -> Vec<String> {
     let ours = scene.methods.iter().filter(|m| {
         let variant = m.method.contains(',');
         m.family == Family::Sraa && !variant
@@ -17,7 +17,7 @@ pub fn losses(scene: &SceneErrors) -> Vec<String> {
     let mut all = Vec::new();
     for own in ours {
         for other in scene.methods.iter().filter(others) {
-            let lost = behind(own, other);
+            let lost = describe_losses(own, other);
             if !lost.is_empty() {
                 all.push(format!("{} loses to {}: {}", own.method, other.method, lost.join(", ")));
             }
@@ -26,7 +26,7 @@ pub fn losses(scene: &SceneErrors) -> Vec<String> {
     all
 }
 
-fn behind(own: &MethodErrors, other: &MethodErrors) -> Vec<String> {
+fn describe_losses(own: &MethodErrors, other: &MethodErrors) -> Vec<String> {
     let by = |own: Option<f64>, other: Option<f64>| match (own, other) {
         (Some(own), Some(other)) if other - own > EVEN_DB => Some(other - own),
         _ => None,
@@ -95,7 +95,7 @@ mod tests {
             gaps: Vec::new(),
         };
         assert_eq!(
-            losses(&scene),
+            list_losses(&scene),
             [
                 "SRAA 4 loses to 1x: 1.0 dB at shading edges",
                 "SRAA 4 loses to SMAA: 0.0100 of FLIP"

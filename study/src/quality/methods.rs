@@ -1,7 +1,7 @@
 //! The methods that are compared.
 
 use crate::baselines::Transfer;
-use crate::builtin::builtin;
+use crate::builtin::load_builtin;
 use crate::record::Family;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
@@ -103,8 +103,8 @@ impl Method {
     fn parse_options(&self, options: &[OptionText]) -> Result<OptionValues, Errors> {
         match (&self.kernel, self.kind) {
             (Some(kernel), _) => kernel.option_values(options),
-            (None, Kind::Edge(name)) => builtin(name)?.option_values(options),
-            (None, _) => builtin("sraa")?.option_values(options),
+            (None, Kind::Edge(name)) => load_builtin(name)?.option_values(options),
+            (None, _) => load_builtin("sraa")?.option_values(options),
         }
     }
 
@@ -119,12 +119,12 @@ impl Method {
     /// # Errors
     ///
     /// [`OwnError`] says what cannot be read, or what is wrong with the kernel.
-    pub fn own(text: &str) -> Result<Method, OwnError> {
+    pub fn parse_own(text: &str) -> Result<Method, OwnError> {
         let usage = || OwnError::Usage(text.to_owned());
         let (name, rest) = text.split_once('=').ok_or_else(usage)?;
         let mut parts = rest.split(',');
         let kernel = parts.next().unwrap_or_default();
-        if stem(name).is_empty() || kernel.is_empty() {
+        if to_file_stem(name).is_empty() || kernel.is_empty() {
             return Err(usage());
         }
         let mut options: Vec<OptionText> = Vec::new();
@@ -139,7 +139,7 @@ impl Method {
             "sraa" => (Kind::Sraa, None),
             "stalker" => (Kind::Edge("stalker"), None),
             "tabula_rasa" => (Kind::Edge("tabula_rasa"), None),
-            file => (Kind::Own, Some(Kernel::locate(file)?)),
+            file => (Kind::Own, Some(Kernel::from_argument(file)?)),
         };
         let method = Method {
             kernel: own,
@@ -154,7 +154,7 @@ impl Method {
     }
 
     /// Restricts the method to the capture's own samples.
-    pub fn on(&self, capture: &Capture) -> Method {
+    pub fn for_capture(&self, capture: &Capture) -> Method {
         let given = |name: &str| self.options.iter().any(|(own, _)| own == name);
         if self.kind != Kind::Sraa {
             return self.clone();
@@ -165,7 +165,7 @@ impl Method {
             .with_options(sampled.chain(self.options.iter().cloned()).collect())
     }
 
-    fn explained(self) -> Method {
+    fn with_gap_analysis(self) -> Method {
         Method {
             explained: true,
             ..self
@@ -181,7 +181,7 @@ impl Method {
         }
     }
 
-    fn pictured(self) -> Method {
+    fn with_picture(self) -> Method {
         Method { pictured: true, ..self }
     }
 
@@ -216,11 +216,11 @@ impl Method {
     }
 
     /// Returns the place of shading in the method's picture.
-    pub fn shading(&self) -> ShadingSample {
+    pub fn shading_sample(&self) -> ShadingSample {
         if self.values.choice("shading") == Some("placed") {
             return ShadingSample::Placed;
         }
-        match self.shaded() {
+        match self.shaded_samples() {
             [] => ShadingSample::Centre,
             [only] => ShadingSample::Sample(*only as usize),
             several => ShadingSample::Samples(several.iter().map(|k| *k as usize).collect()),
@@ -228,7 +228,7 @@ impl Method {
     }
 
     /// Geometry samples at which its picture is shaded; none where it is shaded elsewhere.
-    fn shaded(&self) -> &[f64] {
+    fn shaded_samples(&self) -> &[f64] {
         self.values.numbers("shaded").unwrap_or_default()
     }
 
@@ -249,9 +249,9 @@ impl Method {
 
     /// Returns the name of the capture that the method reads, of all that a scene is drawn in: its pattern, and its place of
     /// shading unless that is the pixel's centre.
-    pub fn reads(&self) -> String {
-        match (self.values.get("shaded"), self.shading()) {
-            (Some(list), _) if !self.shaded().is_empty() => format!("{} shaded at {list}", self.pattern()),
+    pub fn capture_name(&self) -> String {
+        match (self.values.get("shaded"), self.shading_sample()) {
+            (Some(list), _) if !self.shaded_samples().is_empty() => format!("{} shaded at {list}", self.pattern()),
             (_, ShadingSample::Placed) => {
                 let by = match self.placed_by() {
                     PlacedBy::Depths => "depths",
@@ -264,8 +264,8 @@ impl Method {
     }
 
     /// Name of its picture's file, without extension.
-    pub fn stem(&self) -> String {
-        stem(&self.name)
+    pub fn file_stem(&self) -> String {
+        to_file_stem(&self.name)
     }
 }
 
@@ -288,24 +288,24 @@ pub enum OwnError {
 }
 
 /// A name made of lower-case letters, digits and hyphens.
-pub fn stem(name: &str) -> String {
+pub fn to_file_stem(name: &str) -> String {
     let words = name.to_lowercase();
     let words = words.split(|c: char| !c.is_ascii_alphanumeric());
     words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }
 
 /// All methods; with `quick` without the variants of SRAA that differ little.
-pub fn methods(quick: bool) -> Vec<Method> {
+pub fn list_methods(quick: bool) -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     let mut all = vec![
         Method::new("1x", Kind::Plain, &[]).main(),
-        sraa("SRAA 4", &[]).main().explained(),
-        sraa("SRAA 16", &[("pattern", "latin16")]).main().explained(),
+        sraa("SRAA 4", &[]).main().with_gap_analysis(),
+        sraa("SRAA 16", &[("pattern", "latin16")]).main().with_gap_analysis(),
     ];
-    all.extend(beyond());
-    all.extend(metrics());
-    all.extend(radii());
-    all.extend(resolves());
+    all.extend(extension_variants());
+    all.extend(metric_variants());
+    all.extend(radius_variants());
+    all.extend(resolve_variants());
     all.push(sraa("SRAA 4, two shading samples", &[LISTED, ("shaded", "0,3")]));
     if !quick {
         all.extend([
@@ -318,7 +318,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
             sraa("SRAA 16, standard", &[("pattern", "standard16")]),
             sraa("SRAA 16, ordered", &[("pattern", "ordered16")]),
         ]);
-        all.extend(falloffs());
+        all.extend(falloff_variants());
         all.extend([
             sraa(
                 "SRAA 16, two shading samples",
@@ -336,13 +336,13 @@ pub fn methods(quick: bool) -> Vec<Method> {
     ]);
     all.extend(of_the_picture());
     all.extend([
-        Method::new("SRAA 4 and MLAA", Kind::Merged, &[("mask", "select")]).pictured(),
-        Method::new("MSAA 4", Kind::Multisampled, &[]).pictured(),
-        Method::new("MSAA 4, directional", Kind::Directional, &[]).pictured(),
-        Method::new("MSAA 4, deferred", Kind::Classified, &[]).pictured(),
-        Method::new("CSAA 16", Kind::Covered, &[]).pictured(),
-        Method::new("AGAA 4", Kind::Aggregated, &[]).pictured(),
-        Method::new("AGAA 16", Kind::Aggregated, &[("pattern", "latin16")]).pictured(),
+        Method::new("SRAA 4 and MLAA", Kind::Merged, &[("mask", "select")]).with_picture(),
+        Method::new("MSAA 4", Kind::Multisampled, &[]).with_picture(),
+        Method::new("MSAA 4, directional", Kind::Directional, &[]).with_picture(),
+        Method::new("MSAA 4, deferred", Kind::Classified, &[]).with_picture(),
+        Method::new("CSAA 16", Kind::Covered, &[]).with_picture(),
+        Method::new("AGAA 4", Kind::Aggregated, &[]).with_picture(),
+        Method::new("AGAA 16", Kind::Aggregated, &[("pattern", "latin16")]).with_picture(),
         Method::new("4x", Kind::Supersampled(4), &[]).main(),
         Method::new("16x", Kind::Supersampled(16), &[]).main(),
     ]);
@@ -356,7 +356,7 @@ pub const NEAR_LATIN4: [usize; 4] = [10, 3, 11, 5];
 const LISTED: (&str, &str) = ("shading", "listed");
 
 /// Beyond the paper: shading where geometry asks for it, a search for what no tap shows, and light apart from paint and shadow.
-fn beyond() -> Vec<Method> {
+fn extension_variants() -> Vec<Method> {
     let mut all = Vec::new();
     for (samples, pattern) in [("4", "latin4"), ("16", "latin16")] {
         let sraa = |what: &str, options: &[(&str, &str)]| {
@@ -372,13 +372,13 @@ fn beyond() -> Vec<Method> {
             sraa("placed", &[PLACED]),
             sraa("placed and searched", &[PLACED, SEARCHED]).main(),
             sraa("demodulated by albedo", &[("demodulate", "albedo")]),
-            sraa("demodulated", &[DEMODULATED]).pictured(),
-            sraa("placed, searched and demodulated", &[PLACED, SEARCHED, DEMODULATED]).pictured(),
+            sraa("demodulated", &[DEMODULATED]).with_picture(),
+            sraa("placed, searched and demodulated", &[PLACED, SEARCHED, DEMODULATED]).with_picture(),
             sraa(
                 "placed, searched, demodulated and rest apart",
                 &[PLACED, SEARCHED, DEMODULATED, ("rest", "true")],
             )
-            .pictured(),
+            .with_picture(),
         ]);
         let by_planes = |what: &str, options: &[(&str, &str)]| {
             let basis = [&[("pattern", pattern)], PlacedBy::Planes.options(), options].concat();
@@ -396,7 +396,7 @@ fn beyond() -> Vec<Method> {
                 "placed, searched, kept even and extra",
                 &[&[PLACED, SEARCHED, ("extra", "true")], &KEPT_EVEN[..]].concat(),
             )
-            .pictured(),
+            .with_picture(),
         ]);
     }
     all
@@ -409,7 +409,7 @@ pub(super) const PLACED: (&str, &str) = ("shading", "placed");
 pub(super) const SEARCHED: (&str, &str) = ("search", "five");
 const DEMODULATED: (&str, &str) = ("demodulate", "albedo-shadow");
 
-fn metrics() -> Vec<Method> {
+fn metric_variants() -> Vec<Method> {
     let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
     vec![
         sraa("SRAA 4, planes and normals", "planes-normals"),
@@ -427,7 +427,7 @@ fn metrics() -> Vec<Method> {
 pub(super) const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
 
 /// Filters of the reconstructed samples.
-fn resolves() -> Vec<Method> {
+fn resolve_variants() -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     vec![
         sraa("SRAA 4, tent 0.75", &[("resolve", "tent"), ("resolve-radius", "0.75")]),
@@ -445,7 +445,7 @@ fn resolves() -> Vec<Method> {
     ]
 }
 
-fn radii() -> Vec<Method> {
+fn radius_variants() -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     vec![
         sraa("SRAA 4, radius 1.5", &[("radius", "1.5")]),
@@ -454,7 +454,7 @@ fn radii() -> Vec<Method> {
     ]
 }
 
-fn falloffs() -> Vec<Method> {
+fn falloff_variants() -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     vec![
         sraa("SRAA 4, no falloff", &[("falloff", "none")]),
@@ -494,21 +494,23 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
         Method::new(&format!("SRAA {samples}{what}"), Kind::Sraa, &[]).with_options(with(options))
     };
     let normals = capture.normal.is_some();
-    let mut all = vec![Method::new("1x", Kind::Plain, &[]).pictured()];
+    let mut all = vec![Method::new("1x", Kind::Plain, &[]).with_picture()];
     let mut absent: Vec<(String, String)> = Vec::new();
     let no_normals = "the capture has no normal.exr";
     if normals {
-        all.push(sraa("", &[]).pictured());
+        all.push(sraa("", &[]).with_picture());
         all.push(sraa(", normals", &[("metric", "normals")]));
         all.push(sraa(", no falloff", &[("falloff", "none")]));
         all.push(sraa(", Gaussian falloff", &[("falloff", "gaussian")]));
         all.push(sraa(", relative depth", &RELATIVE));
         all.push(sraa(", mask", &[("mask", "select")]));
         match (&capture.albedo, &capture.direct) {
-            (Some(_), Some(_)) => all.push(sraa(", demodulated", &[RELATIVE[0], RELATIVE[1], DEMODULATED]).pictured()),
+            (Some(_), Some(_)) => {
+                all.push(sraa(", demodulated", &[RELATIVE[0], RELATIVE[1], DEMODULATED]).with_picture())
+            }
             (Some(_), None) => {
                 let of_albedo = [RELATIVE[0], RELATIVE[1], ("demodulate", "albedo")];
-                all.push(sraa(", demodulated", &of_albedo).pictured());
+                all.push(sraa(", demodulated", &of_albedo).with_picture());
             }
             (None, _) => {
                 let reason = "the capture has no albedo.exr".to_owned();
@@ -554,16 +556,16 @@ mod tests {
     #[test]
     fn names_and_file_names_are_unique() {
         for quick in [false, true] {
-            let all = methods(quick);
-            let stems: BTreeSet<String> = all.iter().map(Method::stem).collect();
+            let all = list_methods(quick);
+            let stems: BTreeSet<String> = all.iter().map(Method::file_stem).collect();
             assert_eq!(stems.len(), all.len());
         }
-        assert_eq!(stem("SRAA 4, no falloff"), "sraa-4-no-falloff");
+        assert_eq!(to_file_stem("SRAA 4, no falloff"), "sraa-4-no-falloff");
     }
 
     #[test]
     fn options_are_those_of_the_kernels() {
-        for method in methods(false) {
+        for method in list_methods(false) {
             let values = method.parse_options(&method.options);
             assert_eq!(values.expect(&method.name), method.values);
         }
@@ -571,14 +573,14 @@ mod tests {
 
     #[test]
     fn what_is_read_follows_the_options() {
-        let all = methods(false);
+        let all = list_methods(false);
         let of = |name: &str| all.iter().find(|method| method.name == name).expect("a method");
         assert_eq!(
-            (of("SRAA 16").reads(), of("SRAA 16").shading()),
+            (of("SRAA 16").capture_name(), of("SRAA 16").shading_sample()),
             ("latin16".to_owned(), ShadingSample::Centre)
         );
         let two = of("SRAA 16, two shading samples");
-        assert_eq!(two.reads(), "latin16 shaded at 13,5");
-        assert_eq!(two.shading(), ShadingSample::Samples(vec![13, 5]));
+        assert_eq!(two.capture_name(), "latin16 shaded at 13,5");
+        assert_eq!(two.shading_sample(), ShadingSample::Samples(vec![13, 5]));
     }
 }

@@ -27,8 +27,8 @@ use crate::record::SceneErrors;
 use classes::{Classes, varies_around, varies_within};
 use filters::Filters;
 use glam::{UVec2, Vec2, Vec4};
-use scores::{gaps, scores, share_of_gap};
-use shot::supersampled;
+use scores::{measure_gaps, score_picture, share_of_gap};
+use shot::render_supersampled;
 use std::collections::BTreeMap;
 use straightline_bench::execute::{Bench, Times};
 use straightline_kernels::prelude::Frame;
@@ -40,9 +40,9 @@ use straightline_scene::scene::Scene;
 pub use classes::STEP;
 pub use error::QualityError;
 pub use figures::{FIGURES, Figure, Made, Pane};
-pub use film::{Film, REFERENCE, Shooting, film};
-pub use losses::losses;
-pub use methods::{Kind, Method, OwnError, methods, methods_of};
+pub use film::{Film, REFERENCE, Shooting, film_scene};
+pub use losses::list_losses;
+pub use methods::{Kind, Method, OwnError, list_methods, methods_of};
 pub use motion::{BEFORE, Sequence, in_motion, methods_in_motion};
 pub use shot::Shot;
 pub use surfaces::{Point, Surfaces};
@@ -122,14 +122,14 @@ pub struct Outcome {
 /// # Errors
 ///
 /// [`QualityError`], if something cannot be drawn, run or written.
-pub fn study(
+pub fn study_quality(
     bench: &Bench,
     sources: Vec<Source>,
     setup: &Setup,
     progress: &mut dyn Progress,
 ) -> Result<Outcome, QualityError> {
     let mut outcome = Outcome::default();
-    match all(bench, sources, setup, progress, &mut outcome) {
+    match study_sources(bench, sources, setup, progress, &mut outcome) {
         Ok(()) => outcome.complete = true,
         Err(QualityError::Stopped) => {}
         Err(error) => return Err(error),
@@ -137,14 +137,14 @@ pub fn study(
     Ok(outcome)
 }
 
-fn all(
+fn study_sources(
     bench: &Bench,
     sources: Vec<Source>,
     setup: &Setup,
     progress: &mut dyn Progress,
     outcome: &mut Outcome,
 ) -> Result<(), QualityError> {
-    let mut listed = methods(setup.quick && setup.only.is_empty());
+    let mut listed = list_methods(setup.quick && setup.only.is_empty());
     if !setup.only.is_empty() {
         listed.retain(|method| setup.only.contains(&method.name));
     }
@@ -152,7 +152,7 @@ fn all(
     if setup.post_processed {
         listed.extend(post::the_other_order());
     }
-    progress.begin("speed against error", steps(&sources, &listed, setup));
+    progress.begin("speed against error", count_steps(&sources, &listed, setup));
     let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
         true => Some(Filters::new(bench, &listed, setup.size, progress)?),
         false => None,
@@ -163,7 +163,7 @@ fn all(
             (Source::Scene { name, purpose, scene }, Some(filters)) => {
                 let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, setup.size)?;
                 let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
-                let reference = supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
+                let reference = render_supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
                 let made = &mut outcome.pictures;
                 let wanted = Wanted {
                     name,
@@ -171,15 +171,15 @@ fn all(
                     setup,
                     made,
                 };
-                let mut errors = wanted.errors(&listed, filters, &shot, &reference, progress)?;
+                let mut errors = wanted.measure_errors(&listed, filters, &shot, &reference, progress)?;
                 if setup.pan_frames > 1 && panned < setup.pan_scenes {
                     panned += 1;
-                    let found = pan::pan(&renderer, &listed, filters, setup.pan_frames, progress)?;
+                    let found = pan::measure_pan(&renderer, &listed, filters, setup.pan_frames, progress)?;
                     for (method, temporal) in errors.methods.iter_mut().zip(found) {
                         method.temporal = temporal;
                     }
                 }
-                let times = timed(filters, &shot, setup, progress)?;
+                let times = time_methods(filters, &shot, setup, progress)?;
                 outcome.timed_on.push(errors.scene.clone());
                 put_times(&mut errors, &times);
                 outcome.scenes.push(errors);
@@ -204,7 +204,7 @@ fn of_capture(
     progress: &mut dyn Progress,
 ) -> Result<SceneErrors, QualityError> {
     let (mut listed, absent) = methods_of(&capture);
-    listed.extend(setup.own.iter().map(|method| method.on(&capture)));
+    listed.extend(setup.own.iter().map(|method| method.for_capture(&capture)));
     let Some(reference) = capture.reference.clone() else {
         return Err(QualityError::Capture(format!(
             "`{name}` has no reference.exr, so nothing can be said of errors: write one, shaded at many places of each pixel \
@@ -218,16 +218,16 @@ fn of_capture(
         setup,
         made,
     };
-    let shot = Shot::of(capture);
-    let mut errors = wanted.errors(&listed, &mut filters, &shot, &reference, progress)?;
+    let shot = Shot::from_capture(capture);
+    let mut errors = wanted.measure_errors(&listed, &mut filters, &shot, &reference, progress)?;
     errors.absent = absent;
-    let times = timed(&mut filters, &shot, setup, progress)?;
+    let times = time_methods(&mut filters, &shot, setup, progress)?;
     put_times(&mut errors, &times);
     Ok(errors)
 }
 
 /// Steps of `progress`.
-fn steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
+fn count_steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
     let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
     let timing = setup.rounds as usize + 1;
     let mut steps = 0;
@@ -256,7 +256,7 @@ struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    fn errors(
+    fn measure_errors(
         mut self,
         listed: &[Method],
         filters: &mut Filters<'_>,
@@ -264,16 +264,16 @@ impl Wanted<'_> {
         reference: &Frame<Vec4>,
         progress: &mut dyn Progress,
     ) -> Result<SceneErrors, QualityError> {
-        let classes = classes(shot)?;
+        let classes = classify_pixels(shot)?;
         let post_processed = self.setup.post_processed;
         let reference = &picture::at_eight_bits(&match post_processed {
-            true => post::processed(reference),
+            true => post::post_process(reference),
             false => reference.clone(),
         });
-        let late = post_processed.then(|| shot.processed());
-        let bytes = filters.bytes(shot)?;
+        let late = post_processed.then(|| shot.post_process());
+        let bytes = filters.traffic_bytes(shot)?;
         let mut errors = SceneErrors {
-            reference: self.picture("reference", reference)?,
+            reference: self.keep_picture("reference", reference)?,
             shares: classes.shares(),
             methods: Vec::new(),
             absent: Vec::new(),
@@ -283,20 +283,20 @@ impl Wanted<'_> {
         };
         let mut reconstructed = Vec::new();
         for (k, method) in listed.iter().enumerate() {
-            check(progress)?;
+            check_stopped(progress)?;
             let made = match &late {
-                None => filters.run(k, shot)?,
-                Some(late) if method.is_last() => filters.run(k, late)?,
-                Some(_) => post::processed(&filters.run(k, shot)?),
+                None => filters.filter_shot(k, shot)?,
+                Some(late) if method.is_last() => filters.filter_shot(k, late)?,
+                Some(_) => post::post_process(&filters.filter_shot(k, shot)?),
             };
             let made = picture::at_eight_bits(&made);
             let picture = match method.pictured {
-                true => self.picture(&method.stem(), &made)?,
+                true => self.keep_picture(&method.file_stem(), &made)?,
                 false => None,
             };
-            let mut scores = scores(method, &made, reference, &classes);
+            let mut scores = score_picture(method, &made, reference, &classes);
             (scores.bytes, scores.picture) = (bytes[k], picture);
-            scores.extra = shot.extra(method).map(Extra::share);
+            scores.extra = shot.extra_for(method).map(Extra::share);
             errors.methods.push(scores);
             if method.explained {
                 reconstructed.push(made);
@@ -308,44 +308,44 @@ impl Wanted<'_> {
             && !shot.shaded.is_empty()
             && !post_processed
         {
-            errors.gaps = gaps(shot, [four, sixteen], reference, &classes)?;
+            errors.gaps = measure_gaps(shot, [four, sixteen], reference, &classes)?;
         }
         Ok(errors)
     }
 
     /// Keeps a picture, and gives its path beside the record.
-    fn picture(&mut self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
+    fn keep_picture(&mut self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
         if !self.setup.pictures {
             return Ok(None);
         }
-        let path = format!("pictures/{}/{stem}.png", methods::stem(&self.name));
+        let path = format!("pictures/{}/{stem}.png", methods::to_file_stem(&self.name));
         self.made.insert(path.clone(), picture::png_bytes(frame)?);
         Ok(Some(path))
     }
 }
 
 /// Kinds of pixels, by all geometry that there is.
-fn classes(shot: &Shot) -> Result<Classes, QualityError> {
+fn classify_pixels(shot: &Shot) -> Result<Classes, QualityError> {
     let dense: Vec<&Capture> = match shot.captures.get("latin16") {
         Some(latin16) => std::iter::once(latin16).chain(shot.captures.get("latin4")).collect(),
-        None => vec![shot.any()?],
+        None => vec![shot.any_capture()?],
     };
-    let surfaces = Surfaces::of(&dense).ok_or_else(|| QualityError::NotDrawn("any method".to_owned()))?;
+    let surfaces = Surfaces::from_captures(&dense).ok_or_else(|| QualityError::NotDrawn("any method".to_owned()))?;
     let varies = match shot.shaded.get(&16) {
         Some(shaded) => varies_within(shaded),
-        None => varies_around(&shot.any()?.color, &surfaces),
+        None => varies_around(&shot.any_capture()?.color, &surfaces),
     };
     Ok(Classes::new(&surfaces, &varies))
 }
 
-fn timed(
+fn time_methods(
     filters: &mut Filters<'_>,
     shot: &Shot,
     setup: &Setup,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Option<Times>>, QualityError> {
-    let (timed, places) = filters.time(shot, setup.rounds, progress)?;
-    check(progress)?;
+    let (timed, places) = filters.time_filters(shot, setup.rounds, progress)?;
+    check_stopped(progress)?;
     let times = places.into_iter().map(|place| place.and_then(|k| timed.times(k)));
     Ok(times.collect())
 }
@@ -357,8 +357,8 @@ fn put_times(errors: &mut SceneErrors, times: &[Option<Times>]) {
 }
 
 /// Ends the study if the progress says so.
-fn check(progress: &dyn Progress) -> Result<(), QualityError> {
-    match progress.stopped() {
+fn check_stopped(progress: &dyn Progress) -> Result<(), QualityError> {
+    match progress.is_stopped() {
         true => Err(QualityError::Stopped),
         false => Ok(()),
     }

@@ -1,9 +1,9 @@
 //! Methods in a still, a pan and a turn, and where something moves: frames that follow on each other, as `history` needs them.
 
 use super::methods::{Kind, Method, PLACED, RELATIVE, SEARCHED};
-use super::pan::{SIDE, apart, mean_square};
-use super::shot::supersampled;
-use super::{QualityError, check};
+use super::pan::{SIDE, error_frame, mean_square};
+use super::shot::render_supersampled;
+use super::{QualityError, check_stopped};
 use crate::progress::Progress;
 use crate::record::{MOST_DB, Motion, MovedMethod};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4};
@@ -26,7 +26,7 @@ const MIDDLE: f32 = 6.0;
 
 impl Motion {
     /// A scene as it is in a frame of pictures of `size`.
-    pub fn scene(self, scene: &Scene, size: UVec2, frame: usize) -> Scene {
+    pub fn scene_at_frame(self, scene: &Scene, size: UVec2, frame: usize) -> Scene {
         let mut scene = scene.clone();
         let camera = &mut scene.camera;
         let (eye, target) = (Vec3::from(camera.position), Vec3::from(camera.target));
@@ -115,8 +115,8 @@ impl Sequence {
     ) -> Result<Sequence, QualityError> {
         let (mut renderers, mut references) = (Vec::new(), Vec::new());
         for frame in BEFORE..BEFORE + frames {
-            let renderer = CpuRenderer::new(&motion.scene(scene, size, frame), size)?;
-            let reference = supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
+            let renderer = CpuRenderer::new(&motion.scene_at_frame(scene, size, frame), size)?;
+            let reference = render_supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
             references.push(picture::at_eight_bits(&reference));
             renderers.push(renderer);
         }
@@ -140,7 +140,7 @@ impl Sequence {
     /// # Errors
     ///
     /// [`QualityError::NotInMotion`] for another method; others if something cannot be drawn or run.
-    pub fn pictures(&mut self, bench: &Bench, method: &Method) -> Result<Vec<Frame<Vec4>>, QualityError> {
+    pub fn make_pictures(&mut self, bench: &Bench, method: &Method) -> Result<Vec<Frame<Vec4>>, QualityError> {
         let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
         let made: Result<Vec<Frame<Vec4>>, QualityError> = match method.kind {
             Kind::Supersampled(_) => {
@@ -150,13 +150,18 @@ impl Sequence {
                 };
                 self.renderers.iter().map(supersampled).collect()
             }
-            Kind::Sraa => self.filtered(bench, method, &samples),
+            Kind::Sraa => self.filter_frames(bench, method, &samples),
             _ => Err(QualityError::NotInMotion(method.name.clone())),
         };
         Ok(made?.iter().map(picture::at_eight_bits).collect())
     }
 
-    fn filtered(&mut self, bench: &Bench, method: &Method, samples: &[Vec2]) -> Result<Vec<Frame<Vec4>>, QualityError> {
+    fn filter_frames(
+        &mut self,
+        bench: &Bench,
+        method: &Method,
+        samples: &[Vec2],
+    ) -> Result<Vec<Frame<Vec4>>, QualityError> {
         let settings = Settings::new().set_all(method.options().to_vec());
         let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
         // The frame alone has all but what history reads.
@@ -164,9 +169,9 @@ impl Sequence {
         let history = alone.number("history").unwrap_or(0.0) as usize;
         alone.remove("history");
         let (judged, before) = (self.references.len(), if history == 0 { 0 } else { BEFORE });
-        let key = format!("{} {before} {}", method.reads(), method.reads_albedo());
+        let key = format!("{} {before} {}", method.capture_name(), method.reads_albedo());
         if !self.moments.contains_key(&key) {
-            let drawn = self.drawn(method, samples, before, judged)?;
+            let drawn = self.draw_frames(method, samples, before, judged)?;
             self.moments.insert(key.clone(), drawn);
         }
         let moments = &self.moments[&key];
@@ -183,14 +188,14 @@ impl Sequence {
     }
 
     /// The frames that are judged and those `before` them. Without earlier frames, each is shaded at the centres of its pixels.
-    fn drawn(
+    fn draw_frames(
         &self,
         method: &Method,
         samples: &[Vec2],
         before: usize,
         judged: usize,
     ) -> Result<Vec<Moment>, QualityError> {
-        let shading = match method.shading() {
+        let shading = match method.shading_sample() {
             shading @ (ShadingSample::Centre | ShadingSample::Placed) => shading,
             _ => return Err(QualityError::NotInMotion(method.name.clone())),
         };
@@ -200,7 +205,7 @@ impl Sequence {
             } else {
                 PLACES[frame % PLACES.len()]
             };
-            let scene = self.motion.scene(&self.scene, self.size, frame);
+            let scene = self.motion.scene_at_frame(&self.scene, self.size, frame);
             let drawn = Moment::draw(scene, self.size, jitter, samples, shading.clone())?;
             Ok(if method.reads_albedo() {
                 drawn.with_albedo()?
@@ -215,7 +220,9 @@ impl Sequence {
     pub fn score(&self, method: &Method, pictures: &[Frame<Vec4>]) -> MovedMethod {
         let pairs = || pictures.iter().zip(&self.references);
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
-        let wrong: Vec<Frame<Vec4>> = pairs().map(|(picture, reference)| apart(picture, reference)).collect();
+        let wrong: Vec<Frame<Vec4>> = pairs()
+            .map(|(picture, reference)| error_frame(picture, reference))
+            .collect();
         let changes = wrong.windows(2).map(|pair| mean_square(&pair[0], &pair[1]));
         MovedMethod {
             method: method.name.clone(),
@@ -239,12 +246,12 @@ pub fn in_motion(
     (size, frames): (UVec2, usize),
     progress: &mut dyn Progress,
 ) -> Result<Vec<MovedMethod>, QualityError> {
-    progress.begin(motion.name(), frames * SIDE as usize + methods.len());
+    progress.begin(motion.display_name(), frames * SIDE as usize + methods.len());
     let mut sequence = Sequence::draw(scene, motion, size, frames, progress)?;
     let mut scores = Vec::new();
     for method in methods {
-        check(progress)?;
-        let pictures = sequence.pictures(bench, method)?;
+        check_stopped(progress)?;
+        let pictures = sequence.make_pictures(bench, method)?;
         scores.push(sequence.score(method, &pictures));
         progress.step();
     }

@@ -3,7 +3,7 @@
 use super::QualityError;
 use super::filters::Filters;
 use super::methods::Method;
-use super::shot::{Shot, supersampled};
+use super::shot::{Shot, render_supersampled};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3, Vec4, vec2};
 use straightline_kernels::prelude::Frame;
@@ -18,7 +18,7 @@ pub const SIDE: u32 = 8;
 
 /// For each method, the root of the mean squared error of what changes from a frame to the next, in colours clamped to
 /// 0..=1 at 8 bits of sRGB, against what changes in a reference of 64 samples a pixel; `None` for methods that are not watched.
-pub fn pan(
+pub fn measure_pan(
     renderer: &dyn Renderer,
     methods: &[Method],
     filters: &mut Filters<'_>,
@@ -26,7 +26,7 @@ pub fn pan(
     progress: &mut dyn Progress,
 ) -> Result<Vec<Option<f64>>, QualityError> {
     let panned: Vec<usize> = (0..methods.len()).filter(|k| methods[*k].panned).collect();
-    let changes = changes(
+    let changes = measure_changes(
         renderer,
         methods,
         &panned,
@@ -47,7 +47,7 @@ pub(super) type See<'a> = dyn FnMut(&[Frame<Vec4>], &Frame<Vec4>) + 'a;
 
 /// For each of the methods `listed`, and each frame after the first, the mean squared error of what changes since the last. The picture
 /// moves by a step from a frame to the next; `see` is shown each frame's pictures and its reference, at 8 bits.
-pub(super) fn changes(
+pub(super) fn measure_changes(
     renderer: &dyn Renderer,
     methods: &[Method],
     listed: &[usize],
@@ -62,13 +62,13 @@ pub(super) fn changes(
     for frame in 0..frames {
         let by = step * frame as f32;
         let shot = Shot::draw(&Shifted { renderer, by }, &needed, progress)?;
-        let reference = picture::at_eight_bits(&supersampled(renderer, SIDE, by, progress)?);
+        let reference = picture::at_eight_bits(&render_supersampled(renderer, SIDE, by, progress)?);
         let shown = listed
             .iter()
-            .map(|k| Ok(picture::at_eight_bits(&filters.run(*k, &shot)?)));
+            .map(|k| Ok(picture::at_eight_bits(&filters.filter_shot(*k, &shot)?)));
         let shown: Vec<Frame<Vec4>> = shown.collect::<Result<_, QualityError>>()?;
         // Errors of this frame: changes of these are wrong changes.
-        let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| apart(picture, &reference)).collect();
+        let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| error_frame(picture, &reference)).collect();
         for (changes, (now, before)) in changes.iter_mut().zip(wrong.iter().zip(&before)) {
             changes.push(mean_square(now, before));
         }
@@ -80,7 +80,7 @@ pub(super) fn changes(
 }
 
 /// Returns the error of a picture.
-pub(super) fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
+pub(super) fn error_frame(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
     let shown = |color: &Vec4| color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
     let pairs = picture.texels().iter().zip(reference.texels());
     let texels = pairs.map(|(a, b)| match a.truncate().is_finite() {

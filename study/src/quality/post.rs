@@ -17,12 +17,12 @@ const SIGMA: f32 = 4.0;
 const STRENGTH: f32 = 0.1;
 
 /// Bloom, then tone mapping.
-pub fn processed(linear: &Frame<Vec4>) -> Frame<Vec4> {
-    let bright = map(linear, |_, texel| {
+pub fn post_process(linear: &Frame<Vec4>) -> Frame<Vec4> {
+    let bright = map_texels(linear, |_, texel| {
         (texel.truncate() - Vec3::ONE).max(Vec3::ZERO).extend(0.0)
     });
-    let spilt = blurred(&blurred(&bright, ivec2(1, 0)), ivec2(0, 1));
-    map(linear, |k, texel| {
+    let spilt = blur_along(&blur_along(&bright, ivec2(1, 0)), ivec2(0, 1));
+    map_texels(linear, |k, texel| {
         let light = texel.truncate() + STRENGTH * spilt.texels()[k].truncate();
         tone_mapped(light).extend(texel.w)
     })
@@ -35,14 +35,14 @@ fn tone_mapped(light: Vec3) -> Vec3 {
     light * (1.0 + luminance / (WHITE * WHITE)) / (1.0 + luminance)
 }
 
-fn blurred(image: &Frame<Vec4>, step: glam::IVec2) -> Frame<Vec4> {
+fn blur_along(image: &Frame<Vec4>, step: glam::IVec2) -> Frame<Vec4> {
     let reach = (3.0 * SIGMA) as i32;
     let weights: Vec<f32> = (-reach..=reach)
         .map(|x| (-0.5 * (x as f32 / SIGMA).powi(2)).exp())
         .collect();
     let total: f32 = weights.iter().sum();
     let size = image.size();
-    map(image, |k, _| {
+    map_texels(image, |k, _| {
         let pixel = UVec2::new(k as u32 % size.x, k as u32 / size.x).as_ivec2();
         let taps = (-reach..=reach).zip(&weights);
         taps.map(|(x, weight)| *weight * image.load(pixel + step * x))
@@ -51,24 +51,24 @@ fn blurred(image: &Frame<Vec4>, step: glam::IVec2) -> Frame<Vec4> {
     })
 }
 
-fn map(image: &Frame<Vec4>, of: impl Fn(usize, Vec4) -> Vec4 + Sync) -> Frame<Vec4> {
+fn map_texels(image: &Frame<Vec4>, of: impl Fn(usize, Vec4) -> Vec4 + Sync) -> Frame<Vec4> {
     let texels = image.texels().par_iter().enumerate().map(|(k, texel)| of(k, *texel));
     Frame::new(image.size(), texels.collect())
 }
 
 impl Shot {
     /// Returns the shot with its colours processed, the input of a filter that comes last.
-    pub fn processed(&self) -> Shot {
+    pub fn post_process(&self) -> Shot {
         let mut captures = self.captures.clone();
         for capture in captures.values_mut() {
-            capture.color = processed(&capture.color);
-            capture.colors = capture.colors.iter().map(processed).collect();
+            capture.color = post_process(&capture.color);
+            capture.colors = capture.colors.iter().map(post_process).collect();
         }
         let shaded = self.shaded.iter();
         Shot {
             captures,
             shaded: shaded
-                .map(|(n, frames)| (*n, frames.iter().map(processed).collect()))
+                .map(|(n, frames)| (*n, frames.iter().map(post_process).collect()))
                 .collect(),
             // No filter of the displayed picture reads those.
             extra: BTreeMap::new(),
@@ -80,7 +80,7 @@ impl Shot {
 /// Methods in the order that the paper advises against: shading samples that are processed already.
 pub fn the_other_order() -> Vec<Method> {
     let named = ["SRAA 4", "SRAA 16", "4x", "16x"];
-    let all = super::methods(true)
+    let all = super::list_methods(true)
         .into_iter()
         .filter(|method| named.contains(&method.name.as_str()));
     let late = all.map(|mut method| {
@@ -100,7 +100,7 @@ mod tests {
         let dark = Frame::new(UVec2::new(9, 7), vec![Vec4::new(0.5, 0.25, 0.125, 0.5); 63]);
         let luminance = 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125;
         let factor = (1.0 + luminance / 16.0) / (1.0 + luminance);
-        for texel in processed(&dark).texels() {
+        for texel in post_process(&dark).texels() {
             assert!(
                 (texel.truncate() - dark.texels()[0].truncate() * factor)
                     .abs()
@@ -118,7 +118,7 @@ mod tests {
         let mut texels = vec![Vec4::ZERO; 41 * 41];
         texels[20 * 41 + 20] = Vec4::new(11.0, 0.0, 0.0, 0.0);
         let bright = Frame::new(size, texels);
-        let spilt = blurred(&blurred(&bright, ivec2(1, 0)), ivec2(0, 1));
+        let spilt = blur_along(&blur_along(&bright, ivec2(1, 0)), ivec2(0, 1));
         let sum: f32 = spilt.texels().iter().map(|texel| texel.x).sum();
         assert!((sum - 11.0).abs() < 1.0e-3, "{sum}");
         assert!(spilt.texels()[20 * 41 + 24].x < spilt.texels()[20 * 41 + 20].x);

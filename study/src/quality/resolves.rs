@@ -2,7 +2,9 @@
 //! (`bounds`, [`straightline_scene::render::aggregated`]), and kernels that resolve the same samples on a device, to be timed.
 
 use super::QualityError;
-use super::bounds::{along_edges, by_coverage, once_a_surface, stored, where_edges_are, whose};
+use super::bounds::{
+    along_edges, by_coverage, find_stored_sample, multisampled_frames, once_a_surface, where_edges_are,
+};
 use super::methods::{Kind, Method, NEAR_LATIN4};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
@@ -28,27 +30,27 @@ macro_rules! kernel {
 /// # Errors
 ///
 /// [`QualityError::NotDrawn`], if the shot was not drawn for it.
-pub fn picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
+pub fn resolve_picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
     let surfaces = || {
-        let surfaces = Surfaces::of(&[shot.capture(method)?]);
+        let surfaces = Surfaces::from_captures(&[shot.capture_for(method)?]);
         surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     };
     Ok(match method.kind {
-        Kind::Supersampled(samples) => shot.supersampled(samples)?,
-        Kind::Aggregated => shot.aggregated(method)?.picture(),
-        Kind::Covered => by_coverage(&surfaces()?, shot.shaded(16)?, &NEAR_LATIN4),
+        Kind::Supersampled(samples) => shot.supersampled_mean(samples)?,
+        Kind::Aggregated => shot.aggregated_for(method)?.picture(),
+        Kind::Covered => by_coverage(&surfaces()?, shot.shaded_frames(16)?, &NEAR_LATIN4),
         Kind::Directional => {
             let offsets = gbuffer::samples(method.pattern()).unwrap_or_default();
-            along_edges(&surfaces()?, shot.shaded(4)?, &offsets)
+            along_edges(&surfaces()?, shot.shaded_frames(4)?, &offsets)
         }
-        Kind::Classified => where_edges_are(&surfaces()?, shot.shaded(4)?),
-        Kind::Multisampled => once_a_surface(&surfaces()?, shot.shaded(4)?),
-        _ => shot.any()?.color.clone(),
+        Kind::Classified => where_edges_are(&surfaces()?, shot.shaded_frames(4)?),
+        Kind::Multisampled => once_a_surface(&surfaces()?, shot.shaded_frames(4)?),
+        _ => shot.any_capture()?.color.clone(),
     })
 }
 
 /// The passes that resolve a method's samples, one after the other; none where there is one sample.
-pub fn kernels(method: &Method) -> Vec<Kernel> {
+pub fn resolve_kernels(method: &Method) -> Vec<Kernel> {
     match method.kind {
         Kind::Directional => vec![kernel!("directional", "directional")],
         Kind::Classified => vec![kernel!("classified", "classified")],
@@ -71,29 +73,31 @@ pub fn kernels(method: &Method) -> Vec<Kernel> {
 ///
 /// # Errors
 ///
-/// As [`picture`].
-pub fn inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError> {
+/// As [`resolve_picture`].
+pub fn resolve_inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError> {
     let missing = || QualityError::NotDrawn(method.name.clone());
     if method.kind == Kind::Aggregated {
-        return Ok(of_aggregates(shot.aggregated(method)?));
+        return Ok(of_aggregates(shot.aggregated_for(method)?));
     }
     if let Kind::Supersampled(samples) = method.kind {
-        let shaded = shot.shaded(samples)?;
+        let shaded = shot.shaded_frames(samples)?;
         let size = shaded.first().ok_or_else(missing)?.size();
         return Ok(vec![Inputs::new(size).layers("colors", shaded.to_vec())]);
     }
-    let capture = shot.capture(method)?;
-    let surfaces = Surfaces::of(&[capture]).ok_or_else(missing)?;
+    let capture = shot.capture_for(method)?;
+    let surfaces = Surfaces::from_captures(&[capture]).ok_or_else(missing)?;
     let inputs = Inputs::new(capture.size);
     Ok(match method.kind {
-        Kind::Multisampled | Kind::Directional => vec![inputs.layers("colors", stored(&surfaces, shot.shaded(4)?))],
+        Kind::Multisampled | Kind::Directional => {
+            vec![inputs.layers("colors", multisampled_frames(&surfaces, shot.shaded_frames(4)?))]
+        }
         Kind::Covered => {
-            let colors = shot.shaded(16)?;
+            let colors = shot.shaded_frames(16)?;
             let kept = NEAR_LATIN4.iter().filter_map(|sample| colors.get(*sample).cloned());
             vec![
                 inputs
                     .layers("colors", kept.collect())
-                    .integers("codes", vec![codes(&surfaces)]),
+                    .integers("codes", vec![sample_codes(&surfaces)]),
             ]
         }
         Kind::Classified => {
@@ -101,9 +105,12 @@ pub fn inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError>
             let rays = capture.rays().ok_or_else(missing)?;
             let samples = capture.samples.len();
             let inputs = inputs
-                .layers("depth", frames(&capture.depth.layers()[..samples], |z| Vec4::splat(*z)))
-                .layers("normal", frames(&normal.layers()[..samples], |n| n.extend(0.0)))
-                .layers("colors", shot.shaded(4)?.to_vec());
+                .layers(
+                    "depth",
+                    map_frames(&capture.depth.layers()[..samples], |z| Vec4::splat(*z)),
+                )
+                .layers("normal", map_frames(&normal.layers()[..samples], |n| n.extend(0.0)))
+                .layers("colors", shot.shaded_frames(4)?.to_vec());
             let rays = ["ray_corner", "ray_right", "ray_down"].into_iter().zip(rays);
             let numbers = |ray: Vec3| ray.to_array().map(f64::from);
             vec![rays.fold(inputs, |inputs, (name, ray)| inputs.uniform(name, &numbers(ray)))]
@@ -113,10 +120,11 @@ pub fn inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError>
 }
 
 /// Index of the stored colour that each sample has, in four bits: 15 for none.
-fn codes(surfaces: &Surfaces<'_>) -> Frame<UVec4> {
+fn sample_codes(surfaces: &Surfaces<'_>) -> Frame<UVec4> {
     let size = surfaces.size();
-    let code =
-        |pixel: UVec2, sample: usize| whose(surfaces, &NEAR_LATIN4, pixel, sample).map_or(15, |kept| kept as u64);
+    let code = |pixel: UVec2, sample: usize| {
+        find_stored_sample(surfaces, &NEAR_LATIN4, pixel, sample).map_or(15, |kept| kept as u64)
+    };
     let texel = |k: u32| {
         let pixel = UVec2::new(k % size.x, k / size.x);
         let bits = (0..16).map(|sample| code(pixel, sample) << (4 * sample)).sum::<u64>();
@@ -146,7 +154,7 @@ fn of_aggregates(aggregated: &Aggregated) -> Vec<Inputs> {
     ]
 }
 
-fn frames<T: Copy>(layers: &[Frame<T>], texel: impl Fn(&T) -> Vec4) -> Vec<Frame<Vec4>> {
+fn map_frames<T: Copy>(layers: &[Frame<T>], texel: impl Fn(&T) -> Vec4) -> Vec<Frame<Vec4>> {
     let frame = |layer: &Frame<T>| Frame::new(layer.size(), layer.texels().iter().map(&texel).collect());
     layers.iter().map(frame).collect()
 }

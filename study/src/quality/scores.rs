@@ -1,7 +1,7 @@
 //! Errors of a picture, in all and by kinds of pixels; and what SRAA is short of supersampling.
 
 use super::QualityError;
-use super::bounds::ideal;
+use super::bounds::reconstruct_ideal;
 use super::classes::Classes;
 use super::methods::Method;
 use super::shot::Shot;
@@ -13,18 +13,18 @@ use straightline_oracle::metrics;
 use straightline_scene::picture;
 
 /// Everything but time, bytes and pictures.
-pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, classes: &Classes) -> MethodErrors {
+pub fn score_picture(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, classes: &Classes) -> MethodErrors {
     let of = |class: &dyn Fn(usize) -> bool| where_any(made, reference, class);
     MethodErrors {
         method: method.name.clone(),
         family: method.family(),
         options: method.options().to_vec(),
-        psnr: psnr(made, reference),
+        psnr: capped_psnr(made, reference),
         ssim: metrics::ssim(made, reference),
         flip: metrics::flip(made, reference),
         psnr_geometry: of(&|k| classes.geometry[k]),
         psnr_shading: of(&|k| classes.shading[k]),
-        psnr_flat: of(&|k| classes.flat(k)),
+        psnr_flat: of(&|k| classes.is_flat(k)),
         worst: Some(metrics::worst(made, reference)),
         gap_closed: None,
         temporal: None,
@@ -36,7 +36,7 @@ pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, clas
     }
 }
 
-fn psnr(made: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
+fn capped_psnr(made: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
     metrics::psnr(made, reference).min(MOST_DB)
 }
 
@@ -60,7 +60,7 @@ pub fn share_of_gap(methods: &mut [MethodErrors]) {
 }
 
 /// Gaps of SRAA with 4 and with 16 samples, whose pictures are given at 8 bits as the reference is, to 4x and 16x.
-pub fn gaps(
+pub fn measure_gaps(
     shot: &Shot,
     made: [&Frame<Vec4>; 2],
     reference: &Frame<Vec4>,
@@ -70,9 +70,13 @@ pub fn gaps(
     for (samples, made) in [4, 16].into_iter().zip(made) {
         let missing = || QualityError::NotDrawn(format!("SRAA {samples}"));
         let capture = shot.captures.get(&format!("latin{samples}")).ok_or_else(missing)?;
-        let surfaces = Surfaces::of(&[capture]).ok_or_else(missing)?;
-        let best = picture::at_eight_bits(&ideal(&surfaces, shot.shaded(samples)?, &capture.color));
-        let bound = picture::at_eight_bits(&shot.supersampled(samples)?);
+        let surfaces = Surfaces::from_captures(&[capture]).ok_or_else(missing)?;
+        let best = picture::at_eight_bits(&reconstruct_ideal(
+            &surfaces,
+            shot.shaded_frames(samples)?,
+            &capture.color,
+        ));
+        let bound = picture::at_eight_bits(&shot.supersampled_mean(samples)?);
         let seen = |k: usize| !classes.unseen[k];
         let pixels = made.texels().len();
         let unseen = classes.unseen.iter().filter(|is| **is).count();
@@ -83,9 +87,9 @@ pub fn gaps(
         gaps.push(Gap {
             method: format!("SRAA {samples}"),
             bound: format!("{samples}x"),
-            psnr: psnr(made, reference),
-            ideal_psnr: psnr(&best, reference),
-            bound_psnr: psnr(&bound, reference),
+            psnr: capped_psnr(made, reference),
+            ideal_psnr: capped_psnr(&best, reference),
+            bound_psnr: capped_psnr(&bound, reference),
             psnr_seen: where_any(made, reference, &seen),
             bound_psnr_seen: where_any(&bound, reference, &seen),
             error_unseen: if unseen > 0 && all > 0.0 { lost / all } else { 0.0 },

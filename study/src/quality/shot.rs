@@ -1,7 +1,7 @@
 //! Everything that methods read of one picture.
 
 use super::methods::{Kind, Method};
-use super::{QualityError, check};
+use super::{QualityError, check_stopped};
 use crate::progress::Progress;
 use glam::{DVec4, UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
@@ -40,32 +40,32 @@ impl Shot {
             aggregated: BTreeMap::new(),
         };
         for method in methods {
-            if let Entry::Vacant(vacant) = shot.captures.entry(method.reads()) {
-                check(progress)?;
+            if let Entry::Vacant(vacant) = shot.captures.entry(method.capture_name()) {
+                check_stopped(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
-                vacant.insert(match method.shading() {
+                vacant.insert(match method.shading_sample() {
                     ShadingSample::Placed => render::capture_placed(renderer, &samples, method.placed_by())?,
                     shading => render::capture(renderer, &samples, shading)?,
                 });
             }
-            if let Some(capture) = shot.captures.get_mut(&method.reads())
+            if let Some(capture) = shot.captures.get_mut(&method.capture_name())
                 && method.reads_albedo()
                 && capture.albedo.is_none()
             {
-                check(progress)?;
+                check_stopped(progress)?;
                 render::add_albedo(capture, renderer)?;
             }
-            if let Some(capture) = shot.captures.get(&method.reads())
+            if let Some(capture) = shot.captures.get(&method.capture_name())
                 && method.has_extra()
-                && !shot.extra.contains_key(&method.reads())
+                && !shot.extra.contains_key(&method.capture_name())
             {
-                check(progress)?;
+                check_stopped(progress)?;
                 let pixels = (capture.size.x * capture.size.y) as usize;
                 let further = render::extra(renderer, capture, pixels / BUDGET)?;
-                shot.extra.insert(method.reads(), further);
+                shot.extra.insert(method.capture_name(), further);
             }
             if method.kind == Kind::Aggregated {
-                check(progress)?;
+                check_stopped(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 let shaded = render::aggregated(renderer, &samples)?;
                 shot.aggregated.insert(method.pattern().to_owned(), shaded);
@@ -77,7 +77,7 @@ impl Shot {
                 _ => continue,
             };
             if let Entry::Vacant(vacant) = shot.shaded.entry(several) {
-                check(progress)?;
+                check_stopped(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 let shaded = samples.iter().map(|offset| renderer.shaded(*offset));
                 vacant.insert(shaded.collect::<Result<_, _>>()?);
@@ -87,7 +87,7 @@ impl Shot {
     }
 
     /// Of someone else's capture, which every pattern then stands for.
-    pub fn of(capture: Capture) -> Shot {
+    pub fn from_capture(capture: Capture) -> Shot {
         Shot {
             captures: BTreeMap::from([(String::new(), capture)]),
             shaded: BTreeMap::new(),
@@ -97,18 +97,21 @@ impl Shot {
     }
 
     /// The capture for a method.
-    pub fn capture(&self, method: &Method) -> Result<&Capture, QualityError> {
-        let found = self.captures.get(&method.reads()).or_else(|| self.captures.get(""));
+    pub fn capture_for(&self, method: &Method) -> Result<&Capture, QualityError> {
+        let found = self
+            .captures
+            .get(&method.capture_name())
+            .or_else(|| self.captures.get(""));
         found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     }
 
     /// Returns the pixels that are shaded once more for a method, if it wants that.
-    pub fn extra(&self, method: &Method) -> Option<&Extra> {
-        self.extra.get(&method.reads()).filter(|_| method.has_extra())
+    pub fn extra_for(&self, method: &Method) -> Option<&Extra> {
+        self.extra.get(&method.capture_name()).filter(|_| method.has_extra())
     }
 
     /// Any capture that is shaded at the pixels' centres, or else any: all of those have the same picture.
-    pub fn any(&self) -> Result<&Capture, QualityError> {
+    pub fn any_capture(&self) -> Result<&Capture, QualityError> {
         let mut captures = self.captures.values();
         let centred = captures
             .clone()
@@ -118,26 +121,26 @@ impl Shot {
     }
 
     /// The picture shaded by aggregates, for a method.
-    pub fn aggregated(&self, method: &Method) -> Result<&Aggregated, QualityError> {
+    pub fn aggregated_for(&self, method: &Method) -> Result<&Aggregated, QualityError> {
         let found = self.aggregated.get(method.pattern());
         found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     }
 
     /// The picture shaded at each of `samples` samples.
-    pub fn shaded(&self, samples: usize) -> Result<&[Frame<Vec4>], QualityError> {
+    pub fn shaded_frames(&self, samples: usize) -> Result<&[Frame<Vec4>], QualityError> {
         let found = self.shaded.get(&samples).map(Vec::as_slice);
         found.ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
     }
 
     /// The mean of those.
-    pub fn supersampled(&self, samples: usize) -> Result<Frame<Vec4>, QualityError> {
-        mean(self.shaded(samples)?).ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
+    pub fn supersampled_mean(&self, samples: usize) -> Result<Frame<Vec4>, QualityError> {
+        mean(self.shaded_frames(samples)?).ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
     }
 }
 
 /// The mean of pictures shaded at `side` x `side` places around `shift`, as [`render::reference`], a step of the progress for
 /// each row; ends early on request.
-pub fn supersampled(
+pub fn render_supersampled(
     renderer: &dyn Renderer,
     side: u32,
     shift: Vec2,
@@ -146,7 +149,7 @@ pub fn supersampled(
     let size: UVec2 = renderer.size();
     let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
     for row in render::grid(side).chunks(side.max(1) as usize) {
-        check(progress)?;
+        check_stopped(progress)?;
         let places: Vec<Vec2> = row.iter().map(|offset| *offset + shift).collect();
         let mean = renderer.mean(&places)?;
         for (sum, texel) in sums.iter_mut().zip(mean.texels()) {

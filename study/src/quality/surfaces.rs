@@ -38,7 +38,7 @@ impl Point {
     }
 
     /// Returns the difference of another point, in depth or normal, as SRAA's metric `depth-normals` has it.
-    pub fn unlike(&self, other: &Point) -> f32 {
+    pub fn difference_to(&self, other: &Point) -> f32 {
         let turned = match (self.normal, other.normal) {
             (Some(a), Some(b)) => 1.0 - a.dot(b),
             _ => 0.0,
@@ -67,7 +67,7 @@ pub struct Surfaces<'a> {
 
 impl<'a> Surfaces<'a> {
     /// Of captures of one view; shading is where the first has it. `None` of no captures.
-    pub fn of(captures: &[&'a Capture]) -> Option<Surfaces<'a>> {
+    pub fn from_captures(captures: &[&'a Capture]) -> Option<Surfaces<'a>> {
         let first = captures.first()?;
         let mut layers = Vec::new();
         for capture in captures {
@@ -95,12 +95,12 @@ impl<'a> Surfaces<'a> {
     }
 
     /// Returns the number of samples of a pixel.
-    pub fn samples(&self) -> usize {
+    pub fn sample_count(&self) -> usize {
         self.layers.len()
     }
 
     /// Returns the points that the shading samples of a pixel see; none outside the picture.
-    pub fn shaded(&self, pixel: IVec2) -> impl Iterator<Item = Point> {
+    pub fn shaded_points(&self, pixel: IVec2) -> impl Iterator<Item = Point> {
         let inside = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(self.size.as_ivec2()).all();
         let shaded = if inside { &self.shaded[..] } else { &[] };
         shaded.iter().map(move |layer| self.point(pixel.as_uvec2(), *layer))
@@ -123,7 +123,7 @@ impl<'a> Surfaces<'a> {
     }
 
     /// Returns whether two points are of one surface.
-    pub fn same(&self, a: &Point, b: &Point) -> bool {
+    pub fn is_same_surface(&self, a: &Point, b: &Point) -> bool {
         let sky = |point: &Point| point.depth.is_nan() || point.depth >= SKY_DEPTH;
         match (sky(a), sky(b)) {
             (true, true) => return true,

@@ -1,6 +1,6 @@
 //! Kinds of pixels and bounds, on pictures whose surfaces are known.
 
-use super::bounds::{by_coverage, ideal, once_a_surface, where_edges_are};
+use super::bounds::{by_coverage, once_a_surface, reconstruct_ideal, where_edges_are};
 use super::classes::{Classes, varies_within};
 use super::surfaces::Surfaces;
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec3};
@@ -89,7 +89,7 @@ fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>)
 }
 
 fn classes(capture: &Capture, shaded: &[Frame<Vec4>]) -> Classes {
-    let surfaces = Surfaces::of(&[capture]).expect("a capture");
+    let surfaces = Surfaces::from_captures(&[capture]).expect("a capture");
     Classes::new(&surfaces, &varies_within(shaded))
 }
 
@@ -145,9 +145,9 @@ fn what_no_shading_sample_saw_is_unseen_and_takes_the_nearest_colour() {
     });
     let found = classes(&capture, &shaded);
     assert_eq!((columns(&found.geometry), columns(&found.unseen)), (vec![3], vec![3]));
-    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
     let bound = mean(&shaded).expect("pictures");
-    let best = ideal(&surfaces, &shaded, &capture.color);
+    let best = reconstruct_ideal(&surfaces, &shaded, &capture.color);
     for k in 0..best.texels().len() {
         let lost = k % SIZE.x as usize == 3;
         assert_eq!(best.texels()[k].x, 0.25, "{k}");
@@ -160,10 +160,10 @@ fn what_was_seen_has_its_true_colour() {
     let left = plane(Vec3::Z, vec3(0.0, 0.0, -5.0), 0.25);
     let right = plane(Vec3::Z, vec3(0.0, 0.0, -7.0), 1.0);
     let (capture, shaded) = captured(|place| Some(if place.x < 3.7 { left } else { right }));
-    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
     let bound = mean(&shaded).expect("pictures");
     assert_eq!(
-        ideal(&surfaces, &shaded, &capture.color).texels(),
+        reconstruct_ideal(&surfaces, &shaded, &capture.color).texels(),
         bound.texels(),
         "all surfaces were seen"
     );
@@ -180,7 +180,7 @@ fn deferred_multisampling_shades_every_sample_at_edges_alone() {
         x if x < 6.6 => Some(wall(0.2)),
         _ => Some(wall(0.8)),
     });
-    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
     let (found, all) = (where_edges_are(&surfaces, &shaded), mean(&shaded).expect("pictures"));
     for k in 0..found.texels().len() {
         let expected = if k % SIZE.x as usize == 3 { &all } else { &shaded[0] };
@@ -194,7 +194,7 @@ fn coverage_counts_all_samples_and_colours_few() {
     let left = plane(Vec3::Z, vec3(0.0, 0.0, -5.0), 0.25);
     let right = plane(Vec3::Z, vec3(0.0, 0.0, -7.0), 1.0);
     let (capture, shaded) = captured(|place| Some(if place.x < 3.7 { left } else { right }));
-    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
     let all = mean(&shaded).expect("pictures");
     // Both surfaces are among the stored colours, wherever they are stored.
     let sides: Vec<usize> = (0..4).filter(|k| capture.samples[*k].x > 0.2).take(1).collect();
@@ -220,7 +220,7 @@ fn multisampling_shades_a_surface_once() {
         ))
     };
     let (capture, shaded) = captured(painted);
-    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
     assert_eq!(once_a_surface(&surfaces, &shaded).texels(), shaded[0].texels());
     assert_ne!(mean(&shaded).expect("pictures").texels(), shaded[0].texels());
 }

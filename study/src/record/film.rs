@@ -31,7 +31,7 @@ pub struct FilmedMethod {
 
 impl FilmedMethod {
     /// Over all frames: the root of their mean square.
-    pub fn error(&self) -> f64 {
+    pub fn rms_error(&self) -> f64 {
         let squares: f64 = self.errors.iter().map(|error| error * error).sum();
         (squares / self.errors.len().max(1) as f64).sqrt()
     }
@@ -40,7 +40,7 @@ impl FilmedMethod {
 impl Record for FilmRecord {
     const STEM: &'static str = "film";
 
-    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
         let rows = self.methods.iter().flat_map(|method| {
             let errors = method.errors.iter().enumerate();
             errors.map(|(k, error)| vec![method.method.clone(), (k + 1).to_string(), error.to_string()])

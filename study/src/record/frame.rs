@@ -86,7 +86,7 @@ pub struct FrameRecord {
 impl Record for FrameRecord {
     const STEM: &'static str = "frame";
 
-    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
         let head = vec![
             "method",
             "options",

@@ -104,7 +104,7 @@ pub struct HardRecord {
 
 impl HardRecord {
     /// Results that must be finite and within their bounds and are not, each with its case.
-    pub fn broken(&self) -> impl Iterator<Item = (&HardCase, &HardResult)> {
+    pub fn broken_results(&self) -> impl Iterator<Item = (&HardCase, &HardResult)> {
         let results = self
             .cases
             .iter()
@@ -126,7 +126,7 @@ impl HardRecord {
 impl Record for HardRecord {
     const STEM: &'static str = "hard";
 
-    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
         let head = vec![
             "case",
             "kernel",
@@ -149,7 +149,7 @@ impl Record for HardRecord {
                     case.name.clone(),
                     r.kernel.clone(),
                     r.precision.clone(),
-                    super::name(&r.executor),
+                    super::json_name(&r.executor),
                     r.pixels.to_string(),
                     r.non_finite.to_string(),
                     optional(r.difference),

@@ -42,7 +42,7 @@ impl IsaForm {
     ];
 
     /// Name for readers.
-    pub fn name(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             IsaForm::Unrolled => "unrolled",
             IsaForm::Looped => "looped",
@@ -73,7 +73,7 @@ impl SpirvPath {
     pub const ALL: [SpirvPath; 3] = [SpirvPath::Naga, SpirvPath::NagaBounded, SpirvPath::Glslang];
 
     /// Name for readers.
-    pub fn name(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             SpirvPath::Naga => "naga",
             SpirvPath::NagaBounded => "naga, bounded",
@@ -120,23 +120,23 @@ pub struct IsaRecord {
 impl Record for IsaRecord {
     const STEM: &'static str = "isa";
 
-    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
         let mut head = vec!["kernel", "options", "form", "SPIR-V by", "alive", "family"];
-        head.extend(Figures::default().named().map(|(name, _)| name));
+        head.extend(Figures::default().named_figures().map(|(name, _)| name));
         let row = |asked: &Asked, family: &Family, figures: &Figures| {
             let options: Vec<String> = asked.options.iter().map(|(k, v)| format!("{k}={v}")).collect();
             let alive = asked.alive.map_or(String::new(), |alive| alive.to_string());
             let words = [
                 &*asked.kernel,
                 &options.join(" "),
-                asked.form.name(),
-                asked.path.name(),
+                asked.form.display_name(),
+                asked.path.display_name(),
                 &alive,
                 family.name(),
             ];
             let words = words.map(str::to_owned).into_iter();
             words
-                .chain(figures.named().map(|(_, figure)| figure.to_string()))
+                .chain(figures.named_figures().map(|(_, figure)| figure.to_string()))
                 .collect()
         };
         let shaders = self.shaders.iter();

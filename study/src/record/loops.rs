@@ -59,7 +59,7 @@ impl FormKind {
     ];
 
     /// A name for people.
-    pub fn words(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             FormKind::Looped => "looped",
             FormKind::LoopedUnchecked => "looped, unbounded",
@@ -142,7 +142,7 @@ pub struct LoopsRecord {
 impl Record for LoopsRecord {
     const STEM: &'static str = "loops";
 
-    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
         let head = vec![
             "kernel",
             "form",
@@ -165,7 +165,7 @@ impl Record for LoopsRecord {
             kernel.forms.iter().map(move |form| {
                 vec![
                     kernel.kernel.clone(),
-                    super::name(&form.kind),
+                    super::json_name(&form.kind),
                     form.loops.to_string(),
                     form.statements.to_string(),
                     form.reads.to_string(),

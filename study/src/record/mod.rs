@@ -62,7 +62,7 @@ pub trait Record: Serialize + DeserializeOwned {
     const STEM: &'static str;
 
     /// Headings of the table, and its rows.
-    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>);
+    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>);
 
     /// Writes `STEM.json` and `STEM.csv` into `folder`, which is made if it is not there. Each is whole or as it was before.
     ///
@@ -79,7 +79,7 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// [`RecordError`] names the file.
     fn write_as(&self, folder: &Path, stem: &str) -> Result<(), RecordError> {
-        files::write_all(folder, &self.files(stem)?)?;
+        files::write_all(folder, &self.to_files(stem)?)?;
         Ok(())
     }
 
@@ -88,14 +88,14 @@ pub trait Record: Serialize + DeserializeOwned {
     /// # Errors
     ///
     /// [`RecordError::Json`].
-    fn files(&self, stem: &str) -> Result<BTreeMap<String, Vec<u8>>, RecordError> {
+    fn to_files(&self, stem: &str) -> Result<BTreeMap<String, Vec<u8>>, RecordError> {
         let [json, csv] = ["json", "csv"].map(|extension| format!("{stem}.{extension}"));
         let mut text = serde_json::to_vec_pretty(self).map_err(|source| RecordError::Json {
             path: PathBuf::from(&json),
             source,
         })?;
         text.push(b'\n');
-        Ok(BTreeMap::from([(json, text), (csv, self.csv().into_bytes())]))
+        Ok(BTreeMap::from([(json, text), (csv, self.to_csv().into_bytes())]))
     }
 
     /// Reads a record from a JSON file, which may be packed ([`read_file`]).
@@ -112,12 +112,12 @@ pub trait Record: Serialize + DeserializeOwned {
     }
 
     /// The table as CSV (RFC 4180).
-    fn csv(&self) -> String {
+    fn to_csv(&self) -> String {
         let quoted = |cell: &str| match cell.contains(['"', ',', '\n']) {
             true => format!("\"{}\"", cell.replace('"', "\"\"")),
             false => cell.to_owned(),
         };
-        let (head, rows) = self.table();
+        let (head, rows) = self.to_table();
         let mut text = head.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n";
         for row in rows {
             text += &row.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
@@ -161,7 +161,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, RecordError> {
         path: path.to_owned(),
         source,
     };
-    let bytes = files::read(path, MAX_RECORD).map_err(refused)?;
+    let bytes = files::read_file(path, MAX_RECORD).map_err(refused)?;
     if path.extension().is_none_or(|extension| extension != "gz") {
         return Ok(bytes);
     }
@@ -177,7 +177,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, RecordError> {
 }
 
 /// Name of a value in JSON.
-pub(crate) fn name(value: &impl Serialize) -> String {
+pub(crate) fn json_name(value: &impl Serialize) -> String {
     match serde_json::to_value(value) {
         Ok(serde_json::Value::String(text)) => text,
         Ok(other) => other.to_string(),

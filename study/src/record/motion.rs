@@ -23,7 +23,7 @@ impl Motion {
     pub const ALL: [Motion; 4] = [Motion::Still, Motion::Pan, Motion::Turn, Motion::Board];
 
     /// For people.
-    pub fn name(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             Motion::Still => "still",
             Motion::Pan => "pan",
@@ -74,12 +74,12 @@ pub struct MovedMethod {
 impl Record for MotionRecord {
     const STEM: &'static str = "motion";
 
-    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
         let rows = self.scenes.iter().flat_map(|scene| {
             scene.methods.iter().map(|found| {
                 let mut row = vec![
                     scene.scene.clone(),
-                    scene.motion.name().to_owned(),
+                    scene.motion.display_name().to_owned(),
                     found.method.clone(),
                 ];
                 row.extend([found.psnr, found.flip, found.flicker].map(|figure| figure.to_string()));

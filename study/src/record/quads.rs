@@ -58,7 +58,7 @@ pub struct QuadWay {
 impl Record for QuadsRecord {
     const STEM: &'static str = "quads";
 
-    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
         let head = vec![
             "filter",
             "way",

@@ -143,7 +143,7 @@ pub struct QualityRecord {
 impl Record for QualityRecord {
     const STEM: &'static str = "error";
 
-    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
         let head = vec![
             "scene",
             "method",
@@ -167,7 +167,7 @@ impl Record for QualityRecord {
                 vec![
                     scene.scene.clone(),
                     m.method.clone(),
-                    super::name(&m.family),
+                    super::json_name(&m.family),
                     format!("{:.4}", m.psnr),
                     format!("{:.6}", m.ssim),
                     format!("{:.6}", m.flip),

@@ -98,7 +98,7 @@ impl Record for SweepRecord {
     const STEM: &'static str = "sweep";
 
     /// Tidy: a row for each variant and round, and one for a variant that was refused.
-    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
         const FIGURES: [&str; 13] = [
             "rival",
             "round",

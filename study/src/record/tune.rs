@@ -174,7 +174,7 @@ impl TuneRecord {
 
 impl Candidate {
     /// Returns the measured cost, in the record's unit, if there is one.
-    pub fn measured(&self) -> Option<f64> {
+    pub fn measured_cost(&self) -> Option<f64> {
         self.cycles.or(self.time.map(|time| time.median_ms))
     }
 
@@ -192,7 +192,7 @@ impl Candidate {
 impl Record for TuneRecord {
     const STEM: &'static str = "tune";
 
-    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
         let head = vec![
             "options",
             "precision",

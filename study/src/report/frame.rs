@@ -1,8 +1,8 @@
 //! Time of a whole frame against its error.
 
-use super::plot::{Dot, Line, Plot, Scale, number};
-use super::quality::{color, legend};
-use super::{ReportError, caption};
+use super::plot::{Dot, Line, Plot, Scale, format_number};
+use super::quality::{color_index, family_legend};
+use super::{ReportError, format_caption};
 use crate::record::{FrameMethod, FrameRecord};
 use serde::Serialize;
 
@@ -30,21 +30,21 @@ const FEW: usize = 16;
 /// Errors are shown in thousandths, which have short labels.
 const THOUSANDTHS: f64 = 1000.0;
 
-pub(super) fn section(record: &FrameRecord) -> Result<Frames, ReportError> {
+pub(super) fn build_section(record: &FrameRecord) -> Result<Frames, ReportError> {
     let panels = record.shading_ms.iter().enumerate().map(|(k, ms)| {
         Ok(Panel {
-            title: format!("Shading one sample of every pixel takes {} ms", number(*ms)),
-            plot: plot(record, k, (980, 440))?,
+            title: format!("Shading one sample of every pixel takes {} ms", format_number(*ms)),
+            plot: plot_frames(record, k, (980, 440))?,
         })
     });
     Ok(Frames {
         scene: record.scene.clone(),
-        legend: legend(|family| record.methods.iter().any(|method| method.family == family)),
+        legend: family_legend(|family| record.methods.iter().any(|method| method.family == family)),
         panels: panels.collect::<Result<_, ReportError>>()?,
-        rows: record.methods.iter().map(row).collect(),
+        rows: record.methods.iter().map(build_row).collect(),
         absent: record.absent.clone(),
-        passes: caption(&record.passes),
-        errors: caption(&record.errors),
+        passes: format_caption(&record.passes),
+        errors: format_caption(&record.errors),
     })
 }
 
@@ -53,7 +53,7 @@ pub(super) fn section(record: &FrameRecord) -> Result<Frames, ReportError> {
 /// # Errors
 ///
 /// [`ReportError::Plot`], if there are none.
-pub fn plot(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<String, ReportError> {
+pub fn plot_frames(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<String, ReportError> {
     let shown: Vec<&FrameMethod> = record.methods.iter().filter(|m| m.psnr.is_finite()).collect();
     let mut front: Vec<(f64, f64)> = shown
         .iter()
@@ -66,9 +66,9 @@ pub fn plot(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<Strin
     let dots = shown.iter().map(|m| Dot {
         at: (m.frames[cost].ms, THOUSANDTHS * m.error),
         spread: None,
-        color: color(m.family),
+        color: color_index(m.family),
         label: is_named(m).then(|| m.method.clone()),
-        title: title(m, cost),
+        title: method_title(m, cost),
     });
     let plot = Plot {
         size,
@@ -86,35 +86,35 @@ pub fn plot(record: &FrameRecord, cost: usize, size: (u32, u32)) -> Result<Strin
             label: None,
         }],
     };
-    plot.svg()
+    plot.to_svg()
 }
 
-fn title(method: &FrameMethod, cost: usize) -> String {
+fn method_title(method: &FrameMethod, cost: usize) -> String {
     format!(
         "{}: {} ms a frame (geometry {}, {} shading samples, filter {}), error {:.4}, {:.2} dB, {:.0} MB",
         method.method,
-        number(method.frames[cost].ms),
-        number(method.geometry_ms),
+        format_number(method.frames[cost].ms),
+        format_number(method.geometry_ms),
         method.shaded,
-        number(method.filter_ms),
+        format_number(method.filter_ms),
         method.error,
         method.psnr,
         method.bytes as f64 / 1e6
     )
 }
 
-fn row(method: &FrameMethod) -> Vec<String> {
+fn build_row(method: &FrameMethod) -> Vec<String> {
     let mut row = vec![
         method.method.clone(),
         format!("{:.4}", method.error),
         format!("{:.2}", method.psnr),
-        number(method.geometry_ms),
+        format_number(method.geometry_ms),
         method.shaded.to_string(),
-        number(method.filter_ms),
+        format_number(method.filter_ms),
     ];
     row.extend(method.frames.iter().map(|frame| {
         let best = if frame.is_best { " ●" } else { "" };
-        format!("{}{best}", number(frame.ms))
+        format!("{}{best}", format_number(frame.ms))
     }));
     row.push(format!("{:.0}", method.bytes as f64 / 1e6));
     row

@@ -1,6 +1,6 @@
 //! Hard cases.
 
-use super::caption;
+use super::format_caption;
 use crate::record::{Executor, HalfVerdict, HardRecord, HardResult};
 use serde::Serialize;
 
@@ -56,7 +56,7 @@ const CLASSES: [(&str, &str); 5] = [
     ("bad", "not finite"),
 ];
 
-pub(super) fn section(record: &HardRecord) -> Hard {
+pub(super) fn build_section(record: &HardRecord) -> Hard {
     let mut precisions: Vec<&str> = Vec::new();
     for result in record.cases.iter().flat_map(|case| &case.results) {
         if !precisions.contains(&result.precision.as_str()) {
@@ -64,7 +64,10 @@ pub(super) fn section(record: &HardRecord) -> Hard {
         }
     }
     precisions.sort_by_key(|precision| std::cmp::Reverse(*precision));
-    let precisions: Vec<Matrix> = precisions.iter().map(|precision| matrix(record, precision)).collect();
+    let precisions: Vec<Matrix> = precisions
+        .iter()
+        .map(|precision| build_matrix(record, precision))
+        .collect();
     let cells = || {
         precisions
             .iter()
@@ -76,14 +79,14 @@ pub(super) fn section(record: &HardRecord) -> Hard {
         (*words, count, *class)
     });
     Hard {
-        caption: caption(&record.circumstances),
+        caption: format_caption(&record.circumstances),
         tally: tally.collect(),
-        half: record.half.iter().map(half).collect(),
+        half: record.half.iter().map(build_half_row).collect(),
         precisions,
     }
 }
 
-fn matrix(record: &HardRecord, precision: &str) -> Matrix {
+fn build_matrix(record: &HardRecord, precision: &str) -> Matrix {
     let mut columns: Vec<String> = Vec::new();
     for result in record.cases.iter().flat_map(|case| &case.results) {
         if result.precision == precision && !columns.contains(&result.kernel) {
@@ -96,7 +99,7 @@ fn matrix(record: &HardRecord, precision: &str) -> Matrix {
             let own: Vec<&HardResult> = own
                 .filter(|r| r.kernel == *kernel && r.precision == precision)
                 .collect();
-            cell(&own)
+            build_cell(&own)
         };
         Row {
             name: case.name.clone(),
@@ -111,7 +114,7 @@ fn matrix(record: &HardRecord, precision: &str) -> Matrix {
     }
 }
 
-fn executor(result: &HardResult) -> &'static str {
+fn executor_name(result: &HardResult) -> &'static str {
     match result.executor {
         Executor::Interpreter => "interpreter",
         Executor::InterpreterFlushed => "interpreter, subnormals flushed",
@@ -121,7 +124,7 @@ fn executor(result: &HardResult) -> &'static str {
 }
 
 /// Place in [`CLASSES`].
-fn classify(result: &HardResult) -> usize {
+fn classify_result(result: &HardResult) -> usize {
     match result {
         r if r.refused.is_some() => 0,
         r if r.non_finite > 0 => 4,
@@ -131,8 +134,8 @@ fn classify(result: &HardResult) -> usize {
     }
 }
 
-fn cell(results: &[&HardResult]) -> Option<Cell> {
-    let worst = results.iter().map(|result| classify(result)).max()?;
+fn build_cell(results: &[&HardResult]) -> Option<Cell> {
+    let worst = results.iter().map(|result| classify_result(result)).max()?;
     let (class, _) = CLASSES[worst];
     let text = match class {
         "refused" => "·".to_owned(),
@@ -149,24 +152,28 @@ fn cell(results: &[&HardResult]) -> Option<Cell> {
     Some(Cell {
         class,
         text,
-        title: results.iter().map(|result| told(result)).collect::<Vec<_>>().join("\n"),
+        title: results
+            .iter()
+            .map(|result| describe_result(result))
+            .collect::<Vec<_>>()
+            .join("\n"),
     })
 }
 
 /// A result in a line.
-fn told(result: &HardResult) -> String {
+fn describe_result(result: &HardResult) -> String {
     if let Some(why) = &result.refused {
-        return format!("{}: {why}", executor(result));
+        return format!("{}: {why}", executor_name(result));
     }
     let mut words = vec![format!("{} of {} pixels not finite", result.non_finite, result.pixels)];
     words.extend(result.difference.map(|d| format!("off f64 by {d:.2e}")));
     words.extend(result.ulps.map(|u| format!("{u:.1} ULP")));
     words.extend(result.bound.map(|b| format!("bound {b:.1e}")));
     words.extend(result.born.as_ref().map(|b| format!("born at {b}")));
-    format!("{}: {}", executor(result), words.join(", "))
+    format!("{}: {}", executor_name(result), words.join(", "))
 }
 
-fn half(verdict: &HalfVerdict) -> Half {
+fn build_half_row(verdict: &HalfVerdict) -> Half {
     let number = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.1e}"));
     Half {
         kernel: verdict.kernel.clone(),

@@ -24,12 +24,12 @@ struct OfFamily {
     rows: Vec<Vec<String>>,
 }
 
-pub(super) fn section(record: &IsaRecord) -> Isa {
+pub(super) fn build_section(record: &IsaRecord) -> Isa {
     let row = |asked: &Asked, figures: &Figures| {
         let words = [
             asked.kernel.clone(),
-            asked.form.name().to_owned(),
-            asked.path.name().to_owned(),
+            asked.form.display_name().to_owned(),
+            asked.path.display_name().to_owned(),
         ];
         let figures = figures.in_short().map(|(_, figure)| figure.to_string());
         words.into_iter().chain(figures).collect()
@@ -44,7 +44,7 @@ pub(super) fn section(record: &IsaRecord) -> Isa {
     };
     let refused = record.shaders.iter().filter_map(|asked| {
         let why = asked.refused.clone()?;
-        Some([asked.kernel.clone(), asked.form.name().to_owned(), why])
+        Some([asked.kernel.clone(), asked.form.display_name().to_owned(), why])
     });
     Isa {
         command: record.command.clone(),

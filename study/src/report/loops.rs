@@ -1,7 +1,7 @@
 //! Unroll against loop.
 
-use super::plot::{Dot, Line, Plot, Scale, number};
-use super::{ReportError, caption, options};
+use super::plot::{Dot, Line, Plot, Scale, format_number};
+use super::{ReportError, format_caption, format_options};
 use crate::record::{Form, FormKind, KernelForms, LoopsRecord};
 use serde::Serialize;
 
@@ -42,7 +42,7 @@ struct Row {
 }
 
 /// Index of a form's colour.
-fn color(kind: FormKind) -> usize {
+fn color_index(kind: FormKind) -> usize {
     match kind {
         FormKind::Full => 0,
         FormKind::LoopedByHandUnchecked => 1,
@@ -58,20 +58,20 @@ fn color(kind: FormKind) -> usize {
     }
 }
 
-pub(super) fn section(record: &LoopsRecord) -> Result<Loops, ReportError> {
+pub(super) fn build_section(record: &LoopsRecord) -> Result<Loops, ReportError> {
     let shown = FormKind::ALL.into_iter().filter(|kind| *kind != FormKind::Looped);
     Ok(Loops {
-        caption: caption(&record.circumstances),
-        overview: overview(record)?,
-        curves: curves(record)?,
+        caption: format_caption(&record.circumstances),
+        overview: plot_overview(record)?,
+        curves: plot_curves(record)?,
         legend: shown
-            .map(|kind| (kind.words(), super::plot::COLORS[color(kind)]))
+            .map(|kind| (kind.display_name(), super::plot::COLORS[color_index(kind)]))
             .collect(),
-        kernels: record.kernels.iter().map(kernel).collect(),
+        kernels: record.kernels.iter().map(build_kernel).collect(),
     })
 }
 
-fn overview(record: &LoopsRecord) -> Result<String, ReportError> {
+fn plot_overview(record: &LoopsRecord) -> Result<String, ReportError> {
     let count = record.kernels.len();
     let mut dots = Vec::new();
     for (row, kernel) in record.kernels.iter().enumerate() {
@@ -79,16 +79,16 @@ fn overview(record: &LoopsRecord) -> Result<String, ReportError> {
             dots.push(Dot {
                 at: (form.ratio.median, (count - 1 - row) as f64),
                 spread: Some((form.ratio.low, form.ratio.high)),
-                color: color(form.kind),
+                color: color_index(form.kind),
                 label: None,
                 title: format!(
                     "{}, {}: {}× as fast as looped ({} to {}), {} ms",
                     kernel.kernel,
-                    form.kind.words(),
-                    number(form.ratio.median),
-                    number(form.ratio.low),
-                    number(form.ratio.high),
-                    number(form.time.median_ms)
+                    form.kind.display_name(),
+                    format_number(form.ratio.median),
+                    format_number(form.ratio.low),
+                    format_number(form.ratio.high),
+                    format_number(form.time.median_ms)
                 ),
             });
         }
@@ -110,10 +110,10 @@ fn overview(record: &LoopsRecord) -> Result<String, ReportError> {
         dots,
         lines: vec![one],
     };
-    plot.svg()
+    plot.to_svg()
 }
 
-fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
+fn plot_curves(record: &LoopsRecord) -> Result<String, ReportError> {
     const STEPS: [FormKind; 6] = [
         FormKind::Looped,
         FormKind::Partial2,
@@ -142,8 +142,8 @@ fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
                     title: format!(
                         "{}, {}: {}×",
                         kernel.kernel,
-                        form.kind.words(),
-                        number(form.ratio.median)
+                        form.kind.display_name(),
+                        format_number(form.ratio.median)
                     ),
                 });
             }
@@ -159,39 +159,43 @@ fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
         size: (980, 460),
         axes: (String::new(), "speedup over the loop".to_owned()),
         scales: (
-            Scale::Names(STEPS.iter().map(|kind| kind.words().to_owned()).collect()),
+            Scale::Names(STEPS.iter().map(|kind| kind.display_name().to_owned()).collect()),
             Scale::Log,
         ),
         across: false,
         dots,
         lines,
     };
-    plot.svg()
+    plot.to_svg()
 }
 
-fn kernel(kernel: &KernelForms) -> Kernel {
+fn build_kernel(kernel: &KernelForms) -> Kernel {
     Kernel {
         name: kernel.kernel.clone(),
-        options: options(&kernel.options),
+        options: format_options(&kernel.options),
         input: kernel.input.clone(),
-        rows: kernel.forms.iter().map(row).collect(),
+        rows: kernel.forms.iter().map(build_row).collect(),
         absent: kernel
             .absent
             .iter()
-            .map(|(kind, why)| (kind.words(), why.clone()))
+            .map(|(kind, why)| (kind.display_name(), why.clone()))
             .collect(),
     }
 }
 
-fn row(form: &Form) -> Row {
+fn build_row(form: &Form) -> Row {
     let error = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.0e}"));
     Row {
-        form: form.kind.words(),
-        time: number(form.time.median_ms),
-        spread: format!("{} to {}", number(form.time.min_ms), number(form.time.max_ms)),
+        form: form.kind.display_name(),
+        time: format_number(form.time.median_ms),
+        spread: format!(
+            "{} to {}",
+            format_number(form.time.min_ms),
+            format_number(form.time.max_ms)
+        ),
         ratio: format!("{:.2}", form.ratio.median),
         ratio_spread: format!("{:.2} to {:.2}", form.ratio.low, form.ratio.high),
-        pipeline: number(form.pipeline_ms),
+        pipeline: format_number(form.pipeline_ms),
         loops: form.loops,
         statements: form.statements,
         reads: form.reads,

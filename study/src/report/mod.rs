@@ -19,7 +19,7 @@ use straightline_codegen::files;
 use straightline_kernels::OptionText;
 use tera::{Context, Tera};
 
-pub use frame::plot as frame_plot;
+pub use frame::plot_frames as frame_plot;
 
 /// Name of the page.
 pub const PAGE: &str = "report.html";
@@ -51,8 +51,8 @@ pub enum ReportError {
 /// # Errors
 ///
 /// [`ReportError`]; the page is whole, or as it was before.
-pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
-    let html = page(folder)?.into_bytes();
+pub fn write_report(folder: &Path) -> Result<PathBuf, ReportError> {
+    let html = render_page(folder)?.into_bytes();
     files::write_all(folder, &BTreeMap::from([(PAGE.to_owned(), html)])).map_err(RecordError::from)?;
     Ok(folder.join(PAGE))
 }
@@ -62,16 +62,16 @@ pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
 /// # Errors
 ///
 /// [`ReportError`].
-pub fn page(folder: &Path) -> Result<String, ReportError> {
+pub fn render_page(folder: &Path) -> Result<String, ReportError> {
     let mut pictures = pictures::Pictures::default();
-    let frame = sections(folder, |record: FrameRecord| frame::section(&record))?;
-    let loops = sections(folder, |record: LoopsRecord| loops::section(&record))?;
-    let quality = sections(folder, |record: QualityRecord| {
-        quality::section(&record, folder, &mut pictures)
+    let frame = load_sections(folder, |record: FrameRecord| frame::build_section(&record))?;
+    let loops = load_sections(folder, |record: LoopsRecord| loops::build_section(&record))?;
+    let quality = load_sections(folder, |record: QualityRecord| {
+        quality::build_section(&record, folder, &mut pictures)
     })?;
-    let hard = sections(folder, |record: HardRecord| Ok(hard::section(&record)))?;
-    let isa = sections(folder, |record: IsaRecord| Ok(isa::section(&record)))?;
-    let tune = sections(folder, |record: TuneRecord| tune::section(&record))?;
+    let hard = load_sections(folder, |record: HardRecord| Ok(hard::build_section(&record)))?;
+    let isa = load_sections(folder, |record: IsaRecord| Ok(isa::build_section(&record)))?;
+    let tune = load_sections(folder, |record: TuneRecord| tune::build_section(&record))?;
     if frame.is_empty()
         && loops.is_empty()
         && quality.is_empty()
@@ -129,7 +129,7 @@ struct Section<T> {
 }
 
 /// Every record of a kind in the folder, in order of name.
-fn sections<R: Record, T>(
+fn load_sections<R: Record, T>(
     folder: &Path,
     mut body: impl FnMut(R) -> Result<T, ReportError>,
 ) -> Result<Vec<Section<T>>, ReportError> {
@@ -141,7 +141,7 @@ fn sections<R: Record, T>(
     })?;
     let mut files: Vec<String> = entries
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| belongs(name, R::STEM))
+        .filter(|name| is_record_file(name, R::STEM))
         .collect();
     files.sort();
     let section = |file: String| {
@@ -152,14 +152,14 @@ fn sections<R: Record, T>(
 }
 
 /// Returns whether a file is `STEM.json` or `STEM-SOMETHING.json`.
-fn belongs(file: &str, stem: &str) -> bool {
+fn is_record_file(file: &str, stem: &str) -> bool {
     file.strip_suffix(".json")
         .and_then(|name| name.strip_prefix(stem))
         .is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
 }
 
 /// The circumstances in a line, for the caption of a figure.
-fn caption(circumstances: &Circumstances) -> String {
+fn format_caption(circumstances: &Circumstances) -> String {
     let Circumstances {
         command,
         date,
@@ -186,7 +186,7 @@ fn caption(circumstances: &Circumstances) -> String {
 }
 
 /// Options as one would write them on a command line.
-fn options(options: &[OptionText]) -> String {
+fn format_options(options: &[OptionText]) -> String {
     let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
     words.join(" ")
 }
@@ -197,23 +197,27 @@ mod tests {
 
     #[test]
     fn records_are_known_by_their_names() {
-        assert!(belongs("loops.json", "loops") && belongs("loops-lavapipe.json", "loops"));
-        assert!(!belongs("loops.csv", "loops") && !belongs("loopsy.json", "loops") && !belongs("error.json", "loops"));
+        assert!(is_record_file("loops.json", "loops") && is_record_file("loops-lavapipe.json", "loops"));
+        assert!(
+            !is_record_file("loops.csv", "loops")
+                && !is_record_file("loopsy.json", "loops")
+                && !is_record_file("error.json", "loops")
+        );
     }
 
     #[test]
     fn an_empty_folder_has_no_page() {
         let folder = std::env::temp_dir().join(format!("straightline-report-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
-        let error = page(&folder).unwrap_err().to_string();
+        let error = render_page(&folder).unwrap_err().to_string();
         assert!(error.contains("no record") && error.contains("study loops"), "{error}");
         std::fs::write(folder.join("hard.json"), "{}").unwrap();
-        let error = page(&folder).unwrap_err().to_string();
+        let error = render_page(&folder).unwrap_err().to_string();
         assert!(
             error.contains("hard.json") && error.contains("missing field"),
             "{error}"
         );
         std::fs::remove_dir_all(&folder).unwrap();
-        assert!(page(&folder).unwrap_err().to_string().contains("cannot read"));
+        assert!(render_page(&folder).unwrap_err().to_string().contains("cannot read"));
     }
 }

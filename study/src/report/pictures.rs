@@ -52,7 +52,7 @@ impl Pictures {
     }
 
     /// Shows the part of the pictures in which `first` is most wrong: `files` are names with paths from `folder`.
-    pub(super) fn compare(
+    pub(super) fn compare_worst_part(
         &mut self,
         folder: &Path,
         reference: &str,
@@ -69,15 +69,17 @@ impl Pictures {
             return Ok(None);
         }
         let size = best.size().min(WINDOW);
-        let wrong = Wrong::of(first, best);
-        let corner = wrong.worst(size, UVec2::ZERO, best.size(), &[]).unwrap_or_default();
+        let wrong = Wrong::from_frames(first, best);
+        let corner = wrong
+            .worst_corner(size, UVec2::ZERO, best.size(), &[])
+            .unwrap_or_default();
         let mut details: Vec<UVec2> = Vec::new();
         for _ in 0..DETAILS {
-            details.extend(wrong.worst(DETAIL, corner, corner + size, &details));
+            details.extend(wrong.worst_corner(DETAIL, corner, corner + size, &details));
         }
         let pictures: Result<Vec<Shown>, PictureError> = frames
             .iter()
-            .map(|(name, frame)| self.show(name, &part(frame, corner, size)))
+            .map(|(name, frame)| self.embed_picture(name, &crop_frame(frame, corner, size)))
             .collect();
         Ok(Some(Compared {
             size: size.to_array(),
@@ -87,7 +89,7 @@ impl Pictures {
         }))
     }
 
-    fn show(&mut self, name: &str, frame: &Frame<Vec4>) -> Result<Shown, PictureError> {
+    fn embed_picture(&mut self, name: &str, frame: &Frame<Vec4>) -> Result<Shown, PictureError> {
         let class = format!("picture{}", self.count);
         self.count += 1;
         let png = STANDARD.encode(picture::png_bytes(frame)?);
@@ -109,7 +111,7 @@ struct Wrong {
 }
 
 impl Wrong {
-    fn of(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Wrong {
+    fn from_frames(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Wrong {
         let size = reference.size();
         let stride = size.x as usize + 1;
         let mut sums = vec![0.0; stride * (size.y as usize + 1)];
@@ -128,7 +130,7 @@ impl Wrong {
     }
 
     /// The rectangle of `size` between `from` and `to` with the largest error that does not touch those `taken`.
-    fn worst(&self, size: UVec2, from: UVec2, to: UVec2, taken: &[UVec2]) -> Option<UVec2> {
+    fn worst_corner(&self, size: UVec2, from: UVec2, to: UVec2, taken: &[UVec2]) -> Option<UVec2> {
         let last = to.checked_sub(size)?;
         let step = 4;
         let mut worst = None;
@@ -151,7 +153,7 @@ impl Wrong {
     }
 }
 
-fn part(frame: &Frame<Vec4>, corner: UVec2, size: UVec2) -> Frame<Vec4> {
+fn crop_frame(frame: &Frame<Vec4>, corner: UVec2, size: UVec2) -> Frame<Vec4> {
     let width = frame.size().x as usize;
     let rows = (corner.y..corner.y + size.y).flat_map(|y| {
         let start = y as usize * width + corner.x as usize;
@@ -171,12 +173,12 @@ mod tests {
         let mut texels = flat.texels().to_vec();
         texels[20 * 64 + 41] = Vec4::ONE;
         texels[4 * 64 + 5] = Vec4::splat(0.5);
-        let wrong = Wrong::of(&Frame::new(size, texels), &flat);
+        let wrong = Wrong::from_frames(&Frame::new(size, texels), &flat);
         let part = uvec2(8, 8);
-        let worst = wrong.worst(part, UVec2::ZERO, size, &[]).unwrap();
+        let worst = wrong.worst_corner(part, UVec2::ZERO, size, &[]).unwrap();
         assert!((worst.x..worst.x + 8).contains(&41) && (worst.y..worst.y + 8).contains(&20));
-        let second = wrong.worst(part, UVec2::ZERO, size, &[worst]).unwrap();
+        let second = wrong.worst_corner(part, UVec2::ZERO, size, &[worst]).unwrap();
         assert!((second.x..second.x + 8).contains(&5) && (second.y..second.y + 8).contains(&4));
-        assert_eq!(wrong.worst(uvec2(65, 8), UVec2::ZERO, size, &[]), None);
+        assert_eq!(wrong.worst_corner(uvec2(65, 8), UVec2::ZERO, size, &[]), None);
     }
 }

@@ -21,7 +21,7 @@ const LARGEST: f64 = 1e12;
 pub struct Dot {
     /// Place of the dot.
     pub at: (f64, f64),
-    /// From where to where it may lie across or up, by the axis that [`Plot::whiskers`] names.
+    /// From where to where it may lie across or up, on the axis of the plot's whiskers.
     pub spread: Option<(f64, f64)>,
     /// Index into [`COLORS`].
     pub color: usize,
@@ -78,17 +78,17 @@ impl Plot {
     /// # Errors
     ///
     /// [`ReportError::Plot`] if there is nothing to draw, or a number is not finite.
-    pub fn svg(&self) -> Result<String, ReportError> {
+    pub fn to_svg(&self) -> Result<String, ReportError> {
         let (x, y) = (self.range(|p| p.0, 0)?, self.range(|p| p.1, 1)?);
         let mut text = String::new();
         let marks = {
             let area = SVGBackend::with_string(&mut text, self.size).into_drawing_area();
-            area.fill(&WHITE).map_err(failure)?;
+            area.fill(&WHITE).map_err(plot_error)?;
             match (&self.scales.0, &self.scales.1) {
-                (Scale::Log, Scale::Log) => self.draw(area, x.log_scale().base(2.0), y.log_scale().base(2.0)),
-                (Scale::Log, _) => self.draw(area, x.log_scale().base(2.0), y),
-                (_, Scale::Log) => self.draw(area, x, y.log_scale().base(2.0)),
-                (_, _) => self.draw(area, x, y),
+                (Scale::Log, Scale::Log) => self.draw_chart(area, x.log_scale().base(2.0), y.log_scale().base(2.0)),
+                (Scale::Log, _) => self.draw_chart(area, x.log_scale().base(2.0), y),
+                (_, Scale::Log) => self.draw_chart(area, x, y.log_scale().base(2.0)),
+                (_, _) => self.draw_chart(area, x, y),
             }?
         };
         let end = text.rfind("</svg>").unwrap_or(text.len());
@@ -136,7 +136,7 @@ impl Plot {
     }
 
     /// Axes into the area; points and lines as text to go on top.
-    fn draw<'t, X, Y>(&self, area: DrawingArea<SVGBackend<'t>, Shift>, x: X, y: Y) -> Result<String, ReportError>
+    fn draw_chart<'t, X, Y>(&self, area: DrawingArea<SVGBackend<'t>, Shift>, x: X, y: Y) -> Result<String, ReportError>
     where
         X: AsRangedCoord<Value = f64>,
         Y: AsRangedCoord<Value = f64>,
@@ -157,13 +157,13 @@ impl Plot {
             .x_label_area_size(44)
             .y_label_area_size(left)
             .build_cartesian_2d(x, y)
-            .map_err(failure)?;
+            .map_err(plot_error)?;
         let named = |scale: &Scale, value: &f64| match scale {
             Scale::Names(names) if (value - value.round()).abs() < 1e-6 => {
                 names.get(value.round() as usize).cloned().unwrap_or_default()
             }
             Scale::Names(_) => String::new(),
-            _ => number(*value),
+            _ => format_number(*value),
         };
         let count = |scale: &Scale| match scale {
             Scale::Names(names) => names.len() + 1,
@@ -183,7 +183,7 @@ impl Plot {
             .bold_line_style(RGBColor(228, 228, 228))
             .axis_style(RGBColor(120, 120, 120))
             .draw()
-            .map_err(failure)?;
+            .map_err(plot_error)?;
         let pixel = |at: (f64, f64)| chart.backend_coord(&at);
         let mut marks = String::new();
         let mut taken = Labels::default();
@@ -196,21 +196,21 @@ impl Plot {
         }
         for dot in &self.dots {
             if let Some(label) = &dot.label {
-                taken.beside(pixel(dot.at), label, self.size, &mut marks);
+                taken.place_beside(pixel(dot.at), label, self.size, &mut marks);
             }
         }
-        area.present().map_err(failure)?;
+        area.present().map_err(plot_error)?;
         Ok(marks)
     }
 }
 
 /// Converts an error of plotters.
-fn failure(error: impl std::fmt::Display) -> ReportError {
+fn plot_error(error: impl std::fmt::Display) -> ReportError {
     ReportError::Plot(error.to_string())
 }
 
 /// A number in as few digits as say it.
-pub fn number(value: f64) -> String {
+pub fn format_number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
         v if v >= 100.0 => format!("{value:.0}"),
@@ -241,7 +241,7 @@ impl Dot {
         let _ = write!(
             marks,
             r#"<circle cx="{x}" cy="{y}" r="4.5" fill="{color}" stroke="white"><title>{}</title></circle>"#,
-            escaped(&self.title)
+            escape_xml(&self.title)
         );
     }
 }
@@ -282,14 +282,14 @@ impl Labels {
         self.taken.push([x - 4, y - 4, x + 4, y + 4]);
     }
 
-    fn free(&self, place: [i32; 4]) -> bool {
+    fn is_free(&self, place: [i32; 4]) -> bool {
         self.taken
             .iter()
             .all(|t| place[2] < t[0] || place[0] > t[2] || place[3] < t[1] || place[1] > t[3])
     }
 
     /// To the right of a point, to its left, above or below; nowhere if all of that is taken.
-    fn beside(&mut self, (x, y): (i32, i32), label: &str, size: (u32, u32), marks: &mut String) {
+    fn place_beside(&mut self, (x, y): (i32, i32), label: &str, size: (u32, u32), marks: &mut String) {
         let width = 7 * label.chars().count() as i32;
         for (left, base) in [
             (x + 8, y + 4),
@@ -300,12 +300,12 @@ impl Labels {
             (x + 8, y + 17),
         ] {
             let place = [left, base - 11, left + width, base + 3];
-            if left > 0 && place[2] < size.0 as i32 && self.free(place) {
+            if left > 0 && place[2] < size.0 as i32 && self.is_free(place) {
                 self.taken.push(place);
                 let _ = write!(
                     marks,
                     r#"<text x="{left}" y="{base}" font-family="sans-serif" font-size="12">{}</text>"#,
-                    escaped(label)
+                    escape_xml(label)
                 );
                 return;
             }
@@ -324,13 +324,13 @@ impl Labels {
                     -(step + 1) / 2 * 7
                 };
             let place = [x + 6, base - 10, x + 6 + width, base + 3];
-            if self.free(place) {
+            if self.is_free(place) {
                 self.taken.push(place);
                 let _ = write!(
                     marks,
                     r#"<text x="{}" y="{base}" font-family="sans-serif" font-size="12" fill="{color}">{}</text>"#,
                     x + 6,
-                    escaped(label)
+                    escape_xml(label)
                 );
                 return;
             }
@@ -339,7 +339,7 @@ impl Labels {
 }
 
 /// Text as XML wants it.
-fn escaped(text: &str) -> String {
+fn escape_xml(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
@@ -373,7 +373,7 @@ mod tests {
 
     #[test]
     fn points_lie_where_their_numbers_say() {
-        let svg = plot(vec![dot(1.0, 30.0), dot(4.0, 40.0)]).svg().unwrap();
+        let svg = plot(vec![dot(1.0, 30.0), dot(4.0, 40.0)]).to_svg().unwrap();
         let centre = |k: usize| -> Vec<i32> {
             let circle = svg.split("<circle ").nth(k + 1).unwrap();
             let value = |name: &str| {
@@ -393,13 +393,13 @@ mod tests {
 
     #[test]
     fn nothing_and_nan_are_refused() {
-        assert!(plot(Vec::new()).svg().is_err());
-        assert!(plot(vec![dot(f64::NAN, 1.0)]).svg().is_err());
+        assert!(plot(Vec::new()).to_svg().is_err());
+        assert!(plot(vec![dot(f64::NAN, 1.0)]).to_svg().is_err());
     }
 
     #[test]
     fn numbers_are_short() {
-        let shown: Vec<String> = [0.0, 0.5, 2.0, 31.25, 512.0, 0.0125, 1e-6].map(number).to_vec();
+        let shown: Vec<String> = [0.0, 0.5, 2.0, 31.25, 512.0, 0.0125, 1e-6].map(format_number).to_vec();
         assert_eq!(shown, ["0", "0.5", "2", "31.25", "512", "0.0125", "1.0e-6"]);
     }
 
@@ -408,7 +408,7 @@ mod tests {
         let mut labels = Labels::default();
         let mut marks = String::new();
         for _ in 0..3 {
-            labels.beside((100, 100), "label", (400, 300), &mut marks);
+            labels.place_beside((100, 100), "label", (400, 300), &mut marks);
         }
         let places = &labels.taken;
         assert!(places.len() >= 2);
@@ -416,7 +416,7 @@ mod tests {
             let others = Labels {
                 taken: places[k + 1..].to_vec(),
             };
-            assert!(others.free(*a));
+            assert!(others.is_free(*a));
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Speed against error.
 
 use super::pictures::{Compared, Pictures};
-use super::plot::{Dot, Line, Plot, Scale, number};
-use super::{ReportError, caption, options};
+use super::plot::{Dot, Line, Plot, Scale, format_number};
+use super::{ReportError, format_caption, format_options};
 use crate::record::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors};
 use serde::Serialize;
 use std::path::Path;
@@ -76,7 +76,7 @@ const FAMILIES: [(Family, &str, usize); 6] = [
     (Family::Own, "kernels of your own", 3),
 ];
 
-pub(super) fn color(family: Family) -> usize {
+pub(super) fn color_index(family: Family) -> usize {
     FAMILIES
         .iter()
         .find(|(f, ..)| *f == family)
@@ -84,14 +84,18 @@ pub(super) fn color(family: Family) -> usize {
 }
 
 /// Words and colours of the families that are shown.
-pub(super) fn legend(is_shown: impl Fn(Family) -> bool) -> Vec<(&'static str, &'static str)> {
+pub(super) fn family_legend(is_shown: impl Fn(Family) -> bool) -> Vec<(&'static str, &'static str)> {
     let shown = FAMILIES.iter().filter(|(family, ..)| is_shown(*family));
     shown
         .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
         .collect()
 }
 
-pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pictures) -> Result<Quality, ReportError> {
+pub(super) fn build_section(
+    record: &QualityRecord,
+    folder: &Path,
+    pictures: &mut Pictures,
+) -> Result<Quality, ReportError> {
     let mut names: Vec<&str> = Vec::new();
     for method in record.scenes.iter().flat_map(|scene| &scene.methods) {
         if !names.contains(&method.method.as_str()) {
@@ -104,10 +108,10 @@ pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pict
         .map(|scene| scene_section(scene, folder, pictures))
         .collect();
     Ok(Quality {
-        caption: caption(&record.circumstances),
-        methods: names.iter().map(|name| method(record, name)).collect(),
+        caption: format_caption(&record.circumstances),
+        methods: names.iter().map(|name| build_method(record, name)).collect(),
         names: record.scenes.iter().map(|scene| scene.scene.clone()).collect(),
-        legend: legend(|family| {
+        legend: family_legend(|family| {
             let mut methods = record.scenes.iter().flat_map(|scene| &scene.methods);
             methods.any(|method| method.family == family)
         }),
@@ -115,7 +119,7 @@ pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pict
     })
 }
 
-fn method(record: &QualityRecord, name: &str) -> Method {
+fn build_method(record: &QualityRecord, name: &str) -> Method {
     let found = |scene: &SceneErrors| scene.methods.iter().find(|m| m.method == name).cloned();
     let all: Vec<Option<MethodErrors>> = record.scenes.iter().map(found).collect();
     let mean = |pick: fn(&MethodErrors) -> Option<f64>| {
@@ -124,13 +128,16 @@ fn method(record: &QualityRecord, name: &str) -> Method {
     };
     Method {
         name: name.to_owned(),
-        psnr: all.iter().map(|m| m.as_ref().map(|m| decibels(m.psnr))).collect(),
-        gap: percent(mean(|m| m.gap_closed)),
+        psnr: all
+            .iter()
+            .map(|m| m.as_ref().map(|m| format_decibels(m.psnr)))
+            .collect(),
+        gap: format_percent(mean(|m| m.gap_closed)),
         flip: mean(|m| Some(m.flip)).map_or(NONE.to_owned(), |flip| format!("{flip:.4}")),
     }
 }
 
-fn decibels(psnr: f64) -> String {
+fn format_decibels(psnr: f64) -> String {
     match psnr < MOST_DB {
         true => format!("{psnr:.2}"),
         false => "∞".to_owned(),
@@ -140,7 +147,7 @@ fn decibels(psnr: f64) -> String {
 /// Placeholder for a missing figure.
 const NONE: &str = "–";
 
-fn percent(share: Option<f64>) -> String {
+fn format_percent(share: Option<f64>) -> String {
     share.map_or(NONE.to_owned(), |share| format!("{:.0} %", share * 100.0))
 }
 
@@ -151,7 +158,7 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
         .filter_map(|m| Some((m.method.as_str(), m.picture.as_deref()?)))
         .collect();
     let compared = match &scene.reference {
-        Some(reference) if !files.is_empty() => pictures.compare(folder, reference, &files)?,
+        Some(reference) if !files.is_empty() => pictures.compare_worst_part(folder, reference, &files)?,
         _ => None,
     };
     let percent = |share: f64| format!("{:.1} %", share * 100.0);
@@ -176,8 +183,8 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
             percent(scene.shares.shading),
             percent(scene.shares.unseen)
         ),
-        plot: plot(scene)?,
-        rows: scene.methods.iter().map(row).collect(),
+        plot: plot_scene(scene)?,
+        rows: scene.methods.iter().map(build_row).collect(),
         absent: scene.absent.clone(),
         gaps: scene.gaps.iter().map(gap).collect(),
         compared,
@@ -190,7 +197,7 @@ fn is_filter(method: &MethodErrors) -> bool {
     method.family != Family::Supersampling
 }
 
-fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
+fn plot_scene(scene: &SceneErrors) -> Result<String, ReportError> {
     let timed: Vec<(&MethodErrors, f64)> = scene
         .methods
         .iter()
@@ -211,14 +218,14 @@ fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
         .map(|(m, ms)| Dot {
             at: (*ms, m.psnr),
             spread: None,
-            color: color(m.family),
+            color: color_index(m.family),
             label: best(m, *ms).then(|| m.method.clone()),
             title: format!(
                 "{}: {} dB, FLIP {:.4}, {} ms",
                 m.method,
-                decibels(m.psnr),
+                format_decibels(m.psnr),
                 m.flip,
-                number(*ms)
+                format_number(*ms)
             ),
         })
         .collect();
@@ -233,7 +240,7 @@ fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
     let mut lines: Vec<Line> = untimed
         .map(|m| Line {
             points: vec![(ends.0, m.psnr), (ends.1, m.psnr)],
-            color: color(m.family),
+            color: color_index(m.family),
             dashed: true,
             label: Some(m.method.clone()),
         })
@@ -256,23 +263,23 @@ fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
         dots,
         lines,
     };
-    plot.svg()
+    plot.to_svg()
 }
 
-fn row(m: &MethodErrors) -> Row {
-    let class = |value: Option<f64>| value.map_or(NONE.to_owned(), decibels);
+fn build_row(m: &MethodErrors) -> Row {
+    let class = |value: Option<f64>| value.map_or(NONE.to_owned(), format_decibels);
     Row {
         method: m.method.clone(),
-        options: options(&m.options),
-        psnr: decibels(m.psnr),
+        options: format_options(&m.options),
+        psnr: format_decibels(m.psnr),
         flip: format!("{:.4}", m.flip),
         ssim: format!("{:.4}", m.ssim),
         geometry: class(m.psnr_geometry),
         shading: class(m.psnr_shading),
         flat: class(m.psnr_flat),
-        gap: percent(m.gap_closed),
+        gap: format_percent(m.gap_closed),
         temporal: m.temporal.map_or(NONE.to_owned(), |v| format!("{v:.1e}")),
-        time: m.time.map_or(NONE.to_owned(), |t| number(t.median_ms)),
+        time: m.time.map_or(NONE.to_owned(), |t| format_number(t.median_ms)),
         bytes: format!("{:.1}", m.bytes as f64 / 1e6),
         non_finite: m.non_finite,
     }

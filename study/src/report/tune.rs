@@ -1,7 +1,7 @@
 //! Section on tuning to a scene.
 
-use super::plot::{Dot, Line, Plot, Scale, number};
-use super::{ReportError, caption, options};
+use super::plot::{Dot, Line, Plot, Scale, format_number};
+use super::{ReportError, format_caption, format_options};
 use crate::record::{Candidate, LeftOut, TuneRecord};
 use serde::Serialize;
 
@@ -47,33 +47,33 @@ struct Row {
     chosen: bool,
 }
 
-pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
+pub(super) fn build_section(record: &TuneRecord) -> Result<Tune, ReportError> {
     let row = |index: usize| {
         record
             .candidates
             .get(index)
-            .map(|c| row(c, record.chosen == Some(index)))
+            .map(|c| build_row(c, record.chosen == Some(index)))
     };
     let mut front: Vec<usize> = (0..record.candidates.len())
         .filter(|k| record.candidates[*k].front)
         .collect();
-    let cost = |k: &usize| cost(&record.candidates[*k]);
+    let cost = |k: &usize| best_known_cost(&record.candidates[*k]);
     front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     let percent = |value: f64| format!("{:.1} %", value * 100.0);
     let model = &record.model;
     Ok(Tune {
-        caption: caption(&record.circumstances),
+        caption: format_caption(&record.circumstances),
         scene: record.scene.clone(),
         metric: record.metric.clone(),
         max_error: record.max_error,
         unit: record.unit(),
         compiled_for: record.compiled_for.clone(),
-        plot: plot(record, &front)?,
+        plot: plot_candidates(record, &front)?,
         front: front.iter().filter_map(|k| row(*k)).collect(),
         chosen: record.chosen.and_then(row),
         general: row(record.general),
-        left_out: costs(&record.left_out),
-        needed: costs(&record.needed),
+        left_out: term_costs(&record.left_out),
+        needed: term_costs(&record.needed),
         worth: record
             .terms
             .iter()
@@ -95,9 +95,9 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
         reference: record.reference.clone(),
         best: format!("{:.4}", record.best),
         unfiltered: format!("{:.4}", record.unfiltered),
-        fixed: options(&record.fixed),
+        fixed: format_options(&record.fixed),
         tried: record.candidates.len(),
-        measured: record.candidates.iter().filter(|c| c.measured().is_some()).count(),
+        measured: record.candidates.iter().filter(|c| c.measured_cost().is_some()).count(),
         learned_from: model.learned_from,
         tested_on: model.tested_on,
         mean_error: percent(model.mean_error),
@@ -111,37 +111,37 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
     })
 }
 
-fn costs(terms: &[LeftOut]) -> Vec<(String, String)> {
+fn term_costs(terms: &[LeftOut]) -> Vec<(String, String)> {
     let of = |left: &LeftOut| (left.term.clone(), format!("{:.3}", left.cost));
     terms.iter().map(of).collect()
 }
 
-fn cost(candidate: &Candidate) -> f64 {
-    candidate.measured().unwrap_or(candidate.predicted)
+fn best_known_cost(candidate: &Candidate) -> f64 {
+    candidate.measured_cost().unwrap_or(candidate.predicted)
 }
 
-fn row(candidate: &Candidate, chosen: bool) -> Row {
+fn build_row(candidate: &Candidate, chosen: bool) -> Row {
     Row {
         name: candidate.name.clone(),
         error: format!("{:.4}", candidate.error),
-        cost: match candidate.measured() {
+        cost: match candidate.measured_cost() {
             Some(measured) => format!("{measured:.2}"),
             None => format!("{:.2} (predicted)", candidate.predicted),
         },
         ratio: candidate.ratio.map_or(String::new(), |r| {
             format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high)
         }),
-        reads: number(candidate.reads),
+        reads: format_number(candidate.reads),
         bytes: format!("{:.1}", candidate.gbuffer_bytes as f64 / 1e6),
         chosen,
     }
 }
 
-fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
+fn plot_candidates(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
     let dots = record.candidates.iter().enumerate().map(|(k, candidate)| {
-        let measured = candidate.measured().is_some();
+        let measured = candidate.measured_cost().is_some();
         Dot {
-            at: (cost(candidate), candidate.error),
+            at: (best_known_cost(candidate), candidate.error),
             spread: None,
             color: match (record.chosen == Some(k), record.general == k, measured) {
                 (true, ..) => 1,
@@ -158,7 +158,7 @@ fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
                 "{}: {:.4}, {} {}{}",
                 candidate.name,
                 candidate.error,
-                number(cost(candidate)),
+                format_number(best_known_cost(candidate)),
                 record.unit(),
                 if measured { "" } else { " (predicted)" }
             ),
@@ -167,7 +167,7 @@ fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
     let points = front
         .iter()
         .filter_map(|k| record.candidates.get(*k))
-        .map(|c| (cost(c), c.error));
+        .map(|c| (best_known_cost(c), c.error));
     let plot = Plot {
         size: (980, 440),
         axes: (
@@ -187,5 +187,5 @@ fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
             label: None,
         }],
     };
-    plot.svg()
+    plot.to_svg()
 }

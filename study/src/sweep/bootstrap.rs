@@ -27,8 +27,8 @@ impl Interval {
 /// with repetition. The same for the same values. `None` of no values.
 pub fn median_of(values: &[f64], confidence: f64) -> Option<Interval> {
     let median = median(&mut values.to_vec())?;
-    let medians = resampled(values, 1);
-    let [low, high] = ends(medians, confidence);
+    let medians = resample_medians(values, 1);
+    let [low, high] = interval_ends(medians, confidence);
     Some(Interval { median, low, high })
 }
 
@@ -36,8 +36,8 @@ pub fn median_of(values: &[f64], confidence: f64) -> Option<Interval> {
 /// of the quotients lie if both are drawn anew. `None` if either is empty.
 pub fn quotient_of(of: &[f64], over: &[f64], confidence: f64) -> Option<Interval> {
     let quotient = median(&mut of.to_vec())? / median(&mut over.to_vec())?;
-    let quotients = resampled(of, 1).into_iter().zip(resampled(over, 2));
-    let [low, high] = ends(quotients.map(|(a, b)| a / b).collect(), confidence);
+    let quotients = resample_medians(of, 1).into_iter().zip(resample_medians(over, 2));
+    let [low, high] = interval_ends(quotients.map(|(a, b)| a / b).collect(), confidence);
     Some(Interval {
         median: quotient,
         low,
@@ -46,7 +46,7 @@ pub fn quotient_of(of: &[f64], over: &[f64], confidence: f64) -> Option<Interval
 }
 
 /// Medians of samples of as many values, drawn with repetition.
-fn resampled(values: &[f64], seed: u64) -> Vec<f64> {
+fn resample_medians(values: &[f64], seed: u64) -> Vec<f64> {
     let mut random = SplitMix(seed);
     let mut sample = vec![0.0; values.len()];
     let mut medians = Vec::with_capacity(RESAMPLES);
@@ -57,7 +57,7 @@ fn resampled(values: &[f64], seed: u64) -> Vec<f64> {
     medians
 }
 
-fn ends(mut of: Vec<f64>, confidence: f64) -> [f64; 2] {
+fn interval_ends(mut of: Vec<f64>, confidence: f64) -> [f64; 2] {
     of.sort_by(f64::total_cmp);
     let tail = (1.0 - confidence) / 2.0;
     [tail, 1.0 - tail].map(|share| {

@@ -33,7 +33,7 @@ struct Ready {
 }
 
 /// All variants of a group and their rivals; `None` if it was stopped before all were measured.
-pub fn measured(
+pub fn measure_group(
     sweep: &Sweep,
     bench: &Bench,
     group: &[Variant],
@@ -42,7 +42,7 @@ pub fn measured(
 ) -> Result<Option<Vec<Swept>>, SweepError> {
     let mut swept: Vec<Swept> = group
         .iter()
-        .map(|variant| unmeasured(variant.settings(), None))
+        .map(|variant| unmeasured_variant(variant.axis_values(), None))
         .collect();
     let compiled: Vec<Result<Compiled, String>> = group
         .iter()
@@ -54,7 +54,7 @@ pub fn measured(
     for (swept, compiled) in swept.iter_mut().zip(&compiled) {
         swept.refused = compiled.as_ref().err().cloned();
     }
-    let Some(judge) = judge(sweep, group, &compiled) else {
+    let Some(judge) = compile_reference(sweep, group, &compiled) else {
         return Ok(Some(swept));
     };
     let inputs = give(&judge)?;
@@ -70,11 +70,13 @@ pub fn measured(
     };
     let mut ready: Vec<Ready> = Vec::new();
     for (at, (variant, compiled)) in group.iter().zip(&compiled).enumerate() {
-        if progress.stopped() {
+        if progress.is_stopped() {
             return Ok(None);
         }
         if let Ok(compiled) = compiled {
-            match emit(variant, compiled).and_then(|emitted| stand.put(at, emitted, variant.loops, false)) {
+            match emit_variant(variant, compiled)
+                .and_then(|emitted| stand.prepare_shader(at, emitted, variant.loops, false))
+            {
                 Ok(variant) => ready.push(variant),
                 Err(why) => swept[at].refused = Some(why),
             }
@@ -87,13 +89,13 @@ pub fn measured(
             .filter(|ready| !ready.is_rival)
             .map(|ready| &ready.emitted)
             .collect::<Vec<_>>();
-        let mut settings = group.first().map(Variant::settings).unwrap_or_default();
+        let mut settings = group.first().map(Variant::axis_values).unwrap_or_default();
         settings.retain(|name, _| !sweep.baseline.contains_key(name));
-        let file = rival.file(&settings);
+        let file = rival.file_for(&settings);
         let put = rival
-            .emitted(&file, &like)
-            .and_then(|emitted| stand.put(swept.len(), emitted, Loops::Bounded, true));
-        let mut of = unmeasured(settings, Some(file));
+            .load_emitted(&file, &like)
+            .and_then(|emitted| stand.prepare_shader(swept.len(), emitted, Loops::Bounded, true));
+        let mut of = unmeasured_variant(settings, Some(file));
         match put {
             Ok(rival) => ready.push(rival),
             Err(why) => of.refused = Some(why),
@@ -103,17 +105,21 @@ pub fn measured(
     }
 
     let baseline = group.iter().position(|variant| sweep.is_baseline(variant));
-    let Some(rounds) = timed(sweep, bench, inputs.size, &mut ready, &mut swept, baseline, progress)? else {
+    let Some(rounds) = time_shaders(sweep, bench, inputs.size, &mut ready, &mut swept, baseline, progress)? else {
         return Ok(None);
     };
     let base = ready.iter().position(|ready| Some(ready.at) == baseline);
     for (k, ready) in ready.iter().enumerate() {
-        swept[ready.at].measured = Some(figures(ready, &rounds[k], base.map(|base| rounds[base].as_slice())));
+        swept[ready.at].measured = Some(measured_figures(
+            ready,
+            &rounds[k],
+            base.map(|base| rounds[base].as_slice()),
+        ));
     }
     Ok(Some(swept))
 }
 
-fn unmeasured(settings: BTreeMap<String, String>, rival: Option<String>) -> Swept {
+fn unmeasured_variant(settings: BTreeMap<String, String>, rival: Option<String>) -> Swept {
     Swept {
         settings,
         rival,
@@ -123,7 +129,7 @@ fn unmeasured(settings: BTreeMap<String, String>, rival: Option<String>) -> Swep
 }
 
 /// The kernel by which all of a group are judged: without loops where that is allowed.
-fn judge(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]) -> Option<Compiled> {
+fn compile_reference(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]) -> Option<Compiled> {
     let first = compiled.iter().position(Result::is_ok)?;
     let settings = Settings::new()
         .set_all(group[first].options.clone())
@@ -132,7 +138,7 @@ fn judge(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]
     full.or_else(|| compiled[first].as_ref().ok().cloned())
 }
 
-fn emit(variant: &Variant, compiled: &Compiled) -> Result<Emitted, String> {
+fn emit_variant(variant: &Variant, compiled: &Compiled) -> Result<Emitted, String> {
     let options = variant.spec()?.emit;
     let options = options
         .format(Format::Rgba32Float)
@@ -152,9 +158,9 @@ struct Stand<'a> {
 
 impl Stand<'_> {
     /// Makes a shader and runs it once.
-    fn put(&mut self, at: usize, emitted: Emitted, loops: Loops, is_rival: bool) -> Result<Ready, String> {
-        let (pass, uploaded, picture) = self.run(&emitted, loops).map_err(|error| error.to_string())?;
-        let (difference, difference_999) = truth::differences(picture.texels(), self.exact);
+    fn prepare_shader(&mut self, at: usize, emitted: Emitted, loops: Loops, is_rival: bool) -> Result<Ready, String> {
+        let (pass, uploaded, picture) = self.run_shader(&emitted, loops).map_err(|error| error.to_string())?;
+        let (difference, difference_999) = truth::largest_differences(picture.texels(), self.exact);
         Ok(Ready {
             at,
             emitted,
@@ -166,7 +172,11 @@ impl Stand<'_> {
         })
     }
 
-    fn run(&mut self, emitted: &Emitted, loops: Loops) -> Result<(Pass, Rc<Uploaded>, Frame<Vec4>), ExecuteError> {
+    fn run_shader(
+        &mut self,
+        emitted: &Emitted,
+        loops: Loops,
+    ) -> Result<(Pass, Rc<Uploaded>, Frame<Vec4>), ExecuteError> {
         let options = PassOptions::default().unbounded_loops(loops == Loops::Unbounded);
         let pass = self.bench.made(emitted, &options)?;
         let uploaded = self.uploads.of(&emitted.manifest)?;
@@ -177,7 +187,7 @@ impl Stand<'_> {
 
 /// Milliseconds of all that are ready, round by round. What cannot be timed is refused, and ready no more. `None` if it was
 /// stopped before two rounds.
-fn timed(
+fn time_shaders(
     sweep: &Sweep,
     bench: &Bench,
     size: UVec2,
@@ -211,7 +221,7 @@ fn timed(
     let base = ready.iter().position(|ready| Some(ready.at) == baseline);
     let mut rounds: Vec<Vec<f64>> = vec![Vec::new(); works.len()];
     let mut done = 0;
-    while done < sweep.rounds && !progress.stopped() && !works.is_empty() {
+    while done < sweep.rounds && !progress.is_stopped() && !works.is_empty() {
         let at_once = sweep
             .until
             .map_or(sweep.rounds, |_| ROUNDS_AT_ONCE)
@@ -220,7 +230,7 @@ fn timed(
             if round > 0 {
                 progress.step();
             }
-            !progress.stopped()
+            !progress.is_stopped()
         })?;
         for (rounds, times) in rounds.iter_mut().zip(times.rounds) {
             rounds.extend(times.iter().map(|time| time.as_secs_f64() * 1e3));
@@ -237,16 +247,16 @@ fn timed(
 }
 
 /// Speedup over `base`, round by round.
-fn ratios(own: &[f64], base: &[f64]) -> Vec<f64> {
+fn speedups_by_round(own: &[f64], base: &[f64]) -> Vec<f64> {
     base.iter().zip(own).map(|(base, own)| base / own.max(1e-9)).collect()
 }
 
 fn is_sure(own: &[f64], base: &[f64], until: f64) -> bool {
-    let interval = bootstrap::median_of(&ratios(own, base), CONFIDENCE);
+    let interval = bootstrap::median_of(&speedups_by_round(own, base), CONFIDENCE);
     interval.is_some_and(|interval| interval.spread() <= until)
 }
 
-fn figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Measured {
+fn measured_figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Measured {
     let counts = &ready.emitted.manifest.counts;
     let emitted = !ready.is_rival;
     let wgsl = ready.emitted.files.get(&Target::Wgsl);
@@ -259,7 +269,7 @@ fn figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Measured {
         spirv_bytes: spirv.filter(|_| emitted).map(Vec::len),
         rounds_ms: rounds.to_vec(),
         median_ms: bootstrap::median_of(rounds, CONFIDENCE).map_or(0.0, |of| of.median),
-        speedup: base.and_then(|base| bootstrap::median_of(&ratios(rounds, base), CONFIDENCE)),
+        speedup: base.and_then(|base| bootstrap::median_of(&speedups_by_round(rounds, base), CONFIDENCE)),
         difference: ready.difference,
         difference_999: ready.difference_999,
     }

@@ -43,7 +43,7 @@ pub enum JoinError {
 }
 
 /// Names and values that must be the same in records that are put together.
-fn same(record: &SweepRecord) -> [(&'static str, String); 9] {
+fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 9] {
     let axes = record.axes.iter();
     let axes = axes.map(|axis| format!("{}={}", axis.name, axis.values.join(",")));
     let circumstances = &record.circumstances;
@@ -65,7 +65,7 @@ fn same(record: &SweepRecord) -> [(&'static str, String); 9] {
 /// # Errors
 ///
 /// If one is missing, is there twice, or was not measured under the same circumstances.
-pub fn joined(records: &[SweepRecord]) -> Result<SweepRecord, JoinError> {
+pub fn join_shards(records: &[SweepRecord]) -> Result<SweepRecord, JoinError> {
     let first = records.first().ok_or(JoinError::None)?;
     let count = first.shard.map_or(0, |shard| shard.count);
     let mut shards: BTreeMap<u32, &SweepRecord> = BTreeMap::new();
@@ -76,7 +76,7 @@ pub fn joined(records: &[SweepRecord]) -> Result<SweepRecord, JoinError> {
                 count,
             });
         };
-        for ((what, one), (_, other)) in same(first).into_iter().zip(same(record)) {
+        for ((what, one), (_, other)) in shared_properties(first).into_iter().zip(shared_properties(record)) {
             if one != other {
                 return Err(JoinError::Differ {
                     what,
@@ -98,13 +98,13 @@ pub fn joined(records: &[SweepRecord]) -> Result<SweepRecord, JoinError> {
     whole.shard = None;
     whole.circumstances.complete = records.iter().all(|record| record.circumstances.complete);
     let mut variants: Vec<Swept> = shards.values().flat_map(|record| record.variants.clone()).collect();
-    variants.sort_by_key(|variant| place(first, variant));
+    variants.sort_by_key(|variant| sort_key(first, variant));
     whole.variants = variants;
     Ok(whole)
 }
 
 /// Place of a variant in the order of the axes: rivals come after those they are compared with.
-fn place(record: &SweepRecord, variant: &Swept) -> Vec<usize> {
+fn sort_key(record: &SweepRecord, variant: &Swept) -> Vec<usize> {
     let compared_apart = |name: &str| !record.baseline.contains_key(name);
     let at = |apart: bool| {
         let axes = record
@@ -142,8 +142,8 @@ pub struct Compared {
 /// # Errors
 ///
 /// If they are not of one kernel and one baseline.
-pub fn compared(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Result<Vec<Compared>, JoinError> {
-    for ((what, one), (_, other)) in same(first).into_iter().zip(same(second)) {
+pub fn compare_records(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Result<Vec<Compared>, JoinError> {
+    for ((what, one), (_, other)) in shared_properties(first).into_iter().zip(shared_properties(second)) {
         if ["kernels", "baselines"].contains(&what) && one != other {
             return Err(JoinError::Differ {
                 what,
@@ -158,7 +158,10 @@ pub fn compared(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Re
         .filter_map(|variant| {
             let same = |other: &&Swept| other.settings == variant.settings && other.rival == variant.rival;
             let other = second.variants.iter().find(same)?;
-            Some((variant, [ratios(first, variant)?, ratios(second, other)?]))
+            Some((
+                variant,
+                [baseline_speedups(first, variant)?, baseline_speedups(second, other)?],
+            ))
         })
         .collect();
     let confidence = 1.0 - 0.05 / pairs.len().max(1) as f64;
@@ -177,7 +180,7 @@ pub fn compared(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Re
 }
 
 /// Speedup of a variant over its baseline, round by round; `None` of a baseline.
-fn ratios(record: &SweepRecord, variant: &Swept) -> Option<Vec<f64>> {
+fn baseline_speedups(record: &SweepRecord, variant: &Swept) -> Option<Vec<f64>> {
     let is_base = |of: &&Swept| {
         let mut settings = of.settings.iter();
         let same = settings.all(|(name, value)| match record.baseline.get(name) {

@@ -18,9 +18,9 @@ use straightline_bench::execute::{Bench, ExecuteError, Inputs};
 use straightline_codegen::{Compiled, Kernel};
 
 pub use bootstrap::{Interval, median_of, quotient_of};
-pub use joined::{Compared, JoinError, compared, joined};
+pub use joined::{Compared, JoinError, compare_records, join_shards};
 pub use rival::Rival;
-pub use space::{Axis, Loops, RESERVED, Space, Variant, spelled, values, varied_knob};
+pub use space::{Axis, Loops, RESERVED, Space, Variant, parse_values, spell_value, varied_knob};
 
 /// Subject of a sweep, and the way to measure it.
 #[derive(Clone, Debug)]
@@ -93,7 +93,7 @@ impl Sweep {
         }
         let mut groups: Vec<(BTreeMap<String, String>, Vec<Variant>)> = Vec::new();
         for variant in self.space.variants() {
-            let mut same = variant.settings();
+            let mut same = variant.axis_values();
             same.retain(|name, _| !self.baseline.contains_key(name));
             match groups.iter_mut().find(|(known, _)| *known == same) {
                 Some((_, group)) => group.push(variant),
@@ -116,7 +116,7 @@ impl Sweep {
     }
 
     fn is_baseline(&self, variant: &Variant) -> bool {
-        let settings = variant.settings();
+        let settings = variant.axis_values();
         self.baseline
             .iter()
             .all(|(name, value)| settings.get(name) == Some(value))
@@ -142,12 +142,12 @@ impl Sweep {
         let count = groups.len();
         let mut all = Vec::new();
         for (k, group) in groups.iter().enumerate() {
-            if progress.stopped() {
+            if progress.is_stopped() {
                 break;
             }
             let label = format!("{} {} of {count}", self.kernel.name(), k + 1);
             progress.begin(&label, group.len() + self.rivals.len() + 1 + self.rounds as usize);
-            match group::measured(self, bench, group, give, progress)? {
+            match group::measure_group(self, bench, group, give, progress)? {
                 Some(swept) => all.extend(swept),
                 None => break,
             }

@@ -20,7 +20,7 @@ pub struct Rival {
 
 impl Rival {
     /// The file for variants of these settings.
-    pub fn file(&self, settings: &BTreeMap<String, String>) -> String {
+    pub fn file_for(&self, settings: &BTreeMap<String, String>) -> String {
         let mut file = self.pattern.clone();
         for (name, value) in settings {
             file = file.replace(&format!("{{{name}}}"), value);
@@ -54,7 +54,7 @@ impl Rival {
             }
         }
         let firsts = groups.iter().filter_map(|group| group.first());
-        let named: Vec<String> = firsts.map(|variant| self.file(&variant.settings())).collect();
+        let named: Vec<String> = firsts.map(|variant| self.file_for(&variant.axis_values())).collect();
         match named.first() {
             Some(first) if !named.iter().any(|file| Path::new(file).exists()) => {
                 Err(SweepError::Bad(format!("there is no file {first} to measure against")))
@@ -64,8 +64,9 @@ impl Rival {
     }
 
     /// The text in place of one of `like`, whose bindings it takes.
-    pub(super) fn emitted(&self, file: &str, like: &[&Emitted]) -> Result<Emitted, String> {
-        let bytes = files::read(Path::new(file), MOST_BYTES).map_err(|error| format!("cannot read {file}: {error}"))?;
+    pub(super) fn load_emitted(&self, file: &str, like: &[&Emitted]) -> Result<Emitted, String> {
+        let bytes =
+            files::read_file(Path::new(file), MOST_BYTES).map_err(|error| format!("cannot read {file}: {error}"))?;
         let text = String::from_utf8(bytes).map_err(|_| format!("{file} is no UTF-8 text"))?;
         let module =
             naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string_with_path(&text, file))?;

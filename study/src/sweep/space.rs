@@ -123,8 +123,8 @@ impl Space {
             self.unroll.iter().map(Unroll::to_string).collect(),
             self.loops.iter().map(|loops| loops.name().to_owned()).collect(),
             self.stages.iter().map(|stage| stage.name().to_owned()).collect(),
-            self.workgroups.iter().map(by).collect(),
-            self.blocks.iter().map(by).collect(),
+            self.workgroups.iter().map(format_size).collect(),
+            self.blocks.iter().map(format_size).collect(),
         ];
         let fixed = RESERVED.map(str::to_owned).into_iter().zip(fixed);
         options
@@ -139,7 +139,7 @@ impl Space {
         for (name, values) in &mut self.options {
             values
                 .iter_mut()
-                .for_each(|value| *value = spelled(kernel, name, value));
+                .for_each(|value| *value = spell_value(kernel, name, value));
         }
         self
     }
@@ -148,8 +148,8 @@ impl Space {
     /// stand for all.
     pub fn variants(&self) -> Vec<Variant> {
         let knobs = self.knobs.iter().map(|(name, values)| (*name, values.as_slice()));
-        let knobs = combinations(knobs);
-        let of_options = combinations(
+        let knobs = combine_values(knobs);
+        let of_options = combine_values(
             self.options
                 .iter()
                 .map(|(name, values)| (name.clone(), values.as_slice())),
@@ -186,13 +186,13 @@ impl Space {
 
 impl Variant {
     /// The value of every axis.
-    pub fn settings(&self) -> BTreeMap<String, String> {
+    pub fn axis_values(&self) -> BTreeMap<String, String> {
         let fixed = [
             self.unroll.to_string(),
             self.loops.name().to_owned(),
             self.stage.name().to_owned(),
-            by(&self.workgroup),
-            by(&self.block),
+            format_size(&self.workgroup),
+            format_size(&self.block),
         ];
         let fixed = RESERVED.map(str::to_owned).into_iter().zip(fixed);
         let knobs = self.knobs.iter().map(|(name, text)| ((*name).to_owned(), text.clone()));
@@ -223,7 +223,7 @@ impl Variant {
 }
 
 /// Every choice of one value of each, the last name's fastest.
-fn combinations<'v, N: Clone>(all: impl Iterator<Item = (N, &'v [String])>) -> Vec<Vec<(N, String)>> {
+fn combine_values<'v, N: Clone>(all: impl Iterator<Item = (N, &'v [String])>) -> Vec<Vec<(N, String)>> {
     let mut chosen = vec![Vec::new()];
     for (name, values) in all {
         let with = |known: &Vec<(N, String)>| {
@@ -235,12 +235,12 @@ fn combinations<'v, N: Clone>(all: impl Iterator<Item = (N, &'v [String])>) -> V
     chosen
 }
 
-fn by(size: &[u32; 2]) -> String {
+fn format_size(size: &[u32; 2]) -> String {
     format!("{}x{}", size[0], size[1])
 }
 
 /// A value of an option as `kernel` spells it; as it is if the kernel refuses it.
-pub fn spelled(kernel: &Kernel, name: &str, value: &str) -> String {
+pub fn spell_value(kernel: &Kernel, name: &str, value: &str) -> String {
     let values = kernel.option_values(&[(name.to_owned(), value.to_owned())]).ok();
     let value_of = values.as_ref().and_then(|values| values.get(name));
     value_of.map_or_else(|| value.to_owned(), ToString::to_string)
@@ -252,8 +252,8 @@ pub fn spelled(kernel: &Kernel, name: &str, value: &str) -> String {
 /// # Errors
 ///
 /// What is wrong with the text.
-pub fn values(text: &str) -> Result<Vec<String>, String> {
-    if let Some(range) = range(text) {
+pub fn parse_values(text: &str) -> Result<Vec<String>, String> {
+    if let Some(range) = parse_range(text) {
         return match range {
             Ok(range) if range.clone().count() == 0 => Err(format!("`{text}` is an empty range")),
             Ok(range) if range.clone().count() > MOST_VALUES => {
@@ -283,7 +283,7 @@ pub fn values(text: &str) -> Result<Vec<String>, String> {
 const MOST_VALUES: usize = 4096;
 
 /// The numbers of a range; `None` of what is none.
-fn range(text: &str) -> Option<Result<std::ops::Range<i64>, String>> {
+fn parse_range(text: &str) -> Option<Result<std::ops::Range<i64>, String>> {
     let (from, to) = text.split_once("..")?;
     let (to, inclusive) = match to.strip_prefix('=') {
         Some(to) => (to, true),
@@ -304,7 +304,7 @@ mod tests {
 
     #[test]
     fn ranges_are_those_of_rust() {
-        let of = |text: &str| values(text).map(|values| values.join(" "));
+        let of = |text: &str| parse_values(text).map(|values| values.join(" "));
         assert_eq!(of("1..=4").unwrap(), "1 2 3 4");
         assert_eq!(of("1..4").unwrap(), "1 2 3");
         assert_eq!(of("-1..=1").unwrap(), "-1 0 1");
@@ -343,7 +343,7 @@ mod tests {
     #[test]
     fn every_combination_is_a_variant_once() {
         let space = Space {
-            options: vec![("radius".to_owned(), values("1..=3").unwrap())],
+            options: vec![("radius".to_owned(), parse_values("1..=3").unwrap())],
             unroll: vec![Unroll::None, Unroll::Full],
             stages: vec![Stage::Compute, Stage::Fragment],
             workgroups: vec![[8, 8], [16, 4]],
@@ -354,7 +354,7 @@ mod tests {
         assert_eq!(variants.len(), 3 * 2 * (2 + 1));
         for (k, variant) in variants.iter().enumerate() {
             assert!(!variants[..k].contains(variant));
-            let settings = variant.settings();
+            let settings = variant.axis_values();
             for axis in space.axes() {
                 assert!(axis.values.contains(&settings[&axis.name]), "{settings:?}");
             }

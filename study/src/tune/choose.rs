@@ -1,6 +1,6 @@
 //! From what is known of all variants: which to measure, which to choose, and what to write down.
 
-use super::front::front;
+use super::front::pareto_front;
 use super::search::{Entry, Search};
 use super::{Chosen, Term, TuneError, Variant};
 use crate::builtin::spell_settings;
@@ -34,7 +34,7 @@ impl Search {
     /// # Errors
     ///
     /// If the device fails, or no variant is within the budget.
-    pub fn decide(&mut self, progress: &mut dyn Progress) -> Result<Option<usize>, TuneError> {
+    pub fn measure_and_choose(&mut self, progress: &mut dyn Progress) -> Result<Option<usize>, TuneError> {
         if !self.refine(progress)? {
             return Ok(None);
         }
@@ -42,10 +42,10 @@ impl Search {
             if !self.measure_front(progress)? {
                 return Ok(None);
             }
-            let chosen = self.choose()?;
+            let chosen = self.choose_fastest()?;
             let variant = self.entries[chosen].variant;
             let mut compared: Vec<Variant> = self.space.left_out(variant).into_iter().map(|(_, with)| with).collect();
-            for added in self.space.added(variant) {
+            for added in self.space.addable_terms(variant) {
                 compared.extend([added.without, added.with]);
             }
             if !self.add(&compared, progress)? {
@@ -55,7 +55,7 @@ impl Search {
                 return Ok(Some(chosen));
             }
         }
-        self.choose().map(Some)
+        self.choose_fastest().map(Some)
     }
 
     /// Measures the predicted front, the variants within the budget that are predicted to be fastest, and what is next to
@@ -70,7 +70,7 @@ impl Search {
             .iter()
             .map(|k| (self.entries[*k].predicted, self.loss(*k).unwrap_or(f64::INFINITY)))
             .collect();
-        let on = front(&points);
+        let on = pareto_front(&points);
         let mut on_front: Vec<usize> = usable.iter().zip(&on).filter(|(_, on)| **on).map(|(k, _)| *k).collect();
         on_front.sort_by(|a, b| self.entries[*a].predicted.total_cmp(&self.entries[*b].predicted));
         let count = on_front.len().min(OF_THE_FRONT);
@@ -84,7 +84,7 @@ impl Search {
             usable
                 .iter()
                 .copied()
-                .min_by(|a, b| self.losses(*a).total_cmp(&self.losses(*b))),
+                .min_by(|a, b| self.loss_or_infinity(*a).total_cmp(&self.loss_or_infinity(*b))),
         );
         which.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
         if let Some(winner) = within.first() {
@@ -94,7 +94,7 @@ impl Search {
             which.extend(near.filter(|k| self.is_within(*k) && self.entries[*k].predicted <= limit));
         }
         which.retain(|k| usable.contains(k));
-        if !self.measure(&which, self.fewer_rounds(), "measuring the front", progress)? {
+        if !self.measure_variants(&which, self.fewer_rounds(), "measuring the front", progress)? {
             return Ok(false);
         }
         // The fastest within the budget are measured again, and longer.
@@ -105,7 +105,7 @@ impl Search {
         which.truncate(CONTENDERS);
         self.finalists = which.clone();
         self.finalists.push(0);
-        self.measure(&which, self.question.rounds, "measuring, to decide", progress)
+        self.measure_variants(&which, self.question.rounds, "measuring, to decide", progress)
     }
 
     /// The fastest of those that were measured last and are within the budget; of those that cannot be told from it, the one
@@ -114,7 +114,7 @@ impl Search {
     /// # Errors
     ///
     /// [`TuneError::NothingWithin`], which says what comes closest.
-    fn choose(&self) -> Result<usize, TuneError> {
+    fn choose_fastest(&self) -> Result<usize, TuneError> {
         let within = self.finalists.iter().copied().filter(|k| self.is_within(*k));
         let measured: Vec<(usize, Ratio)> = within.filter_map(|k| Some((k, self.entries[k].ratio?))).collect();
         let fastest = measured.iter().map(|(_, ratio)| ratio.median).fold(0.0, f64::max);
@@ -149,14 +149,17 @@ impl Search {
             metric,
             reason,
             closest: closest.map_or("none at all".to_owned(), |(entry, (error, bad))| {
-                let name = self.space.name(entry.variant);
-                format!("{name}: {}, {bad} pixels that are not finite", metric.show(error))
+                let name = self.space.variant_name(entry.variant);
+                format!(
+                    "{name}: {}, {bad} pixels that are not finite",
+                    metric.format_error(error)
+                )
             }),
         }
     }
 
     /// The best error of all variants whose pixels are finite.
-    pub(super) fn best(&self) -> f64 {
+    pub(super) fn best_error(&self) -> f64 {
         let metric = self.question.metric;
         let finite = self.entries.iter().filter(|e| e.refused.is_none());
         let errors = finite.filter_map(|e| e.error).filter(|(_, bad)| *bad == 0);
@@ -169,10 +172,10 @@ impl Search {
 
     fn loss(&self, index: usize) -> Option<f64> {
         let (error, _) = self.entries[index].error?;
-        Some(self.question.metric.loss(self.best(), error))
+        Some(self.question.metric.loss(self.best_error(), error))
     }
 
-    pub(super) fn losses(&self, index: usize) -> f64 {
+    pub(super) fn loss_or_infinity(&self, index: usize) -> f64 {
         self.loss(index).unwrap_or(f64::INFINITY)
     }
 
@@ -184,16 +187,19 @@ impl Search {
     }
 
     /// Returns the loss of `without` against `with`. A block that was too long to be searched has the picture of single pixels.
-    fn cost(&self, without: Variant, with: Variant) -> Option<f64> {
+    fn loss_without(&self, without: Variant, with: Variant) -> Option<f64> {
         let error = |v: Variant| {
-            let index = self.index.get(&v).or_else(|| self.index.get(&v.with(Term::Block, 0)))?;
+            let index = self
+                .index
+                .get(&v)
+                .or_else(|| self.index.get(&v.with_value(Term::Block, 0)))?;
             self.entries[*index].error.map(|(error, _)| error)
         };
         Some(self.question.metric.loss(error(with)?, error(without)?))
     }
 
     /// Everything that was measured.
-    pub fn record(&self, circumstances: Circumstances, chosen: Option<usize>) -> TuneRecord {
+    pub fn to_record(&self, circumstances: Circumstances, chosen: Option<usize>) -> TuneRecord {
         let seen: Vec<usize> = (0..self.entries.len())
             .filter(|k| self.entries[*k].error.is_some())
             .collect();
@@ -210,24 +216,24 @@ impl Search {
             .map(|k| {
                 (
                     self.entries[*k].ratio.map_or(f64::INFINITY, |r| 1.0 / r.median),
-                    self.losses(*k),
+                    self.loss_or_infinity(*k),
                 )
             })
             .collect();
         let on: Vec<usize> = timed
             .iter()
-            .zip(front(&points))
+            .zip(pareto_front(&points))
             .filter(|(_, on)| *on)
             .map(|(k, _)| *k)
             .collect();
         let candidate = |k: &usize| {
-            let mut candidate = self.candidate(&self.entries[*k]);
+            let mut candidate = self.to_candidate(&self.entries[*k]);
             candidate.front = on.contains(k);
             candidate
         };
         let refused = self.entries.iter().filter_map(|e| {
             Some(Refused {
-                variant: self.space.name(e.variant),
+                variant: self.space.variant_name(e.variant),
                 reason: e.refused.clone()?,
             })
         });
@@ -238,29 +244,29 @@ impl Search {
             scene: self.name.clone(),
             metric: self.question.metric.name().to_owned(),
             max_error: self.question.max_error,
-            best: self.best(),
+            best: self.best_error(),
             reference: self.referred_to.clone(),
-            unfiltered: self.unfiltered(),
+            unfiltered: self.unfiltered_error(),
             fixed: spell_settings(&self.space.fixed),
             candidates: seen.iter().map(candidate).collect(),
             chosen: chosen.and_then(|k| place.get(&k).copied()),
             general: place.get(&0).copied().unwrap_or(0),
             left_out: chosen.map_or(Vec::new(), |k| self.left_out(self.entries[k].variant)),
-            needed: chosen.map_or(Vec::new(), |k| self.added(self.entries[k].variant, true)),
-            terms: self.terms(&place),
+            needed: chosen.map_or(Vec::new(), |k| self.added_terms(self.entries[k].variant, true)),
+            terms: self.term_worths(&place),
             refused: refused.collect(),
             not_searched: self.space.left_aside.clone(),
             model: self.model.clone(),
         }
     }
 
-    fn candidate(&self, entry: &Entry) -> Candidate {
-        let settings = self.space.settings(entry.variant);
-        let mut options = self.space.options(entry.variant);
+    fn to_candidate(&self, entry: &Entry) -> Candidate {
+        let settings = self.space.variant_settings(entry.variant);
+        let mut options = self.space.variant_options(entry.variant);
         options.retain(|(name, value)| self.defaults.get(name) != Some(value));
         let (error, non_finite) = entry.error.unwrap_or_default();
         Candidate {
-            name: self.space.name(entry.variant),
+            name: self.space.variant_name(entry.variant),
             options: spell_settings(&options),
             precision: self.space.precision(entry.variant).to_string(),
             math: settings.math.to_string(),
@@ -284,19 +290,19 @@ impl Search {
         let left_out = all.filter_map(|(term, with)| {
             Some(LeftOut {
                 term,
-                cost: self.cost(chosen, with)?,
+                cost: self.loss_without(chosen, with)?,
             })
         });
-        left_out.chain(self.added(chosen, false)).collect()
+        left_out.chain(self.added_terms(chosen, false)).collect()
     }
 
     /// Terms that a variant has, or has not, beyond the most general one, and the gain of each.
-    fn added(&self, variant: Variant, is_there: bool) -> Vec<LeftOut> {
-        let all = self.space.added(variant).into_iter();
+    fn added_terms(&self, variant: Variant, is_there: bool) -> Vec<LeftOut> {
+        let all = self.space.addable_terms(variant).into_iter();
         let all = all.filter(|added| added.is_there == is_there);
         all.filter_map(|added| {
             Some(LeftOut {
-                cost: self.cost(added.without, added.with)?,
+                cost: self.loss_without(added.without, added.with)?,
                 term: added.term,
             })
         })
@@ -304,15 +310,15 @@ impl Search {
     }
 
     /// The most general variant with each of its terms replaced.
-    fn terms(&self, place: &BTreeMap<usize, usize>) -> Vec<TermWorth> {
+    fn term_worths(&self, place: &BTreeMap<usize, usize>) -> Vec<TermWorth> {
         let general = self.space.general();
         let worth = |variant: Variant| {
             let index = self.index.get(&variant)?;
-            let term = Term::ALL.into_iter().find(|term| variant.at(*term) != 0)?;
+            let term = Term::ALL.into_iter().find(|term| variant.value_index(*term) != 0)?;
             Some(TermWorth {
-                term: self.space.value(general, term).label.clone(),
-                instead: self.space.value(variant, term).label.clone(),
-                cost: self.cost(variant, general)?,
+                term: self.space.variant_value(general, term).label.clone(),
+                instead: self.space.variant_value(variant, term).label.clone(),
+                cost: self.loss_without(variant, general)?,
                 ratio: self.entries[*index].ratio,
                 candidate: *place.get(index)?,
             })
@@ -325,7 +331,7 @@ impl Search {
     /// # Errors
     ///
     /// If it cannot be compiled, which it could be before.
-    pub fn chosen(&self, index: usize, record: &TuneRecord) -> Result<Chosen, TuneError> {
+    pub fn build_chosen(&self, index: usize, record: &TuneRecord) -> Result<Chosen, TuneError> {
         let entry = &self.entries[index];
         let error = |entry: &Entry| entry.error.map_or(0.0, |(error, _)| error);
         let said = |all: &[LeftOut]| {
@@ -337,7 +343,7 @@ impl Search {
         };
         Ok(Chosen {
             compiled: self.compile(entry.variant)?,
-            place: self.placing(entry.variant).map(|placing| placing.compiled.clone()),
+            place: self.placing_for(entry.variant).map(|placing| placing.compiled.clone()),
             precision: self.space.precision(entry.variant),
             tuned: Tuned {
                 scene: record.scene.clone(),

@@ -45,20 +45,20 @@ pub struct Static {
 
 impl Static {
     /// Counts a compiled variant, as it computes in `f32`.
-    pub fn of(compiled: &Compiled) -> Static {
+    pub fn from_compiled(compiled: &Compiled) -> Static {
         let count = |schedule: &Schedule| passes::count(&compiled.graph, schedule);
         let all = count(&compiled.schedule);
-        let straight = count(&reduced(&compiled.schedule, without_loops));
-        let always_run = reduced(&compiled.schedule, |_| Block::default());
+        let straight = count(&reduce_schedule(&compiled.schedule, without_loops));
+        let always_run = reduce_schedule(&compiled.schedule, |_| Block::default());
         let always = count(&always_run);
         let [width, height] = compiled.graph.invocation.pixels();
         let pixels = f64::from(width * height);
         let text = compiled.text_counts();
         let statements = f64::from(text.statements) / pixels;
-        let [depth, normal, colour, light] = reads(&always);
+        let [depth, normal, colour, light] = reads_by_kind(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
-        let behind = arithmetic(&straight) - arithmetic(&always);
-        let looped = arithmetic(&all) - arithmetic(&straight);
+        let behind = arithmetic_cost(&straight) - arithmetic_cost(&always);
+        let looped = arithmetic_cost(&all) - arithmetic_cost(&straight);
         let weights = f64::from(always.tallies.get("weight_evaluations").copied().unwrap_or(0));
         let seen = f64::from(straight.texture_reads + straight.colour_reads);
         // A branch reads what it needs: counted as if always.
@@ -97,7 +97,7 @@ impl Static {
     }
 
     /// Both passes one after the other, `place` being the kernel `sraa_place`.
-    pub fn after(mut self, mut place: Static) -> Static {
+    pub fn after_placing(mut self, mut place: Static) -> Static {
         place.rename("loops behind a branch", "loops of placing");
         for (own, other) in self.row.iter_mut().zip(&place.row) {
             *own += other;
@@ -117,12 +117,12 @@ impl Static {
 }
 
 /// Operations, a transcendental one as four.
-fn arithmetic(counts: &Counts) -> f64 {
+fn arithmetic_cost(counts: &Counts) -> f64 {
     f64::from(counts.alu) + 4.0 * f64::from(counts.transcendentals)
 }
 
 /// Reads of depth, of normals (packed texels count as these), of colour and where that was shaded, and of albedo and parts of light.
-fn reads(counts: &Counts) -> [f64; 4] {
+fn reads_by_kind(counts: &Counts) -> [f64; 4] {
     let of = |is: &dyn Fn(&str) -> bool| {
         let found = counts.reads.iter().filter(|(name, _)| is(name));
         f64::from(found.map(|(_, n)| n).sum::<u32>())
@@ -149,20 +149,20 @@ fn runtime_layers(graph: &Graph, block: &Block) -> u32 {
 }
 
 /// The schedule with `side` of what stands on either side of its branches.
-fn reduced(schedule: &Schedule, side: fn(&Block) -> Block) -> Schedule {
+fn reduce_schedule(schedule: &Schedule, side: fn(&Block) -> Block) -> Schedule {
     let mut schedule = schedule.clone();
-    reduce(&mut schedule.body, side);
+    reduce_block(&mut schedule.body, side);
     schedule
 }
 
-fn reduce(block: &mut Block, side: fn(&Block) -> Block) {
+fn reduce_block(block: &mut Block, side: fn(&Block) -> Block) {
     for step in &mut block.steps {
         match step {
             Step::If { then, otherwise, .. } => {
                 *then = side(then);
                 *otherwise = side(otherwise);
             }
-            Step::Loop { body, .. } => reduce(body, side),
+            Step::Loop { body, .. } => reduce_block(body, side),
             Step::Eval(_) => {}
         }
     }
@@ -193,7 +193,7 @@ mod tests {
             .set_all(options.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())))
             .block(block[0], block[1]);
         let compiled = Kernel::builtin("sraa").unwrap().compile(&settings).unwrap();
-        Static::of(&compiled)
+        Static::from_compiled(&compiled)
     }
 
     fn figure(of: &Static, name: &str) -> f64 {
@@ -233,8 +233,8 @@ mod tests {
             .unwrap()
             .compile(&Settings::default())
             .unwrap();
-        let place = Static::of(&place);
-        let both = plain.clone().after(place.clone());
+        let place = Static::from_compiled(&place);
+        let both = plain.clone().after_placing(place.clone());
         assert_eq!(figure(&both, "loops behind a branch"), 0.0);
         assert_eq!(
             figure(&both, "loops of placing"),

@@ -2,7 +2,7 @@
 
 /// Returns for each of some (time, loss) pairs whether it is on the front: no other is as good in both and better in one. Of
 /// equals all are.
-pub fn front(points: &[(f64, f64)]) -> Vec<bool> {
+pub fn pareto_front(points: &[(f64, f64)]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| {
         let (a, b) = (points[*a], points[*b]);
@@ -41,7 +41,7 @@ mod tests {
                     .any(|q| q.0 <= p.0 && q.1 <= p.1 && (q.0 < p.0 || q.1 < p.1))
             };
             let expected: Vec<bool> = points.iter().map(|p| !beaten(p)).collect();
-            assert_eq!(front(&points), expected, "{points:?}");
+            assert_eq!(pareto_front(&points), expected, "{points:?}");
         }
     }
 }

@@ -63,7 +63,7 @@ impl ErrorMetric {
     }
 
     /// Compares a picture with a reference.
-    pub fn error(self, test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
+    pub fn measure_error(self, test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
         match self {
             ErrorMetric::Psnr => metrics::psnr(test, reference),
             ErrorMetric::Flip => metrics::flip(test, reference),
@@ -79,7 +79,7 @@ impl ErrorMetric {
     }
 
     /// An error as it is printed, with its unit.
-    pub fn show(self, error: f64) -> String {
+    pub fn format_error(self, error: f64) -> String {
         match self {
             ErrorMetric::Psnr => format!("{error:.2} dB"),
             ErrorMetric::Flip => format!("{error:.4}"),
@@ -168,7 +168,7 @@ pub enum TuneError {
     /// No variant keeps the budget.
     #[error(
         "none of {variants} variants is within {} ({metric}) of the best: {reason}; the one that comes closest is {closest}",
-        metric.show(*max_error)
+        metric.format_error(*max_error)
     )]
     NothingWithin {
         /// Number of variants tried.
@@ -190,7 +190,7 @@ pub enum TuneError {
 /// # Errors
 ///
 /// [`TuneError`].
-pub fn tune(
+pub fn tune_subject(
     bench: &Bench,
     subject: Subject,
     question: &Question,
@@ -199,19 +199,19 @@ pub fn tune(
     progress: &mut dyn Progress,
 ) -> Result<Option<Outcome>, TuneError> {
     let mut search = Search::new(bench, subject, question, gauge)?;
-    let finished = search.pictures(progress)?;
+    let finished = search.measure_pictures(progress)?;
     if !search.has_general() {
         return Ok(None);
     }
-    let chosen = match finished && search.learn(progress)? {
-        true => search.decide(progress)?,
+    let chosen = match finished && search.learn_model(progress)? {
+        true => search.measure_and_choose(progress)?,
         false => None,
     };
     let circumstances = Circumstances {
         complete: chosen.is_some(),
         ..circumstances
     };
-    let record = search.record(circumstances, chosen);
-    let chosen = chosen.map(|index| search.chosen(index, &record)).transpose()?;
+    let record = search.to_record(circumstances, chosen);
+    let chosen = chosen.map(|index| search.build_chosen(index, &record)).transpose()?;
     Ok(Some(Outcome { record, chosen }))
 }

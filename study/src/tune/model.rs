@@ -8,7 +8,7 @@ const ROUNDS: usize = 20_000;
 
 /// Nonnegative coefficients for which `rows · coefficients` comes closest to `times`, each error counted as a share of its
 /// time (least squares by coordinate descent). Every row has as many figures; times are above 0.
-pub fn learn(rows: &[Vec<f64>], times: &[f64]) -> Vec<f64> {
+pub fn fit_coefficients(rows: &[Vec<f64>], times: &[f64]) -> Vec<f64> {
     let width = rows.first().map_or(0, Vec::len);
     // Columns of like size: then the ridge holds all back alike.
     let scale: Vec<f64> = (0..width)
@@ -52,12 +52,12 @@ pub fn learn(rows: &[Vec<f64>], times: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the model's prediction.
-pub fn predict(coefficients: &[f64], row: &[f64]) -> f64 {
+pub fn predict_cost(coefficients: &[f64], row: &[f64]) -> f64 {
     coefficients.iter().zip(row).map(|(c, x)| c * x).sum()
 }
 
 /// Mean and largest of |predicted - measured| / measured; 0 of none.
-pub fn errors(predicted: &[f64], measured: &[f64]) -> (f64, f64) {
+pub fn relative_errors(predicted: &[f64], measured: &[f64]) -> (f64, f64) {
     let off = predicted.iter().zip(measured).map(|(p, m)| (p - m).abs() / m);
     let (sum, largest) = off.fold((0.0, 0.0f64), |(sum, largest), off| (sum + off, largest.max(off)));
     (sum / predicted.len().max(1) as f64, largest)
@@ -65,7 +65,7 @@ pub fn errors(predicted: &[f64], measured: &[f64]) -> (f64, f64) {
 
 /// `count` of `rows` that span them: beginning with `taken`, always the one farthest from all that are taken. Columns are
 /// compared as shares of their largest figure. Gives those that are new, in order.
-pub fn spanning(rows: &[Vec<f64>], taken: &[usize], count: usize) -> Vec<usize> {
+pub fn choose_spanning(rows: &[Vec<f64>], taken: &[usize], count: usize) -> Vec<usize> {
     let width = rows.first().map_or(0, Vec::len);
     let largest: Vec<f64> = (0..width)
         .map(|k| rows.iter().map(|row| row[k].abs()).fold(f64::MIN_POSITIVE, f64::max))
@@ -115,13 +115,13 @@ mod tests {
     fn known_coefficients_are_found_again() {
         let known = [3.0, 0.25, 0.01, 0.0, 7.0];
         let rows = rows(40, 5);
-        let times: Vec<f64> = rows.iter().map(|row| predict(&known, row)).collect();
-        let found = learn(&rows, &times);
+        let times: Vec<f64> = rows.iter().map(|row| predict_cost(&known, row)).collect();
+        let found = fit_coefficients(&rows, &times);
         for (found, known) in found.iter().zip(known) {
             assert!((found - known).abs() <= 0.01 * known.max(0.1), "{found} for {known}");
         }
-        let predicted: Vec<f64> = rows.iter().map(|row| predict(&found, row)).collect();
-        assert!(errors(&predicted, &times).1 < 1.0e-3);
+        let predicted: Vec<f64> = rows.iter().map(|row| predict_cost(&found, row)).collect();
+        assert!(relative_errors(&predicted, &times).1 < 1.0e-3);
     }
 
     #[test]
@@ -129,12 +129,12 @@ mod tests {
         // A term that would want a negative coefficient: the second column shortens the time.
         let rows = rows(30, 3);
         let times: Vec<f64> = rows.iter().map(|r| 5.0 + r[0] - 0.05 * r[1] + 0.01 * r[2]).collect();
-        let found = learn(&rows, &times);
+        let found = fit_coefficients(&rows, &times);
         assert!(found.iter().all(|c| *c >= 0.0), "{found:?}");
         let loss = |c: &[f64]| -> f64 {
             rows.iter()
                 .zip(&times)
-                .map(|(r, t)| (predict(c, r) / t - 1.0).powi(2))
+                .map(|(r, t)| (predict_cost(c, r) / t - 1.0).powi(2))
                 .sum()
         };
         for k in 0..3 {
@@ -148,20 +148,20 @@ mod tests {
 
     #[test]
     fn a_count_that_is_never_there_explains_nothing() {
-        let found = learn(&[vec![1.0, 0.0], vec![2.0, 0.0], vec![4.0, 0.0]], &[3.0, 6.0, 12.0]);
+        let found = fit_coefficients(&[vec![1.0, 0.0], vec![2.0, 0.0], vec![4.0, 0.0]], &[3.0, 6.0, 12.0]);
         assert!((found[0] - 3.0).abs() < 1.0e-3 && found[1] == 0.0, "{found:?}");
     }
 
     #[test]
     fn the_farthest_are_taken_and_none_twice() {
         let rows: Vec<Vec<f64>> = [0.0, 1.0, 1.0, 9.0, 10.0, 5.0].map(|x| vec![x]).into();
-        assert_eq!(spanning(&rows, &[0], 2), [4, 5]);
-        assert_eq!(spanning(&rows, &[0], 99).len(), 4);
+        assert_eq!(choose_spanning(&rows, &[0], 2), [4, 5]);
+        assert_eq!(choose_spanning(&rows, &[0], 99).len(), 4);
     }
 
     #[test]
     fn errors_are_shares() {
-        let (mean, largest) = errors(&[9.0, 12.0], &[10.0, 10.0]);
+        let (mean, largest) = relative_errors(&[9.0, 12.0], &[10.0, 10.0]);
         assert!((mean - 0.15).abs() < 1e-12 && (largest - 0.2).abs() < 1e-12);
     }
 }

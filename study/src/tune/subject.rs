@@ -78,13 +78,13 @@ impl Subject {
             }
             captures.push(capture);
             progress.step();
-            if progress.stopped() {
+            if progress.is_stopped() {
                 return Ok(None);
             }
         }
         progress.begin("reference", REFERENCE_SIDE as usize);
         let reference = render::reference(renderer, REFERENCE_SIDE, &mut |_, _| progress.step())?;
-        if progress.stopped() {
+        if progress.is_stopped() {
             return Ok(None);
         }
         Ok(Some(Subject {
@@ -141,7 +141,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         let gap = |k: &usize| {
             let gaps = kept
                 .iter()
-                .map(|other| apart(capture.samples[*k], capture.samples[*other]));
+                .map(|other| sample_distance(capture.samples[*k], capture.samples[*other]));
             gaps.fold(f32::INFINITY, f32::min)
         };
         let left = (0..capture.samples.len()).filter(|k| !kept.contains(k));
@@ -188,7 +188,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
 }
 
 /// Distance of two samples in a picture in which every pixel has them.
-fn apart(a: Vec2, b: Vec2) -> f32 {
+fn sample_distance(a: Vec2, b: Vec2) -> f32 {
     let away = (a - b).abs();
     away.min(1.0 - away).length()
 }
@@ -257,7 +257,7 @@ mod tests {
             }
             let least = |c: &Capture| {
                 let pairs = c.samples.iter().flat_map(|a| c.samples.iter().map(move |b| (a, b)));
-                let gaps = pairs.filter(|(a, b)| a != b).map(|(a, b)| apart(*a, *b));
+                let gaps = pairs.filter(|(a, b)| a != b).map(|(a, b)| sample_distance(*a, *b));
                 gaps.fold(f32::INFINITY, f32::min)
             };
             assert!(least(&subject.captures[2]) > 0.35, "{:?}", subject.captures[2].samples);

@@ -120,7 +120,7 @@ fn run(file: Option<&str>) -> Result<(), Box<dyn Error>> {
             "rows": rows.iter().map(Row::to_json).collect::<Vec<_>>(),
         });
         let text = serde_json::to_string_pretty(&record)? + "\n";
-        files::write(file.as_ref(), text.as_bytes())?;
+        files::write_file(file.as_ref(), text.as_bytes())?;
     }
     Ok(())
 }

@@ -77,7 +77,7 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
     unsafe {
         gl.viewport(0, 0, width, height);
         gl.disable(glow::DITHER);
-        if program.format.component() == Component::Float {
+        if program.format.component_type() == Component::Float {
             gl.clear_color(0.0, 0.0, 0.0, 0.0);
             gl.clear(glow::COLOR_BUFFER_BIT);
         }
@@ -114,7 +114,7 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
             bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect()
         }
         format => {
-            let (layout, ty) = match format.component() {
+            let (layout, ty) = match format.component_type() {
                 Component::Float => (glow::RGBA, glow::FLOAT),
                 Component::Uint => (glow::RGBA_INTEGER, glow::UNSIGNED_INT),
                 Component::Sint => (glow::RGBA_INTEGER, glow::INT),
@@ -122,7 +122,7 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
             let bytes = read(gl, program.size, layout, ty, texels * 16);
             let components = bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]]);
             components
-                .map(|b| match format.component() {
+                .map(|b| match format.component_type() {
                     Component::Float => f32::from_ne_bytes(b),
                     Component::Uint => u32::from_ne_bytes(b) as f32,
                     Component::Sint => i32::from_ne_bytes(b) as f32,

@@ -30,7 +30,11 @@ pub fn methods(record: &MotionRecord) -> String {
                  }| { format!("{psnr:.2}, {flip:.4}, {flicker:.4}") },
             )
         };
-        let names = [scene.scene.clone(), scene.motion.name().to_owned(), samples.to_string()];
+        let names = [
+            scene.scene.clone(),
+            scene.motion.display_name().to_owned(),
+            samples.to_string(),
+        ];
         names.into_iter().chain(COLUMNS.iter().map(cell)).collect()
     };
     let rows = record

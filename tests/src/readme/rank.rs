@@ -143,7 +143,7 @@ fn farthest(shaders: &[&Shader], cycles: &[f64], times: &[f64]) -> String {
         format!(
             "{}, {} ({side} by {:.0})",
             shader.kernel,
-            shader.kind.words(),
+            shader.kind.display_name(),
             off(*k).abs()
         )
     });

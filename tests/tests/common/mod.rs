@@ -123,7 +123,7 @@ impl Shaders {
 
     /// Writes the GLSL and the SPIR-V.
     pub fn write(&mut self, emitted: &Emitted, stem: &str) {
-        for (name, contents) in emitted.named(stem) {
+        for (name, contents) in emitted.named_files(stem) {
             let path = self.folder.join(&name);
             let files = match name.rsplit('.').next() {
                 Some("comp" | "frag") => &mut self.glsl,

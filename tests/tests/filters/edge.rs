@@ -247,7 +247,7 @@ fn all_options_emit_in_all_languages() {
                 .compile(unroll)
                 .emit(&EmitOptions::new().stage(stage).targets(targets))
                 .unwrap_or_else(|e| panic!("{filter:?}: {e}"));
-            for (name, contents) in emitted.named(&format!("{k}-{}", stage.name())) {
+            for (name, contents) in emitted.named_files(&format!("{k}-{}", stage.name())) {
                 let path = folder.join(&name);
                 std::fs::write(&path, contents).expect("a shader is written");
                 match name.rsplit('.').next() {

@@ -27,7 +27,7 @@ fn circumstances() -> Circumstances {
 }
 
 fn run(selection: &Selection) -> HardRecord {
-    let found = hard::run(selection, Some(&bench()), circumstances(), &mut Silent);
+    let found = hard::run_cases(selection, Some(&bench()), circumstances(), &mut Silent);
     found.unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -40,7 +40,7 @@ fn promised_results_are_finite_and_within_their_bounds_and_printed_ones_are_not(
     assert!(selection.cases.len() >= 40, "{} cases", selection.cases.len());
     let record = run(&selection);
     let broken: Vec<String> = record
-        .broken()
+        .broken_results()
         .map(|(case, r)| format!("{} on `{}` by {:?}: {r:?}", r.kernel, case.name, r.executor))
         .collect();
     assert!(broken.is_empty(), "{} results:\n{}", broken.len(), broken.join("\n"));
@@ -92,14 +92,14 @@ fn bounds_are_as_tight_as_rounding() {
         "black",
     ];
     let selection = Selection {
-        cases: names.map(|name| hard::case(name).expect("a case")).into(),
+        cases: names.map(|name| hard::find_case(name).expect("a case")).into(),
         forms: Form::all()
             .into_iter()
             .filter(|form| form.name.starts_with("sraa") && form.promises)
             .collect(),
         precisions: vec![Precision::F32],
     };
-    let found = hard::run(&selection, None, circumstances(), &mut Silent).expect("it runs");
+    let found = hard::run_cases(&selection, None, circumstances(), &mut Silent).expect("it runs");
     for case in &found.cases {
         for r in case
             .results
@@ -124,14 +124,14 @@ fn bounds_are_as_tight_as_rounding() {
 #[test]
 fn half_precision_keeps_to_its_analysis() {
     let selection = Selection {
-        cases: hard::cases().into_iter().filter(|case| case.common).collect(),
+        cases: hard::all_cases().into_iter().filter(|case| case.common).collect(),
         forms: Form::all()
             .into_iter()
             .filter(|form| form.kernel == "sraa" && form.promises)
             .collect(),
         precisions: vec![Precision::F16],
     };
-    let record = hard::run(&selection, None, circumstances(), &mut Silent).expect("it runs");
+    let record = hard::run_cases(&selection, None, circumstances(), &mut Silent).expect("it runs");
     let mut compared = 0;
     for case in &record.cases {
         for r in case.results.iter().filter(|r| r.refused.is_none()) {
@@ -154,7 +154,7 @@ fn half_precision_keeps_to_its_analysis() {
 /// A slightly wrong kernel is caught: the definition of tau = 500 against shaders whose tau is off by 1/500.
 #[test]
 fn the_net_catches() {
-    let case = hard::case("round-edge").expect("a case");
+    let case = hard::find_case("round-edge").expect("a case");
     let form = |tau: &str| Form {
         options: vec![("tau".to_owned(), tau.to_owned())],
         ..Form::all().remove(0)
@@ -244,21 +244,21 @@ fn the_catalogue_says_of_half_precision_what_the_cases_show() {
 
 #[test]
 fn a_case_by_name_and_none_by_another() {
-    let case = hard::case("reversed-sky").expect("a case");
+    let case = hard::find_case("reversed-sky").expect("a case");
     assert!(case.about.contains("sky"), "{}", case.about);
-    let error = hard::case("reversed-sea").expect_err("no case");
+    let error = hard::find_case("reversed-sea").expect_err("no case");
     assert!(
         error.to_string().contains("`reversed-sea`") && error.to_string().contains("--list"),
         "{error}"
     );
-    let names: BTreeSet<&str> = hard::cases().iter().map(|case| case.name).collect();
-    assert_eq!(names.len(), hard::cases().len(), "names are unique");
+    let names: BTreeSet<&str> = hard::all_cases().iter().map(|case| case.name).collect();
+    assert_eq!(names.len(), hard::all_cases().len(), "names are unique");
 }
 
 #[test]
 fn what_was_done_is_kept_and_a_record_is_read_as_it_was_written() {
     let selection = Selection {
-        cases: hard::cases()
+        cases: hard::all_cases()
             .into_iter()
             .filter(|case| case.options.is_empty())
             .take(6)
@@ -267,7 +267,7 @@ fn what_was_done_is_kept_and_a_record_is_read_as_it_was_written() {
         precisions: vec![Precision::F32],
     };
     // Compiles one form, and runs two cases.
-    let found = hard::run(&selection, None, circumstances(), &mut StopsAfter(3)).expect("it runs");
+    let found = hard::run_cases(&selection, None, circumstances(), &mut StopsAfter(3)).expect("it runs");
     assert_eq!((found.cases.len(), found.circumstances.complete), (2, false));
     let without = found.cases[0].results.iter().filter(|r| r.refused.is_some());
     assert_eq!(without.map(|r| r.executor).collect::<Vec<_>>(), [Executor::Gpu]);

@@ -282,7 +282,7 @@ fn pictures(bench: &Bench, sequence: &mut Sequence, name: &str) -> (Vec<Frame<Ve
     let method = methods_in_motion().into_iter().find(|method| method.name == name);
     let method = method.unwrap_or_else(|| panic!("no method {name}"));
     let pictures = sequence
-        .pictures(bench, &method)
+        .make_pictures(bench, &method)
         .unwrap_or_else(|error| panic!("{name}: {error}"));
     let score = sequence.score(&method, &pictures);
     (pictures, score)
@@ -304,7 +304,11 @@ fn close_to_supersampling(name: &str) {
             .map(|what| score(&format!("SRAA {samples}, {what}")));
             let row = [&plain, &placed, &history, &all, &supersampled]
                 .map(|score| format!("{:.2}, {:.4}", score.psnr, score.flicker));
-            println!("| {name} | {} | {samples} | {} |", motion.name(), row.join(" | "));
+            println!(
+                "| {name} | {} | {samples} | {} |",
+                motion.display_name(),
+                row.join(" | ")
+            );
             if samples == 4 && motion == Motion::Still {
                 assert!(history.psnr > supersampled.psnr - 0.1, "{name} {motion:?}: {history:?}");
             }
@@ -339,7 +343,7 @@ fn a_roof_comes_close_to_supersampling() {
 /// Pixels where the board was in the last frame and is no more, nor beside.
 fn uncovered(name: &str, frame: usize) -> Vec<bool> {
     let covered = |frame: usize| {
-        let with = Motion::Board.scene(&Scene::named(name).expect("a scene"), PICTURE, frame);
+        let with = Motion::Board.scene_at_frame(&Scene::named(name).expect("a scene"), PICTURE, frame);
         let away = 0.5 * (Vec3::from(with.camera.target) - Vec3::from(with.camera.position)).length();
         let (depth, _) = CpuRenderer::new(&with, PICTURE)
             .and_then(|renderer| renderer.geometry(Vec2::ZERO))

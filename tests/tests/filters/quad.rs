@@ -38,7 +38,7 @@ fn compile(name: &str, options: Options<'_>, unroll: Unroll, transport: Option<T
         .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
         .unroll(unroll)
         .transport(transport);
-    Kernel::locate(name)
+    Kernel::from_argument(name)
         .and_then(|k| k.compile(&settings))
         .unwrap_or_else(|e| panic!("{e}"))
 }
@@ -161,7 +161,7 @@ fn check(
         let settings = Settings::new()
             .set_all(options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())))
             .block(block[0], block[1]);
-        let rows = Kernel::locate(name)
+        let rows = Kernel::from_argument(name)
             .and_then(|k| k.compile(&settings))
             .unwrap_or_else(|e| panic!("{e}"));
         let found = interpret::<f32>(&rows, inputs, false).unwrap_or_else(|e| panic!("{row}: {e}"));

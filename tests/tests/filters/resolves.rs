@@ -10,15 +10,15 @@ use straightline_scene::render::{Aggregate, CpuRenderer, Surface};
 use straightline_scene::scene::{SKY_DEPTH, Scene};
 use straightline_study::progress::Silent;
 use straightline_study::quality::resolves;
-use straightline_study::quality::{Kind, Method, Shot, methods};
+use straightline_study::quality::{Kind, Method, Shot, list_methods};
 
 const SIZE: UVec2 = UVec2::new(96, 54);
 
 /// Methods that a kernel resolves, and the inputs of each from a scene.
 fn shots(scene: &str) -> (Vec<Method>, Shot) {
-    let resolved: Vec<Method> = methods(true)
+    let resolved: Vec<Method> = list_methods(true)
         .into_iter()
-        .filter(|method| !resolves::kernels(method).is_empty())
+        .filter(|method| !resolves::resolve_kernels(method).is_empty())
         .collect();
     let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), SIZE).expect("a renderer");
     let listed: Vec<&Method> = resolved.iter().collect();
@@ -42,11 +42,11 @@ fn pictures_are_those_of_the_definitions() {
     for scene in ["creases", "railings", "emissive"] {
         let (methods, shot) = shots(scene);
         for method in &methods {
-            let defined = resolves::picture(method, &shot).expect("a picture");
-            let plain = shot.any().expect("a capture").color.texels();
+            let defined = resolves::resolve_picture(method, &shot).expect("a picture");
+            let plain = shot.any_capture().expect("a capture").color.texels();
             edges += defined.texels().iter().zip(plain).filter(|(a, b)| a != b).count();
-            let kernels = resolves::kernels(method);
-            let inputs = resolves::inputs(method, &shot).expect("inputs");
+            let kernels = resolves::resolve_kernels(method);
+            let inputs = resolves::resolve_inputs(method, &shot).expect("inputs");
             assert_eq!(kernels.len(), inputs.len(), "{}", method.name);
             let (kernel, inputs) = (&kernels[kernels.len() - 1], &inputs[inputs.len() - 1]);
             let compiled = kernel.compile(&Settings::default()).expect("it compiles");
@@ -76,11 +76,11 @@ fn aggregates_are_those_of_the_definition() {
     for scene in ["creases", "railings", "emissive"] {
         let (methods, shot) = shots(scene);
         for method in methods.iter().filter(|method| method.kind == Kind::Aggregated) {
-            let aggregated = shot.aggregated(method).expect("drawn");
-            let compiled = resolves::kernels(method)[0]
+            let aggregated = shot.aggregated_for(method).expect("drawn");
+            let compiled = resolves::resolve_kernels(method)[0]
                 .compile(&Settings::default())
                 .expect("it compiles");
-            let inputs = resolves::inputs(method, &shot).expect("inputs");
+            let inputs = resolves::resolve_inputs(method, &shot).expect("inputs");
             for (by, targets) in ["device", "f32", "f64"].iter().zip(made(&bench, &compiled, &inputs[0])) {
                 let mut beyond = 0;
                 for (k, pixel) in aggregated.pixels.iter().enumerate() {

@@ -127,7 +127,7 @@ fn shaders_for_regions_are_valid_everywhere() {
         for stage in [Stage::Compute, Stage::Fragment] {
             let emit = EmitOptions::new().stage(stage).targets(targets.clone()).region(true);
             let emitted = compiled.emit(&emit).unwrap_or_else(|e| panic!("{set:?}: {e}"));
-            for (name, contents) in emitted.named(&format!("{k}-{}", stage.name())) {
+            for (name, contents) in emitted.named_files(&format!("{k}-{}", stage.name())) {
                 let path = folder.join(&name);
                 match path.extension().and_then(|e| e.to_str()) {
                     Some("comp" | "frag") => glsl.push(path.clone()),

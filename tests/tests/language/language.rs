@@ -261,7 +261,7 @@ fn every_example_is_emitted_in_every_language() {
                 let options = EmitOptions::new().stage(stage).targets(Target::MODERN);
                 let emitted = compiled.emit(&options);
                 let emitted = emitted.unwrap_or_else(|e| panic!("{} {unroll} {}: {e}", example.name, stage.name()));
-                for (name, contents) in emitted.named(&format!("{}-{unroll}", example.name)) {
+                for (name, contents) in emitted.named_files(&format!("{}-{unroll}", example.name)) {
                     let path = folder.join(&name);
                     std::fs::write(&path, contents).expect("a shader is written");
                     match name.rsplit('.').next() {

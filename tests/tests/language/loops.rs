@@ -13,7 +13,7 @@ use straightline_codegen::emit::Target;
 use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_runtime::{Error, Pass, PassOptions};
-use straightline_study::loops::{LoopsError, Setup, Subject, study, subjects};
+use straightline_study::loops::{LoopsError, Setup, Subject, list_subjects, study_loops};
 use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, FormKind, LoopsRecord, Record};
 use straightline_tests::impatient::StopsAfter;
@@ -171,7 +171,7 @@ fn reads_that_are_not_shared_change_no_bit() {
 #[test]
 fn kernels_by_hand_agree() {
     let mut checked = 0;
-    for subject in subjects(false).unwrap_or_else(|e| panic!("{e}")) {
+    for subject in list_subjects(false).unwrap_or_else(|e| panic!("{e}")) {
         let Ok(by_hand) = &subject.by_hand else { continue };
         let settings = |unroll, options: &[(String, String)]| Settings::new().unroll(unroll).set_all(options.to_vec());
         let full = compile(&subject.kernel, &settings(Unroll::Full, &subject.options));
@@ -280,12 +280,12 @@ const SETUP: Setup = Setup {
 /// Kernels of every kind, small.
 #[test]
 fn every_form_is_there_or_says_why_not() {
-    let mut subjects = subjects(false).unwrap_or_else(|e| panic!("{e}"));
+    let mut subjects = list_subjects(false).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(subjects.len(), 15);
     subjects
         .retain(|subject| ["SRAA 4", "stalker", "fxaa", "kuwahara", "convolution"].contains(&subject.name.as_str()));
     assert_eq!(subjects.len(), 5);
-    let studied = study(&bench(), &subjects, &SETUP, &mut Silent).unwrap_or_else(|e| panic!("{e}"));
+    let studied = study_loops(&bench(), &subjects, &SETUP, &mut Silent).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(studied.len(), subjects.len());
     for studied in &studied {
         let kernel = &studied.forms;
@@ -372,12 +372,15 @@ fn what_was_measured_is_kept() {
             "k",
         )
     };
-    let subjects = [Subject::own(kernel(), None), Subject::own(kernel(), None)];
+    let subjects = [
+        Subject::from_kernel(kernel(), None),
+        Subject::from_kernel(kernel(), None),
+    ];
     let setup = Setup { rounds: 5, ..SETUP };
     let gpu = bench();
     let study = |steps| {
         let mut stops = StopsAfter(steps);
-        study(&gpu, &subjects, &setup, &mut stops).unwrap_or_else(|e| panic!("{e}"))
+        study_loops(&gpu, &subjects, &setup, &mut stops).unwrap_or_else(|e| panic!("{e}"))
     };
     // The picture in f64 is a step, and so are forms and rounds.
     let all = study(usize::MAX);
@@ -397,16 +400,16 @@ fn what_was_measured_is_kept() {
 
 #[test]
 fn what_is_refused_is_named() {
-    let refused = |subject: Subject| study(&bench(), &[subject], &SETUP, &mut Silent).expect_err("a refusal");
+    let refused = |subject: Subject| study_loops(&bench(), &[subject], &SETUP, &mut Silent).expect_err("a refusal");
     let broken = Kernel::from_text("k.rs", "pub fn k(pixel: IVec2) -> Vec4 { 1.0 }", "k");
-    let error = refused(Subject::own(broken.clone(), None));
+    let error = refused(Subject::from_kernel(broken.clone(), None));
     assert!(matches!(error, LoopsError::Kernel { .. }), "{error}");
     let kernel = Kernel::from_text(
         "k.rs",
         "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) }",
         "k",
     );
-    let error = refused(Subject::own(kernel.clone(), Some(broken)));
+    let error = refused(Subject::from_kernel(kernel.clone(), Some(broken)));
     assert!(matches!(error, LoopsError::Kernel { .. }), "{error}");
     // By hand it reads what the kernel does not.
     let other = Kernel::from_text(
@@ -414,7 +417,7 @@ fn what_is_refused_is_named() {
         "pub fn other(colour: &Frame<Vec4>, pixel: IVec2) -> Vec4 { colour.load(pixel) }",
         "other",
     );
-    let error = refused(Subject::own(kernel, Some(other))).to_string();
+    let error = refused(Subject::from_kernel(kernel, Some(other))).to_string();
     assert!(
         error.contains("`k`, looped-by-hand") && error.contains("`colour`"),
         "{error}"

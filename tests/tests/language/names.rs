@@ -20,7 +20,7 @@ use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Origin, Settings, Stage};
-use straightline_engines::{Engine, Request, names};
+use straightline_engines::{Engine, Request, engine_names};
 use straightline_manifest::LanguageKind;
 use straightline_tests::compilers;
 use straightline_tests::renamed::{Source, inputs_of};
@@ -418,8 +418,8 @@ fn random_names_in_every_template() {
     let mut read = BTreeMap::<&str, usize>::new();
     for (name, source) in &subjects {
         let original = source.compile().unwrap_or_else(|e| panic!("{name}:\n{e}"));
-        let fitting: BTreeSet<&str> = names()
-            .filter(|engine| Engine::builtin(engine).is_some_and(|e| e.fits(&Request::new(&original, &[]))))
+        let fitting: BTreeSet<&str> = engine_names()
+            .filter(|engine| Engine::builtin(engine).is_some_and(|e| e.fits_kernel(&Request::new(&original, &[]))))
             .collect();
         let found: Vec<&str> = (0..rounds)
             .into_par_iter()
@@ -434,7 +434,7 @@ fn random_names_in_every_template() {
                 for engine in &fitting {
                     let shown = format!("{name} for {engine}, seed {seed}, {:?}", renamed.names);
                     let found = Engine::builtin(engine).expect("an engine");
-                    let files = found.files(&request).unwrap_or_else(|e| panic!("{shown}: {e}"));
+                    let files = found.render_files(&request).unwrap_or_else(|e| panic!("{shown}: {e}"));
                     let files: BTreeMap<String, String> = files
                         .into_iter()
                         .map(|(name, bytes)| (name, String::from_utf8(bytes).expect("text")))
@@ -458,7 +458,7 @@ fn random_names_in_every_template() {
             *read.entry(engine).or_default() += 1;
         }
     }
-    for engine in names() {
+    for engine in engine_names() {
         assert!(read.contains_key(engine), "no kernel of the roles fits {engine}");
     }
     println!("{read:?}");

@@ -174,7 +174,7 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
     let options = moved(bench.options(Stage::Compute)).group(1);
     let expected = run(&bench, &compiled, &bench.options(Stage::Compute));
     let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
-    let files = emitted.named("all");
+    let files = emitted.named_files("all");
     let json: Value = serde_json::from_slice(&files["all.json"]).expect("JSON");
     let wgsl = String::from_utf8(files[json["files"]["wgsl"].as_str().expect("a file")].clone()).expect("text");
     // The output is bound like the rest.

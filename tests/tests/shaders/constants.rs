@@ -181,7 +181,7 @@ fn sraa() -> Settings {
 #[test]
 fn every_plan_is_written_as_it_is_read() {
     let mut compared = 0;
-    let set = default_set::files().unwrap_or_else(|e| panic!("{e}"));
+    let set = default_set::emit_files().unwrap_or_else(|e| panic!("{e}"));
     let text = |name: &str| String::from_utf8(set[name].clone()).expect("a text");
     for stem in set.keys().filter_map(|name| name.strip_suffix(".json")) {
         let manifest = Manifest::from_json(&text(&format!("{stem}.json"))).expect("a manifest");
@@ -222,7 +222,7 @@ fn compare(compiled: &Compiled, manifest: &Manifest, wgsl: &str) {
         manifest,
         wgsl,
     };
-    let text = emit::bindings(&[module]).unwrap_or_else(|e| panic!("{e}"));
+    let text = emit::render_bindings(&[module]).unwrap_or_else(|e| panic!("{e}"));
     let plan = Plan::from_manifest(manifest).expect("a plan");
     let printed: TokenStream = format!("{plan:?}").parse().expect("tokens");
     let workgroup = text

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::{Compiled, Kernel, OptionInfo, Settings};
-use straightline_engines::{Engine, EngineError, Request, names};
+use straightline_engines::{Engine, EngineError, Request, engine_names};
 
 /// A kernel for engines.
 struct Subject {
@@ -40,7 +40,7 @@ impl Subject {
     }
 
     fn files(&self, engine: &str) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
-        Engine::find(engine)?.files(&Request::new(&self.compiled, &self.options))
+        Engine::find(engine)?.render_files(&Request::new(&self.compiled, &self.options))
     }
 }
 
@@ -92,7 +92,7 @@ fn refusal(errors: &Errors) -> String {
 fn every_kernel_is_emitted_or_refused_by_name() {
     let mut table = String::new();
     let subjects = subjects();
-    for engine in names() {
+    for engine in engine_names() {
         for subject in &subjects {
             let outcome = match subject.files(engine) {
                 Ok(files) => files.into_keys().collect::<Vec<_>>().join(", "),
@@ -110,7 +110,7 @@ fn every_kernel_is_emitted_or_refused_by_name() {
 fn compilers_read_what_is_emitted() {
     let mut read = BTreeMap::<&str, usize>::new();
     for subject in subjects() {
-        for engine in names() {
+        for engine in engine_names() {
             let Ok(files) = subject.files(engine) else { continue };
             let files: BTreeMap<String, String> = files
                 .into_iter()
@@ -121,7 +121,7 @@ fn compilers_read_what_is_emitted() {
             *read.entry(engine).or_default() += count;
         }
     }
-    for engine in names() {
+    for engine in engine_names() {
         // A folder whose shader is not found would be read in silence.
         assert!(read.get(engine).is_some_and(|n| *n >= 2), "{engine}: {read:?}");
     }
@@ -135,7 +135,7 @@ fn folders_are_as_they_were() {
         "tests/engines/kernels/orientation.rs",
         &[("below", "uniform")],
     );
-    for engine in names() {
+    for engine in engine_names() {
         let folder = snapshots().join(engine);
         let files = subject.files(engine).unwrap_or_else(|e| panic!("{engine}: {e}"));
         if blesses() && folder.exists() {

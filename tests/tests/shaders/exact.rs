@@ -158,7 +158,7 @@ fn off(fast: &Compiled, exact: &Compiled, inputs: &Inputs) -> f64 {
 fn fast_mathematics_changes_roundings_and_no_more() {
     let filter = |name: &str| {
         let path = format!("{}/../kernels/filters/{name}.rs", env!("CARGO_MANIFEST_DIR"));
-        Kernel::locate(&path).unwrap_or_else(|errors| panic!("{errors}"))
+        Kernel::from_argument(&path).unwrap_or_else(|errors| panic!("{errors}"))
     };
     let sraa = || Kernel::builtin("sraa").unwrap_or_else(|errors| panic!("{errors}"));
     for (name, kernel, set) in [

@@ -11,9 +11,9 @@ use straightline_oracle::metrics;
 use straightline_scene::capture::Capture;
 use straightline_scene::picture;
 use straightline_scene::scene::Scene;
-use straightline_study::baselines::{Smaa, Transfer, fxaa, mlaa};
+use straightline_study::baselines::{Smaa, Transfer, apply_mlaa, fxaa_kernel};
 use straightline_study::progress::Silent;
-use straightline_study::quality::{Method, Outcome, QualityError, Setup, Source, losses, study};
+use straightline_study::quality::{Method, Outcome, QualityError, Setup, Source, list_losses, study_quality};
 use straightline_study::record::Family;
 use straightline_tests::impatient::StopsAfter;
 
@@ -36,15 +36,15 @@ fn even(color: Vec4) -> Frame<Vec4> {
 }
 
 fn by_fxaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
-    let compiled = fxaa().compile(&Settings::default()).expect("it compiles");
-    let inputs = Inputs::new(picture.size()).image("color", transfer.given(picture));
-    transfer.taken(&bench().run(&compiled, Stage::Compute, &inputs).expect("it runs"))
+    let compiled = fxaa_kernel().compile(&Settings::default()).expect("it compiles");
+    let inputs = Inputs::new(picture.size()).image("color", transfer.encode_picture(picture));
+    transfer.decode_picture(&bench().run(&compiled, Stage::Compute, &inputs).expect("it runs"))
 }
 
 fn by_smaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
     let mut smaa = Smaa::new(&bench(), picture.size(), transfer).expect("it is made");
     let first = smaa.run(picture).expect("it runs");
-    let took = smaa.time().expect("it is timed");
+    let took = smaa.time_passes().expect("it is timed");
     assert!(took.as_nanos() > 0);
     let second = smaa.run(picture).expect("it runs");
     assert_eq!(metrics::max_abs_difference(&first, &second), 0.0);
@@ -52,7 +52,7 @@ fn by_smaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
 }
 
 fn by_mlaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
-    transfer.taken(&mlaa(&transfer.given(picture)))
+    transfer.decode_picture(&apply_mlaa(&transfer.encode_picture(picture)))
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn methods_of_the_users_own() {
         pub fn nearest(depth: &FrameLayers<f32>, pixel: IVec2) -> Vec4 { Vec4::ONE * depth.load(pixel, 3) }\n\
         pub fn lights(light: &Frame<Vec4>, pixel: IVec2) -> Vec4 { light.load(pixel) }\n";
     std::fs::write(&file, text).expect("a file");
-    let own = |text: String| Method::own(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    let own = |text: String| Method::parse_own(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
     let with = |methods: Vec<Method>| Setup {
         own: methods,
         only: ["SRAA 4", "1x", "SRAA 4, two shading samples"]
@@ -132,7 +132,7 @@ fn methods_of_the_users_own() {
         own(format!("depths={}::nearest", file.display())),
         own("blur=../examples/methods/edge_blur.rs,weight=0.2".to_owned()),
     ]);
-    let outcome = study(&bench(), vec![source("railings")], &setup, &mut Silent).expect("figures");
+    let outcome = study_quality(&bench(), vec![source("railings")], &setup, &mut Silent).expect("figures");
     let [scene] = &outcome.scenes[..] else {
         panic!("one scene, not {}", outcome.scenes.len());
     };
@@ -156,7 +156,7 @@ fn methods_of_the_users_own() {
     );
     // What a scene has not is named.
     let setup = with(vec![own(format!("lights={}::lights", file.display()))]);
-    let error = study(&bench(), vec![source("railings")], &setup, &mut Silent).expect_err("no such picture");
+    let error = study_quality(&bench(), vec![source("railings")], &setup, &mut Silent).expect_err("no such picture");
     assert!(error.to_string().contains("`lights` reads `light`"), "{error}");
     std::fs::remove_dir_all(&folder).expect("removed");
 }
@@ -169,7 +169,7 @@ fn methods_on_a_scene() {
         complete,
         timed_on,
         pictures,
-    } = study(&bench(), sources, &setup(true), &mut Silent).unwrap_or_else(|e| panic!("{e}"));
+    } = study_quality(&bench(), sources, &setup(true), &mut Silent).unwrap_or_else(|e| panic!("{e}"));
     assert!(complete && timed_on == ["railings"]);
     let scene = &scenes[0];
     let method = |name: &str| {
@@ -243,7 +243,7 @@ fn methods_on_a_scene() {
     // A second shading sample is worth what it costs.
     let two = method("SRAA 4, two shading samples");
     assert!(two.psnr > method("SRAA 4").psnr + 0.5, "{}", two.psnr);
-    println!("{:#?}", losses(scene));
+    println!("{:#?}", list_losses(scene));
 }
 
 #[test]
@@ -256,7 +256,7 @@ fn what_is_finished_is_kept_when_it_is_stopped() {
     };
     let run = |patience| {
         let mut watch = StopsAfter(patience);
-        let outcome = study(&bench(), vec![source("sky"), source("wires")], &setup, &mut watch);
+        let outcome = study_quality(&bench(), vec![source("sky"), source("wires")], &setup, &mut watch);
         (outcome.unwrap_or_else(|e| panic!("{e}")), patience - watch.0)
     };
     let (all, steps) = run(usize::MAX);
@@ -278,7 +278,7 @@ fn of_capture(capture: Capture) -> Result<Outcome, QualityError> {
         name: "spheres".to_owned(),
         capture: Box::new(capture),
     };
-    study(&bench(), vec![source], &setup(false), &mut Silent)
+    study_quality(&bench(), vec![source], &setup(false), &mut Silent)
 }
 
 #[test]

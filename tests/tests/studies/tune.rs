@@ -17,7 +17,9 @@ use straightline_scene::render::{CpuRenderer, capture, reference};
 use straightline_scene::scene::Scene;
 use straightline_study::progress::{Progress, Silent};
 use straightline_study::record::{Circumstances, TuneRecord};
-use straightline_study::tune::{Beyond, ErrorMetric, Gauge, Outcome, PATTERNS, Question, Subject, TuneError, tune};
+use straightline_study::tune::{
+    Beyond, ErrorMetric, Gauge, Outcome, PATTERNS, Question, Subject, TuneError, tune_subject,
+};
 use straightline_tests::impatient::StopsAfter;
 
 const SIZE: UVec2 = UVec2::new(128, 72);
@@ -57,7 +59,7 @@ fn renderer(scene: &str) -> CpuRenderer {
 }
 
 fn tuned(subject: Subject, question: &Question) -> Outcome {
-    let found = tune(&bench(), subject, question, Gauge::Device, circumstances(), &mut Silent);
+    let found = tune_subject(&bench(), subject, question, Gauge::Device, circumstances(), &mut Silent);
     found.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it")
 }
 
@@ -200,7 +202,7 @@ fn what_was_measured_before_an_interruption_is_kept() {
     // Counts are a step for each variant: then come pictures.
     let variants = tuned_steps(&subject, &budget);
     let run = |steps: usize| {
-        tune(
+        tune_subject(
             &bench(),
             subject.clone(),
             &budget,
@@ -233,12 +235,12 @@ fn tuned_steps(subject: &Subject, question: &Question) -> usize {
             self.0.push((what.to_owned(), steps));
         }
         fn step(&mut self) {}
-        fn stopped(&self) -> bool {
+        fn is_stopped(&self) -> bool {
             self.0.len() > 1
         }
     }
     let mut steps = Steps(Vec::new());
-    let stopped = tune(
+    let stopped = tune_subject(
         &bench(),
         subject.clone(),
         question,
@@ -288,7 +290,7 @@ fn a_budget_that_nothing_keeps_says_what_comes_closest() {
     let mut budget = question(ErrorMetric::Psnr, 1.0);
     budget.fixed.retain(|(name, _)| name != "non-finite");
     budget.fixed.push(("non-finite".to_owned(), "spread".to_owned()));
-    let found = tune(
+    let found = tune_subject(
         &bench(),
         Subject::of_capture("frame", broken),
         &budget,

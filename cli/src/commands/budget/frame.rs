@@ -77,20 +77,20 @@ impl Method {
         }
     }
 
-    fn parts(self, measured: &Measured) -> Result<Parts, Failure> {
-        let pass = |pass| measured.pass(pass).map(|timed| timed.rounds_ms.clone());
+    fn frame_parts(self, measured: &Measured) -> Result<Parts, Failure> {
+        let pass = |pass| measured.pass_time(pass).map(|timed| timed.rounds_ms.clone());
         let main = || pass(FramePass::Geometry(Samples::One));
         let (geometry, shading, filter) = match self {
             Method::None => (Some(main()?), FramePass::Shading(Samples::One), None),
             Method::Sraa(samples) => (
-                Some(added(&main()?, &pass(FramePass::Auxiliary(samples))?)),
+                Some(add_rounds(&main()?, &pass(FramePass::Auxiliary(samples))?)),
                 FramePass::Shading(Samples::One),
-                Some(measured.filter(samples)?.rounds_ms.clone()),
+                Some(measured.default_filter(samples)?.rounds_ms.clone()),
             ),
             Method::SraaMultisampled => (
-                Some(added(&main()?, &pass(FramePass::AuxiliaryMultisampled)?)),
+                Some(add_rounds(&main()?, &pass(FramePass::AuxiliaryMultisampled)?)),
                 FramePass::Shading(Samples::One),
-                Some(measured.filter(Samples::Four)?.rounds_ms.clone()),
+                Some(measured.default_filter(Samples::Four)?.rounds_ms.clone()),
             ),
             Method::Supersampling(samples) => (
                 Some(pass(FramePass::Geometry(samples))?),
@@ -112,29 +112,33 @@ impl Parts {
     fn beside_shading(&self) -> Vec<f64> {
         let nothing = vec![0.0; self.shading.len()];
         let parts = [&self.geometry, &self.filter].map(|part| part.as_ref().unwrap_or(&nothing));
-        added(parts[0], parts[1])
+        add_rounds(parts[0], parts[1])
     }
 
-    fn net(&self) -> Vec<f64> {
-        added(&self.beside_shading(), &self.shading)
+    fn net_times(&self) -> Vec<f64> {
+        add_rounds(&self.beside_shading(), &self.shading)
     }
 }
 
-fn added(a: &[f64], b: &[f64]) -> Vec<f64> {
+fn add_rounds(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + b).collect()
 }
 
 /// Of at least one round.
-pub fn quartiles(rounds: &[f64]) -> Result<Quartiles, Failure> {
+pub fn find_quartiles(rounds: &[f64]) -> Result<Quartiles, Failure> {
     Quartiles::of(rounds).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
 }
 
 /// The paper's table 2, of what was timed.
-pub fn frames(measured: &Measured) -> Result<Vec<FrameCost>, Failure> {
+pub fn frame_costs(measured: &Measured) -> Result<Vec<FrameCost>, Failure> {
     let cost = |method: &Method| {
-        let parts = method.parts(measured)?;
-        let of = |rounds: &Option<Vec<f64>>| rounds.as_deref().map(quartiles).transpose();
-        let (geometry, shading, filter) = (of(&parts.geometry)?, quartiles(&parts.shading)?, of(&parts.filter)?);
+        let parts = method.frame_parts(measured)?;
+        let of = |rounds: &Option<Vec<f64>>| rounds.as_deref().map(find_quartiles).transpose();
+        let (geometry, shading, filter) = (
+            of(&parts.geometry)?,
+            find_quartiles(&parts.shading)?,
+            of(&parts.filter)?,
+        );
         Ok(FrameCost {
             method: method.name(),
             geometry_ms: geometry,
@@ -147,25 +151,30 @@ pub fn frames(measured: &Measured) -> Result<Vec<FrameCost>, Failure> {
 }
 
 /// SRAA beside everything else.
-pub fn comparisons(measured: &Measured) -> Result<Vec<Comparison>, Failure> {
+pub fn compare_methods(measured: &Measured) -> Result<Vec<Comparison>, Failure> {
     let is_sraa = |method: &&Method| matches!(method, Method::Sraa(_) | Method::SraaMultisampled);
     let mut all = Vec::new();
     for method in METHODS.iter().filter(is_sraa) {
-        let own = method.parts(measured)?;
+        let own = method.frame_parts(measured)?;
         for over in METHODS.iter().filter(|method| !is_sraa(method)) {
-            let other = over.parts(measured)?;
-            let speedups: Vec<f64> = other.net().iter().zip(own.net()).map(|(a, b)| a / b).collect();
+            let other = over.frame_parts(measured)?;
+            let speedups: Vec<f64> = other
+                .net_times()
+                .iter()
+                .zip(own.net_times())
+                .map(|(a, b)| a / b)
+                .collect();
             let break_even_ms = match over {
                 Method::Supersampling(samples) => {
-                    let rounds = evens(&own.beside_shading(), &other.beside_shading(), *samples);
-                    Some(quartiles(&rounds)?)
+                    let rounds = break_even_rounds(&own.beside_shading(), &other.beside_shading(), *samples);
+                    Some(find_quartiles(&rounds)?)
                 }
                 _ => None,
             };
             all.push(Comparison {
                 method: method.name(),
                 over: over.name(),
-                speedup: quartiles(&speedups)?,
+                speedup: find_quartiles(&speedups)?,
                 break_even_ms,
             });
         }
@@ -176,22 +185,22 @@ pub fn comparisons(measured: &Measured) -> Result<Vec<Comparison>, Failure> {
 /// Break-even shading cost of a filter with so many samples beside the main G-buffer, drawn in a pass each, against shading all
 /// samples.
 pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Result<Quartiles, Failure> {
-    let pass = |pass| measured.pass(pass).map(|timed| timed.rounds_ms.as_slice());
-    let geometry = added(
+    let pass = |pass| measured.pass_time(pass).map(|timed| timed.rounds_ms.as_slice());
+    let geometry = add_rounds(
         pass(FramePass::Geometry(Samples::One))?,
         pass(FramePass::Auxiliary(samples))?,
     );
-    let own = added(&geometry, filter);
+    let own = add_rounds(&geometry, filter);
     let samples = match samples {
         Samples::Three => Samples::Four,
         other => other,
     };
-    let other = Method::Supersampling(samples).parts(measured)?.beside_shading();
-    quartiles(&evens(&own, &other, samples))
+    let other = Method::Supersampling(samples).frame_parts(measured)?.beside_shading();
+    find_quartiles(&break_even_rounds(&own, &other, samples))
 }
 
 /// Shading s of one sample, with which `own + s` and `other + samples * s` are equal, round by round.
-fn evens(own: &[f64], other: &[f64], samples: Samples) -> Vec<f64> {
+fn break_even_rounds(own: &[f64], other: &[f64], samples: Samples) -> Vec<f64> {
     let further = f64::from(samples.count()) - 1.0;
     own.iter()
         .zip(other)

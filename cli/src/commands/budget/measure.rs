@@ -113,13 +113,13 @@ const TOGETHER: [FramePass; 3] = [
 
 impl Measured {
     /// The rounds of a pass, in milliseconds.
-    pub fn pass(&self, pass: FramePass) -> Result<&PassTime, Failure> {
+    pub fn pass_time(&self, pass: FramePass) -> Result<&PassTime, Failure> {
         let found = self.passes.iter().find(|timed| timed.pass == pass);
         found.ok_or_else(|| Failure::Failed(format!("{pass:?} was not timed")))
     }
 
     /// The filter with the default metric, of the samples that are drawn beside the main G-buffer.
-    pub fn filter(&self, samples: Samples) -> Result<&Filter, Failure> {
+    pub fn default_filter(&self, samples: Samples) -> Result<&Filter, Failure> {
         let mut filters = self.filters.iter();
         let found = filters.find(|filter| filter.samples == samples && filter.metric == DEFAULT_METRIC);
         found.ok_or_else(|| Failure::Failed(format!("no filter with {samples:?} was timed")))
@@ -149,10 +149,11 @@ impl Subject {
 }
 
 /// Times everything in turn, after one round that is not counted.
-pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured, Failure> {
+pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured, Failure> {
     let bench = gpu.bench();
-    let frame = FramePasses::new(&gpu.device, &gpu.queue, world, args.size, args.shading_cost).map_err(Failure::of)?;
-    let subjects = subjects(args, world, gpu, &bench)?;
+    let frame =
+        FramePasses::new(&gpu.device, &gpu.queue, world, args.size, args.shading_cost).map_err(Failure::from_error)?;
+    let subjects = prepare_subjects(args, world, gpu, &bench)?;
     let mut works: Vec<Work<'_>> = Vec::new();
     for (_, pass) in PASSES {
         let frame = &frame;
@@ -160,16 +161,20 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
             frame.encode(pass, encoder, &timestamps(timer, pass.passes())?);
             Ok(())
         });
-        works.push(work.map_err(Failure::of)?);
+        works.push(work.map_err(Failure::from_error)?);
     }
     for subject in &subjects {
-        works.push(bench.work(subject.job(args), Duration::ZERO).map_err(Failure::of)?);
+        works.push(
+            bench
+                .work(subject.job(args), Duration::ZERO)
+                .map_err(Failure::from_error)?,
+        );
     }
     let is_first = |subject: &&Subject| subject.metric == DEFAULT_METRIC && subject.shading == "centre";
     let first = subjects.iter().find(is_first).map(|subject| subject.job(args));
     // Timestamps lie around passes, and say nothing of what lies between.
     if let Some(job) = first.filter(|_| bench.clock() == Clock::WallClock) {
-        let filter = bench.recorder(job).map_err(Failure::of)?;
+        let filter = bench.recorder(job).map_err(Failure::from_error)?;
         let frame = &frame;
         let work = bench.recorded(1, Duration::ZERO, move |encoder, _| {
             for pass in TOGETHER {
@@ -178,16 +183,16 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
             filter(encoder);
             Ok(())
         });
-        works.push(work.map_err(Failure::of)?);
+        works.push(work.map_err(Failure::from_error)?);
     }
-    let bar = scene::bar(&format!("timing {} passes", works.len()));
+    let bar = scene::progress_bar(&format!("timing {} passes", works.len()));
     bar.set_length(u64::from(args.rounds));
     let timed = bench.in_turn(&mut works, args.rounds, |round| {
         bar.set_position(u64::from(round));
         true
     });
     drop(works);
-    let timed = timed.map_err(Failure::of)?;
+    let timed = timed.map_err(Failure::from_error)?;
     bar.finish_and_clear();
     let mut rounds = timed
         .rounds
@@ -198,9 +203,9 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         passes.push(PassTime {
             pass,
             name,
-            samples: samples(pass),
+            samples: sample_count(pass),
             passes: pass.passes(),
-            ms: frame::quartiles(&rounds_ms)?,
+            ms: frame::find_quartiles(&rounds_ms)?,
             rounds_ms,
         });
     }
@@ -210,14 +215,14 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         together: None,
     };
     for (subject, rounds_ms) in subjects.iter().zip(rounds.by_ref()) {
-        let filter = filter(&measured, subject, rounds_ms)?;
+        let filter = filter_time(&measured, subject, rounds_ms)?;
         measured.filters.push(filter);
     }
     if let Some(rounds_ms) = rounds.next() {
-        measured.together = Some(together(&measured, rounds_ms)?);
+        measured.together = Some(whole_frame_time(&measured, rounds_ms)?);
     }
     for (pattern, _, samples) in PLACES.into_iter().filter(|(_, shading, _)| *shading == "centre") {
-        let base = measured.filter(samples)?.ms.median;
+        let base = measured.default_filter(samples)?.ms.median;
         for filter in measured.filters.iter_mut().filter(|filter| filter.pattern == pattern) {
             filter.ratio = filter.ms.median / base;
         }
@@ -225,24 +230,24 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
     Ok(measured)
 }
 
-fn together(measured: &Measured, rounds_ms: Vec<f64>) -> Result<Together, Failure> {
+fn whole_frame_time(measured: &Measured, rounds_ms: Vec<f64>) -> Result<Together, Failure> {
     let mut parts = vec![0.0; rounds_ms.len()];
-    let filter = &measured.filter(Samples::Four)?.rounds_ms;
+    let filter = &measured.default_filter(Samples::Four)?.rounds_ms;
     for pass in TOGETHER {
-        let rounds = &measured.pass(pass)?.rounds_ms;
+        let rounds = &measured.pass_time(pass)?.rounds_ms;
         parts.iter_mut().zip(rounds).for_each(|(sum, part)| *sum += part);
     }
     let sums = parts.iter().zip(filter).map(|(sum, part)| sum + part);
     let ratios: Vec<f64> = rounds_ms.iter().zip(sums).map(|(whole, parts)| whole / parts).collect();
     Ok(Together {
         method: "SRAA 4",
-        ms: frame::quartiles(&rounds_ms)?,
-        over_parts: frame::quartiles(&ratios)?,
+        ms: frame::find_quartiles(&rounds_ms)?,
+        over_parts: frame::find_quartiles(&ratios)?,
         rounds_ms,
     })
 }
 
-fn samples(pass: FramePass) -> u32 {
+fn sample_count(pass: FramePass) -> u32 {
     match pass {
         FramePass::Geometry(samples)
         | FramePass::Auxiliary(samples)
@@ -252,7 +257,7 @@ fn samples(pass: FramePass) -> u32 {
     }
 }
 
-fn filter(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result<Filter, Failure> {
+fn filter_time(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result<Filter, Failure> {
     let counts = &subject.compiled.counts;
     let four = matches!(subject.samples, Samples::Four);
     Ok(Filter {
@@ -261,7 +266,7 @@ fn filter(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result
         shading: subject.shading,
         samples: subject.samples,
         reads: counts.texture_reads + counts.colour_reads,
-        ms: frame::quartiles(&rounds_ms)?,
+        ms: frame::find_quartiles(&rounds_ms)?,
         ratio: 1.0,
         paper_ratio: four.then_some(subject.paper_ms / METRICS[1].1),
         break_even_ms: frame::break_even(measured, subject.samples, &rounds_ms)?,
@@ -269,12 +274,13 @@ fn filter(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result
     })
 }
 
-fn subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Result<Vec<Subject>, Failure> {
-    let renderer = GpuRenderer::new(&gpu.device, &gpu.queue, world, args.size).map_err(Failure::of)?;
+fn prepare_subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Result<Vec<Subject>, Failure> {
+    let renderer = GpuRenderer::new(&gpu.device, &gpu.queue, world, args.size).map_err(Failure::from_error)?;
     let mut subjects = Vec::new();
     for (pattern, shading, samples) in PLACES {
-        let offsets = scene::pattern(pattern)?;
-        let capture = render::capture(&renderer, &offsets, scene::shading(shading, &[])?).map_err(Failure::of)?;
+        let offsets = scene::sample_offsets(pattern)?;
+        let capture =
+            render::capture(&renderer, &offsets, scene::parse_shading(shading, &[])?).map_err(Failure::from_error)?;
         for (metric, paper_ms) in METRICS {
             if samples == Samples::Three && metric != DEFAULT_METRIC {
                 continue;
@@ -284,9 +290,9 @@ fn subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Resul
                 .set("metric", metric)
                 .set("shading", shading);
             let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
-            let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
-            let (pass, manifest) = bench.pass(&compiled, Stage::Compute).map_err(Failure::of)?;
-            let uploaded = bench.upload(&manifest, &inputs).map_err(Failure::of)?;
+            let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::from_error)?;
+            let (pass, manifest) = bench.pass(&compiled, Stage::Compute).map_err(Failure::from_error)?;
+            let uploaded = bench.upload(&manifest, &inputs).map_err(Failure::from_error)?;
             subjects.push(Subject {
                 metric,
                 paper_ms,

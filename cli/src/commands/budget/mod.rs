@@ -55,33 +55,33 @@ struct Record {
 }
 
 /// Counts, measures, prints.
-pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
+pub fn measure_budget(args: &BudgetArgs) -> Result<(), Failure> {
     if let Some(path) = &args.record {
-        files::try_file(path, true).map_err(Failure::of)?;
+        files::try_file(path, true).map_err(Failure::from_error)?;
     }
-    let world = scene::viewed(&args.view)?;
+    let world = scene::load_viewed(&args.view)?;
     let gpu = Gpu::require(&args.adapter)?;
-    let measured = measure::measured(args, &world, &gpu)?;
+    let measured = measure::measure_passes(args, &world, &gpu)?;
     let record = Record {
         circumstances: circumstances_of(&gpu, args.size, args.rounds),
-        scene: args.view.name(),
+        scene: args.view.scene_name(),
         triangles: world.triangles.len(),
         shading_cost: args.shading_cost,
-        frames: frame::frames(&measured)?,
-        comparisons: frame::comparisons(&measured)?,
-        costs: costs(args, &measured.filters),
+        frames: frame::frame_costs(&measured)?,
+        comparisons: frame::compare_methods(&measured)?,
+        costs: method_costs(args, &measured.filters),
         passes: measured.passes,
         together: measured.together,
         filters: measured.filters,
     };
     if let Some(path) = &args.record {
-        let text = serde_json::to_string_pretty(&record).map_err(Failure::of)? + "\n";
-        files::write(path, text.as_bytes()).map_err(Failure::of)?;
+        let text = serde_json::to_string_pretty(&record).map_err(Failure::from_error)? + "\n";
+        files::write_file(path, text.as_bytes()).map_err(Failure::from_error)?;
     }
-    print::record(args, &record)
+    print::print_record(args, &record)
 }
 
-fn costs(args: &BudgetArgs, filters: &[Filter]) -> Vec<Cost> {
+fn method_costs(args: &BudgetArgs, filters: &[Filter]) -> Vec<Cost> {
     let pixels = u64::from(args.size.x) * u64::from(args.size.y);
     let reads = |pattern: &str| {
         let is_default = |f: &&Filter| f.metric == measure::DEFAULT_METRIC && f.shading == "centre";

@@ -17,9 +17,9 @@ const PAPER: [(&str, [f64; 4]); 3] = [
 const ROWS: [&str; 4] = ["geometry", "shading", "filter", "net"];
 
 /// As JSON, or as tables.
-pub fn record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
+pub fn print_record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
-        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::from_error)?);
         return Ok(());
     }
     outln!(
@@ -34,22 +34,22 @@ pub fn record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
             Clock::WallClock => "wall clock",
         }
     );
-    frames(record)?;
-    comparisons(record)?;
-    passes(record)?;
-    filters(record)?;
+    print_frames(record)?;
+    print_comparisons(record)?;
+    print_passes(record)?;
+    print_filters(record)?;
     if let Some(together) = &record.together {
         outln!(
             "{} in one submission, from graphics to compute and back: {} ms, {} times its parts' sum.\n",
             together.method,
-            interval(together.ms),
-            interval(together.over_parts)
+            format_interval(together.ms),
+            format_interval(together.over_parts)
         );
     }
-    memory(record)
+    print_memory(record)
 }
 
-fn frames(record: &Record) -> Result<(), Failure> {
+fn print_frames(record: &Record) -> Result<(), Failure> {
     let ms = |part: Option<Quartiles>| part.map_or("-".to_owned(), |part| format!("{:.2}", part.median));
     let row = |name: &str, cell: &dyn Fn(&FrameCost) -> String| {
         let cells = record.frames.iter().map(cell);
@@ -72,7 +72,7 @@ fn frames(record: &Record) -> Result<(), Failure> {
     let headings: Vec<&str> = std::iter::once("ms")
         .chain(record.frames.iter().map(|frame| frame.method.as_str()))
         .collect();
-    outln!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render_table(&headings, &rows));
     outln!("paper: SRAA's table 2, 1280x720, GeForce GTX 480.");
     outln!(
         "sample0: shaded at one of the four samples, as in the paper, so three more are drawn; else at the centre, and four more."
@@ -82,7 +82,7 @@ fn frames(record: &Record) -> Result<(), Failure> {
     Ok(())
 }
 
-fn comparisons(record: &Record) -> Result<(), Failure> {
+fn print_comparisons(record: &Record) -> Result<(), Failure> {
     let rows: Vec<Vec<String>> = record
         .comparisons
         .iter()
@@ -90,20 +90,20 @@ fn comparisons(record: &Record) -> Result<(), Failure> {
             vec![
                 comparison.method.clone(),
                 comparison.over.clone(),
-                interval(comparison.speedup),
+                format_interval(comparison.speedup),
                 comparison.break_even_ms.map_or(String::new(), not_negative),
             ]
         })
         .collect();
     let headings = ["method", "over", "speedup (quartiles)", "pays from, ms of shading"];
-    outln!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render_table(&headings, &rows));
     outln!(
         "pays from: what shading once a pixel costs from which SRAA's frame is cheaper, if every sample costs as much; 0: always.\n"
     );
     Ok(())
 }
 
-fn passes(record: &Record) -> Result<(), Failure> {
+fn print_passes(record: &Record) -> Result<(), Failure> {
     let rows: Vec<Vec<String>> = record
         .passes
         .iter()
@@ -112,13 +112,13 @@ fn passes(record: &Record) -> Result<(), Failure> {
                 pass.name.to_owned(),
                 pass.samples.to_string(),
                 pass.passes.to_string(),
-                interval(pass.ms),
+                format_interval(pass.ms),
             ]
         })
         .collect();
     outln!(
         "{}",
-        table::render(&["timed", "samples", "passes", "ms (quartiles)"], &rows)
+        table::render_table(&["timed", "samples", "passes", "ms (quartiles)"], &rows)
     );
     let evaluations = match record.shading_cost {
         1 => "1 evaluation".to_owned(),
@@ -128,7 +128,7 @@ fn passes(record: &Record) -> Result<(), Failure> {
     Ok(())
 }
 
-fn filters(record: &Record) -> Result<(), Failure> {
+fn print_filters(record: &Record) -> Result<(), Failure> {
     let rows: Vec<Vec<String>> = record
         .filters
         .iter()
@@ -138,7 +138,7 @@ fn filters(record: &Record) -> Result<(), Failure> {
                 filter.pattern.to_owned(),
                 filter.shading.to_owned(),
                 filter.reads.to_string(),
-                interval(filter.ms),
+                format_interval(filter.ms),
                 format!("{:.2}", filter.ratio),
                 filter.paper_ratio.map_or(String::new(), |ratio| format!("{ratio:.2}")),
                 not_negative(filter.break_even_ms),
@@ -155,12 +155,12 @@ fn filters(record: &Record) -> Result<(), Failure> {
         "paper",
         "pays from, ms",
     ];
-    outln!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render_table(&headings, &rows));
     outln!("ratio: to depth-normals of the same pattern, shaded at the centre; paper: table 1, GeForce GTX 480.\n");
     Ok(())
 }
 
-fn memory(record: &Record) -> Result<(), Failure> {
+fn print_memory(record: &Record) -> Result<(), Failure> {
     let megabytes = |bytes: &u64| format!("{:.1} MB", *bytes as f64 / 1.0e6);
     let row = |cost: &Cost| {
         let mut row = vec![
@@ -175,7 +175,7 @@ fn memory(record: &Record) -> Result<(), Failure> {
     let headings = ["per pixel", "geometry", "shading", "6 B", "8 B", "12 B", "reads"];
     outln!(
         "{}",
-        table::render(&headings, &record.costs.iter().map(row).collect::<Vec<_>>())
+        table::render_table(&headings, &record.costs.iter().map(row).collect::<Vec<_>>())
     );
     for (format, bytes) in FORMATS {
         outln!("{bytes} B a sample: {format}");
@@ -184,13 +184,13 @@ fn memory(record: &Record) -> Result<(), Failure> {
     Ok(())
 }
 
-fn interval(of: Quartiles) -> String {
+fn format_interval(of: Quartiles) -> String {
     format!("{:.2} ({:.2} to {:.2})", of.median, of.lower, of.upper)
 }
 
 /// Formats a cost, negative numbers as 0: what pays below nothing pays always.
 fn not_negative(of: Quartiles) -> String {
-    interval(Quartiles {
+    format_interval(Quartiles {
         lower: of.lower.max(0.0),
         median: of.median.max(0.0),
         upper: of.upper.max(0.0),

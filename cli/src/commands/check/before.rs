@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 /// # Errors
 ///
 /// If it cannot be started.
-pub fn run(command: &[String], format: MessageFormat) -> Result<Result<(), String>, Failure> {
+pub fn run_command(command: &[String], format: MessageFormat) -> Result<Result<(), String>, Failure> {
     let Some((program, arguments)) = command.split_first() else {
         return Ok(Ok(()));
     };

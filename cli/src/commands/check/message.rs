@@ -8,13 +8,13 @@ use std::path::Path;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
 
 /// The message for the first of `errors`, in one line.
-pub fn of(kernel: &str, errors: &Errors) -> Value {
+pub fn message_json(kernel: &str, errors: &Errors) -> Value {
     let Some(diagnostic) = errors.diagnostics.first() else {
         return Value::Null;
     };
     // Of a file that cannot be read the name is all that there is.
     let path = match errors.files.first() {
-        Some(file) => absolute(&file.path),
+        Some(file) => absolute_path(&file.path),
         None => std::path::absolute(kernel).map_or_else(|_| kernel.to_owned(), |path| path.display().to_string()),
     };
     json!({
@@ -32,34 +32,34 @@ pub fn of(kernel: &str, errors: &Errors) -> Value {
             "doctest": false,
             "test": false,
         },
-        "message": rustc(diagnostic, errors),
+        "message": diagnostic_json(diagnostic, errors),
     })
 }
 
 /// The last message of all.
-pub fn finished(success: bool) -> Value {
+pub fn finished_json(success: bool) -> Value {
     json!({ "reason": "build-finished", "success": success })
 }
 
 /// An error or a remark in rustc's words, at its level `error` or `note`.
-fn rustc(diagnostic: &Diagnostic, errors: &Errors) -> Value {
+fn diagnostic_json(diagnostic: &Diagnostic, errors: &Errors) -> Value {
     let primary = diagnostic.span.map(|at| (at, diagnostic.label.as_str(), true));
     let others = diagnostic.others.iter().map(|(at, label)| (*at, label.as_str(), false));
     let places = primary.into_iter().chain(others);
     let spans: Vec<Value> = places
-        .filter_map(|(at, label, is_primary)| span(errors.files.get(at.file as usize)?, at, label, is_primary))
+        .filter_map(|(at, label, is_primary)| span_json(errors.files.get(at.file as usize)?, at, label, is_primary))
         .collect();
     // Editors show the children of an error instead of its label.
     let label = Some(&diagnostic.label).filter(|label| !label.is_empty());
     let notes = label
         .into_iter()
         .chain(&diagnostic.notes)
-        .map(|note| child("note", note));
-    let help = diagnostic.help.as_deref().map(|help| child("help", help));
+        .map(|note| child_json("note", note));
+    let help = diagnostic.help.as_deref().map(|help| child_json("help", help));
     json!({
         "$message_type": "diagnostic",
         "message": diagnostic.message,
-        "code": diagnostic.code().map(code),
+        "code": diagnostic.code().map(code_json),
         "level": if diagnostic.code().is_some() { "error" } else { "note" },
         "spans": spans,
         "children": notes.chain(help).collect::<Vec<_>>(),
@@ -68,20 +68,20 @@ fn rustc(diagnostic: &Diagnostic, errors: &Errors) -> Value {
 }
 
 /// The code as clippy names its own: the part before the colons says who speaks, or editors would show rustc's explanation.
-fn code(code: Code) -> Value {
+fn code_json(code: Code) -> Value {
     json!({ "code": format!("straightline::{code}"), "explanation": code.explanation() })
 }
 
-fn child(level: &str, message: &str) -> Value {
+fn child_json(level: &str, message: &str) -> Value {
     json!({ "message": message, "code": null, "level": level, "spans": [], "children": [], "rendered": null })
 }
 
-fn span(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Value> {
+fn span_json(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Value> {
     let (start, end) = (at.start as usize, (at.end as usize).max(at.start as usize));
     // A place outside of its file would put an editor's mark anywhere.
     file.text.get(start..end)?;
-    let (line_start, column_start) = position(&file.text, start);
-    let (line_end, column_end) = position(&file.text, end);
+    let (line_start, column_start) = line_and_column(&file.text, start);
+    let (line_end, column_end) = line_and_column(&file.text, end);
     let lines = file.text.lines().enumerate().skip(line_start - 1);
     let text: Vec<Value> = lines
         .take(line_end - line_start + 1)
@@ -97,7 +97,7 @@ fn span(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Value> {
         })
         .collect();
     Some(json!({
-        "file_name": absolute(&file.path),
+        "file_name": absolute_path(&file.path),
         "byte_start": start,
         "byte_end": end,
         "line_start": line_start,
@@ -114,7 +114,7 @@ fn span(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Value> {
 }
 
 /// Line and column of a byte, from 1, columns in characters. A byte order mark has no column.
-fn position(text: &str, byte: usize) -> (usize, usize) {
+fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     let before = &text[..byte];
     let line = before.rfind('\n').map_or(0, |at| at + 1);
     let column = before[line..].trim_start_matches('\u{feff}').chars().count() + 1;
@@ -122,7 +122,7 @@ fn position(text: &str, byte: usize) -> (usize, usize) {
 }
 
 /// A path that means the same in every folder; that of a text which is no file stays as it is.
-fn absolute(path: &str) -> String {
+fn absolute_path(path: &str) -> String {
     match std::path::absolute(path) {
         Ok(whole) if Path::new(path).exists() => whole.display().to_string(),
         _ => path.to_owned(),
@@ -131,14 +131,14 @@ fn absolute(path: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::position;
+    use super::line_and_column;
 
     #[test]
     fn columns_are_characters() {
         let text = "\u{feff}a\r\n// größer 🦀 x\n";
-        let at = |what: &str| position(text, text.find(what).expect("it is there"));
+        let at = |what: &str| line_and_column(text, text.find(what).expect("it is there"));
         assert_eq!(
-            (at("a"), at("x"), position(text, text.len())),
+            (at("a"), at("x"), line_and_column(text, text.len())),
             ((1, 1), (2, 13), (3, 1))
         );
     }

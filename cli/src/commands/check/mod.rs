@@ -5,7 +5,7 @@ mod message;
 mod notes;
 
 use crate::args::{CheckArgs, MessageFormat};
-use crate::failure::{Failure, count};
+use crate::failure::{Failure, format_count};
 use crate::output;
 use std::collections::HashSet;
 use std::io::IsTerminal;
@@ -14,33 +14,33 @@ use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Kernel};
 
 /// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
-pub fn run(args: &CheckArgs) -> Result<(), Failure> {
-    let names = names(&args.kernels, &args.source)?;
+pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
+    let names = kernel_names(&args.kernels, &args.source)?;
     // A missing file is bad use, and reported before anything runs.
     let mut located = Vec::new();
     for name in &names {
-        match args.of(name).locate() {
+        match args.kernel_args(name).locate_kernel() {
             Ok(kernel) => located.push(kernel),
             Err(errors) => {
                 // An editor reads messages alone.
                 if args.message_format == MessageFormat::Json {
-                    outln!("{}", message::of(name, &errors));
-                    outln!("{}", message::finished(false));
+                    outln!("{}", message::message_json(name, &errors));
+                    outln!("{}", message::finished_json(false));
                 }
                 return Err(errors.into());
             }
         }
     }
-    let before = before::run(&args.command, args.message_format)?;
+    let before = before::run_command(&args.command, args.message_format)?;
     let mut shown = HashSet::new();
     let (mut broken, mut found) = (0, 0);
     for (name, kernel) in names.iter().zip(&located) {
-        let errors = match checked(args, kernel) {
+        let errors = match check_kernel(args, kernel) {
             Ok(compiled) => {
                 if args.message_format == MessageFormat::Human {
                     outln!("{name}: no errors");
                 }
-                let notes = notes::of(&compiled, kernel).into_iter();
+                let notes = notes::find_notes(&compiled, kernel).into_iter();
                 let new = notes.filter(|note| shown.insert(format!("{:?}", note.diagnostics)));
                 new.for_each(|note| notes::print(args.message_format, name, &note));
                 continue;
@@ -62,20 +62,20 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     }
     let success = broken == 0 && before.is_ok();
     if args.message_format == MessageFormat::Json {
-        outln!("{}", message::finished(success));
+        outln!("{}", message::finished_json(success));
     }
     if broken > 0 {
         return Err(Failure::Failed(format!(
             "{} in {broken} of {}",
-            count(found, "error"),
-            count(names.len(), "kernel")
+            format_count(found, "error"),
+            format_count(names.len(), "kernel")
         )));
     }
     before.map_err(Failure::Failed)
 }
 
 /// The kernels to check, those of folders by the order of their names.
-fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> {
+fn kernel_names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> {
     let mut names = Vec::new();
     for name in given {
         let folder = Path::new(name);
@@ -112,22 +112,22 @@ fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> 
 }
 
 /// Finds the errors that `emit` would find in a kernel. Every error has a place, since editors show no other.
-fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
+fn check_kernel(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
     let placed = |mut errors: Errors| {
-        let place = kernel.place();
+        let place = kernel.name_span();
         for diagnostic in errors.diagnostics.iter_mut().filter(|d| d.span.is_none()) {
             diagnostic.span = place;
         }
         errors.files = kernel.files().to_vec().into();
         errors
     };
-    emitted(args, kernel)
+    compile_and_emit(args, kernel)
         .and_then(|compiled| kernel.check_others().map(|()| compiled))
         .map_err(placed)
 }
 
-fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
-    let mut spec = args.spec();
+fn compile_and_emit(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
+    let mut spec = args.shader_spec();
     let compiled = spec.compile(kernel)?;
     if !args.writing.0.has("stage") {
         spec.emit.stage = super::natural_stage(&compiled);
@@ -138,10 +138,10 @@ fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
 
 fn print(format: MessageFormat, kernel: &str, error: &Errors) {
     match format {
-        MessageFormat::Json => outln!("{}", message::of(kernel, error)),
+        MessageFormat::Json => outln!("{}", message::message_json(kernel, error)),
         MessageFormat::Human => {
             let text = error.render(std::io::stderr().is_terminal());
-            output::note(format_args!("{}\n", output::limited(&text)));
+            output::note(format_args!("{}\n", output::limit_lines(&text)));
         }
     }
 }

@@ -6,7 +6,7 @@ use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_codegen::{Compiled, Kernel};
 
 /// A note for each line whose operations drivers are kept from reordering.
-pub fn of(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
+pub fn find_notes(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
     let places = compiled.exact_places().into_iter();
     let note = |(path, line, name): (&str, u32, &str)| {
         let (index, file) = (0..).zip(kernel.files()).find(|(_, file)| file.path == path)?;
@@ -51,7 +51,7 @@ pub fn print(format: MessageFormat, kernel: &str, note: &Errors) {
         return;
     };
     match (format, diagnostic.span) {
-        (MessageFormat::Json, _) => outln!("{}", message::of(kernel, note)),
+        (MessageFormat::Json, _) => outln!("{}", message::message_json(kernel, note)),
         (MessageFormat::Human, Some(at)) => {
             let path = note.files.get(at.file as usize).map_or("", |file| file.path.as_str());
             outln!("{path}:{}: note: {}", at.line, diagnostic.message);

@@ -10,22 +10,22 @@ use crate::{scene, table};
 use std::time::Duration;
 use straightline_codegen::files;
 use straightline_study::progress::Progress;
-use straightline_study::quads::{QuadsError, Setup, study};
+use straightline_study::quads::{QuadsError, Setup, study_quads};
 use straightline_study::record::{QuadWay, QuadsRecord};
 
 /// Least time that a shader runs for one measurement, as in `study loops`.
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures every way of every filter on a rendered frame, in one run.
-pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
+pub fn measure_quads(args: &QuadsArgs) -> Result<(), Failure> {
     if let Some(path) = &args.record {
-        files::try_file(path, true).map_err(Failure::of)?;
+        files::try_file(path, true).map_err(Failure::from_error)?;
     }
     if let Some(folder) = &args.pictures {
-        files::try_folder(folder).map_err(Failure::of)?;
+        files::try_folder(folder).map_err(Failure::from_error)?;
     }
     let gpu = Gpu::require(&args.adapter)?;
-    let scene = scene::load(args.mesh.as_deref(), "roof")?;
+    let scene = scene::load_scene(args.mesh.as_deref(), "roof")?;
     let setup = Setup {
         size: args.size,
         texels: args.texels,
@@ -35,22 +35,22 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     let bench = gpu.bench();
     let mut circumstances = circumstances_of(&gpu, args.size, args.rounds);
     let mut progress = ProgressBars::new();
-    let studied = study(&bench, &scene, &setup, &mut progress).map_err(|error| match error {
+    let studied = study_quads(&bench, &scene, &setup, &mut progress).map_err(|error| match error {
         QuadsError::Kernel(errors) => Failure::Kernel(errors),
-        other => Failure::of(other),
+        other => Failure::from_error(other),
     })?;
-    circumstances.complete = !progress.stopped();
+    circumstances.complete = !progress.is_stopped();
     drop(progress);
     if let Some(folder) = &args.pictures {
-        pictures::write(&bench, folder, &studied)?;
+        pictures::write_pictures(&bench, folder, &studied)?;
     }
-    print(args, &studied.record(circumstances))
+    print(args, &studied.to_record(circumstances))
 }
 
 fn print(args: &QuadsArgs, record: &QuadsRecord) -> Result<(), Failure> {
-    let json = serde_json::to_string_pretty(record).map_err(Failure::of)? + "\n";
+    let json = serde_json::to_string_pretty(record).map_err(Failure::from_error)? + "\n";
     if let Some(path) = &args.record {
-        files::write(path, json.as_bytes()).map_err(Failure::of)?;
+        files::write_file(path, json.as_bytes()).map_err(Failure::from_error)?;
     }
     if args.json {
         out!("{json}");
@@ -91,7 +91,7 @@ fn print(args: &QuadsArgs, record: &QuadsRecord) -> Result<(), Failure> {
         "mean off",
         "largest",
     ];
-    out!("{}", table::render(&head, &rows));
+    out!("{}", table::render_table(&head, &rows));
     outln!(
         "\nSpeedup: over the filter's first way, round by round, with the interval of 95 %. Shadow filters draw {} triangles; \
          those in compute read coordinates, and the pass that draws them, {:.2} ms, is in their times.",

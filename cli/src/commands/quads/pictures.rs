@@ -11,56 +11,56 @@ use straightline_scene::picture;
 use straightline_study::quads::Studied;
 
 /// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
-pub fn write(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Failure> {
+pub fn write_pictures(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Failure> {
     let mut set = BTreeMap::new();
     let mut save = |name: &str, frame: &Frame<Vec4>| -> Result<(), Failure> {
-        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
+        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::from_error)?);
         Ok(())
     };
-    for (way, shown) in shadowed(bench, studied)? {
+    for (way, shown) in shadow_pictures(bench, studied)? {
         save(
             &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
             &shown,
         )?;
     }
-    save("pcf-details.png", &shadows(bench, studied)?)?;
-    for (title, shown) in occluded(studied) {
+    save("pcf-details.png", &shadow_details(bench, studied)?)?;
+    for (title, shown) in occlusion_pictures(studied) {
         if title != "bilinear" {
             save(&format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
         }
     }
-    save("occlusion-details.png", &occlusion(studied))?;
-    files::write_all(folder, &set).map_err(Failure::of)?;
+    save("occlusion-details.png", &occlusion_details(studied))?;
+    files::write_all(folder, &set).map_err(Failure::from_error)?;
     Ok(())
 }
 
 /// Details of the shadows under the awning over the built-in scene's door (figure 2.7).
-pub fn shadows(bench: &Bench, studied: &Studied) -> Result<Frame<Vec4>, Failure> {
-    Ok(details(&shadowed(bench, studied)?, [0.55, 0.53, 0.1, 0.2]))
+pub fn shadow_details(bench: &Bench, studied: &Studied) -> Result<Frame<Vec4>, Failure> {
+    Ok(enlarge_part(&shadow_pictures(bench, studied)?, [0.55, 0.53, 0.1, 0.2]))
 }
 
 /// Details of the occlusion (figure 2.3).
-pub fn occlusion(studied: &Studied) -> Frame<Vec4> {
-    details(&occluded(studied), [0.53, 0.42, 0.12, 0.22])
+pub fn occlusion_details(studied: &Studied) -> Frame<Vec4> {
+    enlarge_part(&occlusion_pictures(studied), [0.53, 0.42, 0.12, 0.22])
 }
 
 /// The shadow scene by each way of the 8×8 filter.
-fn shadowed(bench: &Bench, studied: &Studied) -> Result<Vec<(&'static str, Frame<Vec4>)>, Failure> {
+fn shadow_pictures(bench: &Bench, studied: &Studied) -> Result<Vec<(&'static str, Frame<Vec4>)>, Failure> {
     let mut all = Vec::new();
     for way in ["naive", "quad", "quad, gradient", "gather"] {
         if let Some(lit) = studied.picture("PCF 8x8 quadratic", way) {
-            all.push((way, studied.shadowed.picture(bench, lit).map_err(Failure::of)?));
+            all.push((way, studied.shadowed.picture(bench, lit).map_err(Failure::from_error)?));
         }
     }
     Ok(all)
 }
 
 /// Occlusion at half the resolution as a sampler stretches it, upsampled, and at full resolution.
-fn occluded(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
+fn occlusion_pictures(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
     let screen = &studied.screen;
     let low = screen.images.iter().rev().find(|(name, _)| name == "low");
     let mut all: Vec<(&str, Frame<Vec4>)> = Vec::new();
-    all.extend(low.map(|(_, layers)| ("bilinear", stretched(&layers[0], screen))));
+    all.extend(low.map(|(_, layers)| ("bilinear", stretch_bilinear(&layers[0], screen))));
     for (family, way, title) in [
         ("upsampling 2x", "quad, 1 read", "bilateral"),
         ("occlusion, 16 taps", "naive", "full resolution"),
@@ -75,7 +75,7 @@ fn occluded(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
 }
 
 /// Enlarges one part of several pictures, left, top, width and height as shares of the whole, beside one another.
-fn details(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> {
+fn enlarge_part(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> {
     let detail = |frame: &Frame<Vec4>| {
         let size = frame.size().as_vec2();
         let [left, top, width, height] = part;
@@ -89,7 +89,7 @@ fn details(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> {
 }
 
 /// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.
-fn stretched(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
+fn stretch_bilinear(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
     let size = screen.size;
     let texel = |k: u32| {
         let place = (glam::uvec2(k % size.x, k / size.x).as_vec2() + 0.5) / 2.0;

@@ -13,7 +13,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_scene::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
-pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {
+pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {
     // A compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
     let compiled = match (given.executor, stage) {
         (Executor::Gpu, Stage::Fragment) => {
@@ -26,13 +26,13 @@ pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<In
     let mut inputs = Inputs::default();
     for text in &given.input {
         let (texture, path) = texture_and_path(&compiled, text)?;
-        let (path, asked) = transfer::of(path);
-        for path in paths(path) {
+        let (path, asked) = transfer::split_transfer(path);
+        for path in split_paths(path) {
             match texture.scalar {
                 Scalar::F32 => {
-                    let transfer = transfer::decided(asked, texture, path)?;
-                    for picture in pictures(path, texture, transfer)? {
-                        put(&mut inputs.images, texture, picture)?;
+                    let transfer = transfer::choose_transfer(asked, texture, path)?;
+                    for picture in read_pictures(path, texture, transfer)? {
+                        add_picture(&mut inputs.images, texture, picture)?;
                     }
                 }
                 _ if asked == Some(Transfer::Srgb) => {
@@ -42,18 +42,18 @@ pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<In
                     )));
                 }
                 _ => {
-                    let picture = picture::read_integers(Path::new(path)).map_err(Failure::of)?;
-                    put(&mut inputs.integers, texture, picture)?;
+                    let picture = picture::read_integers(Path::new(path)).map_err(Failure::from_error)?;
+                    add_picture(&mut inputs.integers, texture, picture)?;
                 }
             }
         }
     }
     for texture in &graph.textures {
-        complete(&mut inputs, texture)?;
+        complete_texture(&mut inputs, texture)?;
     }
     for (name, text) in &given.uniform {
         let Some(uniform) = graph.uniforms.iter().find(|u| u.name == *name) else {
-            return Err(unknown(
+            return Err(unknown_input(
                 &compiled,
                 "uniform",
                 name,
@@ -63,11 +63,11 @@ pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<In
         if inputs.uniforms.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the uniform `{name}` is given twice")));
         }
-        inputs = inputs.uniform(name, &values::uniform(name, uniform.ty, text)?);
+        inputs = inputs.uniform(name, &values::parse_uniform(name, uniform.ty, text)?);
     }
     for (name, text) in &given.buffer {
         let Some(buffer) = graph.buffers.iter().find(|b| b.name == *name) else {
-            return Err(unknown(
+            return Err(unknown_input(
                 &compiled,
                 "buffer",
                 name,
@@ -77,9 +77,9 @@ pub fn inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<In
         if inputs.buffers.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
         }
-        inputs = inputs.buffer(name, values::buffer(name, &buffer.element, text)?);
+        inputs = inputs.buffer(name, values::parse_buffer(name, &buffer.element, text)?);
     }
-    inputs.size = given.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
+    inputs.size = given.size.or_else(|| output_size(graph, &inputs)).ok_or_else(|| {
         Failure::Usage(
             "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
         )
@@ -106,7 +106,7 @@ fn refuse_varyings(compiled: &Compiled) -> Result<(), Failure> {
 }
 
 /// The size of the first picture for a texture that has the output's size, else of the first picture.
-fn size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
+fn output_size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
     let framed = |name: &str| graph.textures.iter().any(|t| t.framed && t.name == name);
     let sizes = |name: &String, size: Option<UVec2>| size.map(|size| (framed(name), size));
     let images = inputs.images.iter();
@@ -127,7 +127,7 @@ fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'
             return Ok((texture, path));
         }
         if !Path::new(text).exists() {
-            return Err(unknown(compiled, "texture", name, names()));
+            return Err(unknown_input(compiled, "texture", name, names()));
         }
     }
     match &textures[..] {
@@ -140,51 +140,53 @@ fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'
             "say which texture `{}` is for, NAME=FILE: `{}` has {}",
             shorten(text),
             compiled.kernel,
-            list(names())
+            join_names(names())
         ))),
     }
 }
 
 /// The pictures of a file for a texture: a picture; the layer that FILE:LAYER names; or of an EXR file of layers without a
 /// colour, all of them where the texture takes several.
-fn pictures(path: &str, texture: &Texture, transfer: Transfer) -> Result<Vec<Frame<Vec4>>, Failure> {
+fn read_pictures(path: &str, texture: &Texture, transfer: Transfer) -> Result<Vec<Frame<Vec4>>, Failure> {
     if !Path::new(path).exists()
         && let Some((file, layer)) = path.rsplit_once(':')
         && file.to_ascii_lowercase().ends_with(".exr")
     {
-        return Ok(vec![picture::read_layer(Path::new(file), layer).map_err(Failure::of)?]);
+        return Ok(vec![
+            picture::read_layer(Path::new(file), layer).map_err(Failure::from_error)?,
+        ]);
     }
     let path = Path::new(path);
     let table = path
         .extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("cube"));
     if table && texture.kind == TextureKind::Volume {
-        return picture::read_cube(path).map_err(Failure::of);
+        return picture::read_cube(path).map_err(Failure::from_error);
     }
-    let layers = picture::layers(path).map_err(Failure::of)?;
+    let layers = picture::layers(path).map_err(Failure::from_error)?;
     if layers.is_empty() {
         let read = match transfer {
             Transfer::Srgb => picture::read(path),
             Transfer::Linear => picture::read_linear(path),
         };
-        return Ok(vec![read.map_err(Failure::of)?]);
+        return Ok(vec![read.map_err(Failure::from_error)?]);
     }
     if layers.len() > 1 && !takes_several(texture) {
         return Err(Failure::Usage(format!(
             "the texture `{}` takes one layer, and {} has {}: name one, as {}:{}",
             texture.name,
             path.display(),
-            list(layers.iter().map(String::as_str)),
+            join_names(layers.iter().map(String::as_str)),
             path.display(),
             layers.last().map_or("", String::as_str)
         )));
     }
-    let read = |layer: &String| picture::read_layer(path, layer).map_err(Failure::of);
+    let read = |layer: &String| picture::read_layer(path, layer).map_err(Failure::from_error);
     layers.iter().map(read).collect()
 }
 
 /// The files of a list, unless its commas are those of one file's name.
-fn paths(text: &str) -> Vec<&str> {
+fn split_paths(text: &str) -> Vec<&str> {
     match text.contains(',') && !Path::new(text).exists() {
         true => text.split(',').collect(),
         false => vec![text],
@@ -197,7 +199,7 @@ fn takes_several(texture: &Texture) -> bool {
 }
 
 /// Takes a strip of a volume's slices apart, and refuses faces that make no cube.
-fn complete(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failure> {
+fn complete_texture(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failure> {
     let Some((name, layers)) = inputs.images.iter_mut().find(|(name, _)| *name == texture.name) else {
         return Ok(());
     };
@@ -223,7 +225,7 @@ fn complete(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failure> {
 }
 
 /// A picture behind those that are there of a texture.
-fn put<T: Copy>(
+fn add_picture<T: Copy>(
     images: &mut Vec<(String, Vec<Frame<T>>)>,
     texture: &Texture,
     picture: Frame<T>,
@@ -246,16 +248,16 @@ fn put<T: Copy>(
     Ok(())
 }
 
-fn unknown<'a>(compiled: &Compiled, what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+fn unknown_input<'a>(compiled: &Compiled, what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
     Failure::Usage(format!(
         "`{}` has no {what} `{}`; it has {}",
         compiled.kernel,
         shorten(name),
-        list(known)
+        join_names(known)
     ))
 }
 
-fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+fn join_names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     if names.is_empty() {
         "none".to_owned()

@@ -15,9 +15,9 @@ use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
 
 /// Runs a kernel once and writes what it makes.
-pub fn run(args: &RunArgs) -> Result<(), Failure> {
-    let compiled = args.kernel.locate()?.compile(&args.kernel.options.settings())?;
-    let made = make(args, &compiled, &mut None)?;
+pub fn run_kernel(args: &RunArgs) -> Result<(), Failure> {
+    let compiled = args.kernel.locate_kernel()?.compile(&args.kernel.options.settings())?;
+    let made = run_compiled(args, &compiled, &mut None)?;
     for file in made.files {
         outln!("{} ({})", file.display(), made.by);
     }
@@ -31,12 +31,12 @@ pub struct Made {
 }
 
 /// Runs a compiled kernel and writes what it makes. The device is opened where one is needed, and kept in `gpu`.
-pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
-    check(args)?;
-    let outs = outputs::outs(args, compiled)?;
-    let inputs = inputs::inputs(&args.given, args.stage, compiled)?;
+pub fn run_compiled(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
+    check_requests(args)?;
+    let outs = outputs::parse_outputs(args, compiled)?;
+    let inputs = inputs::read_inputs(&args.given, args.stage, compiled)?;
     for out in &outs {
-        files::try_file(&out.path, false).map_err(Failure::of)?;
+        files::try_file(&out.path, false).map_err(Failure::from_error)?;
     }
     let (targets, by) = match args.given.executor {
         Executor::Gpu => {
@@ -58,7 +58,7 @@ pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Resul
                 Precision::F32 => gpu.describe(),
                 Precision::F16 => format!("{}, f16", gpu.describe()),
             };
-            (targets.map_err(Failure::of)?, by)
+            (targets.map_err(Failure::from_error)?, by)
         }
         Executor::Cpu => {
             if args.precision == "f16" && !compiled.gathered.is_empty() {
@@ -75,13 +75,13 @@ pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Resul
             (targets, format!("CPU interpreter, {}", args.precision))
         }
     };
-    outputs::write(&outs, &targets)?;
+    outputs::write_outputs(&outs, &targets)?;
     let files = outs.into_iter().map(|out| out.path).collect();
     Ok(Made { files, by })
 }
 
 /// Refuses requests whose errors would otherwise be found only after all the work.
-fn check(args: &RunArgs) -> Result<(), Failure> {
+fn check_requests(args: &RunArgs) -> Result<(), Failure> {
     if args.given.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(
             "--check-finite and --precision f64 are for the interpreter: add --executor cpu".to_owned(),
@@ -91,7 +91,7 @@ fn check(args: &RunArgs) -> Result<(), Failure> {
 }
 
 fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<AllWritten, Failure> {
-    let result = interpret::<R>(compiled, inputs, args.check_finite).map_err(Failure::of)?;
+    let result = interpret::<R>(compiled, inputs, args.check_finite).map_err(Failure::from_error)?;
     if let Some(([x, y], non_finite_origin)) = &result.not_finite {
         return Err(Failure::Failed(format!(
             "{} pixels had a NaN or an infinity, the first at ({x}, {y}): {non_finite_origin}",

@@ -30,10 +30,10 @@ enum What {
 }
 
 /// Parses `--out`, which may be given several times: `FILE` for the first target, or `NAME=FILE`.
-pub fn outs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Failure> {
+pub fn parse_outputs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Failure> {
     let mut outs: Vec<Out> = Vec::new();
     for text in &args.out {
-        let out = out(text, compiled)?;
+        let out = parse_output(text, compiled)?;
         if outs.iter().any(|other| other.what == out.what) {
             let name = match &out.what {
                 What::Target(k) => compiled.graph.pictures().nth(*k).map_or("", |target| &target.name),
@@ -52,7 +52,7 @@ pub fn outs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Failure> {
     Ok(outs)
 }
 
-fn out(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
+fn parse_output(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
     let graph = &compiled.graph;
     let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
     let written = || graph.buffers.iter().filter(|buffer| buffer.access != Access::Read);
@@ -104,14 +104,14 @@ fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), F
 }
 
 /// Writes the files.
-pub fn write(outs: &[Out], (targets, buffers): &AllWritten) -> Result<(), Failure> {
+pub fn write_outputs(outs: &[Out], (targets, buffers): &AllWritten) -> Result<(), Failure> {
     for Out { what, path } in outs {
         match what {
-            What::Target(k) => picture::write(path, &Written::frame(&targets[*k])).map_err(Failure::of)?,
+            What::Target(k) => picture::write(path, &Written::frame(&targets[*k])).map_err(Failure::from_error)?,
             What::Buffer(name, lanes) => {
                 let found = buffers.iter().find(|(known, _)| known == name);
                 let elements = found.map_or(&[][..], |(_, elements)| elements);
-                files::write(path, lines(elements, *lanes).as_bytes()).map_err(Failure::of)?;
+                files::write_file(path, format_elements(elements, *lanes).as_bytes()).map_err(Failure::from_error)?;
             }
         }
     }
@@ -119,7 +119,7 @@ pub fn write(outs: &[Out], (targets, buffers): &AllWritten) -> Result<(), Failur
 }
 
 /// An element a line, its components separated by commas.
-fn lines(elements: &[[f64; 4]], lanes: usize) -> String {
+fn format_elements(elements: &[[f64; 4]], lanes: usize) -> String {
     let mut text = String::new();
     for element in elements {
         let components: Vec<String> = element[..lanes].iter().map(f64::to_string).collect();

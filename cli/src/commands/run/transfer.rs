@@ -17,7 +17,7 @@ pub enum Transfer {
 }
 
 /// The file, or files, of `--input`, and the transfer that is asked for behind them: `FILE,linear`. A file of such a name is one.
-pub fn of(path: &str) -> (&str, Option<Transfer>) {
+pub fn split_transfer(path: &str) -> (&str, Option<Transfer>) {
     let ends = [(",linear", Transfer::Linear), (",srgb", Transfer::Srgb)];
     let found = ends
         .into_iter()
@@ -30,7 +30,7 @@ pub fn of(path: &str) -> (&str, Option<Transfer>) {
 
 /// Returns the requested conversion, or the one of the texture's type: one or two components are data, three or four a colour.
 /// Notes that a PNG is read as sRGB without a request.
-pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result<Transfer, Failure> {
+pub fn choose_transfer(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result<Transfer, Failure> {
     let is_png = picture::is_png(Path::new(path));
     match asked {
         Some(Transfer::Srgb) if !is_png => Err(Failure::Usage(format!(
@@ -39,7 +39,7 @@ pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result
         Some(transfer) => Ok(transfer),
         None if texture.declared <= 2 => {
             if is_png {
-                note(format!(
+                note_once(format!(
                     "note: `{}` is no colour, so {path} is read as it is, from 0 to 1; as sRGB it is --input {}={path},srgb",
                     texture.name, texture.name
                 ));
@@ -48,7 +48,7 @@ pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result
         }
         None => {
             if is_png {
-                note(format!(
+                note_once(format!(
                     "note: {path} is read as sRGB; if `{}` is data, as normals are: --input {}={path},linear",
                     texture.name, texture.name
                 ));
@@ -59,7 +59,7 @@ pub fn decided(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result
 }
 
 /// Says something once, however often a sweep or a watch reads the file.
-fn note(text: String) {
+fn note_once(text: String) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     if SAID.lock().is_ok_and(|mut said| said.insert(text.clone())) {
         errln!("{text}");

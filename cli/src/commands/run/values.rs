@@ -5,12 +5,12 @@ use straightline_codegen::ir::{Element, Scalar, Type};
 use straightline_codegen::shorten;
 
 /// The components of a uniform: as many numbers as it has, or one for all of them.
-pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
+pub fn parse_uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
     // A boolean is a number in the buffer.
     if let (true, Ok(set)) = (ty == Type::U32, text.parse::<bool>()) {
         return Ok(vec![f64::from(u8::from(set))]);
     }
-    let numbers = numbers(name, ty, text)?;
+    let numbers = parse_numbers(name, ty, text)?;
     let components = ty.components() as usize;
     if numbers.len() == components || numbers.len() == 1 {
         return Ok(numbers);
@@ -27,10 +27,10 @@ pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
 }
 
 /// The elements of a buffer; of structures all their numbers in order, those of vectors and arrays too.
-pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
+pub fn parse_buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
     let types = element.values();
     let components = types.iter().map(|ty| ty.components() as usize).sum::<usize>();
-    let texts = texts(name, text)?;
+    let texts = split_numbers(name, text)?;
     if !texts.len().is_multiple_of(components) {
         let held = match element {
             Element::Value(ty) => ty.in_rust(),
@@ -48,7 +48,7 @@ pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>
         let ty = types.next().unwrap_or(Type::F32);
         let mut value = [0.0; 4];
         for (slot, text) in value.iter_mut().zip(rest.by_ref().take(ty.components() as usize)) {
-            *slot = number(name, ty, text)?;
+            *slot = parse_number(name, ty, text)?;
         }
         values.push(value);
     }
@@ -56,16 +56,16 @@ pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>
 }
 
 /// Numbers separated by commas, each of which a component of `ty` can hold.
-fn numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
-    let texts = texts(name, text)?;
-    texts.into_iter().map(|text| number(name, ty, text)).collect()
+fn parse_numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
+    let texts = split_numbers(name, text)?;
+    texts.into_iter().map(|text| parse_number(name, ty, text)).collect()
 }
 
 /// Numbers that a buffer may have.
 const MOST: usize = 1 << 24;
 
 /// Splits a list at commas; `0*256` is a number so many times.
-fn texts<'t>(name: &str, text: &'t str) -> Result<Vec<&'t str>, Failure> {
+fn split_numbers<'t>(name: &str, text: &'t str) -> Result<Vec<&'t str>, Failure> {
     let mut texts = Vec::new();
     for part in text.split(',') {
         let (one, times) = match part.split_once('*') {
@@ -83,7 +83,7 @@ fn texts<'t>(name: &str, text: &'t str) -> Result<Vec<&'t str>, Failure> {
     Ok(texts)
 }
 
-fn number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
+fn parse_number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
     let refuse = |why: &str| Failure::Usage(format!("`{}` for `{name}` {why}", shorten(text)));
     let Ok(number) = text.parse::<f64>() else {
         return Err(refuse("is no list of numbers: write 1.5 or 1,2,3"));
@@ -114,8 +114,8 @@ fn number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
 mod tests {
     use super::*;
 
-    fn said(ty: Type, text: &str) -> String {
-        match uniform("n", ty, text) {
+    fn usage_message(ty: Type, text: &str) -> String {
+        match parse_uniform("n", ty, text) {
             Err(Failure::Usage(message)) => message,
             other => panic!("{text}: {other:?}"),
         }
@@ -123,33 +123,39 @@ mod tests {
 
     #[test]
     fn numbers_that_do_not_fit_are_refused_with_what_they_are() {
-        assert!(said(Type::I32, "1.5").contains("`1.5` for `n` is no whole number"));
-        assert!(said(Type::U32, "-1").contains("does not fit into a u32, which holds 0 to 4294967295"));
-        assert!(said(Type::U32, "99999999999").contains("does not fit into a u32"));
-        assert!(said(Type::I32, "2147483648").contains("-2147483648 to 2147483647"));
-        assert!(said(Type::F32, "1e39").contains("does not fit into an f32"));
-        assert!(said(Type::F32, "NaN").contains("not finite"));
-        assert!(said(Type::F32, "1,2").contains("takes one number, not 2"));
-        assert!(said(Type::value(Scalar::F32, 3), "1,2").contains("takes 3 numbers, or one for all of them, not 2"));
-        let long = said(Type::F32, &"x".repeat(100_000));
+        assert!(usage_message(Type::I32, "1.5").contains("`1.5` for `n` is no whole number"));
+        assert!(usage_message(Type::U32, "-1").contains("does not fit into a u32, which holds 0 to 4294967295"));
+        assert!(usage_message(Type::U32, "99999999999").contains("does not fit into a u32"));
+        assert!(usage_message(Type::I32, "2147483648").contains("-2147483648 to 2147483647"));
+        assert!(usage_message(Type::F32, "1e39").contains("does not fit into an f32"));
+        assert!(usage_message(Type::F32, "NaN").contains("not finite"));
+        assert!(usage_message(Type::F32, "1,2").contains("takes one number, not 2"));
+        assert!(
+            usage_message(Type::value(Scalar::F32, 3), "1,2")
+                .contains("takes 3 numbers, or one for all of them, not 2")
+        );
+        let long = usage_message(Type::F32, &"x".repeat(100_000));
         assert!(long.len() < 300, "{long}");
-        assert_eq!(uniform("n", Type::U32, "4294967295").unwrap(), [4294967295.0]);
+        assert_eq!(parse_uniform("n", Type::U32, "4294967295").unwrap(), [4294967295.0]);
         assert_eq!(
-            uniform("n", Type::value(Scalar::I32, 2), " -1, 2 ").unwrap(),
+            parse_uniform("n", Type::value(Scalar::I32, 2), " -1, 2 ").unwrap(),
             [-1.0, 2.0]
         );
         assert!(matches!(
-            buffer("b", &Element::Value(Type::U32), "1,-1"),
+            parse_buffer("b", &Element::Value(Type::U32), "1,-1"),
             Err(Failure::Usage(_))
         ));
-        assert_eq!(buffer("b", &Element::Value(Type::F32), "1,2").unwrap().len(), 2);
-        assert_eq!(buffer("b", &Element::Value(Type::U32), "7, 0*255").unwrap().len(), 256);
+        assert_eq!(parse_buffer("b", &Element::Value(Type::F32), "1,2").unwrap().len(), 2);
+        assert_eq!(
+            parse_buffer("b", &Element::Value(Type::U32), "7, 0*255").unwrap().len(),
+            256
+        );
         assert!(matches!(
-            buffer("b", &Element::Value(Type::U32), "0*x"),
+            parse_buffer("b", &Element::Value(Type::U32), "0*x"),
             Err(Failure::Usage(_))
         ));
         assert!(matches!(
-            buffer("b", &Element::Value(Type::U32), "0*99999999999"),
+            parse_buffer("b", &Element::Value(Type::U32), "0*99999999999"),
             Err(Failure::Usage(_))
         ));
     }

@@ -1,6 +1,6 @@
 //! `study error`: methods of antialiasing against references.
 
-use super::{ProgressBars, circumstances};
+use super::{ProgressBars, run_circumstances};
 use crate::args::{CommonArgs, ErrorArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -18,14 +18,14 @@ const FRAMES: u32 = 5;
 const QUICK_FRAMES: u32 = 4;
 
 /// Compares, writes the record and prints it.
-pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let own = own(args)?;
+pub fn compare_methods(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    let own = parse_own_methods(args)?;
     check_names(&args.only)?;
-    let sources = sources(args)?;
+    let sources = load_sources(args)?;
     let gpu = Gpu::require(&common.adapter)?;
     let setup = Setup {
-        size: common.size(),
-        rounds: common.rounds(),
+        size: common.picture_size(),
+        rounds: common.timing_rounds(),
         quick: common.quick,
         // Post-processed pictures are not compared from frame to frame.
         pan_frames: match (args.post, common.quick) {
@@ -39,13 +39,13 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
         only: args.only.clone(),
         own,
     };
-    let mut circumstances = circumstances(common, &gpu);
+    let mut circumstances = run_circumstances(common, &gpu);
     // A capture has its own size; a record of nothing else says so.
     let sizes: Vec<_> = sources.iter().map(|source| source.size(setup.size)).collect();
     if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
         circumstances.size = first.to_array();
     }
-    let mut outcome = quality::study(&gpu.bench(), sources, &setup, progress).map_err(failure)?;
+    let mut outcome = quality::study_quality(&gpu.bench(), sources, &setup, progress).map_err(to_failure)?;
     circumstances.complete = outcome.complete;
     let record = QualityRecord {
         circumstances,
@@ -55,26 +55,26 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
     };
     // Record and pictures are one set.
     let mut set = std::mem::take(&mut outcome.pictures);
-    set.extend(record.files(QualityRecord::STEM).map_err(Failure::of)?);
-    files::write_all(&common.out, &set).map_err(Failure::of)?;
+    set.extend(record.to_files(QualityRecord::STEM).map_err(Failure::from_error)?);
+    files::write_all(&common.out, &set).map_err(Failure::from_error)?;
     print(&record, &common.out);
     Ok(())
 }
 
 /// Refuses names that no method has.
 fn check_names(names: &[String]) -> Result<(), Failure> {
-    let known = quality::methods(false);
+    let known = quality::list_methods(false);
     match names
         .iter()
         .find(|name| !known.iter().any(|method| method.name == **name))
     {
-        Some(name) => Err(Failure::Usage(unknown(name, &known))),
+        Some(name) => Err(Failure::Usage(unknown_method(name, &known))),
         None => Ok(()),
     }
 }
 
 /// Message about a name that no method has.
-pub fn unknown(name: &str, known: &[Method]) -> String {
+pub fn unknown_method(name: &str, known: &[Method]) -> String {
     let mut said = format!("there is no method `{name}`; there are:");
     let mut width = usize::MAX;
     for method in known {
@@ -91,12 +91,12 @@ pub fn unknown(name: &str, known: &[Method]) -> String {
 const WIDTH: usize = 80;
 
 /// Methods of the user's, each with a name that no other has.
-fn own(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
-    let mut stems: BTreeSet<String> = quality::methods(false).iter().map(Method::stem).collect();
+fn parse_own_methods(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
+    let mut stems: BTreeSet<String> = quality::list_methods(false).iter().map(Method::file_stem).collect();
     let mut own = Vec::new();
     for text in &args.methods {
-        let method = method(text)?;
-        if !stems.insert(method.stem()) {
+        let method = parse_method(text)?;
+        if !stems.insert(method.file_stem()) {
             return Err(Failure::Usage(format!(
                 "there is a method `{}` already: give yours another name",
                 method.name
@@ -108,30 +108,30 @@ fn own(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
 }
 
 /// A method of the user's.
-pub fn method(text: &str) -> Result<Method, Failure> {
-    Method::own(text).map_err(|error| match error {
+pub fn parse_method(text: &str) -> Result<Method, Failure> {
+    Method::parse_own(text).map_err(|error| match error {
         OwnError::Kernel(errors) => Failure::Kernel(errors),
         other => Failure::Usage(other.to_string()),
     })
 }
 
 /// Shows errors of a kernel with their place.
-pub fn failure(error: QualityError) -> Failure {
+pub fn to_failure(error: QualityError) -> Failure {
     match error {
         QualityError::Kernel(errors) => Failure::Kernel(errors),
-        other => Failure::of(other),
+        other => Failure::from_error(other),
     }
 }
 
 /// Returns the requested sources; by default all scenes.
-fn sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
+fn load_sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
     let mut sources = Vec::new();
     for name in &args.scene {
         let scene = Scene::named(name).map_err(|error| Failure::Usage(error.to_string()))?;
-        sources.push(named(name, scene));
+        sources.push(scene_source(name, scene));
     }
     for path in &args.mesh {
-        let scene = scene::load(path).map_err(Failure::of)?;
+        let scene = scene::load(path).map_err(Failure::from_error)?;
         sources.push(Source::Scene {
             name: path.display().to_string(),
             purpose: "a model".to_owned(),
@@ -139,7 +139,7 @@ fn sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
         });
     }
     for path in &args.capture {
-        let capture = Capture::read(path).map_err(Failure::of)?;
+        let capture = Capture::read(path).map_err(Failure::from_error)?;
         if capture.reference.is_none() {
             return Err(Failure::Failed(format!(
                 "{} has no reference.exr to compare with: write one, shaded at many places of each pixel (docs/captures.md), \
@@ -154,13 +154,13 @@ fn sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
     }
     if sources.is_empty() {
         for (name, _) in NAMES {
-            sources.push(named(name, Scene::named(name).map_err(Failure::of)?));
+            sources.push(scene_source(name, Scene::named(name).map_err(Failure::from_error)?));
         }
     }
     Ok(sources)
 }
 
-fn named(name: &str, scene: Scene) -> Source {
+fn scene_source(name: &str, scene: Scene) -> Source {
     let purpose = NAMES.iter().chain(&OF_SHADING).find(|(known, _)| *known == name);
     Source::Scene {
         name: name.to_owned(),
@@ -207,12 +207,12 @@ fn print_scene(scene: &SceneErrors) {
     let headings = [
         "method", "PSNR", "SSIM", "FLIP", "geometry", "shading", "flat", "of 16x", "pan", "time", "MB",
     ];
-    let rows: Vec<Vec<String>> = scene.methods.iter().map(row).collect();
-    outln!("{}", table::render(&headings, &rows));
+    let rows: Vec<Vec<String>> = scene.methods.iter().map(table_row).collect();
+    outln!("{}", table::render_table(&headings, &rows));
     for gap in &scene.gaps {
         outln!("{}", gap_in_words(gap));
     }
-    for loss in quality::losses(scene) {
+    for loss in quality::list_losses(scene) {
         outln!("{loss}");
     }
     for (method, reason) in &scene.absent {
@@ -221,7 +221,7 @@ fn print_scene(scene: &SceneErrors) {
     outln!();
 }
 
-fn row(method: &MethodErrors) -> Vec<String> {
+fn table_row(method: &MethodErrors) -> Vec<String> {
     let db = |value: Option<f64>| match value {
         None => String::new(),
         Some(db) if db >= MOST_DB => "equal".to_owned(),

@@ -1,6 +1,6 @@
 //! `study film`: frames of a pan, methods side by side.
 
-use super::error::{failure, method, unknown};
+use super::error::{parse_method, to_failure, unknown_method};
 use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, FilmArgs};
 use crate::failure::Failure;
@@ -28,13 +28,13 @@ const MOST_PIXELS: u64 = 1 << 27;
 const SHOWN: u16 = 50;
 
 /// Films, and writes frames, animation and record.
-pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let known = quality::methods(false);
+pub fn film_methods(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    let known = quality::list_methods(false);
     let methods = match args.methods.is_empty() {
-        true => methods(&USUAL.map(str::to_owned), &known)?,
-        false => methods(&args.methods, &known)?,
+        true => choose_methods(&USUAL.map(str::to_owned), &known)?,
+        false => choose_methods(&args.methods, &known)?,
     };
-    let world = scene::load(args.mesh.as_deref(), &args.scene)?;
+    let world = scene::load_scene(args.mesh.as_deref(), &args.scene)?;
     let name = args
         .mesh
         .as_ref()
@@ -55,46 +55,46 @@ pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) ->
         )));
     }
     let gpu = Gpu::require(&common.adapter)?;
-    let film = quality::film(&gpu.bench(), &world, &methods, &shooting, progress).map_err(failure)?;
+    let film = quality::film_scene(&gpu.bench(), &world, &methods, &shooting, progress).map_err(to_failure)?;
     let record = FilmRecord {
         circumstances: circumstances_of(&gpu, shooting.size, 0),
         scene: name,
         step: shooting.step.to_array(),
-        methods: filmed(methods, &film),
+        methods: filmed_methods(methods, &film),
     };
-    let mut set = record.files(FilmRecord::STEM).map_err(Failure::of)?;
+    let mut set = record.to_files(FilmRecord::STEM).map_err(Failure::from_error)?;
     set.insert(
         "film.png".to_owned(),
-        picture::animation(&film.frames, SHOWN).map_err(Failure::of)?,
+        picture::animation(&film.frames, SHOWN).map_err(Failure::from_error)?,
     );
     for (k, frame) in film.frames.iter().enumerate() {
         set.insert(
             format!("frames/{k:04}.png"),
-            picture::png_bytes(frame).map_err(Failure::of)?,
+            picture::png_bytes(frame).map_err(Failure::from_error)?,
         );
     }
-    files::write_all(&common.out, &set).map_err(Failure::of)?;
+    files::write_all(&common.out, &set).map_err(Failure::from_error)?;
     print(&record, &common.out);
     Ok(())
 }
 
 /// Returns the requested methods, by their names among those `known` or of the user's own.
-pub fn methods(texts: &[String], known: &[Method]) -> Result<Vec<Method>, Failure> {
+pub fn choose_methods(texts: &[String], known: &[Method]) -> Result<Vec<Method>, Failure> {
     let mut stems = BTreeSet::new();
     let mut methods = Vec::new();
     for text in texts {
         let found = known.iter().find(|method| method.name == *text);
         let method = match (found, text.contains('=')) {
             (Some(known), _) => known.clone(),
-            (None, true) => method(text)?,
+            (None, true) => parse_method(text)?,
             (None, false) => {
                 return Err(Failure::Usage(format!(
                     "{}\none of your own is NAME=KERNEL[,OPTION=VALUE]...",
-                    unknown(text, known)
+                    unknown_method(text, known)
                 )));
             }
         };
-        if !stems.insert(method.stem()) {
+        if !stems.insert(method.file_stem()) {
             return Err(Failure::Usage(format!("the method `{}` is given twice", method.name)));
         }
         methods.push(method);
@@ -102,7 +102,7 @@ pub fn methods(texts: &[String], known: &[Method]) -> Result<Vec<Method>, Failur
     Ok(methods)
 }
 
-fn filmed(methods: Vec<Method>, film: &Film) -> Vec<FilmedMethod> {
+fn filmed_methods(methods: Vec<Method>, film: &Film) -> Vec<FilmedMethod> {
     let filmed = methods.into_iter().zip(&film.errors);
     filmed
         .map(|(method, errors)| FilmedMethod {
@@ -114,10 +114,10 @@ fn filmed(methods: Vec<Method>, film: &Film) -> Vec<FilmedMethod> {
 }
 
 fn print(record: &FilmRecord, out: &Path) {
-    let rows: Vec<Vec<String>> = record.methods.iter().map(row).collect();
+    let rows: Vec<Vec<String>> = record.methods.iter().map(table_row).collect();
     outln!(
         "{}",
-        table::render(&["method", "error of what changes", "least", "most"], &rows)
+        table::render_table(&["method", "error of what changes", "least", "most"], &rows)
     );
     let names: Vec<&str> = record.methods.iter().map(|method| method.method.as_str()).collect();
     outln!(
@@ -135,10 +135,10 @@ fn print(record: &FilmRecord, out: &Path) {
     );
 }
 
-fn row(method: &FilmedMethod) -> Vec<String> {
+fn table_row(method: &FilmedMethod) -> Vec<String> {
     let least = method.errors.iter().copied().fold(f64::INFINITY, f64::min);
     let most = method.errors.iter().copied().fold(0.0, f64::max);
     let mut row = vec![method.method.clone()];
-    row.extend([method.error(), least, most].map(|error| format!("{error:.4}")));
+    row.extend([method.rms_error(), least, most].map(|error| format!("{error:.4}")));
     row
 }

@@ -1,12 +1,12 @@
 //! `study frame`: time of a whole frame against its error, of two records.
 
-use super::command;
+use super::command_line;
 use crate::args::{CommonArgs, FrameArgs};
 use crate::failure::Failure;
 use crate::table;
 use std::collections::BTreeMap;
 use straightline_codegen::files;
-use straightline_study::frame::{FrameRequest, frames};
+use straightline_study::frame::{FrameRequest, combine_frames};
 use straightline_study::record::{FrameMethod, FrameRecord, PassTimes, QualityRecord, Record, read_file};
 use straightline_study::report::frame_plot;
 
@@ -17,29 +17,29 @@ const MOST_COSTS: usize = 6;
 const PANEL: (u32, u32) = (820, 460);
 
 /// Puts frames together, prints the best, and writes record and panels.
-pub fn run(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failure> {
+pub fn compose_frames(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failure> {
     if args.shading.is_empty() || args.shading.len() > MOST_COSTS {
         return Err(Failure::Usage(format!("--shading takes 1 to {MOST_COSTS} costs")));
     }
-    let text = read_file(&args.passes).map_err(Failure::of)?;
+    let text = read_file(&args.passes).map_err(Failure::from_error)?;
     let passes: PassTimes = serde_json::from_slice(&text).map_err(|why| {
         let path = args.passes.display();
         Failure::Failed(format!("`{path}` is not a record of `budget --record`: {why}"))
     })?;
-    let errors = QualityRecord::read(&args.errors).map_err(Failure::of)?;
+    let errors = QualityRecord::read(&args.errors).map_err(Failure::from_error)?;
     let request = FrameRequest {
         shading_ms: args.shading.clone(),
         only: args.only.clone(),
     };
-    let record = frames(&passes, &errors, &request, command()).map_err(Failure::of)?;
+    let record = combine_frames(&passes, &errors, &request, command_line()).map_err(Failure::from_error)?;
     print(&record);
     let mut panels = BTreeMap::new();
     for (k, ms) in record.shading_ms.iter().enumerate() {
-        let svg = frame_plot(&record, k, PANEL).map_err(Failure::of)?;
+        let svg = frame_plot(&record, k, PANEL).map_err(Failure::from_error)?;
         panels.insert(format!("{}-{ms}ms.svg", FrameRecord::STEM), (svg + "\n").into_bytes());
     }
-    panels.extend(record.files(FrameRecord::STEM).map_err(Failure::of)?);
-    files::write_all(&common.out, &panels).map_err(Failure::of)?;
+    panels.extend(record.to_files(FrameRecord::STEM).map_err(Failure::from_error)?);
+    files::write_all(&common.out, &panels).map_err(Failure::from_error)?;
     Ok(())
 }
 
@@ -63,7 +63,7 @@ fn print(record: &FrameRecord) {
     let mut head = vec!["method", "error", "PSNR", "geometry ms", "shaded", "filter ms"];
     head.extend(costs.iter().map(String::as_str));
     let rows: Vec<Vec<String>> = record.methods.iter().map(row).collect();
-    out!("{}", table::render(&head, &rows));
+    out!("{}", table::render_table(&head, &rows));
     outln!(
         "\n* no other method takes as little time with a smaller error. Medians; shading costs are of one sample of every pixel."
     );

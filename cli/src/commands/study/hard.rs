@@ -1,6 +1,6 @@
 //! `study hard`: numerical stability on hard cases.
 
-use super::{ProgressBars, circumstances, on_processor};
+use super::{ProgressBars, on_processor, run_circumstances};
 use crate::args::{CommonArgs, HardArgs};
 use crate::failure::Failure;
 use crate::gpu::{Gpu, INSTALL};
@@ -11,48 +11,48 @@ use straightline_study::hard::{self, Selection};
 use straightline_study::record::{HardRecord, HardResult, Record};
 
 /// Runs hard cases, prints what became of them, and writes the record.
-pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let selection = selection(args)?;
+pub fn run_hard_cases(common: &CommonArgs, args: &HardArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    let selection = select_cases(args)?;
     let gpu = Gpu::open(&common.adapter)?;
     let circumstances = match &gpu {
-        Some(gpu) => circumstances(common, gpu),
+        Some(gpu) => run_circumstances(common, gpu),
         None => {
             errln!("there is no GPU adapter, so only the interpreter runs the cases; {INSTALL}");
-            on_processor(common.size(), common.rounds())
+            on_processor(common.picture_size(), common.timing_rounds())
         }
     };
     let bench = gpu.as_ref().map(Gpu::bench);
-    let record = hard::run(&selection, bench.as_ref(), circumstances, progress).map_err(Failure::of)?;
-    progress.done();
-    record.write(&common.out).map_err(Failure::of)?;
-    out!("{}", matrix(&record, &selection));
-    out!("{}", summary(&record));
+    let record = hard::run_cases(&selection, bench.as_ref(), circumstances, progress).map_err(Failure::from_error)?;
+    progress.clear_bar();
+    record.write(&common.out).map_err(Failure::from_error)?;
+    out!("{}", result_matrix(&record, &selection));
+    out!("{}", result_summary(&record));
     outln!("written: {}", common.out.join("hard.json").display());
-    match record.broken().next() {
+    match record.broken_results().next() {
         None => Ok(()),
-        Some((case, r)) => super::page(&common.out).and(Err(Failure::Failed(format!(
+        Some((case, r)) => super::write_page(&common.out).and(Err(Failure::Failed(format!(
             "{} results in default options break what they promise; the first: {} on `{}` by {}, {}",
-            record.broken().count(),
+            record.broken_results().count(),
             r.kernel,
             case.name,
-            executor(r),
-            broken(r)
+            executor_name(r),
+            describe_broken(r)
         )))),
     }
 }
 
 /// Names the cases.
-pub fn list(args: &HardArgs) -> Result<(), Failure> {
-    for case in selection(args)?.cases {
+pub fn list_cases(args: &HardArgs) -> Result<(), Failure> {
+    for case in select_cases(args)?.cases {
         outln!("{:<32} {}", case.name, case.about);
     }
     Ok(())
 }
 
-fn selection(args: &HardArgs) -> Result<Selection, Failure> {
+fn select_cases(args: &HardArgs) -> Result<Selection, Failure> {
     let mut selection = Selection::default();
     if !args.cases.is_empty() {
-        let named = args.cases.iter().map(|name| hard::case(name));
+        let named = args.cases.iter().map(|name| hard::find_case(name));
         selection.cases = named
             .collect::<Result<_, _>>()
             .map_err(|error| Failure::Usage(error.to_string()))?;
@@ -62,7 +62,7 @@ fn selection(args: &HardArgs) -> Result<Selection, Failure> {
 }
 
 /// Summary of a form on a case, over all executors.
-fn cell<'a>(results: impl Iterator<Item = &'a HardResult>) -> String {
+fn result_cell<'a>(results: impl Iterator<Item = &'a HardResult>) -> String {
     let ran: Vec<&HardResult> = results.filter(|r| r.refused.is_none()).collect();
     let non_finite = ran.iter().map(|r| r.non_finite).max();
     match non_finite {
@@ -74,7 +74,7 @@ fn cell<'a>(results: impl Iterator<Item = &'a HardResult>) -> String {
 }
 
 /// Cases down, kernels across, for each precision.
-fn matrix(record: &HardRecord, selection: &Selection) -> String {
+fn result_matrix(record: &HardRecord, selection: &Selection) -> String {
     let mut text = String::new();
     for precision in &selection.precisions {
         let letters = ('a'..='z').chain('A'..='Z');
@@ -92,18 +92,18 @@ fn matrix(record: &HardRecord, selection: &Selection) -> String {
             let mut row = vec![case.name.clone()];
             row.extend(forms.iter().map(|(_, form)| {
                 let own = case.results.iter();
-                cell(own.filter(|r| r.kernel == *form && r.precision == precision.to_string()))
+                result_cell(own.filter(|r| r.kernel == *form && r.precision == precision.to_string()))
             }));
             row
         });
         let head: Vec<&str> = head.iter().map(String::as_str).collect();
-        text += &format!("\n{}", table::render(&head, &rows.collect::<Vec<_>>()));
+        text += &format!("\n{}", table::render_table(&head, &rows.collect::<Vec<_>>()));
     }
     text
 }
 
 /// Counts, the closest to its bound of each kernel, and who may compute in half precision.
-fn summary(record: &HardRecord) -> String {
+fn result_summary(record: &HardRecord) -> String {
     let [promised, others] = record.non_finite();
     let results = record.cases.iter().flat_map(|case| &case.results);
     let ran = results.clone().filter(|r| r.refused.is_none()).count();
@@ -118,7 +118,7 @@ fn summary(record: &HardRecord) -> String {
         } else {
             "; not complete"
         },
-        record.broken().count(),
+        record.broken_results().count(),
     );
     let refused: BTreeMap<&str, usize> =
         results
@@ -144,7 +144,7 @@ fn summary(record: &HardRecord) -> String {
             if share > entry.0 {
                 *entry = (
                     share,
-                    format!("{off:.1e} of {bound:.1e}, {}, {}", case.name, executor(r)),
+                    format!("{off:.1e} of {bound:.1e}, {}, {}", case.name, executor_name(r)),
                 );
             }
         }
@@ -161,23 +161,23 @@ fn summary(record: &HardRecord) -> String {
             Some(why) => format!("half precision: {:<20} no: {why}\n", verdict.kernel),
         };
     }
-    for (case, r) in record.broken().take(20) {
+    for (case, r) in record.broken_results().take(20) {
         text += &format!(
             "broken: {} on `{}` by {}: {}\n",
             r.kernel,
             case.name,
-            executor(r),
-            broken(r)
+            executor_name(r),
+            describe_broken(r)
         );
     }
     text
 }
 
-fn executor(r: &HardResult) -> String {
+fn executor_name(r: &HardResult) -> String {
     serde_json::to_value(r.executor).map_or(String::new(), |v| v.as_str().unwrap_or_default().to_owned())
 }
 
-fn broken(r: &HardResult) -> String {
+fn describe_broken(r: &HardResult) -> String {
     match (r.non_finite, r.difference, r.bound) {
         (0, Some(off), Some(bound)) => format!("off by {off:.2e} where a pixel may be off by {bound:.2e} at most"),
         (0, ..) => "out of its bound".to_owned(),

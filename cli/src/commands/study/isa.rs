@@ -1,6 +1,6 @@
 //! `study isa`: what GPU compilers make of shaders, without the GPUs.
 
-use super::{ProgressBars, command, loops, now};
+use super::{ProgressBars, command_line, current_time, loops};
 use crate::args::{CommonArgs, IsaArgs};
 use crate::failure::Failure;
 use crate::table;
@@ -13,34 +13,37 @@ use straightline_study::record::{IsaRecord, Record};
 pub const SERVE: &str = "serve-isa";
 
 /// Asks, prints, writes the record.
-pub fn run(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let subjects = loops::chosen(common, &args.from, &args.by_hand)?;
+pub fn measure_isa(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    let subjects = loops::choose_subjects(common, &args.from, &args.by_hand)?;
     let mut askings: Vec<Asking> = subjects.into_iter().map(Asking::from).collect();
     if args.from.is_empty() {
-        askings.extend(isa::further().map_err(Failure::Kernel)?);
+        askings.extend(isa::further_askings().map_err(Failure::Kernel)?);
     }
-    let glslang = glslang();
+    let glslang = find_glslang();
     if glslang.is_none() {
         errln!("there is no glslangValidator, so GLSL is not asked about; on Debian: apt-get install glslang-tools");
     }
     let question = Question {
         families: args.family.clone(),
-        program: (std::env::current_exe().map_err(Failure::of)?, vec![SERVE.to_owned()]),
+        program: (
+            std::env::current_exe().map_err(Failure::from_error)?,
+            vec![SERVE.to_owned()],
+        ),
         glslang,
     };
-    let asked = isa::ask(&question, &askings, command(), now(), progress);
-    progress.done();
+    let asked = isa::ask_compilers(&question, &askings, command_line(), current_time(), progress);
+    progress.clear_bar();
     let record = asked.map_err(|error| match error {
         IsaStudyError::Kernel { errors, .. } => Failure::Kernel(errors),
-        other => Failure::of(other),
+        other => Failure::from_error(other),
     })?;
-    record.write(&common.out).map_err(Failure::of)?;
+    record.write(&common.out).map_err(Failure::from_error)?;
     print(&record);
     Ok(())
 }
 
 /// glslang's program on the path.
-fn glslang() -> Option<PathBuf> {
+fn find_glslang() -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     let programs = std::env::split_paths(&path).map(|folder| folder.join("glslangValidator"));
     programs.into_iter().find(|program| program.is_file())
@@ -52,13 +55,18 @@ fn print(record: &IsaRecord) {
     for (family, device) in &record.devices {
         let rows = record.shaders.iter().filter_map(|asked| {
             let figures = asked.figures.get(family)?.in_short();
-            let name = format!("{}, {}, {}", asked.kernel, asked.form.name(), asked.path.name());
+            let name = format!(
+                "{}, {}, {}",
+                asked.kernel,
+                asked.form.display_name(),
+                asked.path.display_name()
+            );
             let cells = std::iter::once(name).chain(figures.map(|(_, figure)| figure.to_string()));
             Some(cells.collect())
         });
         outln!(
             "{family}: {device}\n\n{}",
-            table::render(&head, &rows.collect::<Vec<_>>())
+            table::render_table(&head, &rows.collect::<Vec<_>>())
         );
     }
     for why in record.absent.values() {
@@ -66,7 +74,12 @@ fn print(record: &IsaRecord) {
     }
     for asked in &record.shaders {
         if let Some(why) = &asked.refused {
-            outln!("{}, {}, {}: {why}", asked.kernel, asked.form.name(), asked.path.name());
+            outln!(
+                "{}, {}, {}: {why}",
+                asked.kernel,
+                asked.form.display_name(),
+                asked.path.display_name()
+            );
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `study loops`: unroll against loop.
 
-use super::{ProgressBars, circumstances};
+use super::{ProgressBars, run_circumstances};
 use crate::args::{CommonArgs, LoopsArgs};
 use crate::commands::run::values;
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Duration;
 use straightline_codegen::{Kernel, Settings, files, shorten};
 use straightline_scene::picture;
-use straightline_study::loops::{LoopsError, Setup, Studied, Subject, study, subjects};
+use straightline_study::loops::{LoopsError, Setup, Studied, Subject, list_subjects, study_loops};
 use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
 
@@ -20,27 +20,27 @@ use straightline_study::record::{KernelForms, LoopsRecord, Record};
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.
-pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    let mut subjects = chosen(common, &args.from, &args.by_hand)?;
+pub fn measure_loops(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    let mut subjects = choose_subjects(common, &args.from, &args.by_hand)?;
     set_uniforms(&mut subjects, &args.uniform)?;
     if let Some(folder) = &args.pictures {
-        files::try_folder(folder).map_err(Failure::of)?;
+        files::try_folder(folder).map_err(Failure::from_error)?;
     }
     let gpu = Gpu::require(&common.adapter)?;
     let setup = Setup {
-        size: common.size(),
-        rounds: common.rounds(),
+        size: common.picture_size(),
+        rounds: common.timing_rounds(),
         least: LEAST,
         pipelines: if common.quick { 1 } else { 3 },
     };
-    let mut circumstances = circumstances(common, &gpu);
-    let studied = study(&gpu.bench(), &subjects, &setup, progress).map_err(failure)?;
-    circumstances.complete = !progress.stopped();
+    let mut circumstances = run_circumstances(common, &gpu);
+    let studied = study_loops(&gpu.bench(), &subjects, &setup, progress).map_err(to_failure)?;
+    circumstances.complete = !progress.is_stopped();
     let record = LoopsRecord {
         circumstances,
         kernels: studied.iter().map(|kernel| kernel.forms.clone()).collect(),
     };
-    record.write(&common.out).map_err(Failure::of)?;
+    record.write(&common.out).map_err(Failure::from_error)?;
     if let Some(folder) = &args.pictures {
         write_pictures(folder, &studied)?;
     }
@@ -49,7 +49,7 @@ pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -
 }
 
 /// The kernels asked for, each with what was written by hand for it, or the built-in choice.
-pub fn chosen(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Result<Vec<Subject>, Failure> {
+pub fn choose_subjects(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Result<Vec<Subject>, Failure> {
     if !by_hand.is_empty() && by_hand.len() != from.len() {
         return Err(Failure::Usage(format!(
             "{} hand-optimised kernels for {} kernels: give one --by-hand for each --from, in the same order, or none",
@@ -58,12 +58,12 @@ pub fn chosen(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Resul
         )));
     }
     if from.is_empty() {
-        return Ok(subjects(common.quick)?);
+        return Ok(list_subjects(common.quick)?);
     }
     let mut own = Vec::new();
     for (k, kernel) in from.iter().enumerate() {
-        let by_hand = by_hand.get(k).map(|text| Kernel::locate(text)).transpose()?;
-        own.push(Subject::own(Kernel::locate(kernel)?, by_hand));
+        let by_hand = by_hand.get(k).map(|text| Kernel::from_argument(text)).transpose()?;
+        own.push(Subject::from_kernel(Kernel::from_argument(kernel)?, by_hand));
     }
     Ok(own)
 }
@@ -78,7 +78,7 @@ fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<
         let compiled = subject.kernel.compile(&Settings::default())?;
         for ((name, text), found) in asked.iter().zip(&mut found) {
             if let Some(uniform) = compiled.graph.uniforms.iter().find(|uniform| uniform.name == *name) {
-                let lanes = values::uniform(name, uniform.ty, text)?;
+                let lanes = values::parse_uniform(name, uniform.ty, text)?;
                 subject.uniforms.push((name.clone(), lanes));
                 *found = true;
             }
@@ -94,16 +94,16 @@ fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<
 }
 
 /// Shows errors of a kernel with their place.
-fn failure(error: LoopsError) -> Failure {
+fn to_failure(error: LoopsError) -> Failure {
     match error {
         LoopsError::Kernel { errors, .. } => Failure::Kernel(errors),
-        other => Failure::of(other),
+        other => Failure::from_error(other),
     }
 }
 
 /// Writes the unrolled picture of each kernel, and all of them in one picture.
 fn write_pictures(folder: &Path, studied: &[Studied]) -> Result<(), Failure> {
-    let png = |frame| picture::png_bytes(frame).map_err(Failure::of);
+    let png = |frame| picture::png_bytes(frame).map_err(Failure::from_error);
     let mut set = BTreeMap::new();
     for kernel in studied {
         let stem = kernel.forms.kernel.replace([' ', ','], "_");
@@ -114,7 +114,7 @@ fn write_pictures(folder: &Path, studied: &[Studied]) -> Result<(), Failure> {
         return Ok(());
     }
     set.insert("all.png".to_owned(), png(&picture::montage(&columns))?);
-    files::write_all(folder, &set).map_err(Failure::of)?;
+    files::write_all(folder, &set).map_err(Failure::from_error)?;
     Ok(())
 }
 
@@ -129,7 +129,7 @@ fn print(record: &LoopsRecord) {
         c.date,
         if c.complete { "" } else { "; interrupted" }
     );
-    let rows: Vec<Vec<String>> = record.kernels.iter().flat_map(rows).collect();
+    let rows: Vec<Vec<String>> = record.kernels.iter().flat_map(table_rows).collect();
     let head = [
         "kernel",
         "form",
@@ -143,24 +143,24 @@ fn print(record: &LoopsRecord) {
         "off f64, 99.9 %",
         "largest",
     ];
-    out!("{}", table::render(&head, &rows));
+    out!("{}", table::render_table(&head, &rows));
     outln!("\nspeedup: over the looped form, median of the rounds (a tenth were below, a tenth above)");
     for kernel in record.kernels.iter().filter(|kernel| kernel.input.contains(" = ")) {
         outln!("{}: on {}", kernel.kernel, kernel.input);
     }
     for kernel in &record.kernels {
         for (kind, why) in &kernel.absent {
-            outln!("{}, {}: {why}", kernel.kernel, kind.words());
+            outln!("{}, {}: {why}", kernel.kernel, kind.display_name());
         }
     }
 }
 
-fn rows(kernel: &KernelForms) -> Vec<Vec<String>> {
+fn table_rows(kernel: &KernelForms) -> Vec<Vec<String>> {
     let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.1e}"));
     let row = |(k, form): (usize, &straightline_study::record::Form)| {
         vec![
             if k == 0 { kernel.kernel.clone() } else { String::new() },
-            form.kind.words().to_owned(),
+            form.kind.display_name().to_owned(),
             form.loops.to_string(),
             form.statements.to_string(),
             form.reads.to_string(),

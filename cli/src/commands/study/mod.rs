@@ -10,7 +10,7 @@ mod motion;
 mod progress;
 mod sweep;
 
-use super::{command, tune};
+use super::{command_line, tune};
 use crate::args::{CommonArgs, Study, StudyArgs, TuneArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -26,7 +26,7 @@ use straightline_study::report;
 pub use progress::ProgressBars;
 
 /// Measures, and writes records and the page.
-pub fn run(args: &StudyArgs) -> Result<(), Failure> {
+pub fn run_study(args: &StudyArgs) -> Result<(), Failure> {
     let common = &args.common;
     let writes_nothing = match &args.study {
         Some(Study::Hard(args)) => args.list,
@@ -34,57 +34,57 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
         _ => false,
     };
     if !writes_nothing {
-        files::try_folder(&common.out).map_err(Failure::of)?;
+        files::try_folder(&common.out).map_err(Failure::from_error)?;
     }
     let mut progress = ProgressBars::new();
     match &args.study {
-        Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
-        Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
-        Some(Study::Frame(args)) => frame::run(common, args)?,
-        Some(Study::Film(film)) => return film::run(common, film, &mut progress),
-        Some(Study::Motion(args)) => return motion::run(common, args, &mut progress),
-        Some(Study::Hard(args)) if args.list => return hard::list(args),
-        Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
-        Some(Study::Isa(args)) => isa::run(common, args, &mut progress)?,
-        Some(Study::Sweep(args)) => return sweep::run(common, args, &mut progress),
-        Some(Study::Merge(args)) => return sweep::merge(common, args),
-        Some(Study::Compare(args)) => return sweep::compare(args),
+        Some(Study::Loops(loops)) => loops::measure_loops(common, loops, &mut progress)?,
+        Some(Study::Error(error)) => error::compare_methods(common, error, &mut progress)?,
+        Some(Study::Frame(args)) => frame::compose_frames(common, args)?,
+        Some(Study::Film(film)) => return film::film_methods(common, film, &mut progress),
+        Some(Study::Motion(args)) => return motion::compare_motion(common, args, &mut progress),
+        Some(Study::Hard(args)) if args.list => return hard::list_cases(args),
+        Some(Study::Hard(args)) => hard::run_hard_cases(common, args, &mut progress)?,
+        Some(Study::Isa(args)) => isa::measure_isa(common, args, &mut progress)?,
+        Some(Study::Sweep(args)) => return sweep::measure_sweep(common, args, &mut progress),
+        Some(Study::Merge(args)) => return sweep::merge_shards(common, args),
+        Some(Study::Compare(args)) => return sweep::compare_records(args),
         Some(Study::Report) => {}
-        None => all(common, &mut progress)?,
+        None => run_all_studies(common, &mut progress)?,
     }
-    page(&common.out)
+    write_page(&common.out)
 }
 
 /// Scenes that need different things: the flat one, thin things, and creases that depth does not tell.
 const TUNED: [&str; 3] = ["floor", "tubes", "creases"];
 
 /// Every study, until Ctrl-C.
-fn all(common: &CommonArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
-    hard::run(common, &Default::default(), progress)?;
-    if !progress.stopped() {
-        loops::run(common, &Default::default(), progress)?;
+fn run_all_studies(common: &CommonArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+    hard::run_hard_cases(common, &Default::default(), progress)?;
+    if !progress.is_stopped() {
+        loops::measure_loops(common, &Default::default(), progress)?;
     }
-    if !progress.stopped() {
-        error::run(common, &Default::default(), progress)?;
+    if !progress.is_stopped() {
+        error::compare_methods(common, &Default::default(), progress)?;
     }
     for scene in TUNED {
-        if !progress.stopped() {
-            tune::run(&TuneArgs::of_study(scene, common))?;
+        if !progress.is_stopped() {
+            tune::tune_shader(&TuneArgs::of_study(scene, common))?;
         }
     }
     Ok(())
 }
 
 /// The page of all records in a folder.
-pub fn page(folder: &Path) -> Result<(), Failure> {
-    let path = report::write(folder).map_err(Failure::of)?;
+pub fn write_page(folder: &Path) -> Result<(), Failure> {
+    let path = report::write_report(folder).map_err(Failure::from_error)?;
     outln!("{}", path.display());
     Ok(())
 }
 
 /// Circumstances of this run for a record. `complete` is to be put right when it ends.
-pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
-    circumstances_of(gpu, common.size(), common.rounds())
+pub fn run_circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
+    circumstances_of(gpu, common.picture_size(), common.timing_rounds())
 }
 
 /// Circumstances of this run with a picture's size and rounds of timing.
@@ -102,10 +102,10 @@ pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
 /// Circumstances of a run without a device.
 pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
-        command: command(),
-        date: now(),
+        command: command_line(),
+        date: current_time(),
         adapter: "none: interpreter only".to_owned(),
-        processor: processor(),
+        processor: processor_name(),
         clock: Clock::WallClock,
         size: size.to_array(),
         rounds,
@@ -114,12 +114,12 @@ pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
 }
 
 /// The time, as records have it: RFC 3339, UTC.
-fn now() -> String {
+fn current_time() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }
 
 /// Name of the processor, and its number of threads.
-fn processor() -> String {
+fn processor_name() -> String {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let name = told.lines().find_map(|line| line.strip_prefix("model name"));

@@ -1,7 +1,7 @@
 //! `study motion`: methods in frames that follow on each other.
 
-use super::error::failure;
-use super::film::methods;
+use super::error::to_failure;
+use super::film::choose_methods;
 use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, MotionArgs};
 use crate::failure::Failure;
@@ -19,11 +19,11 @@ const USUAL: [&str; 2] = ["railings", "roof"];
 const SIZE: UVec2 = UVec2::new(240, 135);
 
 /// Compares, writes the record and prints it.
-pub fn run(common: &CommonArgs, args: &MotionArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+pub fn compare_motion(common: &CommonArgs, args: &MotionArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let known = quality::methods_in_motion();
     let methods = match args.methods.is_empty() {
         true => known,
-        false => methods(&args.methods, &known)?,
+        false => choose_methods(&args.methods, &known)?,
     };
     let names: Vec<&str> = match args.scene.is_empty() {
         true => USUAL.to_vec(),
@@ -31,7 +31,7 @@ pub fn run(common: &CommonArgs, args: &MotionArgs, progress: &mut ProgressBars) 
     };
     let scenes: Vec<_> = names
         .iter()
-        .map(|name| scene::load(None, name))
+        .map(|name| scene::load_scene(None, name))
         .collect::<Result<_, _>>()?;
     let gpu = Gpu::require(&common.adapter)?;
     let size = common.size.unwrap_or(SIZE);
@@ -47,25 +47,25 @@ pub fn run(common: &CommonArgs, args: &MotionArgs, progress: &mut ProgressBars) 
             record.scenes.push(MovedScene {
                 scene: (*name).to_owned(),
                 motion,
-                methods: found.map_err(failure)?,
+                methods: found.map_err(to_failure)?,
             });
         }
     }
-    record.write(&common.out).map_err(Failure::of)?;
+    record.write(&common.out).map_err(Failure::from_error)?;
     let rows: Vec<Vec<String>> = record
         .scenes
         .iter()
         .flat_map(|scene| {
             scene.methods.iter().map(|found| {
                 let figures = [(found.psnr, 2), (found.flip, 4), (found.flicker, 4)];
-                let names = [scene.scene.as_str(), scene.motion.name(), &found.method].map(str::to_owned);
+                let names = [scene.scene.as_str(), scene.motion.display_name(), &found.method].map(str::to_owned);
                 let figures = figures.map(|(figure, digits)| format!("{figure:.digits$}"));
                 names.into_iter().chain(figures).collect()
             })
         })
         .collect();
     let head = ["scene", "motion", "method", "PSNR", "FLIP", "flicker"];
-    outln!("{}", table::render(&head, &rows));
+    outln!("{}", table::render_table(&head, &rows));
     outln!(
         "{} frames each, against 64 samples a pixel: mean PSNR in dB, mean FLIP, and the root of the mean squared error of what \
          changes from a frame to the next. motion.json and motion.csv are in {}.",

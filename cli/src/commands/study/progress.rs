@@ -13,7 +13,7 @@ pub struct ProgressBars {
 impl ProgressBars {
     /// From now on the first Ctrl-C asks the study to stop, and a second one ends the program.
     pub fn new() -> ProgressBars {
-        interrupt::ask();
+        interrupt::defer_interrupt();
         ProgressBars {
             bar: ProgressBar::hidden(),
         }
@@ -22,7 +22,7 @@ impl ProgressBars {
 
 impl ProgressBars {
     /// Takes the bar away, before something is printed.
-    pub fn done(&mut self) {
+    pub fn clear_bar(&mut self) {
         self.bar.finish_and_clear();
     }
 }
@@ -30,7 +30,7 @@ impl ProgressBars {
 impl Progress for ProgressBars {
     fn begin(&mut self, what: &str, steps: usize) {
         self.bar.finish_and_clear();
-        self.bar = scene::bar(what);
+        self.bar = scene::progress_bar(what);
         self.bar.set_length(steps as u64);
     }
 
@@ -38,8 +38,8 @@ impl Progress for ProgressBars {
         self.bar.inc(1);
     }
 
-    fn stopped(&self) -> bool {
-        interrupt::asked()
+    fn is_stopped(&self) -> bool {
+        interrupt::is_stop_requested()
     }
 }
 

@@ -22,14 +22,14 @@ use straightline_study::tune::{self, Beyond, Chosen, Cost, Gauge, PATTERNS, Ques
 const SIZE: UVec2 = UVec2::new(640, 360);
 
 /// Searches, writes the record and the shader, prints what was found.
-pub fn run(args: &TuneArgs) -> Result<(), Failure> {
+pub fn tune_shader(args: &TuneArgs) -> Result<(), Failure> {
     let asked = asked_options(args)?;
-    files::try_folder(&args.out).map_err(Failure::of)?;
+    files::try_folder(&args.out).map_err(Failure::from_error)?;
     let gpu = Gpu::require(&args.adapter)?;
     // A missing compiler is reported before anything is drawn.
-    let gauge = gauge(args.cost)?;
+    let gauge = open_gauge(args.cost)?;
     let mut progress = ProgressBars::new();
-    let Some(subject) = subject(args, &asked, &gpu, &mut progress)? else {
+    let Some(subject) = draw_subject(args, &asked, &gpu, &mut progress)? else {
         return Err(nothing_measured());
     };
     let no_half = match (gpu.has_half(), args.target.contains(&Target::Glsl450)) {
@@ -46,24 +46,32 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     };
     let stem = stem(&subject.name);
     let circumstances = circumstances_of(&gpu, subject.size(), args.rounds);
-    let found = tune::tune(&gpu.bench(), subject, &question, gauge, circumstances, &mut progress).map_err(failure)?;
+    let found = tune::tune_subject(&gpu.bench(), subject, &question, gauge, circumstances, &mut progress)
+        .map_err(to_failure)?;
     drop(progress);
     let Some(outcome) = found else {
         return Err(nothing_measured());
     };
-    let emitted = outcome.chosen.as_ref().map(|chosen| emit(args, chosen)).transpose()?;
+    let emitted = outcome
+        .chosen
+        .as_ref()
+        .map(|chosen| emit_chosen(args, chosen))
+        .transpose()?;
     let place = outcome.chosen.as_ref().and_then(|chosen| chosen.place.as_ref());
-    let place = place.map(|compiled| compiled.emit(&options(args))).transpose()?;
+    let place = place.map(|compiled| compiled.emit(&emit_options(args))).transpose()?;
     // The shader and the record that says why it was chosen are one set.
-    let mut set = outcome.record.files(&format!("tune-{stem}")).map_err(Failure::of)?;
+    let mut set = outcome
+        .record
+        .to_files(&format!("tune-{stem}"))
+        .map_err(Failure::from_error)?;
     if let Some(emitted) = emitted {
-        set.extend(emitted.named(&format!("sraa-{stem}")));
+        set.extend(emitted.named_files(&format!("sraa-{stem}")));
     }
     if let Some(place) = place {
-        set.extend(place.named(&format!("sraa-place-{stem}")));
+        set.extend(place.named_files(&format!("sraa-place-{stem}")));
     }
-    let written = files::write_all(&args.out, &set).map_err(Failure::of)?;
-    print::report(args, &outcome.record, &written)?;
+    let written = files::write_all(&args.out, &set).map_err(Failure::from_error)?;
+    print::print_report(args, &outcome.record, &written)?;
     match outcome.chosen {
         Some(_) => Ok(()),
         None => Err(Failure::Failed(format!(
@@ -73,33 +81,33 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     }
 }
 
-fn gauge(cost: Cost) -> Result<Gauge, Failure> {
+fn open_gauge(cost: Cost) -> Result<Gauge, Failure> {
     let Cost::Isa(family) = cost else {
         return Ok(Gauge::Device);
     };
-    let program = std::env::current_exe().map_err(Failure::of)?;
-    let compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::of)?;
+    let program = std::env::current_exe().map_err(Failure::from_error)?;
+    let compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::from_error)?;
     Ok(Gauge::Compiler(Box::new(compiler)))
 }
 
 /// Draws the subject to tune for; `None` if it was stopped before all was drawn.
-fn subject(
+fn draw_subject(
     args: &TuneArgs,
     asked: &OptionValues,
     gpu: &Gpu,
     progress: &mut dyn Progress,
 ) -> Result<Option<Subject>, Failure> {
     if let Some(folder) = &args.subject.capture {
-        let capture = Capture::read(folder).map_err(Failure::of)?;
+        let capture = Capture::read(folder).map_err(Failure::from_error)?;
         return Ok(Some(Subject::of_capture(&folder.display().to_string(), capture)));
     }
     let name = args.subject.scene.as_deref().unwrap_or_default();
-    let world = scene::load(args.subject.mesh.as_deref(), name)?;
+    let world = scene::load_scene(args.subject.mesh.as_deref(), name)?;
     let name = match &args.subject.mesh {
         Some(path) => path.display().to_string(),
         None => name.to_owned(),
     };
-    let renderer = scene::renderer(Some(gpu), &world, args.size.unwrap_or(SIZE))?;
+    let renderer = scene::create_renderer(Some(gpu), &world, args.size.unwrap_or(SIZE))?;
     // Terms that are not searched need not be drawn.
     let beyond = Beyond {
         placing: asked.choice("shading").is_none_or(|place| place == "placed"),
@@ -115,7 +123,7 @@ fn subject(
         }
         None => PATTERNS.to_vec(),
     };
-    Subject::of_scene(&name, renderer.as_ref(), &patterns, beyond, progress).map_err(failure)
+    Subject::of_scene(&name, renderer.as_ref(), &patterns, beyond, progress).map_err(to_failure)
 }
 
 /// Values of the options that are set. Refuses those that the kernel does not have before anything is drawn, and those left to a
@@ -132,14 +140,14 @@ fn asked_options(args: &TuneArgs) -> Result<OptionValues, Failure> {
     Ok(asked)
 }
 
-fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
-    let options = options(args).precision(chosen.precision).accept_loss(true);
+fn emit_chosen(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
+    let options = emit_options(args).precision(chosen.precision).accept_loss(true);
     let mut emitted = chosen.compiled.emit(&options)?;
     emitted.manifest.tuned = Some(chosen.tuned.clone());
     Ok(emitted)
 }
 
-fn options(args: &TuneArgs) -> EmitOptions {
+fn emit_options(args: &TuneArgs) -> EmitOptions {
     EmitOptions::new()
         .format(args.format)
         .targets(args.target.iter().copied())
@@ -159,10 +167,10 @@ fn nothing_measured() -> Failure {
     Failure::Failed("interrupted before anything was measured: nothing is written".to_owned())
 }
 
-fn failure(error: TuneError) -> Failure {
+fn to_failure(error: TuneError) -> Failure {
     match error {
         TuneError::Kernel(errors) => Failure::Kernel(errors),
         TuneError::Space(message) => Failure::Usage(message),
-        other => Failure::of(other),
+        other => Failure::from_error(other),
     }
 }

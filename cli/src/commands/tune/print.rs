@@ -9,9 +9,9 @@ use straightline_study::record::{Candidate, TuneRecord};
 use straightline_study::tune::ErrorMetric;
 
 /// Prints the record: as JSON, or its findings as tables.
-pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {
+pub fn print_report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {
     if args.json {
-        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::from_error)?);
         return Ok(());
     }
     let metric = args.metric;
@@ -29,12 +29,12 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
         "{} variants against {}; the best has {}{}, the unfiltered picture {}\n",
         record.candidates.len(),
         record.reference,
-        metric.show(record.best),
+        metric.format_error(record.best),
         of_paper.map_or(String::new(), |best| format!(
             " (of the paper's terms alone {})",
-            metric.show(best)
+            metric.format_error(best)
         )),
-        metric.show(record.unfiltered)
+        metric.format_error(record.unfiltered)
     );
     for line in &record.not_searched {
         outln!("not searched: {line}");
@@ -49,11 +49,11 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
     }
     if !record.terms.is_empty() {
         outln!("\nThe most general variant with one term replaced:\n");
-        outln!("{}", terms(record, metric));
+        outln!("{}", terms_table(record, metric));
     }
     if record.candidates.iter().any(|c| c.front) {
         outln!("Of those measured, the front of cost against error:\n");
-        outln!("{}", front(record, metric));
+        outln!("{}", front_table(record, metric));
     }
     let model = &record.model;
     if model.learned_from > 0 {
@@ -66,7 +66,7 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
         );
     }
     if let Some(chosen) = record.chosen.and_then(|k| record.candidates.get(k)) {
-        choice(record, chosen, metric);
+        print_choice(record, chosen, metric);
     }
     outln!();
     for path in written {
@@ -75,43 +75,43 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
     Ok(())
 }
 
-fn choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
+fn print_choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
     outln!("\nchosen: {}", chosen.name);
     outln!(
         "  {}, budget {}; {}",
-        metric.show(chosen.error),
-        budget(record, metric),
-        speed(chosen.ratio)
+        metric.format_error(chosen.error),
+        format_budget(record, metric),
+        format_speed(chosen.ratio)
     );
     for needed in &record.needed {
-        outln!("  needs {}: {} without", needed.term, lost(needed.cost, metric));
+        outln!("  needs {}: {} without", needed.term, format_loss(needed.cost, metric));
     }
     for out in &record.left_out {
-        outln!("  without {}: {}", out.term, lost(out.cost, metric));
+        outln!("  without {}: {}", out.term, format_loss(out.cost, metric));
     }
 }
 
 /// The worst error that the budget allows.
-fn budget(record: &TuneRecord, metric: ErrorMetric) -> String {
+fn format_budget(record: &TuneRecord, metric: ErrorMetric) -> String {
     match metric {
-        ErrorMetric::Psnr => format!("at least {}", metric.show(record.best - record.max_error)),
-        ErrorMetric::Flip => format!("at most {}", metric.show(record.best + record.max_error)),
+        ErrorMetric::Psnr => format!("at least {}", metric.format_error(record.best - record.max_error)),
+        ErrorMetric::Flip => format!("at most {}", metric.format_error(record.best + record.max_error)),
     }
 }
 
-fn terms(record: &TuneRecord, metric: ErrorMetric) -> String {
+fn terms_table(record: &TuneRecord, metric: ErrorMetric) -> String {
     let rows = record.terms.iter().map(|term| {
         vec![
             term.term.clone(),
             term.instead.clone(),
-            lost(term.cost, metric),
-            ratio(term.ratio),
+            format_loss(term.cost, metric),
+            format_ratio(term.ratio),
         ]
     });
-    table::render(&["instead of", "with", "error", "speedup"], &rows.collect::<Vec<_>>())
+    table::render_table(&["instead of", "with", "error", "speedup"], &rows.collect::<Vec<_>>())
 }
 
-fn front(record: &TuneRecord, metric: ErrorMetric) -> String {
+fn front_table(record: &TuneRecord, metric: ErrorMetric) -> String {
     let mut shown: Vec<(usize, &Candidate)> = record.candidates.iter().enumerate().filter(|(_, c)| c.front).collect();
     let speed = |c: &Candidate| c.ratio.map_or(0.0, |ratio| ratio.median);
     shown.sort_by(|a, b| speed(b.1).total_cmp(&speed(a.1)));
@@ -128,19 +128,19 @@ fn front(record: &TuneRecord, metric: ErrorMetric) -> String {
         };
         vec![
             format!("{}{mark}", c.name),
-            metric.show(c.error),
-            c.measured().map_or(String::new(), |cost| format!("{cost:.2}")),
-            ratio(c.ratio),
+            metric.format_error(c.error),
+            c.measured_cost().map_or(String::new(), |cost| format!("{cost:.2}")),
+            format_ratio(c.ratio),
             format!("{:.2}", c.predicted),
             format!("{:.1}", c.gbuffer_bytes as f64 / 1.0e6),
         ]
     });
     let predicted = format!("predicted {}", record.unit());
     let headings = ["variant", "error", record.unit(), "speedup", &predicted, "G-buffer MB"];
-    table::render(&headings, &rows.collect::<Vec<_>>())
+    table::render_table(&headings, &rows.collect::<Vec<_>>())
 }
 
-fn lost(cost: f64, metric: ErrorMetric) -> String {
+fn format_loss(cost: f64, metric: ErrorMetric) -> String {
     let what = if cost > 0.0 { "worse" } else { "better" };
     match metric {
         _ if cost == 0.0 => "the same".to_owned(),
@@ -150,19 +150,22 @@ fn lost(cost: f64, metric: ErrorMetric) -> String {
 }
 
 /// Speed against the most general variant, which may be lower than that of one with more terms.
-fn speed(found: Option<Ratio>) -> String {
+fn format_speed(found: Option<Ratio>) -> String {
     let longer = found.filter(|found| found.median < 1.0).map(|found| Ratio {
         median: 1.0 / found.median,
         low: 1.0 / found.high,
         high: 1.0 / found.low,
     });
     match longer {
-        Some(_) => format!("takes {} times as long as the most general variant", ratio(longer)),
-        None => format!("speedup {} over the most general variant", ratio(found)),
+        Some(_) => format!(
+            "takes {} times as long as the most general variant",
+            format_ratio(longer)
+        ),
+        None => format!("speedup {} over the most general variant", format_ratio(found)),
     }
 }
 
-fn ratio(ratio: Option<Ratio>) -> String {
+fn format_ratio(ratio: Option<Ratio>) -> String {
     ratio.map_or(String::new(), |r| match r.low == r.high {
         true => format!("{:.2}", r.median),
         false => format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high),

@@ -1,6 +1,6 @@
 //! Inputs of a shader, as fields of a structure.
 
-use super::{identifier, parameters};
+use super::{parameters, rust_identifier};
 use quote::format_ident;
 use straightline_manifest::{Binding, BindingKind, Dimension, Element, Extent, Manifest, SampleType, SamplerType};
 
@@ -13,7 +13,7 @@ pub struct Input {
 }
 
 impl Input {
-    pub fn of(binding: &Binding, manifest: &Manifest) -> Option<Input> {
+    pub fn from_binding(binding: &Binding, manifest: &Manifest) -> Option<Input> {
         let (docs, ty) = match &binding.kind {
             BindingKind::Texture {
                 components,
@@ -67,7 +67,7 @@ impl Input {
             BindingKind::Uniform { .. } => return None,
         };
         Some(Input {
-            name: identifier(&binding.name),
+            name: rust_identifier(&binding.name),
             bound: binding.name.clone(),
             docs,
             ty: format_ident!("{ty}"),

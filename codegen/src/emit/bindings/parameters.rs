@@ -1,12 +1,12 @@
 //! The Rust of a shader's uniform struct: laid out as the shader has it, which the caller's compiler checks.
 
-use super::{identifier, spaced};
+use super::{doc_line, rust_identifier};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{BindingKind, Element, Manifest, Scalar, UniformField, ValueType};
 
 /// The struct `Parameters` with what belongs to it, and the methods that set it.
-pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
+pub fn quote_parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
         BindingKind::Uniform { fields, size, .. } if !b.is_region() => Some((fields.as_slice(), *size)),
         _ => None,
@@ -14,16 +14,16 @@ pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     match uniforms {
         Some((fields, size)) => {
             let docs = " Values that are set at run time, as they lie in the shader's uniform buffer.";
-            let structure = structure("Parameters", docs, fields, size);
+            let structure = quote_structure("Parameters", docs, fields, size);
             let by_name = by_name(fields);
-            (quote! { #structure #by_name }, setters(fields))
+            (quote! { #structure #by_name }, quote_setters(fields))
         }
         None => (TokenStream::new(), TokenStream::new()),
     }
 }
 
 /// The structures that buffers hold, each once.
-pub fn elements(manifest: &Manifest) -> TokenStream {
+pub fn quote_elements(manifest: &Manifest) -> TokenStream {
     let mut made: Vec<&str> = Vec::new();
     let mut all = TokenStream::new();
     for binding in &manifest.bindings {
@@ -37,7 +37,7 @@ pub fn elements(manifest: &Manifest) -> TokenStream {
         {
             made.push(name);
             let docs = " An element of a storage buffer, as it lies there.";
-            all.extend(structure(&structure_name(manifest, name), docs, fields, *stride));
+            all.extend(quote_structure(&structure_name(manifest, name), docs, fields, *stride));
         }
     }
     all
@@ -97,33 +97,33 @@ pub fn structure_name(manifest: &Manifest, element: &str) -> String {
     name
 }
 
-fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenStream {
-    let of = identifier(of);
+fn quote_structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenStream {
+    let of = rust_identifier(of);
     let of_docs = docs;
     let mut members = Vec::new();
     let mut pads = Vec::new();
     let mut at = 0;
     for field in fields {
-        pad(&mut members, &mut pads, fields, field.offset - at);
-        let (name, ty) = (identifier(&field.name), stored_type(field.ty));
+        push_padding(&mut members, &mut pads, fields, field.offset - at);
+        let (name, ty) = (rust_identifier(&field.name), stored_type(field.ty));
         let docs = match field.default {
             Some(default) => format!("`{}` of the kernel; {default} by default.", field.name),
             None => format!("`{}` of the kernel.", field.name),
         };
-        let docs = spaced(&docs);
+        let docs = doc_line(&docs);
         members.push(quote! { #[doc = #docs] pub #name: #ty });
         at = field.offset + field.size;
     }
-    pad(&mut members, &mut pads, fields, size - at);
+    push_padding(&mut members, &mut pads, fields, size - at);
 
-    let names: Vec<_> = fields.iter().map(|f| identifier(&f.name)).collect();
-    let arguments: Vec<_> = (0..fields.len()).map(|k| argument(fields, k)).collect();
+    let names: Vec<_> = fields.iter().map(|f| rust_identifier(&f.name)).collect();
+    let arguments: Vec<_> = (0..fields.len()).map(|k| argument_name(fields, k)).collect();
     let types: Vec<_> = fields.iter().map(|f| stored_type(f.ty)).collect();
-    let zeros: Vec<_> = fields.iter().map(|f| zero(f.ty)).collect();
+    let zeros: Vec<_> = fields.iter().map(|f| quote_zero(f.ty)).collect();
     let offsets: Vec<_> = fields.iter().map(|f| Literal::u32_unsuffixed(f.offset)).collect();
     let total = Literal::u32_unsuffixed(size);
     let copies = fields.iter().map(|field| {
-        let name = identifier(&field.name);
+        let name = rust_identifier(&field.name);
         let start = Literal::u32_unsuffixed(field.offset);
         let end = Literal::u32_unsuffixed(field.offset + field.size);
         match field.ty {
@@ -215,16 +215,16 @@ fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenS
 }
 
 /// The argument that a field is set by: its name, unless a pattern of that name could be a constant or a type.
-fn argument(fields: &[UniformField], k: usize) -> proc_macro2::Ident {
+fn argument_name(fields: &[UniformField], k: usize) -> proc_macro2::Ident {
     let name = &fields[k].name;
     if !name.starts_with(|c: char| c.is_ascii_uppercase()) {
-        return identifier(name);
+        return rust_identifier(name);
     }
-    free(fields, &format!("value_{k}"))
+    free_field_name(fields, &format!("value_{k}"))
 }
 
 /// A name that no field has: `wanted`, with underscores behind it where fields have it without.
-fn free(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident {
+fn free_field_name(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident {
     let mut name = wanted.to_owned();
     // Each turn leaves a field behind.
     for _ in fields {
@@ -236,10 +236,10 @@ fn free(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident {
 }
 
 /// The method that sets a value: `set_NAME`, unless that sets all of them.
-fn setter(fields: &[UniformField], name: &str) -> proc_macro2::Ident {
+fn setter_name(fields: &[UniformField], name: &str) -> proc_macro2::Ident {
     match name {
         "parameters" => {
-            let name = free(fields, "parameters_");
+            let name = free_field_name(fields, "parameters_");
             format_ident!("set_{name}")
         }
         _ => format_ident!("set_{name}"),
@@ -247,11 +247,11 @@ fn setter(fields: &[UniformField], name: &str) -> proc_macro2::Ident {
 }
 
 /// Bytes that no value fills, as a field of their own.
-fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fields: &[UniformField], bytes: u32) {
+fn push_padding(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fields: &[UniformField], bytes: u32) {
     if bytes == 0 {
         return;
     }
-    let name = free(fields, &format!("padding_{}", pads.len()));
+    let name = free_field_name(fields, &format!("padding_{}", pads.len()));
     let words = Literal::u32_unsuffixed(bytes / 4);
     members.push(quote! { #[doc = " Not read."] pub #name: [u32; #words] });
     pads.push(quote! { #name: [0; #words] });
@@ -266,7 +266,7 @@ struct Whole<'f> {
 }
 
 /// The values that `fields` are of, in order.
-fn wholes(fields: &[UniformField]) -> Vec<Whole<'_>> {
+fn group_fields(fields: &[UniformField]) -> Vec<Whole<'_>> {
     let mut wholes: Vec<Whole<'_>> = Vec::new();
     for field in fields {
         let (name, ty, index) = match &field.part {
@@ -287,7 +287,7 @@ fn wholes(fields: &[UniformField]) -> Vec<Whole<'_>> {
 
 impl Whole<'_> {
     /// The type by which a method takes it, and what makes its own type of that.
-    fn taken(&self) -> (TokenStream, TokenStream) {
+    fn setter_argument(&self) -> (TokenStream, TokenStream) {
         let value = value_type(self.ty);
         match self.ty {
             // An array, or a vector of another crate.
@@ -300,7 +300,7 @@ impl Whole<'_> {
     }
 
     /// Each field with the expression of its part of `value`.
-    fn values(&self) -> impl Iterator<Item = (&UniformField, TokenStream)> {
+    fn field_values(&self) -> impl Iterator<Item = (&UniformField, TokenStream)> {
         self.parts.iter().map(|(field, index)| {
             let index = Literal::u32_unsuffixed(*index);
             let value = match self.ty.is_single() {
@@ -311,7 +311,7 @@ impl Whole<'_> {
         })
     }
 
-    fn columns(&self) -> TokenStream {
+    fn column_docs(&self) -> TokenStream {
         match self.ty {
             ValueType::Matrix { .. } => quote! { #[doc = " Columns first."] },
             _ => TokenStream::new(),
@@ -321,14 +321,14 @@ impl Whole<'_> {
 
 /// Methods of `Parameters` that set one value, by name.
 fn by_name(fields: &[UniformField]) -> TokenStream {
-    let wholes = wholes(fields);
+    let wholes = group_fields(fields);
     let each = wholes.iter().map(|whole| {
         let method = format_ident!("with_{}", whole.name);
-        let docs = spaced(&format!("Replaces `{}`.", whole.name));
-        let columns = whole.columns();
-        let (taken, own) = whole.taken();
-        let sets = whole.values().map(|(field, value)| {
-            let name = identifier(&field.name);
+        let docs = doc_line(&format!("Replaces `{}`.", whole.name));
+        let columns = whole.column_docs();
+        let (taken, own) = whole.setter_argument();
+        let sets = whole.field_values().map(|(field, value)| {
+            let name = rust_identifier(&field.name);
             quote! { self.#name = #value; }
         });
         quote! {
@@ -350,14 +350,14 @@ fn by_name(fields: &[UniformField]) -> TokenStream {
 }
 
 /// Methods of what is bound: one that sets all, and one for each value. They cannot fail: the compiler has checked names and types.
-fn setters(fields: &[UniformField]) -> TokenStream {
-    let wholes = wholes(fields);
+fn quote_setters(fields: &[UniformField]) -> TokenStream {
+    let wholes = group_fields(fields);
     let each = wholes.iter().map(|whole| {
-        let setter = setter(fields, whole.name);
-        let docs = spaced(&format!("Sets `{}` from the next submission on.", whole.name));
-        let columns = whole.columns();
-        let (taken, own) = whole.taken();
-        let writes = whole.values().map(|(field, value)| {
+        let setter = setter_name(fields, whole.name);
+        let docs = doc_line(&format!("Sets `{}` from the next submission on.", whole.name));
+        let columns = whole.column_docs();
+        let (taken, own) = whole.setter_argument();
+        let writes = whole.field_values().map(|(field, value)| {
             let offset = Literal::u32_unsuffixed(field.offset);
             let scalar = format_ident!("{}", field.ty.scalar().name());
             let bytes = match field.ty.components() {
@@ -386,7 +386,7 @@ fn setters(fields: &[UniformField]) -> TokenStream {
 }
 
 /// Zeros of a field as it lies in the buffer.
-fn zero(ty: ValueType) -> TokenStream {
+fn quote_zero(ty: ValueType) -> TokenStream {
     let number = match ty.scalar() {
         Scalar::F32 => quote! { 0.0 },
         Scalar::I32 | Scalar::U32 => quote! { 0 },

@@ -1,7 +1,7 @@
 //! Generated methods that bind a shader and run it: a pass over a picture, or triangles that are drawn.
 
 use super::inputs::Input;
-use super::{identifier, spaced};
+use super::{doc_line, rust_identifier};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use straightline_manifest::{Binding, Manifest};
@@ -22,7 +22,7 @@ pub struct Given {
 
 impl Given {
     /// `parameters` is the structure of values that are set at run time, empty if there are none.
-    pub fn of(inputs: &[Input], parameters: &TokenStream, setters: TokenStream) -> Given {
+    pub fn from_inputs(inputs: &[Input], parameters: &TokenStream, setters: TokenStream) -> Given {
         let count = Literal::usize_unsuffixed(inputs.len());
         let pairs = inputs.iter().map(|input| {
             let (field, name) = (&input.name, &input.bound);
@@ -52,7 +52,7 @@ impl Given {
 }
 
 /// A kernel of pixels, as its bindings run it.
-pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStream {
+pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStream {
     let Given {
         used,
         parameters,
@@ -150,7 +150,7 @@ pub fn pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStrea
 }
 
 /// A kernel that has values interpolated, as its bindings draw it: behind a vertex shader of the caller's.
-pub fn draw(manifest: &Manifest, given: &Given) -> TokenStream {
+pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
     let Given {
         used,
         parameters,
@@ -229,7 +229,7 @@ pub struct Targets {
 }
 
 impl Targets {
-    pub fn of(manifest: &Manifest) -> Targets {
+    pub fn from_manifest(manifest: &Manifest) -> Targets {
         if manifest.outputs.len() == 1 {
             return Targets {
                 ty: quote! { target: &wgpu::TextureView, },
@@ -245,10 +245,10 @@ impl Targets {
             };
         }
         let names: Vec<&str> = manifest.outputs.iter().map(|o| o.name.as_str()).collect();
-        let fields: Vec<_> = names.iter().map(|name| identifier(name)).collect();
+        let fields: Vec<_> = names.iter().map(|name| rust_identifier(name)).collect();
         let docs = manifest.outputs.iter().map(|output| {
             let at = output.location.map_or(String::new(), |k| format!(" at location {k}"));
-            spaced(&format!(
+            doc_line(&format!(
                 "The target of `{}`{at}, generated for `{}`.",
                 output.name, output.format
             ))

@@ -18,9 +18,9 @@ const LONG: usize = 100_000;
 /// # Errors
 ///
 /// A text that is not the shader that the manifest describes: a mistake of the emitter's.
-pub fn shader(module: &Module<'_>) -> Result<TokenStream, Refusal> {
+pub fn quote_shader(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     let Module { manifest, wgsl, .. } = module;
-    let refused = |problem: String| Refusal::invalid(&manifest.kernel, "wgsl", &problem);
+    let refused = |problem: String| Refusal::invalid_text(&manifest.kernel, "wgsl", &problem);
     let plan = Plan::from_manifest(manifest).map_err(|contradiction| refused(contradiction.to_string()))?;
     let parsed = straightline_reflect::Shader::parse(wgsl).map_err(refused)?;
     parsed.check(manifest, &plan).map_err(refused)?;
@@ -28,10 +28,10 @@ pub fn shader(module: &Module<'_>) -> Result<TokenStream, Refusal> {
         Ok(()) => quote! { straightline_runtime::loops_end!() },
         Err(problem) => quote! { Loops::Unproven(Borrowed(#problem)) },
     };
-    let hash = hexadecimal(text_hash(wgsl));
+    let hash = hex_literal(text_hash(wgsl));
     let plan = plan_of(&plan);
     let value = quote! { Shader::generated(WGSL, #hash, #loops, #plan) };
-    let words = imported(&value);
+    let words = imported_items(&value);
     let allow = (wgsl.len() > LONG).then(|| quote! { #[allow(long_running_const_eval)] });
     Ok(quote! {
         /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
@@ -70,11 +70,11 @@ const WORDS: [&str; 20] = [
 ];
 
 /// The items that `tokens` name, by name.
-fn imported(tokens: &TokenStream) -> Vec<proc_macro2::Ident> {
-    fn collect(tokens: &TokenStream, found: &mut BTreeSet<String>) {
+fn imported_items(tokens: &TokenStream) -> Vec<proc_macro2::Ident> {
+    fn collect_idents(tokens: &TokenStream, found: &mut BTreeSet<String>) {
         for token in tokens.clone() {
             match token {
-                TokenTree::Group(group) => collect(&group.stream(), found),
+                TokenTree::Group(group) => collect_idents(&group.stream(), found),
                 TokenTree::Ident(ident) => {
                     found.insert(ident.to_string());
                 }
@@ -83,7 +83,7 @@ fn imported(tokens: &TokenStream) -> Vec<proc_macro2::Ident> {
         }
     }
     let mut found = BTreeSet::new();
-    collect(tokens, &mut found);
+    collect_idents(tokens, &mut found);
     WORDS
         .into_iter()
         .filter(|word| found.contains(*word))
@@ -92,7 +92,7 @@ fn imported(tokens: &TokenStream) -> Vec<proc_macro2::Ident> {
 }
 
 /// A hash in groups of four digits.
-fn hexadecimal(hash: u64) -> Literal {
+fn hex_literal(hash: u64) -> Literal {
     let group = |shift: u32| (hash >> shift) & 0xffff;
     let text = format!(
         "0x{:04x}_{:04x}_{:04x}_{:04x}",
@@ -124,11 +124,11 @@ fn plan_of(plan: &Plan) -> TokenStream {
     };
     let (across, down) = (Literal::u32_unsuffixed(*across), Literal::u32_unsuffixed(*down));
     let features = features.iter().map(|feature| quote! { Borrowed(#feature) });
-    let inputs = inputs.iter().map(input);
-    let uniforms = uniforms.iter().map(uniform);
-    let region = option(region.as_ref().map(uniform));
-    let varyings = varyings.iter().map(varying);
-    let outputs = outputs.iter().map(output);
+    let inputs = inputs.iter().map(quote_input);
+    let uniforms = uniforms.iter().map(quote_uniform);
+    let region = quote_option(region.as_ref().map(quote_uniform));
+    let varyings = varyings.iter().map(quote_varying);
+    let outputs = outputs.iter().map(quote_output);
     quote! {
         Plan {
             kernel: Borrowed(#kernel),
@@ -145,7 +145,7 @@ fn plan_of(plan: &Plan) -> TokenStream {
     }
 }
 
-fn input(input: &InputPlan) -> TokenStream {
+fn quote_input(input: &InputPlan) -> TokenStream {
     let InputPlan {
         name,
         group,
@@ -155,11 +155,11 @@ fn input(input: &InputPlan) -> TokenStream {
     let (group, binding) = (Literal::u32_unsuffixed(*group), Literal::u32_unsuffixed(*binding));
     let kind = match kind {
         InputKind::Texture(texture) => {
-            let (dimension, sample_type) = (variant(&texture.dimension), variant(&texture.sample_type));
+            let (dimension, sample_type) = (variant_name(&texture.dimension), variant_name(&texture.sample_type));
             let components = Literal::u8_unsuffixed(texture.components);
             let layers = Literal::u32_unsuffixed(texture.layers);
             let samples = Literal::u32_unsuffixed(texture.samples);
-            let extent = variant(&texture.extent);
+            let extent = variant_name(&texture.extent);
             quote! {
                 InputKind::Texture(TexturePlan {
                     dimension: Dimension::#dimension,
@@ -172,11 +172,11 @@ fn input(input: &InputPlan) -> TokenStream {
             }
         }
         InputKind::Sampler(sampler) => {
-            let sampler = variant(sampler);
+            let sampler = variant_name(sampler);
             quote! { InputKind::Sampler(SamplerType::#sampler) }
         }
         InputKind::Buffer(buffer) => {
-            let element = option(buffer.element.map(value_type));
+            let element = quote_option(buffer.element.map(value_type));
             let stride = Literal::u32_unsuffixed(buffer.stride);
             let written = buffer.written;
             quote! { InputKind::Buffer(BufferPlan { element: #element, stride: #stride, written: #written }) }
@@ -185,7 +185,7 @@ fn input(input: &InputPlan) -> TokenStream {
     quote! { InputPlan { name: Borrowed(#name), group: #group, binding: #binding, kind: #kind } }
 }
 
-fn uniform(uniform: &UniformPlan) -> TokenStream {
+fn quote_uniform(uniform: &UniformPlan) -> TokenStream {
     let UniformPlan {
         name,
         group,
@@ -194,7 +194,7 @@ fn uniform(uniform: &UniformPlan) -> TokenStream {
         fields,
     } = uniform;
     let [group, binding, size] = [*group, *binding, *size].map(Literal::u32_unsuffixed);
-    let fields = fields.iter().map(field);
+    let fields = fields.iter().map(quote_field);
     quote! {
         UniformPlan {
             name: Borrowed(#name),
@@ -206,7 +206,7 @@ fn uniform(uniform: &UniformPlan) -> TokenStream {
     }
 }
 
-fn field(field: &FieldPlan) -> TokenStream {
+fn quote_field(field: &FieldPlan) -> TokenStream {
     let FieldPlan {
         name,
         ty,
@@ -215,11 +215,11 @@ fn field(field: &FieldPlan) -> TokenStream {
         part,
     } = field;
     let offset = Literal::u32_unsuffixed(*offset);
-    let default = option(default.map(|word| {
-        let number = number(ty.scalar(), word);
+    let default = quote_option(default.map(|word| {
+        let number = quote_number(ty.scalar(), word);
         quote! { #number.to_le_bytes() }
     }));
-    let part = option(part.as_ref().map(|PartPlan { of, ty, index }| {
+    let part = quote_option(part.as_ref().map(|PartPlan { of, ty, index }| {
         let (ty, index) = (value_type(*ty), Literal::u32_unsuffixed(*index));
         quote! { PartPlan { of: Borrowed(#of), ty: #ty, index: #index } }
     }));
@@ -228,7 +228,7 @@ fn field(field: &FieldPlan) -> TokenStream {
 }
 
 /// A number of these bits, as it can be followed by a method.
-fn number(scalar: Scalar, word: [u8; 4]) -> TokenStream {
+fn quote_number(scalar: Scalar, word: [u8; 4]) -> TokenStream {
     let text = match scalar {
         Scalar::F32 => format!("{:?}_f32", f32::from_le_bytes(word)),
         Scalar::I32 => format!("{}_i32", i32::from_le_bytes(word)),
@@ -247,24 +247,24 @@ fn number(scalar: Scalar, word: [u8; 4]) -> TokenStream {
     }
 }
 
-fn varying(varying: &VaryingPlan) -> TokenStream {
+fn quote_varying(varying: &VaryingPlan) -> TokenStream {
     let VaryingPlan { name, ty, location } = varying;
     let (ty, location) = (value_type(*ty), Literal::u32_unsuffixed(*location));
     quote! { VaryingPlan { name: Borrowed(#name), ty: #ty, location: #location } }
 }
 
-fn output(output: &OutputPlan) -> TokenStream {
+fn quote_output(output: &OutputPlan) -> TokenStream {
     let OutputPlan { name, place, format } = output;
-    let place = option(place.map(|(group, binding)| {
+    let place = quote_option(place.map(|(group, binding)| {
         let [group, binding] = [group, binding].map(Literal::u32_unsuffixed);
         quote! { (#group, #binding) }
     }));
-    let format = variant(format);
+    let format = variant_name(format);
     quote! { OutputPlan { name: Borrowed(#name), place: #place, format: Format::#format } }
 }
 
 fn value_type(ty: ValueType) -> TokenStream {
-    let scalar = variant(&ty.scalar());
+    let scalar = variant_name(&ty.scalar());
     match ty {
         ValueType::Scalar(_) => quote! { ValueType::Scalar(Scalar::#scalar) },
         ValueType::Vector { components, .. } => {
@@ -283,11 +283,11 @@ fn value_type(ty: ValueType) -> TokenStream {
 }
 
 /// The name of a variant without fields, as it prints itself.
-fn variant(value: &impl std::fmt::Debug) -> proc_macro2::Ident {
+fn variant_name(value: &impl std::fmt::Debug) -> proc_macro2::Ident {
     format_ident!("{value:?}")
 }
 
-fn option(value: Option<TokenStream>) -> TokenStream {
+fn quote_option(value: Option<TokenStream>) -> TokenStream {
     match value {
         Some(value) => quote! { Some(#value) },
         None => quote! { None },

@@ -7,13 +7,13 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 pub const AS_WRITTEN: &str = "as_written";
 
 /// Rewrites exact values as variables that are precise.
-pub fn precise(module: &mut Module<'_>) {
+pub fn mark_precise(module: &mut Module<'_>) {
     let mut body = std::mem::take(&mut module.body);
-    body.iter_mut().for_each(|stmt| declared(module, stmt));
+    body.iter_mut().for_each(|stmt| mark_statement(module, stmt));
     module.body = body;
 }
 
-fn declared(module: &mut Module<'_>, stmt: &mut Stmt<'_>) {
+fn mark_statement(module: &mut Module<'_>, stmt: &mut Stmt<'_>) {
     let variable = match &stmt.kind {
         StmtKind::Let(var, value) | StmtKind::Var(var, Some(value)) if is_exact(value) => Some(*var),
         StmtKind::Assign(place, _, value) if is_exact(value) => place.as_var(),
@@ -29,7 +29,7 @@ fn declared(module: &mut Module<'_>, stmt: &mut Stmt<'_>) {
         });
     }
     for block in stmt.blocks_mut() {
-        block.iter_mut().for_each(|stmt| declared(module, stmt));
+        block.iter_mut().for_each(|stmt| mark_statement(module, stmt));
     }
 }
 
@@ -38,10 +38,10 @@ fn is_exact(expr: &Expr) -> bool {
 }
 
 /// Rewrites exact values that arithmetic goes on from, or `all` of them, as calls of a function.
-pub fn barriers(module: &mut Module<'_>, all: bool) {
+pub fn insert_barriers(module: &mut Module<'_>, all: bool) {
     module.rewrite(&mut |module, mut expr| match expr.op {
         Op::Exact { goes_on } if all || goes_on => {
-            expr.op = barrier(module, expr.ty);
+            expr.op = barrier_function(module, expr.ty);
             expr
         }
         Op::Exact { .. } => expr.args.swap_remove(0),
@@ -51,21 +51,27 @@ pub fn barriers(module: &mut Module<'_>, all: bool) {
 
 /// A function that changes the bits of one NaN to those of another. To see that this changes no number, a compiler would have to
 /// know that none has these bits, so it computes the argument as it is written, and nothing across the function.
-fn barrier(module: &mut Module<'_>, ty: Ty) -> Op {
+fn barrier_function(module: &mut Module<'_>, ty: Ty) -> Op {
     const LARGEST: u32 = 0xffff_fffe;
     let name = match ty.is_scalar() && !ty.half {
         true => AS_WRITTEN.to_owned(),
         false => format!("{AS_WRITTEN}_{}", ty.short_name().replace(['<', '>'], "_")),
     };
-    module.function(&name.clone(), ty, |module| {
-        let x = module.variable("x", ty);
-        let words = ty.full().of(Scalar::U32);
+    module.add_function(&name.clone(), ty, |module| {
+        let x = module.new_variable("x", ty);
+        let words = ty.to_full_precision().with_kind(Scalar::U32);
         let largest = Expr::new(Op::Hex(LARGEST), Vec::new(), words);
-        let full = |expr: Expr| if ty.half { expr.to(ty.full()) } else { expr };
-        let bits = full(module.read(x)).bits_as(words);
+        let full = |expr: Expr| {
+            if ty.half {
+                expr.convert_to(ty.to_full_precision())
+            } else {
+                expr
+            }
+        };
+        let bits = full(module.read_variable(x)).bits_as(words);
         let same = Expr::new(Op::Ir(ir::Op::Binary(BinaryOp::Min)), vec![bits, largest], words);
-        let same = same.bits_as(ty.full());
-        let same = if ty.half { same.to(ty) } else { same };
+        let same = same.bits_as(ty.to_full_precision());
+        let same = if ty.half { same.convert_to(ty) } else { same };
         Function {
             comment: "The same number, by its bits: what it is computed of stays in the order in which it is written."
                 .to_owned(),

@@ -1,24 +1,24 @@
 //! GLSL: what it has no operator for, what it leaves open, and what glslang would make branches of.
 
 use super::{
-    Rule, below_32, both, by_component, choose, componentwise, guarded, inside, is_leaf, is_non_finite, is_simple,
-    take, to_integer, zeros,
+    Rule, below_32, by_component, clamp_index, component_select, componentwise_function, eager_bool_op,
+    guarded_division, is_leaf, is_non_finite, is_simple, take_args, to_integer, zero_count,
 };
 use crate::emit::ast::{Expr, Module, Op, Ty};
 use crate::emit::print::glsl_type;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// The rule of GLSL for Vulkan.
-pub fn vulkan(module: &mut Module<'_>, expr: Expr) -> Expr {
-    rule(module, expr, true)
+pub fn vulkan_rule(module: &mut Module<'_>, expr: Expr) -> Expr {
+    glsl_rule(module, expr, true)
 }
 
 /// The rule of GLSL for OpenGL, where `mix` chooses between floats alone.
-pub fn opengl(module: &mut Module<'_>, expr: Expr) -> Expr {
-    rule(module, expr, false)
+pub fn opengl_rule(module: &mut Module<'_>, expr: Expr) -> Expr {
+    glsl_rule(module, expr, false)
 }
 
-fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
+fn glsl_rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
     let ty = expr.ty;
     match &expr.op {
         _ if is_non_finite(&expr) => by_component(&expr, |bits| {
@@ -28,39 +28,39 @@ fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
         Op::Division(op, known) => {
             let (op, known) = (*op, *known);
             let part = if mixes { ty } else { Ty::from(ty.element_of()) };
-            let rule: Rule = if mixes { vulkan } else { opengl };
-            if let Some(function) = guarded(module, op, known, part, rule) {
-                expr.op = componentwise(module, function, ty);
+            let rule: Rule = if mixes { vulkan_rule } else { opengl_rule };
+            if let Some(function) = guarded_division(module, op, known, part, rule) {
+                expr.op = componentwise_function(module, function, ty);
             }
             expr
         }
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && ty.is_integer() => {
             let part = if mixes { ty } else { Ty::from(ty.element_of()) };
-            let rule: Rule = if mixes { vulkan } else { opengl };
+            let rule: Rule = if mixes { vulkan_rule } else { opengl_rule };
             let name = format!("to_{}", glsl_type(part));
             let function = to_integer(module, &name, part, true, rule);
-            expr.op = componentwise(module, function, ty);
+            expr.op = componentwise_function(module, function, ty);
             expr
         }
-        Op::Index { inside: false } => inside(expr),
+        Op::Index { inside: false } => clamp_index(expr),
         // A depth texture gives four components here, not one.
         Op::Ir(ir::Op::Load { .. }) if ty.is_scalar() => {
             expr.ty = Type::value(Scalar::F32, 4).into();
             Expr::new(Op::Swizzle(vec![0]), vec![expr], ty)
         }
-        Op::Ir(ir::Op::Unary(op)) => unary(*op, expr),
-        Op::Ir(ir::Op::Binary(op)) => binary(*op, expr),
+        Op::Ir(ir::Op::Unary(op)) => rewrite_unary(*op, expr),
+        Op::Ir(ir::Op::Binary(op)) => rewrite_binary(*op, expr),
         // glslang makes branches of a choice between more than names and literals, and none of `mix`. Where `mix` is of floats
         // alone, a choice by one boolean stays one, of vectors too.
         Op::Ir(ir::Op::Select)
             if mixes && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2])) && ty.kind() != Some(Scalar::Bool) =>
         {
-            let [condition, yes, no] = take(expr.args);
+            let [condition, yes, no] = take_args(expr.args);
             let condition = match ty.components() {
                 1 => condition,
-                _ => Expr::new(Op::Construct, vec![condition], ty.of(Scalar::Bool)),
+                _ => Expr::new(Op::Construct, vec![condition], ty.with_kind(Scalar::Bool)),
             };
-            choose(condition, yes, no)
+            component_select(condition, yes, no)
         }
         Op::Ir(ir::Op::Bitcast) => {
             let function = match (expr.args[0].ty.kind(), ty.kind()) {
@@ -80,7 +80,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
     }
 }
 
-fn unary(op: UnaryOp, mut expr: Expr) -> Expr {
+fn rewrite_unary(op: UnaryOp, mut expr: Expr) -> Expr {
     let ty = expr.ty;
     match op {
         UnaryOp::Not if ty.components() > 1 => {
@@ -88,18 +88,18 @@ fn unary(op: UnaryOp, mut expr: Expr) -> Expr {
             expr
         }
         UnaryOp::Saturate => {
-            let [x] = take(expr.args);
+            let [x] = take_args(expr.args);
             let [low, high] = [0.0_f32, 1.0].map(|x| Expr::splat(Type::F32, x.to_bits()));
             Expr::call("clamp", vec![x, low, high], ty)
         }
-        UnaryOp::CountOneBits => Expr::call("bitCount", expr.args, ty.of(Scalar::I32)).to(ty),
-        UnaryOp::LeadingZeros => zeros(expr, "findMSB", true),
-        UnaryOp::TrailingZeros => zeros(expr, "findLSB", false),
+        UnaryOp::CountOneBits => Expr::call("bitCount", expr.args, ty.with_kind(Scalar::I32)).convert_to(ty),
+        UnaryOp::LeadingZeros => zero_count(expr, "findMSB", true),
+        UnaryOp::TrailingZeros => zero_count(expr, "findLSB", false),
         _ => expr,
     }
 }
 
-fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
+fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
     use BinaryOp::{And, Eq, Ge, Gt, Le, Lt, Ne, Or, Rem, Shl, Shr, Xor};
     let ty = expr.ty;
     let vector = ty.components() > 1;
@@ -123,14 +123,14 @@ fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
     match op {
         // GLSL's own `%` takes integers only, and its `mod` floors.
         Rem if ty.is_float() => {
-            let [x, y] = take(expr.args);
+            let [x, y] = take_args(expr.args);
             let quotient = x.clone().binary(BinaryOp::Div, y.clone());
             let whole = Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Trunc)), vec![quotient], ty);
             x.binary(BinaryOp::Sub, y.binary(BinaryOp::Mul, whole))
         }
         // GLSL has no `&` of booleans, and glslang makes branches of `&&` and `||` where the right side is not a name or a
         // comparison of two.
-        And | Or if bools && (vector || !is_simple(&expr.args[1])) => both(op, expr),
+        And | Or if bools && (vector || !is_simple(&expr.args[1])) => eager_bool_op(op, expr),
         Shl | Shr => {
             let count = expr.args.pop().expect("two arguments");
             expr.args.push(below_32(count));

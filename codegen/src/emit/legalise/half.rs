@@ -7,32 +7,32 @@ use straightline_evaluator::ir;
 const LARGEST: f32 = 65504.0;
 
 /// Rewrites a kernel; the colours that it gives are in full precision.
-pub fn half(module: &mut Module<'_>) {
+pub fn legalise_half(module: &mut Module<'_>) {
     for variable in &mut module.variables {
-        variable.ty = narrow(variable.ty);
+        variable.ty = to_half_type(variable.ty);
     }
-    module.rewrite(&mut |_, expr| rule(expr));
-    module.body.iter_mut().for_each(stored);
+    module.rewrite(&mut |_, expr| half_rule(expr));
+    module.body.iter_mut().for_each(widen_stored);
     for stmt in &mut module.body {
         if let StmtKind::Output(values) = &mut stmt.kind {
             for value in values {
-                *value = full(value.clone());
+                *value = to_full_precision(value.clone());
             }
         }
     }
 }
 
 /// Converts values that are stored in buffers to full precision, too.
-fn stored(stmt: &mut Stmt<'_>) {
+fn widen_stored(stmt: &mut Stmt<'_>) {
     if let StmtKind::Effect(effect) = &mut stmt.kind {
         for arg in &mut effect.args {
-            *arg = full(arg.clone());
+            *arg = to_full_precision(arg.clone());
         }
     }
-    stmt.blocks_mut().into_iter().flatten().for_each(stored);
+    stmt.blocks_mut().into_iter().flatten().for_each(widen_stored);
 }
 
-fn narrow(ty: Ty) -> Ty {
+fn to_half_type(ty: Ty) -> Ty {
     Ty {
         half: ty.is_float(),
         ..ty
@@ -40,28 +40,28 @@ fn narrow(ty: Ty) -> Ty {
 }
 
 /// A value in full precision.
-fn full(expr: Expr) -> Expr {
+fn to_full_precision(expr: Expr) -> Expr {
     match expr.ty.half {
         true => {
-            let ty = expr.ty.full();
-            expr.to(ty)
+            let ty = expr.ty.to_full_precision();
+            expr.convert_to(ty)
         }
         false => expr,
     }
 }
 
 /// A value as the shader computes with it.
-fn halved(expr: Expr) -> Expr {
+fn to_half_precision(expr: Expr) -> Expr {
     match expr.ty.is_float() {
         true => {
-            let ty = narrow(expr.ty);
-            expr.to(ty)
+            let ty = to_half_type(expr.ty);
+            expr.convert_to(ty)
         }
         false => expr,
     }
 }
 
-fn rule(mut expr: Expr) -> Expr {
+fn half_rule(mut expr: Expr) -> Expr {
     use ir::Op::{
         Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, Message, Sample, SharedLoad, Uniform,
         Varying,
@@ -82,30 +82,30 @@ fn rule(mut expr: Expr) -> Expr {
             | Varying(_)
             | Bitcast,
         ) => {
-            expr.args = expr.args.into_iter().map(full).collect();
-            halved(expr)
+            expr.args = expr.args.into_iter().map(to_full_precision).collect();
+            to_half_precision(expr)
         }
         // Between half precision and integers by way of `f32`, which holds every `f16`, and every integer that an `f16` holds:
         // whatever a driver does of its own is what it does in full precision.
         Op::Convert { fits } => {
             let fits = *fits;
-            expr.args = expr.args.into_iter().map(full).collect();
+            expr.args = expr.args.into_iter().map(to_full_precision).collect();
             let clamps = !fits && expr.args[0].ty.is_integer() && expr.ty.is_float();
             if clamps {
                 let ty = expr.ty;
                 let [low, high] = [-LARGEST, LARGEST].map(|x| Expr::splat(ty, x.to_bits()));
                 expr = Expr::new(Op::Ir(ir::Op::Clamp), vec![expr, low, high], ty);
             }
-            halved(expr)
+            to_half_precision(expr)
         }
         // Converts the components that are used, not the whole texel.
         Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) && expr.args[0].ty.half => {
             let converted = expr.args.pop().expect("a vector");
             expr.args = converted.args;
-            halved(expr)
+            to_half_precision(expr)
         }
         _ => {
-            expr.ty = narrow(expr.ty);
+            expr.ty = to_half_type(expr.ty);
             expr
         }
     }

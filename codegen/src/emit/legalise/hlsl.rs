@@ -1,17 +1,17 @@
 //! HLSL: what it has no operator for, what it leaves open, and arrays, which it sets element by element.
 
 use super::{
-    Rule, below_32, both, by_component, componentwise, guarded, guards::unequal, inside, is_non_finite, is_simple,
-    rewrite_functions, take, to_integer, zeros,
+    Rule, below_32, by_component, clamp_index, componentwise_function, eager_bool_op, guarded_division,
+    guards::rewrite_unequal, is_non_finite, is_simple, rewrite_functions, take_args, to_integer, zero_count,
 };
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::print::hlsl_type;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites a module for HLSL.
-pub fn legalise(module: &mut Module<'_>) {
-    rewrite_functions(module, rule);
-    module.rewrite(&mut rule);
+pub fn apply_hlsl_rules(module: &mut Module<'_>) {
+    rewrite_functions(module, hlsl_rule);
+    module.rewrite(&mut hlsl_rule);
     let body = std::mem::take(&mut module.body);
     module.body = {
         let body = by_element(module, body);
@@ -37,8 +37,8 @@ fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
                 if matches!(expr.op, Op::Ir(ir::Op::Select) | Op::Choose) {
                     for (side, name) in expr.args[1..].iter_mut().zip(["if_true", "if_false"]) {
                         if !is_plain(side) {
-                            let var = module.variable(name, side.ty);
-                            let value = std::mem::replace(side, module.read(var));
+                            let var = module.new_variable(name, side.ty);
+                            let value = std::mem::replace(side, module.read_variable(var));
                             let kind = StmtKind::Let(var, value);
                             out.push(Stmt { kind, origin });
                         }
@@ -61,7 +61,7 @@ fn is_plain(expr: &Expr) -> bool {
     }
 }
 
-fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
+fn hlsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     let ty = expr.ty;
     match &expr.op {
         _ if is_non_finite(&expr) => by_component(&expr, |bits| {
@@ -71,21 +71,21 @@ fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
         Op::Division(op, known) => {
             let (op, known) = (*op, *known);
             let scalar = Ty::from(ty.element_of());
-            if let Some(function) = guarded(module, op, known, scalar, rule as Rule) {
-                expr.op = componentwise(module, function, ty);
+            if let Some(function) = guarded_division(module, op, known, scalar, hlsl_rule as Rule) {
+                expr.op = componentwise_function(module, function, ty);
             }
             expr
         }
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && ty.is_integer() => {
             let scalar = Ty::from(ty.element_of());
             let name = format!("to_{}", hlsl_type(scalar));
-            let function = to_integer(module, &name, scalar, true, rule as Rule);
-            expr.op = componentwise(module, function, ty);
+            let function = to_integer(module, &name, scalar, true, hlsl_rule as Rule);
+            expr.op = componentwise_function(module, function, ty);
             expr
         }
-        Op::Index { inside: false } => inside(expr),
-        Op::Ir(ir::Op::Unary(op)) => unary(*op, expr),
-        Op::Ir(ir::Op::Binary(op)) => binary(*op, expr),
+        Op::Index { inside: false } => clamp_index(expr),
+        Op::Ir(ir::Op::Unary(op)) => rewrite_unary(*op, expr),
+        Op::Ir(ir::Op::Binary(op)) => rewrite_binary(*op, expr),
         Op::Ir(ir::Op::Bitcast) => {
             expr.op = Op::Call(match ty.kind() {
                 Some(Scalar::F32) => "asfloat",
@@ -98,36 +98,36 @@ fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     }
 }
 
-fn unary(op: UnaryOp, expr: Expr) -> Expr {
+fn rewrite_unary(op: UnaryOp, expr: Expr) -> Expr {
     let ty = expr.ty;
     match op {
         // An integer here.
-        UnaryOp::Sign if ty.is_float() => Expr::call("sign", expr.args, ty.of(Scalar::I32)).to(ty),
-        UnaryOp::CountOneBits => Expr::call("countbits", expr.args, ty.of(Scalar::U32)).to(ty),
+        UnaryOp::Sign if ty.is_float() => Expr::call("sign", expr.args, ty.with_kind(Scalar::I32)).convert_to(ty),
+        UnaryOp::CountOneBits => Expr::call("countbits", expr.args, ty.with_kind(Scalar::U32)).convert_to(ty),
         UnaryOp::ReverseBits if ty.kind() == Some(Scalar::I32) => {
-            let [x] = take(expr.args);
-            let bits = x.to(ty.of(Scalar::U32));
-            Expr::call("reversebits", vec![bits], ty.of(Scalar::U32)).to(ty)
+            let [x] = take_args(expr.args);
+            let bits = x.convert_to(ty.with_kind(Scalar::U32));
+            Expr::call("reversebits", vec![bits], ty.with_kind(Scalar::U32)).convert_to(ty)
         }
-        UnaryOp::LeadingZeros => zeros(expr, "firstbithigh", true),
-        UnaryOp::TrailingZeros => zeros(expr, "firstbitlow", false),
+        UnaryOp::LeadingZeros => zero_count(expr, "firstbithigh", true),
+        UnaryOp::TrailingZeros => zero_count(expr, "firstbitlow", false),
         _ => expr,
     }
 }
 
-fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
+fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
     use BinaryOp::{And, Ne, Or, Rem, Shl, Shr};
     let bools = expr.ty.kind() == Some(Scalar::Bool);
     match op {
-        Ne => unequal(expr),
+        Ne => rewrite_unequal(expr),
         Rem if expr.ty.is_float() => {
             expr.op = Op::Call("fmod");
             expr
         }
-        And | Or if bools && (!expr.ty.is_scalar() || !is_simple(&expr.args[1])) => both(op, expr),
+        And | Or if bools && (!expr.ty.is_scalar() || !is_simple(&expr.args[1])) => eager_bool_op(op, expr),
         Shl | Shr => {
-            let [value, count] = take(std::mem::take(&mut expr.args));
-            expr.args = vec![typed(value), below_32(count)];
+            let [value, count] = take_args(std::mem::take(&mut expr.args));
+            expr.args = vec![typed_literal(value), below_32(count)];
             expr
         }
         _ => expr,
@@ -135,7 +135,7 @@ fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
 }
 
 /// A value that is shifted. A literal of `int` has no suffix, and DXC leaves open how many bits of it are shifted.
-fn typed(value: Expr) -> Expr {
+fn typed_literal(value: Expr) -> Expr {
     let ty = value.ty;
     match ty.kind() == Some(Scalar::I32) && ty.is_scalar() && value.as_constant().is_some() {
         true => Expr::call("int", vec![value], ty),
@@ -156,10 +156,10 @@ fn by_element<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
                 let mut own = false;
                 value.visit(&mut |expr| own |= *expr == place);
                 if own {
-                    let next = module.variable("next", value.ty);
+                    let next = module.new_variable("next", value.ty);
                     for kind in [
                         StmtKind::Var(next, Some(value)),
-                        StmtKind::Assign(place, None, module.read(next)),
+                        StmtKind::Assign(place, None, module.read_variable(next)),
                     ] {
                         out.push(Stmt {
                             kind,

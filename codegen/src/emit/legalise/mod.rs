@@ -20,43 +20,43 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type};
 use guards::Overloads;
 
 pub use exact::AS_WRITTEN;
-pub use half::half;
+pub use half::legalise_half;
 
 /// Rewrites a module for WGSL. With `marks` every exact value is marked, not only those that a compiler could merge: to be found
 /// again in what is translated from the WGSL.
-pub fn wgsl(module: &mut Module<'_>, marks: bool) {
-    exact::barriers(module, marks);
-    module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::None));
-    module.rewrite(&mut |_, expr| powers::shifted(expr));
-    wgsl::legalise(module);
+pub fn legalise_wgsl(module: &mut Module<'_>, marks: bool) {
+    exact::insert_barriers(module, marks);
+    module.rewrite(&mut |module, expr| guards::expand_guarded(module, expr, Overloads::None));
+    module.rewrite(&mut |_, expr| powers::divide_by_shift(expr));
+    wgsl::apply_wgsl_rules(module);
 }
 
 /// Rewrites a module for GLSL, for Vulkan or for OpenGL; for a version that has `precise` or not.
-pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool, precise: bool) {
-    zeroed::begin(module, resources);
+pub fn legalise_glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool, precise: bool) {
+    zeroed::zero_workgroup_memory(module, resources);
     match precise {
-        true => exact::precise(module),
+        true => exact::mark_precise(module),
         // Functions are rewritten below.
-        false => exact::barriers(module, false),
+        false => exact::insert_barriers(module, false),
     }
     let overloads = match vulkan {
         true => Overloads::Vectors,
         false => Overloads::Scalars,
     };
-    module.rewrite(&mut |module, expr| guards::expand(module, expr, overloads));
-    module.rewrite(&mut |_, expr| powers::shifted(expr));
-    let rule: Rule = if vulkan { glsl::vulkan } else { glsl::opengl };
+    module.rewrite(&mut |module, expr| guards::expand_guarded(module, expr, overloads));
+    module.rewrite(&mut |_, expr| powers::divide_by_shift(expr));
+    let rule: Rule = if vulkan { glsl::vulkan_rule } else { glsl::opengl_rule };
     rewrite_functions(module, rule);
     module.rewrite(&mut { rule });
 }
 
 /// Rewrites a module for HLSL.
-pub fn hlsl(module: &mut Module<'_>, resources: &Resources) {
-    zeroed::begin(module, resources);
-    exact::precise(module);
-    module.rewrite(&mut |module, expr| guards::expand(module, expr, Overloads::Scalars));
-    module.rewrite(&mut |_, expr| powers::shifted(expr));
-    hlsl::legalise(module);
+pub fn legalise_hlsl(module: &mut Module<'_>, resources: &Resources) {
+    zeroed::zero_workgroup_memory(module, resources);
+    exact::mark_precise(module);
+    module.rewrite(&mut |module, expr| guards::expand_guarded(module, expr, Overloads::Scalars));
+    module.rewrite(&mut |_, expr| powers::divide_by_shift(expr));
+    hlsl::apply_hlsl_rules(module);
 }
 
 /// A rule of a language.
@@ -74,7 +74,7 @@ fn rewrite_functions(module: &mut Module<'_>, rule: Rule) {
 }
 
 /// A selection by component: value if it holds, value if not.
-fn choose(condition: Expr, yes: Expr, no: Expr) -> Expr {
+fn component_select(condition: Expr, yes: Expr, no: Expr) -> Expr {
     let ty = yes.ty;
     Expr::new(Op::Choose, vec![condition, yes, no], ty)
 }
@@ -123,33 +123,33 @@ fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
 /// A function that converts floats to integers as Rust does: to the nearest integer there is, and a NaN to 0. Where the language
 /// leaves open what becomes of numbers out of range, they are `clamped` first.
 fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: Rule) -> Op {
-    let from = to.of(Scalar::F32);
-    module.function(name, to, |module| {
+    let from = to.with_kind(Scalar::F32);
+    module.add_function(name, to, |module| {
         let signed = to.kind() == Some(Scalar::I32);
         let (low, high, limit, largest): (f32, f32, f32, u32) = match signed {
             true => (-2_147_483_648.0, 2_147_483_520.0, 2_147_483_648.0, i32::MAX as u32),
             false => (0.0, 4_294_967_040.0, 4_294_967_296.0, u32::MAX),
         };
-        let x = module.variable("x", from);
-        let read = module.read(x);
+        let x = module.new_variable("x", from);
+        let read = module.read_variable(x);
         let bound = |x: f32| Expr::splat(from, x.to_bits());
         let whole = match clamped {
             true => Expr::new(Op::Ir(ir::Op::Clamp), vec![read.clone(), bound(low), bound(high)], from),
             false => read.clone(),
         };
         let too_large = read.clone().binary(BinaryOp::Ge, bound(limit));
-        let saturated = choose(too_large, Expr::splat(to, largest), whole.to(to));
-        let bits = read.bits_as(to.of(Scalar::U32));
-        let word = |bits: u32| Expr::new(Op::Hex(bits), Vec::new(), to.of(Scalar::U32));
+        let saturated = component_select(too_large, Expr::splat(to, largest), whole.convert_to(to));
+        let bits = read.bits_as(to.with_kind(Scalar::U32));
+        let word = |bits: u32| Expr::new(Op::Hex(bits), Vec::new(), to.with_kind(Scalar::U32));
         let is_nan = bits
             .binary(BinaryOp::And, word(0x7fff_ffff))
             .binary(BinaryOp::Gt, word(0x7f80_0000));
         let lets = [("is_nan", is_nan), ("saturated", saturated)].map(|(name, value)| {
             let value = value.rewrite(&mut |e| rule(module, e));
-            (module.variable(name, value.ty), value)
+            (module.new_variable(name, value.ty), value)
         });
-        let [is_nan, saturated] = [0, 1].map(|k| module.read(lets[k].0));
-        let chosen = choose(is_nan, Expr::splat(to, 0), saturated).rewrite(&mut |e| rule(module, e));
+        let [is_nan, saturated] = [0, 1].map(|k| module.read_variable(lets[k].0));
+        let chosen = component_select(is_nan, Expr::splat(to, 0), saturated).rewrite(&mut |e| rule(module, e));
         let mut body: Vec<_> = lets.map(|(var, value)| StmtKind::Let(var, value).into()).into();
         body.push(StmtKind::Return(Some(chosen)).into());
         Function {
@@ -165,7 +165,7 @@ fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: 
 /// Division by zero gives the dividend and its remainder 0, as in WGSL, and the smallest integer divided by -1 itself; other
 /// languages leave both open. They leave the remainder of negative numbers open too, or give it the sign of the divisor.
 /// `None` where the operator does all that by itself.
-fn guarded(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: Ty, rule: Rule) -> Option<Op> {
+fn guarded_division(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: Ty, rule: Rule) -> Option<Op> {
     let signed = ty.kind() == Some(Scalar::I32);
     let quotient = op == BinaryOp::Div;
     if known.defined && (quotient || !signed || known.positive) {
@@ -179,19 +179,19 @@ fn guarded(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: Ty, rule:
         ),
         (false, false) => ("whole_remainder", "What x / y leaves, and 0 where it is not defined."),
     };
-    let function = module.function(name, ty, |module| {
-        let [x, y] = ["x", "y"].map(|name| module.variable(name, ty));
-        let [dividend, by] = [x, y].map(|var| module.read(var));
+    let function = module.add_function(name, ty, |module| {
+        let [x, y] = ["x", "y"].map(|name| module.new_variable(name, ty));
+        let [dividend, by] = [x, y].map(|var| module.read_variable(var));
         let is = |value: &Expr, bits: u32| value.clone().binary(BinaryOp::Eq, Expr::splat(ty, bits));
         let one = || Expr::splat(ty, 1);
-        let mut divisor = choose(is(&by, 0), one(), by.clone());
+        let mut divisor = component_select(is(&by, 0), one(), by.clone());
         if signed {
             let overflows = is(&dividend, i32::MIN as u32).binary(BinaryOp::And, is(&by, -1_i32 as u32));
-            divisor = choose(overflows, one(), divisor);
+            divisor = component_select(overflows, one(), divisor);
         }
         let divisor = divisor.rewrite(&mut |e| rule(module, e));
-        let var = module.variable("divisor", ty);
-        let by = module.read(var);
+        let var = module.new_variable("divisor", ty);
+        let by = module.read_variable(var);
         let sure = Division {
             defined: true,
             positive: true,
@@ -230,16 +230,16 @@ fn below_32(count: Expr) -> Expr {
     }
 }
 
-fn take<const N: usize>(args: Vec<Expr>) -> [Expr; N] {
+fn take_args<const N: usize>(args: Vec<Expr>) -> [Expr; N] {
     args.try_into().expect("as many arguments as the operation has")
 }
 
 /// An element of an array at an index that is clamped to the last.
-fn inside(mut expr: Expr) -> Expr {
+fn clamp_index(mut expr: Expr) -> Expr {
     let Type::Array { len, .. } = expr.args[0].ty.shape else {
         return expr;
     };
-    let index = expr.args.pop().expect("an index").to(Type::U32);
+    let index = expr.args.pop().expect("an index").convert_to(Type::U32);
     let last = Expr::splat(Type::U32, len - 1);
     expr.args.push(Expr::call("min", vec![index, last], Type::U32));
     expr
@@ -254,25 +254,25 @@ fn is_simple(expr: &Expr) -> bool {
 }
 
 /// `&` or `|` of booleans, in a language that has none but those that may branch.
-fn both(op: BinaryOp, expr: Expr) -> Expr {
+fn eager_bool_op(op: BinaryOp, expr: Expr) -> Expr {
     let ty = expr.ty;
     if ty.is_scalar() {
         let both = Expr::new(Op::Construct, expr.args, Type::value(Scalar::Bool, 2));
         let quantifier = if op == BinaryOp::And { Op::All } else { Op::Any };
         return Expr::new(quantifier, vec![both], Type::BOOL);
     }
-    let words = ty.of(Scalar::U32);
-    let [x, y] = take(expr.args).map(|side: Expr| side.to(words));
-    x.binary(op, y).to(ty)
+    let words = ty.with_kind(Scalar::U32);
+    let [x, y] = take_args(expr.args).map(|side: Expr| side.convert_to(words));
+    x.binary(op, y).convert_to(ty)
 }
 
 /// Zeros before the first bit that is set, or behind the last, by a function that numbers bits from the lowest and gives -1 for
 /// none.
-fn zeros(expr: Expr, find: &'static str, leading: bool) -> Expr {
+fn zero_count(expr: Expr, find: &'static str, leading: bool) -> Expr {
     let ty = expr.ty;
-    let [x] = take(expr.args);
+    let [x] = take_args(expr.args);
     let bits = match ty.kind() {
-        Some(Scalar::I32) => x.to(Type::U32),
+        Some(Scalar::I32) => x.convert_to(Type::U32),
         _ => x,
     };
     let number = |n: u32| Expr::splat(Type::I32, n);
@@ -282,11 +282,11 @@ fn zeros(expr: Expr, find: &'static str, leading: bool) -> Expr {
         false => found,
     };
     let none = bits.binary(BinaryOp::Eq, Expr::splat(Type::U32, 0));
-    choose(none, number(32), zeros).to(ty)
+    component_select(none, number(32), zeros).convert_to(ty)
 }
 
 /// A function of scalars, as one of vectors that calls it for each component. Both have one name.
-fn componentwise(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
+fn componentwise_function(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
     let Op::Function(name) = &function else { return function };
     let same = |f: &&Function<'_>| f.name == *name;
     if module.functions.iter().filter(same).any(|f| f.result == ty) {
@@ -297,19 +297,19 @@ fn componentwise(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
     let Some(scalar) = module.functions.iter().filter(same).find(of_scalars).cloned() else {
         return function;
     };
-    module.function(name, ty, |module| {
+    module.add_function(name, ty, |module| {
         let params: Vec<_> = scalar
             .params
             .iter()
             .map(|param| {
                 let variable = module.variables[param.0 as usize].clone();
-                let wide = ty.of(variable.ty.kind().unwrap_or(Scalar::F32));
-                module.variable(variable.name, wide)
+                let wide = ty.with_kind(variable.ty.kind().unwrap_or(Scalar::F32));
+                module.new_variable(variable.name, wide)
             })
             .collect();
         let component = |k: u8| {
             let parts = params.iter().map(|param| {
-                let vector = module.read(*param);
+                let vector = module.read_variable(*param);
                 let part = Type::scalar(vector.ty.kind().unwrap_or(Scalar::F32));
                 Expr::new(Op::Swizzle(vec![k]), vec![vector], part)
             });

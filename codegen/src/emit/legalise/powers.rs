@@ -1,12 +1,12 @@
 //! Divisions by powers of two of what is not negative: shifts and masks. naga guards every division of integers, and a compiler that does
 //! not know the sign of what is divided corrects for it.
 
-use super::take;
+use super::take_args;
 use crate::emit::ast::{Expr, Op};
 use straightline_evaluator::ir::BinaryOp;
 
 /// A quotient or remainder of numbers that are not negative by a constant whose components are powers of two, without a division.
-pub fn shifted(expr: Expr) -> Expr {
+pub fn divide_by_shift(expr: Expr) -> Expr {
     let Op::Division(op, known) = expr.op else { return expr };
     let ty = expr.ty;
     let divisor = expr.args.get(1).and_then(Expr::as_constant).copied();
@@ -15,7 +15,7 @@ pub fn shifted(expr: Expr) -> Expr {
     else {
         return expr;
     };
-    let [x, _] = take(expr.args);
+    let [x, _] = take_args(expr.args);
     let (op, bits): (_, fn(u32) -> u32) = match op {
         BinaryOp::Div => (BinaryOp::Shr, u32::trailing_zeros),
         _ => (BinaryOp::And, |n| n - 1),

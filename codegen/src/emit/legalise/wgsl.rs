@@ -1,6 +1,6 @@
 //! WGSL: counts of shifts, conversions that saturate, constants that are not finite, tables that are read often.
 
-use super::{below_32, by_component, guards::unequal, is_non_finite, to_integer};
+use super::{below_32, by_component, guards::rewrite_unequal, is_non_finite, to_integer};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty, VarId, Variable};
 use std::collections::BTreeMap;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
@@ -9,19 +9,19 @@ use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 type Specials = BTreeMap<u32, [VarId; 2]>;
 
 /// Rewrites a module for WGSL.
-pub fn legalise(module: &mut Module<'_>) {
+pub fn apply_wgsl_rules(module: &mut Module<'_>) {
     for k in 0..module.functions.len() {
         let mut body = std::mem::take(&mut module.functions[k].body);
         let mut specials = Specials::new();
         for stmt in &mut body {
             stmt.rewrite(&mut |expr| finite_rule(module, &mut specials, expr));
         }
-        module.functions[k].body = declared(module, specials, body);
+        module.functions[k].body = declare_specials(module, specials, body);
     }
     let mut specials = Specials::new();
     module.rewrite(&mut |module, expr| finite_rule(module, &mut specials, expr));
     let body = std::mem::take(&mut module.body);
-    module.body = declared(module, specials, body);
+    module.body = declare_specials(module, specials, body);
     copy_tables(module);
 }
 
@@ -34,13 +34,13 @@ fn copy_tables(module: &mut Module<'_>) {
         .filter(|(_, times)| *times > 1)
         .map(|(table, _)| {
             let Variable { name, ty, .. } = module.variables[table.0 as usize].clone();
-            (table, module.variable(format!("{name}_values"), ty))
+            (table, module.new_variable(format!("{name}_values"), ty))
         })
         .collect();
     for stmt in &mut module.body {
         stmt.rewrite(&mut |expr| match expr.op {
             Op::Index { .. } => Expr {
-                args: expr.args.into_iter().map(|arg| renamed(arg, &copies)).collect(),
+                args: expr.args.into_iter().map(|arg| rename_copy(arg, &copies)).collect(),
                 ..expr
             },
             _ => expr,
@@ -48,7 +48,7 @@ fn copy_tables(module: &mut Module<'_>) {
     }
     let declarations = copies.iter().flat_map(|(table, copy)| {
         let comment = StmtKind::Comment("A variable, since a constant would be copied for each read.".to_owned());
-        [comment, StmtKind::Var(*copy, Some(module.read(*table)))]
+        [comment, StmtKind::Var(*copy, Some(module.read_variable(*table)))]
     });
     let declarations: Block<'_> = declarations.map(Into::into).collect();
     module.body.splice(0..0, declarations);
@@ -56,7 +56,7 @@ fn copy_tables(module: &mut Module<'_>) {
 
 /// Counts reads of tables at indices that are no constants; in a loop each is several.
 fn count_reads(stmt: &Stmt<'_>, times: u32, reads: &mut BTreeMap<VarId, u32>) {
-    for expr in stmt.own() {
+    for expr in stmt.own_exprs() {
         expr.visit(&mut |expr| {
             if let (Op::Index { .. }, [array, index]) = (&expr.op, &expr.args[..])
                 && let Some(var) = array.as_var()
@@ -75,7 +75,7 @@ fn count_reads(stmt: &Stmt<'_>, times: u32, reads: &mut BTreeMap<VarId, u32>) {
     inner.for_each(|stmt| count_reads(stmt, times, reads));
 }
 
-fn renamed(expr: Expr, copies: &BTreeMap<VarId, VarId>) -> Expr {
+fn rename_copy(expr: Expr, copies: &BTreeMap<VarId, VarId>) -> Expr {
     match expr.as_var().and_then(|var| copies.get(&var)) {
         Some(copy) => Expr::var(*copy, expr.ty),
         None => expr,
@@ -88,18 +88,18 @@ fn finite_rule(module: &mut Module<'_>, specials: &mut Specials, expr: Expr) -> 
         let half = expr.ty.half;
         return by_component(&expr, |bits| non_finite(module, specials, bits, half));
     }
-    rule(module, expr)
+    wgsl_rule(module, expr)
 }
 
 /// A block after the variables that hold infinities and NaN.
-fn declared<'g>(module: &mut Module<'g>, specials: Specials, mut block: Block<'g>) -> Block<'g> {
+fn declare_specials<'g>(module: &mut Module<'g>, specials: Specials, mut block: Block<'g>) -> Block<'g> {
     let mut body: Block<'_> = Vec::new();
     for (bits, [value, variable]) in specials {
         let comment = "A variable, since no constant may be an infinity or a NaN.";
         let word = Expr::new(Op::Hex(bits), Vec::new(), Type::U32);
-        let read = module.read(variable).bits_as(Type::F32);
-        let ty = module.ty(value);
-        let read = if ty.half { read.to(ty) } else { read };
+        let read = module.read_variable(variable).bits_as(Type::F32);
+        let ty = module.variable_type(value);
+        let read = if ty.half { read.convert_to(ty) } else { read };
         body.push(StmtKind::Comment(comment.to_owned()).into());
         body.push(StmtKind::Var(variable, Some(word)).into());
         body.push(StmtKind::Let(value, read).into());
@@ -108,26 +108,26 @@ fn declared<'g>(module: &mut Module<'g>, specials: Specials, mut block: Block<'g
     body
 }
 
-fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
+fn wgsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     match expr.op {
         // WGSL shifts by unsigned counts, and makes a constant count of 32 or more an error.
         Op::Ir(ir::Op::Binary(BinaryOp::Shl | BinaryOp::Shr)) => {
             let count = expr.args.pop().expect("two arguments");
-            let unsigned = count.ty.of(Scalar::U32);
+            let unsigned = count.ty.with_kind(Scalar::U32);
             let count = match (count.as_constant(), count.ty == unsigned) {
                 (Some(bits), _) => Expr::constant(unsigned, *bits),
                 (None, true) => count,
-                (None, false) => count.to(unsigned),
+                (None, false) => count.convert_to(unsigned),
             };
             expr.args.push(below_32(count));
             expr
         }
-        Op::Ir(ir::Op::Binary(BinaryOp::Ne)) => unequal(expr),
+        Op::Ir(ir::Op::Binary(BinaryOp::Ne)) => rewrite_unequal(expr),
         // WGSL's own conversion goes to the nearest integer that an `f32` has too, which is not the largest one, and leaves NaN
         // open.
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && expr.ty.is_integer() => {
             let name = format!("to_{}", expr.ty.short_name());
-            expr.op = to_integer(module, &name, expr.ty, false, rule);
+            expr.op = to_integer(module, &name, expr.ty, false, wgsl_rule);
             expr
         }
         _ => expr,
@@ -147,9 +147,9 @@ fn non_finite(module: &mut Module<'_>, specials: &mut Specials, bits: u32, half:
     };
     let [value, _] = *specials.entry(bits).or_insert_with(|| {
         [
-            module.variable(name, ty),
-            module.variable(format!("{name}_bits"), Type::U32),
+            module.new_variable(name, ty),
+            module.new_variable(format!("{name}_bits"), Type::U32),
         ]
     });
-    module.read(value)
+    module.read_variable(value)
 }

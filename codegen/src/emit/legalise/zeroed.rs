@@ -5,17 +5,17 @@ use crate::emit::resources::Resources;
 use straightline_evaluator::ir::{BinaryOp, Memory, Shared, Type};
 
 /// Writes zeros before the first statement that is the kernel's.
-pub fn begin(module: &mut Module<'_>, resources: &Resources) {
+pub fn zero_workgroup_memory(module: &mut Module<'_>, resources: &Resources) {
     let Some([width, height]) = resources.group else { return };
     if !resources.is_zeroed() {
         return;
     }
     let threads = width * height;
-    let index = module.variable("index", Type::I32);
+    let index = module.new_variable("index", Type::I32);
     let position = Expr::new(Op::Builtin(Builtin::LocalIndex), Vec::new(), Type::I32);
     let comment = "What the workgroup shares is 0 at first.".to_owned();
     let mut stmts: Block<'_> = vec![StmtKind::Comment(comment).into(), StmtKind::Let(index, position).into()];
-    for (k, shared) in resources.used_shared.iter().zip(resources.shared()) {
+    for (k, shared) in resources.used_shared.iter().zip(resources.shared_memory()) {
         if shared.filled {
             continue;
         }
@@ -23,16 +23,21 @@ pub fn begin(module: &mut Module<'_>, resources: &Resources) {
         let turns = shared.len.div_ceil(threads);
         let at = Expr::var(index, Type::I32);
         match turns {
-            1 => stmts.push(guarded(*k, shared, at, threads)),
+            1 => stmts.push(guarded_zero_write(*k, shared, at, threads)),
             _ => {
-                let turn = module.variable("turn", Type::I32);
+                let turn = module.new_variable("turn", Type::I32);
                 let step = Expr::splat(Type::I32, threads);
                 let at = Expr::var(turn, Type::I32)
                     .binary(BinaryOp::Mul, step)
                     .binary(BinaryOp::Add, at);
-                let element = module.variable("element", Type::I32);
+                let element = module.new_variable("element", Type::I32);
                 let mut body: Block<'_> = vec![StmtKind::Let(element, at).into()];
-                body.push(guarded(*k, shared, Expr::var(element, Type::I32), turns * threads));
+                body.push(guarded_zero_write(
+                    *k,
+                    shared,
+                    Expr::var(element, Type::I32),
+                    turns * threads,
+                ));
                 stmts.push(
                     StmtKind::For {
                         counter: turn,
@@ -50,7 +55,7 @@ pub fn begin(module: &mut Module<'_>, resources: &Resources) {
 }
 
 /// Writes an element where there is one: of `reached` places.
-fn guarded<'g>(k: u32, shared: &Shared, at: Expr, reached: u32) -> Stmt<'g> {
+fn guarded_zero_write<'g>(k: u32, shared: &Shared, at: Expr, reached: u32) -> Stmt<'g> {
     let zero = Expr::splat(shared.element, 0);
     let write: Stmt<'g> = StmtKind::Effect(Effect {
         memory: Memory::Shared(k),

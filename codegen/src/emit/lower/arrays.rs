@@ -9,20 +9,20 @@ impl Lowering<'_> {
         let graph = &self.compiled.graph;
         let (array, index) = (graph.node(id).args[0], graph.node(id).args[1]);
         if graph.node(array).op == ir::Op::MakeArray && facts::is_table(graph, &graph.node(array).args) {
-            self.table(array);
+            self.emit_table(array);
         }
-        let base = self.expr(array);
-        let read = self.element(array, base, index);
-        self.declare(id, read);
+        let base = self.node_expr(array);
+        let read = self.array_element(array, base, index);
+        self.emit_let(id, read);
     }
 
     /// Writes an array of constants, which is a table of the module.
-    fn table(&mut self, array: NodeId) {
+    fn emit_table(&mut self, array: NodeId) {
         if self.exprs[array.0 as usize].is_none() {
-            let literal = self.expr(array);
-            let var = self.variable(array);
+            let literal = self.node_expr(array);
+            let var = self.new_variable(array);
             self.module.tables.push((var, literal));
-            self.exprs[array.0 as usize] = Some(self.module.read(var));
+            self.exprs[array.0 as usize] = Some(self.module.read_variable(var));
         }
     }
 
@@ -31,47 +31,47 @@ impl Lowering<'_> {
     pub(super) fn make_array(&mut self, id: NodeId) {
         let graph = &self.compiled.graph;
         if self.indexed[id.0 as usize] && !facts::is_table(graph, &graph.node(id).args) {
-            let literal = self.expr(id);
-            let var = self.variable(id);
-            self.statement(id, StmtKind::Var(var, Some(literal)));
-            self.exprs[id.0 as usize] = Some(self.module.read(var));
+            let literal = self.node_expr(id);
+            let var = self.new_variable(id);
+            self.emit_statement(id, StmtKind::Var(var, Some(literal)));
+            self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
         }
     }
 
     /// An element of an array of the same type as `array`.
-    fn element(&mut self, array: NodeId, base: Expr, index: NodeId) -> Expr {
+    fn array_element(&mut self, array: NodeId, base: Expr, index: NodeId) -> Expr {
         let graph = &self.compiled.graph;
         let ty = graph.ty(array);
         let inside = match ty {
             Type::Array { len, .. } => facts::is_inside(graph, index, len),
             _ => true,
         };
-        let index = self.expr(index);
+        let index = self.node_expr(index);
         Expr::new(Op::Index { inside }, vec![base, index], ty.element())
     }
 
     pub(super) fn array_set(&mut self, id: NodeId) {
         let args = &self.compiled.graph.node(id).args;
         let var = self.enter_web(id, args[0]);
-        let place = self.element(id, self.module.read(var), args[1]);
-        let value = self.expr(args[2]);
-        self.statement(id, StmtKind::Assign(place, None, value));
+        let place = self.array_element(id, self.module.read_variable(var), args[1]);
+        let value = self.node_expr(args[2]);
+        self.emit_statement(id, StmtKind::Assign(place, None, value));
     }
 
     /// Makes the variable of a version hold `begin`.
     pub(super) fn enter_web(&mut self, version: NodeId, begin: NodeId) -> VarId {
-        let value = self.expr(begin);
-        match self.coalescing.variable(version) {
+        let value = self.node_expr(begin);
+        match self.coalescing.version_variable(version) {
             None => {
-                let var = self.variable(version);
-                self.statement(version, StmtKind::Var(var, Some(value)));
-                self.coalescing.declare(version, var);
+                let var = self.new_variable(version);
+                self.emit_statement(version, StmtKind::Var(var, Some(value)));
+                self.coalescing.declare_version(version, var);
                 var
             }
             Some(var) => {
-                let place = self.module.read(var);
+                let place = self.module.read_variable(var);
                 if value != place {
-                    self.statement(version, StmtKind::Assign(place, None, value));
+                    self.emit_statement(version, StmtKind::Assign(place, None, value));
                 }
                 var
             }
@@ -79,7 +79,8 @@ impl Lowering<'_> {
     }
 
     /// The variable that holds a version of an array.
-    pub(super) fn version(&self, id: NodeId) -> Expr {
-        self.module.read(self.coalescing.variable(id).unwrap_or(VarId::PIXEL))
+    pub(super) fn version_expr(&self, id: NodeId) -> Expr {
+        self.module
+            .read_variable(self.coalescing.version_variable(id).unwrap_or(VarId::PIXEL))
     }
 }

@@ -4,7 +4,7 @@
 //! are needed at the same time: where two webs interfere they stay apart, and the later one begins with a copy. Literals (`MakeArray`)
 //! belong to no web and are copied where one begins.
 
-use super::interference::{Interference, interference, version};
+use super::interference::{Interference, array_version, find_interference};
 use crate::emit::ast::VarId;
 use std::collections::HashMap;
 use straightline_evaluator::ir::{Graph, NodeId, Op};
@@ -26,7 +26,7 @@ impl ArrayCoalescing {
         let mut webs = Webs {
             graph,
             parent: (0..graph.nodes.len() as u32).collect(),
-            apart: interference(graph, schedule),
+            apart: find_interference(graph, schedule),
         };
         let arrays = || graph.ids().filter(|id| schedule.has(*id));
         for id in arrays() {
@@ -35,8 +35,8 @@ impl ArrayCoalescing {
                 Op::ArraySet => webs.unite(id, node.args[0]),
                 // The variable that was carried.
                 Op::Result(_) if node.ty.is_array() => {
-                    let carried = version(graph, id).unwrap_or(id);
-                    webs.parent[id.0 as usize] = webs.root(carried);
+                    let carried = array_version(graph, id).unwrap_or(id);
+                    webs.parent[id.0 as usize] = webs.web_root(carried);
                 }
                 _ => {}
             }
@@ -66,27 +66,27 @@ impl ArrayCoalescing {
     }
 
     /// The variable of a version, if its web is in scope.
-    pub fn variable(&self, id: NodeId) -> Option<VarId> {
-        self.vars.get(&root(&self.parent, id)).copied()
+    pub fn version_variable(&self, id: NodeId) -> Option<VarId> {
+        self.vars.get(&find_root(&self.parent, id)).copied()
     }
 
     /// Brings the web of a version into scope as a variable.
-    pub fn declare(&mut self, id: NodeId, var: VarId) {
-        self.vars.insert(root(&self.parent, id), var);
+    pub fn declare_version(&mut self, id: NodeId, var: VarId) {
+        self.vars.insert(find_root(&self.parent, id), var);
     }
 
-    /// The variables in scope, to return to with [`ArrayCoalescing::leave`].
-    pub fn scope(&self) -> Scope {
+    /// The variables in scope, to return to with [`ArrayCoalescing::restore_scope`].
+    pub fn current_scope(&self) -> Scope {
         self.vars.clone()
     }
 
     /// Leaves a scope: variables made in it are gone.
-    pub fn leave(&mut self, outer: &Scope) {
+    pub fn restore_scope(&mut self, outer: &Scope) {
         self.vars.clone_from(outer);
     }
 }
 
-fn root(parent: &[u32], id: NodeId) -> u32 {
+fn find_root(parent: &[u32], id: NodeId) -> u32 {
     let mut at = id.0;
     while parent[at as usize] != at {
         at = parent[at as usize];
@@ -102,22 +102,22 @@ struct Webs<'g> {
 }
 
 impl Webs<'_> {
-    fn root(&self, id: NodeId) -> u32 {
-        root(&self.parent, id)
+    fn web_root(&self, id: NodeId) -> u32 {
+        find_root(&self.parent, id)
     }
 
     /// Unites the webs of two versions, unless they are needed at the same time.
     fn unite(&mut self, a: NodeId, b: NodeId) {
-        let (Some(a), Some(b)) = (version(self.graph, a), version(self.graph, b)) else {
+        let (Some(a), Some(b)) = (array_version(self.graph, a), array_version(self.graph, b)) else {
             return;
         };
-        let (a, b) = (self.root(a), self.root(b));
+        let (a, b) = (self.web_root(a), self.web_root(b));
         if a == b {
             return;
         }
         let parent = &self.parent;
         let of = |web: u32| self.apart.get(&NodeId(web)).into_iter().flatten();
-        if of(a).any(|other| root(parent, *other) == b) || of(b).any(|other| root(parent, *other) == a) {
+        if of(a).any(|other| find_root(parent, *other) == b) || of(b).any(|other| find_root(parent, *other) == a) {
             return;
         }
         let (kept, joined) = (a.min(b), a.max(b));

@@ -9,7 +9,7 @@ use straightline_evaluator::passes::Block;
 const ENDLESS: Bits = [Graph::ENDLESS as u32, 0, 0, 0];
 
 impl<'g> Lowering<'g> {
-    pub(super) fn looped(&mut self, node: NodeId, body: &'g Block) {
+    pub(super) fn lower_loop(&mut self, node: NodeId, body: &'g Block) {
         let graph = &self.compiled.graph;
         let args = &graph.node(node).args;
         let region = graph.region(graph.regions_of(node)[0]);
@@ -17,16 +17,16 @@ impl<'g> Lowering<'g> {
             if graph.ty(*param).is_array() {
                 self.enter_web(*param, *init);
             } else {
-                let value = self.looked_at(*init).then(|| self.expr(*init));
-                let var = self.variable(*param);
-                self.statement(*param, StmtKind::Var(var, value));
-                self.exprs[param.0 as usize] = Some(self.module.read(var));
+                let value = self.looked_at(*init).then(|| self.node_expr(*init));
+                let var = self.new_variable(*param);
+                self.emit_statement(*param, StmtKind::Var(var, value));
+                self.exprs[param.0 as usize] = Some(self.module.read_variable(var));
             }
         }
-        let counter = self.variable(region.params[0]);
-        let (start, end) = (self.expr(args[0]), self.expr(args[1]));
-        self.exprs[region.params[0].0 as usize] = Some(self.module.read(counter));
-        let scope = self.coalescing.scope();
+        let counter = self.new_variable(region.params[0]);
+        let (start, end) = (self.node_expr(args[0]), self.node_expr(args[1]));
+        self.exprs[region.params[0].0 as usize] = Some(self.module.read_variable(counter));
+        let scope = self.coalescing.current_scope();
         let body = self.nested(|lowering| {
             lowering.steps(body);
             lowering.next_iteration(&region.params[1..], region);
@@ -44,8 +44,8 @@ impl<'g> Lowering<'g> {
             false => StmtKind::Loop(body),
         };
         self.block.push(stmt.into());
-        self.coalescing.leave(&scope);
-        self.results(node, &region.params[1..]);
+        self.coalescing.restore_scope(&scope);
+        self.bind_results(node, &region.params[1..]);
     }
 
     /// Returns whether a value is defined: an undefined one need not be assigned.
@@ -59,9 +59,9 @@ impl<'g> Lowering<'g> {
         let graph = &self.compiled.graph;
         let mut moves: Vec<(NodeId, VarId, Expr)> = Vec::new();
         for (param, result) in params.iter().zip(&region.results) {
-            let value = self.expr(*result);
+            let value = self.node_expr(*result);
             let var = match graph.ty(*param).is_array() {
-                true => self.coalescing.variable(*param),
+                true => self.coalescing.version_variable(*param),
                 false => self.exprs[param.0 as usize].as_ref().and_then(Expr::as_var),
             };
             let var = var.unwrap_or(VarId::PIXEL);
@@ -69,14 +69,14 @@ impl<'g> Lowering<'g> {
                 moves.push((*param, var, value));
             }
         }
-        let mut stop = region.stop.map(|stop| (stop, self.expr(stop)));
+        let mut stop = region.stop.map(|stop| (stop, self.node_expr(stop)));
         let all: Vec<VarId> = moves.iter().map(|(_, var, _)| *var).collect();
         if let Some((id, condition)) = &mut stop
             && condition.mentions(|var| all.contains(&var))
         {
-            let ends = self.module.variable("ends", condition.ty);
+            let ends = self.module.new_variable("ends", condition.ty);
             let value = std::mem::replace(condition, Expr::var(ends, condition.ty));
-            self.statement(*id, StmtKind::Let(ends, value));
+            self.emit_statement(*id, StmtKind::Let(ends, value));
         }
         for k in 0..moves.len() {
             let changed: Vec<VarId> = moves[..k].iter().map(|(_, var, _)| *var).collect();
@@ -84,14 +84,14 @@ impl<'g> Lowering<'g> {
             if value.mentions(|var| changed.contains(&var)) {
                 let (param, ty) = (*param, value.ty);
                 let name = format!("next_{}", self.module.variables[var.0 as usize].name);
-                let next = self.module.variable(name, ty);
+                let next = self.module.new_variable(name, ty);
                 let value = std::mem::replace(&mut moves[k].2, Expr::var(next, ty));
-                self.statement(param, StmtKind::Let(next, value));
+                self.emit_statement(param, StmtKind::Let(next, value));
             }
         }
         for (param, var, value) in moves {
-            let place = self.module.read(var);
-            self.statement(param, StmtKind::Assign(place, None, value));
+            let place = self.module.read_variable(var);
+            self.emit_statement(param, StmtKind::Assign(place, None, value));
         }
         if let Some((id, condition)) = stop {
             let leave = StmtKind::If {
@@ -99,12 +99,12 @@ impl<'g> Lowering<'g> {
                 then: vec![StmtKind::Break.into()],
                 otherwise: Vec::new(),
             };
-            self.statement(id, leave);
+            self.emit_statement(id, leave);
         }
     }
 
     /// After a loop, results go by the variables that were carried.
-    fn results(&mut self, owner: NodeId, variables: &[NodeId]) {
+    fn bind_results(&mut self, owner: NodeId, variables: &[NodeId]) {
         for (id, k) in self.results_of(owner) {
             if !self.compiled.graph.ty(id).is_array() {
                 self.exprs[id.0 as usize] = self.exprs[variables[k].0 as usize].clone();
@@ -123,7 +123,7 @@ impl<'g> Lowering<'g> {
         .collect()
     }
 
-    pub(super) fn branch(&mut self, node: NodeId, then: &'g Block, otherwise: &'g Block) {
+    pub(super) fn lower_branch(&mut self, node: NodeId, then: &'g Block, otherwise: &'g Block) {
         let graph = &self.compiled.graph;
         let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r)).collect();
         let results = self.results_of(node);
@@ -141,18 +141,18 @@ impl<'g> Lowering<'g> {
                 continue;
             }
             assigns |= !begins(*k);
-            let begin = (begins(*k) && self.looked_at(kept)).then(|| self.expr(kept));
-            let var = self.variable(*id);
-            self.statement(*id, StmtKind::Var(var, begin));
-            self.exprs[id.0 as usize] = Some(self.module.read(var));
+            let begin = (begins(*k) && self.looked_at(kept)).then(|| self.node_expr(kept));
+            let var = self.new_variable(*id);
+            self.emit_statement(*id, StmtKind::Var(var, begin));
+            self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
         }
-        let condition = self.expr(graph.node(node).args[0]);
-        let scope = self.coalescing.scope();
-        let then = self.nested(|lowering| lowering.side(then, &results, &regions[0].results, &|_| false));
-        self.coalescing.leave(&scope);
+        let condition = self.node_expr(graph.node(node).args[0]);
+        let scope = self.coalescing.current_scope();
+        let then = self.nested(|lowering| lowering.lower_side(then, &results, &regions[0].results, &|_| false));
+        self.coalescing.restore_scope(&scope);
         let otherwise = self.nested(|lowering| {
             if assigns || changes_array {
-                lowering.side(otherwise, &results, &regions[1].results, &begins);
+                lowering.lower_side(otherwise, &results, &regions[1].results, &begins);
             } else {
                 for (id, k) in results.iter().filter(|(id, _)| graph.ty(*id).is_array()) {
                     lowering.enter_web(*id, regions[1].results[*k]);
@@ -167,23 +167,23 @@ impl<'g> Lowering<'g> {
             }
             .into(),
         );
-        self.coalescing.leave(&scope);
+        self.coalescing.restore_scope(&scope);
     }
 
     /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
     /// leaves `kept` must write it, because the variable holds something else.
     fn prepare_array(&mut self, id: NodeId, kept: NodeId) -> bool {
-        if self.coalescing.variable(id).is_none() {
-            let var = self.variable(id);
-            self.statement(id, StmtKind::Var(var, None));
+        if self.coalescing.version_variable(id).is_none() {
+            let var = self.new_variable(id);
+            self.emit_statement(id, StmtKind::Var(var, None));
             // Both sides write it before it is read.
-            self.coalescing.declare(id, var);
+            self.coalescing.declare_version(id, var);
         }
-        self.coalescing.variable(kept) != self.coalescing.variable(id)
+        self.coalescing.version_variable(kept) != self.coalescing.version_variable(id)
     }
 
     /// Lowers one side of a branch: its steps, and the assignments to the branch's variables, except to those that hold the value already.
-    fn side(
+    fn lower_side(
         &mut self,
         block: &'g Block,
         results: &[(NodeId, usize)],
@@ -195,8 +195,8 @@ impl<'g> Lowering<'g> {
             if self.compiled.graph.ty(*id).is_array() {
                 self.enter_web(*id, values[*k]);
             } else if !holds(*k) && self.looked_at(values[*k]) {
-                let (place, value) = (self.expr(*id), self.expr(values[*k]));
-                self.statement(*id, StmtKind::Assign(place, None, value));
+                let (place, value) = (self.node_expr(*id), self.node_expr(values[*k]));
+                self.emit_statement(*id, StmtKind::Assign(place, None, value));
             }
         }
     }

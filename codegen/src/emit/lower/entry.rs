@@ -12,7 +12,7 @@ const IVEC2: Type = Type::value(Scalar::I32, 2);
 const TILES: &str = "Texels of the workgroup's pixels and of those around: each thread reads some of them.";
 
 /// A module with the variables that entry points declare.
-pub fn module<'g>() -> Module<'g> {
+pub fn entry_module<'g>() -> Module<'g> {
     let pairs = ["pixel", "frame", "within", "place", "origin"].map(|name| (name, IVEC2));
     let variables = pairs.into_iter().chain([("inside", Type::BOOL), ("local", IVEC2)]);
     let variables = variables.map(|(name, ty)| Variable {
@@ -27,7 +27,7 @@ pub fn module<'g>() -> Module<'g> {
 }
 
 /// Puts the statements of an entry point around those of the kernel, the last of which are its outputs.
-pub fn entry(module: &mut Module<'_>, resources: &Resources) {
+pub fn wrap_entry_point(module: &mut Module<'_>, resources: &Resources) {
     let compute = resources.options.stage == Stage::Compute;
     let mut body = match compute {
         true => begin_compute(resources),
@@ -37,7 +37,7 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         .into_iter()
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
     let begun = body.len();
-    if resources.shared().any(|shared| shared.filled) {
+    if resources.shared_memory().any(|shared| shared.filled) {
         body.push(StmtKind::Comment(TILES.to_owned()).into());
     }
     if resources.options.counts_from_below() {
@@ -50,7 +50,7 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         }
     }
     match compute {
-        true => stores(&mut body, outputs, resources),
+        true => store_outputs(&mut body, outputs, resources),
         false => body.extend(outputs),
     }
     if resources.group.is_some() {
@@ -66,7 +66,7 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
     module.body = body;
 }
 
-fn builtin(builtin: Builtin) -> Expr {
+fn builtin_expr(builtin: Builtin) -> Expr {
     let scalar = if builtin == Builtin::Position {
         Scalar::F32
     } else {
@@ -75,46 +75,50 @@ fn builtin(builtin: Builtin) -> Expr {
     Expr::new(Op::Builtin(builtin), Vec::new(), Type::value(scalar, 2))
 }
 
-fn local(var: VarId) -> Expr {
+fn local_variable(var: VarId) -> Expr {
     Expr::var(var, IVEC2)
 }
 
-fn is(var: VarId, value: Expr) -> Stmt<'static> {
+fn let_statement(var: VarId, value: Expr) -> Stmt<'static> {
     StmtKind::Let(var, value).into()
 }
 
 /// A component of a pair.
-fn part(pair: Expr, component: u8) -> Expr {
+fn pair_component(pair: Expr, component: u8) -> Expr {
     Expr::new(Op::Swizzle(vec![component]), vec![pair], Type::I32)
 }
 
-fn pair(x: Expr, y: Expr) -> Expr {
+fn make_pair(x: Expr, y: Expr) -> Expr {
     Expr::new(Op::Construct, vec![x, y], IVEC2)
 }
 
 /// `height - 1 - row`: the row by its number from the other end.
-fn turned(height: Expr, row: Expr) -> Expr {
+fn flip_row(height: Expr, row: Expr) -> Expr {
     let one = Expr::splat(Type::I32, 1);
     height.binary(BinaryOp::Sub, one).binary(BinaryOp::Sub, row)
 }
 
 fn begin_compute(resources: &Resources) -> Block<'static> {
-    let mut invocation = builtin(Builtin::Invocation);
+    let mut invocation = builtin_expr(Builtin::Invocation);
     if resources.block != [1, 1] {
         let [width, height] = resources.block.map(|side| side as i32);
         invocation = invocation.binary(BinaryOp::Mul, Expr::ivec2(width, height));
     }
     let size = match resources.outputs.is_empty() {
-        true => frame(resources),
-        false => builtin(Builtin::OutputSize),
+        true => frame_size(resources),
+        false => builtin_expr(Builtin::OutputSize),
     };
     // Pixels outside have nothing to do, but in a workgroup, which all of its invocations go through together.
     let outside = |place: VarId, size: Expr| -> Stmt<'static> {
         if resources.group.is_some() {
-            let inside = Expr::new(Op::All, vec![local(place).binary(BinaryOp::Lt, size)], Type::BOOL);
-            return is(VarId::INSIDE, inside);
+            let inside = Expr::new(
+                Op::All,
+                vec![local_variable(place).binary(BinaryOp::Lt, size)],
+                Type::BOOL,
+            );
+            return let_statement(VarId::INSIDE, inside);
         }
-        let outside = local(place).binary(BinaryOp::Ge, size);
+        let outside = local_variable(place).binary(BinaryOp::Ge, size);
         StmtKind::If {
             condition: Expr::new(Op::Any, vec![outside], Type::BOOL),
             then: vec![StmtKind::Return(None).into()],
@@ -126,64 +130,70 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
     let of_group = |pixel: &dyn Fn(Expr) -> Expr| -> Block<'static> {
         let Some(size) = resources.group else { return Vec::new() };
         let [width, height] = size.map(|side| side as i32);
-        let first = builtin(Builtin::Group).binary(BinaryOp::Mul, Expr::ivec2(width, height));
+        let first = builtin_expr(Builtin::Group).binary(BinaryOp::Mul, Expr::ivec2(width, height));
         vec![
-            is(VarId::ORIGIN, pixel(first)),
-            is(VarId::LOCAL, builtin(Builtin::Local)),
+            let_statement(VarId::ORIGIN, pixel(first)),
+            let_statement(VarId::LOCAL, builtin_expr(Builtin::Local)),
         ]
     };
     match (resources.options.region, resources.options.counts_from_below()) {
         (false, from_below) => {
             let mut body = vec![
-                is(VarId::FRAME, size),
-                is(VarId::PIXEL, invocation),
-                outside(VarId::PIXEL, local(VarId::FRAME)),
+                let_statement(VarId::FRAME, size),
+                let_statement(VarId::PIXEL, invocation),
+                outside(VarId::PIXEL, local_variable(VarId::FRAME)),
             ];
             body.extend(of_group(&|first| first));
             if from_below && !resources.outputs.is_empty() {
-                let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PIXEL), 1));
-                body.push(is(VarId::PLACE, pair(part(local(VarId::PIXEL), 0), row)));
+                let row = flip_row(
+                    pair_component(local_variable(VarId::FRAME), 1),
+                    pair_component(local_variable(VarId::PIXEL), 1),
+                );
+                body.push(let_statement(
+                    VarId::PLACE,
+                    make_pair(pair_component(local_variable(VarId::PIXEL), 0), row),
+                ));
             }
             body
         }
         (true, from_below) => {
-            let height = || part(builtin(Builtin::RegionSize), 1);
-            let corner = |of: Builtin, k: u8| part(builtin(of), k);
+            let height = || pair_component(builtin_expr(Builtin::RegionSize), 1);
+            let corner = |of: Builtin, k: u8| pair_component(builtin_expr(of), k);
             // The pixel at a place within the region.
             let pixel = |within: Expr| match from_below {
-                false => builtin(Builtin::RegionFirst).binary(BinaryOp::Add, within),
+                false => builtin_expr(Builtin::RegionFirst).binary(BinaryOp::Add, within),
                 true => {
                     // `within` counts from the region's upper row, which is the last of those that the host states.
-                    let [column, row] = [0, 1].map(|k| part(within.clone(), k));
-                    let above = part(local(VarId::FRAME), 1)
+                    let [column, row] = [0, 1].map(|k| pair_component(within.clone(), k));
+                    let above = pair_component(local_variable(VarId::FRAME), 1)
                         .binary(BinaryOp::Sub, corner(Builtin::RegionFirst, 1))
                         .binary(BinaryOp::Sub, height());
-                    pair(
+                    make_pair(
                         corner(Builtin::RegionFirst, 0).binary(BinaryOp::Add, column),
                         above.binary(BinaryOp::Add, row),
                     )
                 }
             };
-            let mut place = builtin(Builtin::RegionPlace).binary(BinaryOp::Add, local(VarId::WITHIN));
+            let mut place = builtin_expr(Builtin::RegionPlace).binary(BinaryOp::Add, local_variable(VarId::WITHIN));
             if from_below {
-                let [column, row] = [0, 1].map(|k| part(local(VarId::WITHIN), k));
-                place = pair(
+                let [column, row] = [0, 1].map(|k| pair_component(local_variable(VarId::WITHIN), k));
+                place = make_pair(
                     corner(Builtin::RegionPlace, 0).binary(BinaryOp::Add, column),
-                    corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, turned(height(), row)),
+                    corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, flip_row(height(), row)),
                 );
             }
             let mut body = vec![
-                is(VarId::WITHIN, invocation),
-                outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
+                let_statement(VarId::WITHIN, invocation),
+                outside(VarId::WITHIN, builtin_expr(Builtin::RegionSize)),
             ];
             // Nothing tells the frame's size where nothing asks for it.
-            if resources.framed().is_some() || !resources.outputs.is_empty() {
-                body.push(is(VarId::FRAME, frame(resources)));
+            if resources.frame_texture().is_some() || !resources.outputs.is_empty() {
+                body.push(let_statement(VarId::FRAME, frame_size(resources)));
             }
-            body.push(is(VarId::PIXEL, pixel(local(VarId::WITHIN))));
+            body.push(let_statement(VarId::PIXEL, pixel(local_variable(VarId::WITHIN))));
             body.extend(of_group(&pixel));
             if !resources.outputs.is_empty() {
-                body.push(is(VarId::PLACE, place));
+                body.push(let_statement(VarId::PLACE, place));
             }
             body
         }
@@ -191,34 +201,40 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
 }
 
 /// The frame's size: that of a texture which has it, or else of the output.
-fn frame(resources: &Resources) -> Expr {
-    match resources.framed() {
+fn frame_size(resources: &Resources) -> Expr {
+    match resources.frame_texture() {
         Some(texture) => Expr::new(Op::Ir(ir::Op::TextureSize(texture)), Vec::new(), IVEC2),
-        None => builtin(Builtin::OutputSize),
+        None => builtin_expr(Builtin::OutputSize),
     }
 }
 
 fn begin_fragment(resources: &Resources) -> Block<'static> {
-    let position = builtin(Builtin::Position);
+    let position = builtin_expr(Builtin::Position);
     let ty = position.ty;
     let floor = Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Floor)), vec![position], ty);
-    let mut pixel = floor.to(IVEC2);
+    let mut pixel = floor.convert_to(IVEC2);
     if resources.options.region {
-        pixel = pixel.binary(BinaryOp::Sub, builtin(Builtin::RegionPlace));
-        pixel = pixel.binary(BinaryOp::Add, builtin(Builtin::RegionFirst));
+        pixel = pixel.binary(BinaryOp::Sub, builtin_expr(Builtin::RegionPlace));
+        pixel = pixel.binary(BinaryOp::Add, builtin_expr(Builtin::RegionFirst));
     }
     let mut body = Vec::new();
     if resources.options.counts_from_below() {
         // Rows of the fragment and of the inputs count from below, those of the kernel from above.
-        body.push(is(VarId::FRAME, frame(resources)));
-        body.push(is(VarId::PLACE, pixel));
-        let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PLACE), 1));
-        body.push(is(VarId::PIXEL, pair(part(local(VarId::PLACE), 0), row)));
+        body.push(let_statement(VarId::FRAME, frame_size(resources)));
+        body.push(let_statement(VarId::PLACE, pixel));
+        let row = flip_row(
+            pair_component(local_variable(VarId::FRAME), 1),
+            pair_component(local_variable(VarId::PLACE), 1),
+        );
+        body.push(let_statement(
+            VarId::PIXEL,
+            make_pair(pair_component(local_variable(VarId::PLACE), 0), row),
+        ));
         return body;
     }
-    body.push(is(VarId::PIXEL, pixel));
+    body.push(let_statement(VarId::PIXEL, pixel));
     if resources.needs_frame {
-        body.push(is(VarId::FRAME, frame(resources)));
+        body.push(let_statement(VarId::FRAME, frame_size(resources)));
     }
     body
 }
@@ -227,18 +243,21 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
 fn stored_from_below(block: &mut Block<'_>) {
     for stmt in block {
         if let StmtKind::Store(_, place, _) = &mut stmt.kind {
-            let row = turned(part(local(VarId::FRAME), 1), part(place.clone(), 1));
-            *place = pair(part(place.clone(), 0), row);
+            let row = flip_row(
+                pair_component(local_variable(VarId::FRAME), 1),
+                pair_component(place.clone(), 1),
+            );
+            *place = make_pair(pair_component(place.clone(), 0), row);
         }
         stmt.blocks_mut().into_iter().for_each(stored_from_below);
     }
 }
 
 /// Stores what is given for a block's pixels; all but the first may lie outside.
-fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
+fn store_outputs(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     let (within, bound) = match resources.options.region {
-        true => (VarId::WITHIN, builtin(Builtin::RegionSize)),
-        false => (VarId::PIXEL, local(VarId::FRAME)),
+        true => (VarId::WITHIN, builtin_expr(Builtin::RegionSize)),
+        false => (VarId::PIXEL, local_variable(VarId::FRAME)),
     };
     let place = match resources.options.has_place() {
         true => VarId::PLACE,
@@ -258,7 +277,7 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
                 .collect()
         };
         if resources.group.is_some() {
-            let stored = stored(&local(place));
+            let stored = stored(&local_variable(place));
             body.push(
                 StmtKind::If {
                     condition: Expr::var(VarId::INSIDE, Type::BOOL),
@@ -270,14 +289,14 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
             continue;
         }
         if k == 0 {
-            body.extend(stored(&local(place)));
+            body.extend(stored(&local_variable(place)));
             continue;
         }
         let (x, y) = ((k % width) as i32, (k / width) as i32);
-        let inside = local(within)
+        let inside = local_variable(within)
             .binary(BinaryOp::Add, Expr::ivec2(x, y))
             .binary(BinaryOp::Lt, bound.clone());
-        let there = local(place).binary(BinaryOp::Add, Expr::ivec2(x, down * y));
+        let there = local_variable(place).binary(BinaryOp::Add, Expr::ivec2(x, down * y));
         body.push(
             StmtKind::If {
                 condition: Expr::new(Op::All, vec![inside], Type::BOOL),

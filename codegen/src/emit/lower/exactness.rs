@@ -11,7 +11,7 @@ pub struct Exactness {
 
 impl Exactness {
     /// Of the operations of a kernel.
-    pub fn of(compiled: &Compiled) -> Exactness {
+    pub fn from_compiled(compiled: &Compiled) -> Exactness {
         let (graph, schedule) = (&compiled.graph, &compiled.schedule);
         let mut parts = vec![false; graph.nodes.len()];
         let mut goes_on = vec![false; graph.nodes.len()];

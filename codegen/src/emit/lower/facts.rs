@@ -6,7 +6,7 @@ use straightline_evaluator::passes::{bounds, component_bounds, float_bounds};
 use straightline_evaluator::policy::Math;
 
 /// Returns the facts known about the operands of an integer division.
-pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
+pub fn division_facts(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     let ty = graph.ty(x);
     let signed = ty.kind() == Some(Scalar::I32);
     let bounds = |id: NodeId| (0..ty.components()).map(move |k| component_bounds(graph, id, k));
@@ -25,7 +25,7 @@ pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
 
 /// Returns the facts known about the arguments of a function of floats, if they may lie where drivers deviate from it; fast mathematics
 /// assumes that none do. A power that is a product always needs them.
-pub fn domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
+pub fn float_domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
     let node = graph.node(id);
     if !node.ty.is_float() || node.ty.is_array() {
         return None;
@@ -45,10 +45,10 @@ pub fn domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
         bounded: false,
     };
     let guarded = match node.op {
-        Op::Binary(BinaryOp::Pow) => return power(graph, node.args[0], node.args[1], domain, math),
+        Op::Binary(BinaryOp::Pow) => return power_domain(graph, node.args[0], node.args[1], domain, math),
         Op::Unary(UnaryOp::Cbrt) => return Some(domain),
         _ if math == Math::Fast => false,
-        Op::Binary(BinaryOp::Rem) => return remainder(graph, node.args[0], node.args[1]),
+        Op::Binary(BinaryOp::Rem) => return remainder_domain(graph, node.args[0], node.args[1]),
         Op::Binary(BinaryOp::Atan2) => !(domain.positive && known(node.args[1])),
         Op::Unary(UnaryOp::Log | UnaryOp::Log2) => !domain.positive,
         Op::Unary(UnaryOp::Sinh | UnaryOp::Cosh | UnaryOp::Tanh) => !within(first, 40.0),
@@ -59,8 +59,8 @@ pub fn domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
     guarded.then_some(domain)
 }
 
-/// As [`domain`], of a power.
-fn power(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Option<Domain> {
+/// As [`float_domain`], of a power.
+fn power_domain(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Option<Domain> {
     let lanes = usize::from(graph.ty(y).components());
     let constant = |id: NodeId| {
         let bits = graph.constant(id)?;
@@ -82,8 +82,8 @@ fn power(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Opt
     (math == Math::Exact && !simple).then_some(domain)
 }
 
-/// As [`domain`], of a remainder. A power of two from 1 on makes none of the roundings.
-fn remainder(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
+/// As [`float_domain`], of a remainder. A power of two from 1 on makes none of the roundings.
+fn remainder_domain(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
     let lanes = graph.ty(y).components();
     let is_power = |bits: u32| f32::from_bits(bits).abs() >= 1.0 && bits & 0x007f_ffff == 0 && bits << 1 < 0xff00_0000;
     if graph
@@ -108,7 +108,7 @@ fn remainder(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
 
 /// Returns whether every value of a node is representable in the type `to`: for a float the truncated integer, for an integer a finite
 /// number of every precision, or the same integer.
-pub fn converts(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
+pub fn is_convertible(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     match (graph.ty(id).is_float(), to.is_integer()) {
         (true, true) => has_integer(graph, id, to, half),
         (false, true) => has_no_sign(graph, id),

@@ -14,19 +14,19 @@ pub type Interference = HashMap<NodeId, HashSet<NodeId>>;
 type Needed = BTreeSet<NodeId>;
 
 /// Finds the interference of the arrays of a scheduled graph.
-pub fn interference(graph: &Graph, schedule: &Schedule) -> Interference {
+pub fn find_interference(graph: &Graph, schedule: &Schedule) -> Interference {
     let mut walk = Walk {
         graph,
         found: Interference::new(),
-        results: results(graph),
+        results: results_by_owner(graph),
     };
-    walk.block(&schedule.body, &mut Needed::new());
+    walk.walk_block(&schedule.body, &mut Needed::new());
     walk.found
 }
 
 /// The version that a node stands for. Literals are no versions: they are copied where they are used. What a loop has carried is, behind
 /// it, what it carried.
-pub fn version(graph: &Graph, id: NodeId) -> Option<NodeId> {
+pub fn array_version(graph: &Graph, id: NodeId) -> Option<NodeId> {
     let node = graph.node(id);
     match node.op {
         _ if !node.ty.is_array() => None,
@@ -40,7 +40,7 @@ pub fn version(graph: &Graph, id: NodeId) -> Option<NodeId> {
 }
 
 /// The nodes that give results of loops and branches, by their owners, with their numbers.
-fn results(graph: &Graph) -> HashMap<NodeId, Vec<(NodeId, usize)>> {
+fn results_by_owner(graph: &Graph) -> HashMap<NodeId, Vec<(NodeId, usize)>> {
     let mut results: HashMap<NodeId, Vec<(NodeId, usize)>> = HashMap::new();
     for id in graph.ids() {
         if let Op::Result(k) = graph.node(id).op {
@@ -60,25 +60,25 @@ struct Walk<'g> {
 }
 
 impl Walk<'_> {
-    fn block(&mut self, block: &Block, needed: &mut Needed) {
+    fn walk_block(&mut self, block: &Block, needed: &mut Needed) {
         for step in block.steps.iter().rev() {
             match step {
                 Step::Eval(id) => {
                     let node = self.graph.node(*id);
                     if node.op == Op::ArraySet {
-                        self.write(*id, needed);
+                        self.write_version(*id, needed);
                     }
                     if !matches!(node.op, Op::Result(_)) {
-                        node.args.iter().for_each(|arg| self.read(*arg, needed));
+                        node.args.iter().for_each(|arg| self.read_version(*arg, needed));
                     }
                 }
-                Step::Loop { node, body } => self.looped(*node, body, needed),
-                Step::If { node, then, otherwise } => self.branch(*node, then, otherwise, needed),
+                Step::Loop { node, body } => self.walk_loop(*node, body, needed),
+                Step::If { node, then, otherwise } => self.walk_branch(*node, then, otherwise, needed),
             }
         }
     }
 
-    fn looped(&mut self, node: NodeId, body: &Block, needed: &mut Needed) {
+    fn walk_loop(&mut self, node: NodeId, body: &Block, needed: &mut Needed) {
         let inside = self.graph.regions_of(node)[0];
         let region = self.graph.region(inside);
         // Values of outside that the next iteration reads are needed at the end of each.
@@ -86,34 +86,36 @@ impl Walk<'_> {
         self.collect_read(inside, body, &mut outside);
         needed.extend(outside.iter().copied());
         let carried = |k: usize| region.params[k + 1];
-        (0..region.results.len()).for_each(|k| self.write(carried(k), needed));
-        region.leaving().for_each(|id| self.read(id, needed));
-        self.block(body, needed);
+        (0..region.results.len()).for_each(|k| self.write_version(carried(k), needed));
+        region.leaving().for_each(|id| self.read_version(id, needed));
+        self.walk_block(body, needed);
         needed.extend(outside);
         for (k, init) in self.graph.node(node).args[2..].iter().enumerate().rev() {
-            self.write(carried(k), needed);
-            self.read(*init, needed);
+            self.write_version(carried(k), needed);
+            self.read_version(*init, needed);
         }
     }
 
-    fn branch(&mut self, node: NodeId, then: &Block, otherwise: &Block, needed: &mut Needed) {
+    fn walk_branch(&mut self, node: NodeId, then: &Block, otherwise: &Block, needed: &mut Needed) {
         let behind = std::mem::take(needed);
         let left = self.results.get(&node).cloned().unwrap_or_default();
         for (region, block) in self.graph.regions_of(node).into_iter().zip([then, otherwise]) {
             let mut side = behind.clone();
             // In sequence: the assignment of one result must not overwrite the source of the next.
             for (result, k) in left.iter().rev() {
-                self.write(*result, &mut side);
-                self.read(self.graph.region(region).results[*k], &mut side);
+                self.write_version(*result, &mut side);
+                self.read_version(self.graph.region(region).results[*k], &mut side);
             }
-            self.block(block, &mut side);
+            self.walk_block(block, &mut side);
             needed.append(&mut side);
         }
     }
 
     /// A version is written: what else is needed behind it lies elsewhere.
-    fn write(&mut self, id: NodeId, needed: &mut Needed) {
-        let Some(version) = version(self.graph, id) else { return };
+    fn write_version(&mut self, id: NodeId, needed: &mut Needed) {
+        let Some(version) = array_version(self.graph, id) else {
+            return;
+        };
         needed.remove(&version);
         for other in needed.iter() {
             self.found.entry(version).or_default().insert(*other);
@@ -121,34 +123,44 @@ impl Walk<'_> {
         }
     }
 
-    fn read(&self, id: NodeId, needed: &mut Needed) {
-        needed.extend(version(self.graph, id));
+    fn read_version(&self, id: NodeId, needed: &mut Needed) {
+        needed.extend(array_version(self.graph, id));
     }
 
     /// Versions that the body of a loop reads and does not make itself.
     fn collect_read(&self, region: RegionId, body: &Block, read: &mut Needed) {
         let mut made: Needed = self.graph.region(region).params.iter().copied().collect();
-        self.collect(body, read, &mut made);
-        self.graph.region(region).leaving().for_each(|id| self.read(id, read));
+        self.collect_versions(body, read, &mut made);
+        self.graph
+            .region(region)
+            .leaving()
+            .for_each(|id| self.read_version(id, read));
         read.retain(|version| !made.contains(version));
     }
 
-    fn collect(&self, block: &Block, read: &mut Needed, made: &mut Needed) {
+    fn collect_versions(&self, block: &Block, read: &mut Needed, made: &mut Needed) {
         for step in &block.steps {
             let (node, blocks): (_, &[&Block]) = match step {
                 Step::Eval(id) => (*id, &[]),
                 Step::Loop { node, body } => (*node, &[body]),
                 Step::If { node, then, otherwise } => (*node, &[then, otherwise]),
             };
-            self.graph.node(node).args.iter().for_each(|arg| self.read(*arg, read));
-            made.extend(version(self.graph, node));
+            self.graph
+                .node(node)
+                .args
+                .iter()
+                .for_each(|arg| self.read_version(*arg, read));
+            made.extend(array_version(self.graph, node));
             let results = self.results.get(&node).into_iter().flatten();
-            made.extend(results.filter_map(|(id, _)| version(self.graph, *id)));
+            made.extend(results.filter_map(|(id, _)| array_version(self.graph, *id)));
             for region in self.graph.regions_of(node) {
                 made.extend(&self.graph.region(region).params);
-                self.graph.region(region).leaving().for_each(|id| self.read(id, read));
+                self.graph
+                    .region(region)
+                    .leaving()
+                    .for_each(|id| self.read_version(id, read));
             }
-            blocks.iter().for_each(|block| self.collect(block, read, made));
+            blocks.iter().for_each(|block| self.collect_versions(block, read, made));
         }
     }
 }

@@ -13,37 +13,37 @@ mod interference;
 use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
 use super::outputs::whole_texel;
-use super::tidy::simplify;
+use super::tidy::simplify_expr;
 use crate::compiled::Compiled;
 use coalescing::ArrayCoalescing;
 use exactness::Exactness;
 use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
 use straightline_evaluator::passes::{Block, Step};
 
-pub use entry::entry;
+pub use entry::wrap_entry_point;
 
 /// Uses from which a constant vector is written once.
 const OFTEN: u32 = 6;
 
 /// The statements of a kernel: one for each value, and at the end an output for each pixel of the invocation.
-pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
+pub fn lower_kernel<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     let graph = &compiled.graph;
     let mut lowering = Lowering {
         compiled,
-        origins: origins(compiled),
-        exact: Exactness::of(compiled),
+        origins: node_origins(compiled),
+        exact: Exactness::from_compiled(compiled),
         wanted: Wanted::new(graph),
         coalescing: ArrayCoalescing::new(graph, &compiled.schedule),
-        indexed: indexed(compiled),
+        indexed: indexed_arrays(compiled),
         exprs: vec![None; graph.nodes.len()],
         half,
-        module: entry::module(),
+        module: entry::entry_module(),
         block: Vec::new(),
     };
-    lowering.constants();
+    lowering.emit_constants();
     lowering.steps(&compiled.schedule.body);
     for pixel in graph.outputs().chunks(graph.targets.len().max(1)) {
-        let values = pixel.iter().map(|output| lowering.expr(*output)).collect();
+        let values = pixel.iter().map(|output| lowering.node_expr(*output)).collect();
         lowering.block.push(StmtKind::Output(values).into());
     }
     lowering.module.body = lowering.block;
@@ -51,7 +51,7 @@ pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
 }
 
 /// Origin of each node. A tally passes its name on to the node that it tallies; last to first, so that chains do too.
-fn origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
+fn node_origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
     let graph = &compiled.graph;
     let mut origins: Vec<Option<&Origin>> = graph.ids().map(|id| graph.origin(id)).collect();
     for id in graph.ids().rev() {
@@ -64,7 +64,7 @@ fn origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
 }
 
 /// Arrays that are indexed, by node.
-fn indexed(compiled: &Compiled) -> Vec<bool> {
+fn indexed_arrays(compiled: &Compiled) -> Vec<bool> {
     let graph = &compiled.graph;
     let mut indexed = vec![false; graph.nodes.len()];
     let reads = graph
@@ -94,7 +94,7 @@ struct Lowering<'g> {
 
 impl<'g> Lowering<'g> {
     /// Vectors that the kernel has a name for, and that many lines would repeat, are written once.
-    fn constants(&mut self) {
+    fn emit_constants(&mut self) {
         let graph = &self.compiled.graph;
         for id in graph.ids() {
             if let ir::Op::Const(bits) = graph.node(id).op
@@ -102,10 +102,10 @@ impl<'g> Lowering<'g> {
                 && is_long(graph.ty(id), &bits)
                 && self.origins[id.0 as usize].is_some_and(|origin| !origin.name.is_empty())
             {
-                let var = self.variable(id);
+                let var = self.new_variable(id);
                 let value = Expr::constant(graph.ty(id), bits);
                 self.module.tables.push((var, value));
-                self.exprs[id.0 as usize] = Some(self.module.read(var));
+                self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
             }
         }
     }
@@ -113,9 +113,9 @@ impl<'g> Lowering<'g> {
     fn steps(&mut self, block: &'g Block) {
         for step in &block.steps {
             match step {
-                Step::Eval(id) => self.eval(*id),
-                Step::Loop { node, body } => self.looped(*node, body),
-                Step::If { node, then, otherwise } => self.branch(*node, then, otherwise),
+                Step::Eval(id) => self.lower_node(*id),
+                Step::Loop { node, body } => self.lower_loop(*node, body),
+                Step::If { node, then, otherwise } => self.lower_branch(*node, then, otherwise),
             }
         }
     }
@@ -127,7 +127,7 @@ impl<'g> Lowering<'g> {
         std::mem::replace(&mut self.block, outer)
     }
 
-    fn eval(&mut self, id: NodeId) {
+    fn lower_node(&mut self, id: NodeId) {
         let node = self.compiled.graph.node(id);
         match &node.op {
             // Written where it is used.
@@ -138,49 +138,52 @@ impl<'g> Lowering<'g> {
             ir::Op::Exact => {
                 let of = node.args[0];
                 let rounded = match self.exact.is_part(of) {
-                    true => self.expression(of),
-                    false => self.expr(of),
+                    true => self.build_expr(of),
+                    false => self.node_expr(of),
                 };
                 let goes_on = self.exact.goes_on(id);
                 let ty = rounded.ty;
-                self.declare(id, Expr::new(Op::Exact { goes_on }, vec![simplify(rounded)], ty));
+                self.emit_let(id, Expr::new(Op::Exact { goes_on }, vec![simplify_expr(rounded)], ty));
             }
             ir::Op::ArraySet => self.array_set(id),
             ir::Op::ArrayGet => self.array_get(id),
             ir::Op::SharedLoad(_) => {
-                let mut expr = self.expression(id);
+                let mut expr = self.build_expr(id);
                 // The condition is dropped: the value read where it does not hold is unused.
                 expr.args.remove(0);
-                self.declare(id, simplify(expr));
+                self.emit_let(id, simplify_expr(expr));
             }
-            op if op.is_effect() => self.effect(id),
+            op if op.is_effect() => self.lower_effect(id),
             _ => {
-                let expr = simplify(self.expression(id));
+                let expr = simplify_expr(self.build_expr(id));
                 if is_atom(&expr) {
                     self.exprs[id.0 as usize] = Some(expr);
                 } else {
-                    self.declare(id, expr);
+                    self.emit_let(id, expr);
                 }
             }
         }
     }
 
     /// A write to memory, under its condition.
-    fn effect(&mut self, id: NodeId) {
+    fn lower_effect(&mut self, id: NodeId) {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
         let (memory, op) = match node.op {
             ir::Op::Atomic { memory, op } => (memory, Some(op)),
             ir::Op::Store(memory) => (memory, None),
-            ir::Op::Barrier { buffers } => return self.statement(id, StmtKind::Barrier { buffers }),
+            ir::Op::Barrier { buffers } => return self.emit_statement(id, StmtKind::Barrier { buffers }),
             _ => return,
         };
-        let condition = simplify(self.expr(node.args[0]));
-        let args: Vec<Expr> = node.args[1..].iter().map(|arg| simplify(self.expr(*arg))).collect();
+        let condition = simplify_expr(self.node_expr(node.args[0]));
+        let args: Vec<Expr> = node.args[1..]
+            .iter()
+            .map(|arg| simplify_expr(self.node_expr(*arg)))
+            .collect();
         if let (ir::Memory::Image(k), [place, value]) = (memory, &args[..]) {
             let output = graph.targets.len() + k as usize;
             let store = StmtKind::Store(output, place.clone(), whole_texel(value.clone()));
-            return self.under(id, condition, store);
+            return self.emit_conditional(id, condition, store);
         }
         let mut effect = Effect {
             memory,
@@ -190,73 +193,73 @@ impl<'g> Lowering<'g> {
         };
         let always = condition.as_constant().is_some_and(|bits| bits[0] != 0);
         if op.is_some() && (self.compiled.schedule.uses[id.0 as usize] > 0 || effect.needs_variable()) {
-            let var = self.variable(id);
+            let var = self.new_variable(id);
             let zero = (!always).then(|| Expr::splat(node.ty, 0));
-            self.statement(id, StmtKind::Var(var, zero));
-            self.exprs[id.0 as usize] = Some(self.module.read(var));
+            self.emit_statement(id, StmtKind::Var(var, zero));
+            self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
             effect.before = Some(var);
         }
-        self.under(id, condition, StmtKind::Effect(effect));
+        self.emit_conditional(id, condition, StmtKind::Effect(effect));
     }
 
     /// Emits a statement under a condition.
-    fn under(&mut self, id: NodeId, condition: Expr, stmt: StmtKind<'g>) {
+    fn emit_conditional(&mut self, id: NodeId, condition: Expr, stmt: StmtKind<'g>) {
         match condition.as_constant() {
             Some([0, ..]) => {}
-            Some(_) => self.statement(id, stmt),
+            Some(_) => self.emit_statement(id, stmt),
             None => {
-                let then = self.nested(|lowering| lowering.statement(id, stmt));
+                let then = self.nested(|lowering| lowering.emit_statement(id, stmt));
                 let kind = StmtKind::If {
                     condition,
                     then,
                     otherwise: Vec::new(),
                 };
-                self.statement(id, kind);
+                self.emit_statement(id, kind);
             }
         }
     }
 
     /// A new variable for a node's value.
-    fn variable(&mut self, id: NodeId) -> VarId {
+    fn new_variable(&mut self, id: NodeId) -> VarId {
         let graph = &self.compiled.graph;
-        let name = self.wanted.of(graph, id, self.origins[id.0 as usize]);
-        self.module.variable(name, graph.ty(id))
+        let name = self.wanted.preferred_name(graph, id, self.origins[id.0 as usize]);
+        self.module.new_variable(name, graph.ty(id))
     }
 
     /// A statement that names a value.
-    fn declare(&mut self, id: NodeId, value: Expr) {
-        let var = self.variable(id);
-        self.statement(id, StmtKind::Let(var, value));
-        self.exprs[id.0 as usize] = Some(self.module.read(var));
+    fn emit_let(&mut self, id: NodeId, value: Expr) {
+        let var = self.new_variable(id);
+        self.emit_statement(id, StmtKind::Let(var, value));
+        self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
     }
 
     /// A statement of a node's.
-    fn statement(&mut self, id: NodeId, kind: StmtKind<'g>) {
+    fn emit_statement(&mut self, id: NodeId, kind: StmtKind<'g>) {
         let origin = self.origins[id.0 as usize];
         self.block.push(Stmt { kind, origin });
     }
 
     /// The value of a node that has been evaluated.
-    fn expr(&mut self, id: NodeId) -> Expr {
+    fn node_expr(&mut self, id: NodeId) -> Expr {
         if let Some(expr) = &self.exprs[id.0 as usize] {
             return expr.clone();
         }
         let node = self.compiled.graph.node(id);
         match &node.op {
             ir::Op::MakeArray => {
-                let parts = node.args.iter().map(|arg| self.expr(*arg)).collect();
+                let parts = node.args.iter().map(|arg| self.node_expr(*arg)).collect();
                 Expr::new(Op::Construct, parts, node.ty)
             }
             ir::Op::Const(bits) => Expr::constant(node.ty, *bits),
             ir::Op::Unused => Expr::splat(node.ty, 0),
-            _ => self.version(id),
+            _ => self.version_expr(id),
         }
     }
 
-    fn expression(&mut self, id: NodeId) -> Expr {
+    fn build_expr(&mut self, id: NodeId) -> Expr {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
-        let mut args: Vec<Expr> = node.args.iter().map(|arg| self.expr(*arg)).collect();
+        let mut args: Vec<Expr> = node.args.iter().map(|arg| self.node_expr(*arg)).collect();
         let op = match &node.op {
             ir::Op::Pixel => Op::Var(VarId::PIXEL),
             ir::Op::FrameSize => Op::Var(VarId::FRAME),
@@ -268,12 +271,12 @@ impl<'g> Lowering<'g> {
                 Op::Ir(ir::Op::Binary(BinaryOp::And))
             }
             ir::Op::Binary(op @ (BinaryOp::Div | BinaryOp::Rem)) if node.ty.is_integer() => {
-                Op::Division(*op, facts::division(graph, node.args[0], node.args[1]))
+                Op::Division(*op, facts::division_facts(graph, node.args[0], node.args[1]))
             }
             ir::Op::Splat | ir::Op::Compose => Op::Construct,
             ir::Op::Extract(component) => Op::Swizzle(vec![*component]),
             ir::Op::Convert => Op::Convert {
-                fits: facts::converts(graph, node.args[0], node.ty, self.half),
+                fits: facts::is_convertible(graph, node.args[0], node.ty, self.half),
             },
             ir::Op::Tally(_) => return args.swap_remove(0),
             // Texels have four components, of which the kernel takes some.
@@ -285,7 +288,7 @@ impl<'g> Lowering<'g> {
                 args = vec![texel];
                 Op::Swizzle((0..node.ty.components()).collect())
             }
-            op => match facts::domain(graph, id, self.compiled.policy.math) {
+            op => match facts::float_domain(graph, id, self.compiled.policy.math) {
                 Some(domain) => Op::Guarded(op.clone(), domain),
                 None => Op::Ir(op.clone()),
             },

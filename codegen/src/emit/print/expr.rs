@@ -10,12 +10,12 @@ use straightline_evaluator::ir::{self, BinaryOp, Bits, Scalar, Type, UnaryOp};
 pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
     let all: Vec<&Text> = args.iter().collect();
     match &expr.op {
-        Op::Ir(op) => operation(l, op, expr, args),
-        Op::Division(op, _) => infix(l, *op, Scalar::I32, args),
+        Op::Ir(op) => print_operation(l, op, expr, args),
+        Op::Division(op, _) => print_infix(l, *op, Scalar::I32, args),
         Op::Guarded(..) => unreachable!("guards are functions"),
         Op::Convert { .. } => match (&expr.args[0].op, expr.ty.shape) {
             (Op::Ir(ir::Op::BufferLen(buffer)), Type::U32) => l.unsigned_length(*buffer),
-            _ => Text::call(&l.ty(expr.ty), &all),
+            _ => Text::call(&l.type_spelling(expr.ty), &all),
         },
         Op::Construct => l.construct(expr.ty, &all),
         Op::Swizzle(components) => {
@@ -23,15 +23,15 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
             Text::member(&args[0], &letters)
         }
         Op::Index { .. } => Text::index(&args[0], &args[1]),
-        Op::Builtin(builtin) => l.builtin(*builtin),
+        Op::Builtin(builtin) => l.builtin_value(*builtin),
         // The variable that the value is assigned to carries the qualifier.
         Op::Exact { .. } => args[0].clone(),
         Op::Any => Text::call("any", &all),
         Op::All => Text::call("all", &all),
-        Op::Choose => l.choose(&args[0], &args[1], &args[2]),
+        Op::Choose => l.component_select(&args[0], &args[1], &args[2]),
         Op::Hex(bits) => match expr.ty.components() {
-            1 => Text::name(l.hex(*bits)),
-            _ => Text::call(&l.ty(expr.ty), &[&Text::name(l.hex(*bits))]),
+            1 => Text::name(l.hex_literal(*bits)),
+            _ => Text::call(&l.type_spelling(expr.ty), &[&Text::name(l.hex_literal(*bits))]),
         },
         Op::Call(name) => Text::call(name, &all),
         Op::Function(name) => Text::call(name, &all),
@@ -39,35 +39,35 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
     }
 }
 
-fn operation(l: &dyn Language, op: &ir::Op, expr: &Expr, args: &[Text]) -> Text {
+fn print_operation(l: &dyn Language, op: &ir::Op, expr: &Expr, args: &[Text]) -> Text {
     let all: Vec<&Text> = args.iter().collect();
     let kind = |k: usize| expr.args[k].ty.kind().unwrap_or(Scalar::F32);
     match op {
-        ir::Op::Const(bits) => constant(l, expr.ty, bits),
+        ir::Op::Const(bits) => print_constant(l, expr.ty, bits),
         ir::Op::Unary(UnaryOp::Neg) => Text::prefix("-", &args[0]),
         ir::Op::Unary(UnaryOp::Not) => Text::prefix("!", &args[0]),
         ir::Op::Unary(UnaryOp::BitNot) => Text::prefix("~", &args[0]),
         ir::Op::Binary(BinaryOp::Min | BinaryOp::Max | BinaryOp::Pow | BinaryOp::Atan2) => {
-            Text::call(l.function(op), &all)
+            Text::call(l.function_name(op), &all)
         }
-        ir::Op::Binary(op) => infix(l, *op, kind(0), args),
-        ir::Op::Unary(_) => Text::call(l.function(op), &all),
+        ir::Op::Binary(op) => print_infix(l, *op, kind(0), args),
+        ir::Op::Unary(_) => Text::call(l.function_name(op), &all),
         ir::Op::Dot => Text::call("dot", &all),
         ir::Op::Cross => Text::call("cross", &all),
         ir::Op::Clamp => Text::call("clamp", &all),
-        ir::Op::Select => l.select(expr.ty, &args[0], &args[1], &args[2]),
+        ir::Op::Select => l.scalar_select(expr.ty, &args[0], &args[1], &args[2]),
         ir::Op::Bitcast => l.bitcast(expr.ty, &args[0]),
-        read => l.read(read, args),
+        read => l.resource_read(read, args),
     }
 }
 
-fn infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> Text {
-    let (spelled, binds) = operator(l, op, kind);
+fn print_infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> Text {
+    let (spelled, binds) = spell_operator(l, op, kind);
     Text::infix(&args[0], spelled, &args[1], binds)
 }
 
 /// Spelling of an operator on a kind of operands, and its precedence.
-pub fn operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, Binds) {
+pub fn spell_operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, Binds) {
     use BinaryOp::{Add, And, Atan2, Div, Eq, Ge, Gt, Le, Lt, Max, Min, Mul, Ne, Or, Pow, Rem, Shl, Shr, Sub, Xor};
     match op {
         Add => ("+", Binds::Sum),
@@ -82,7 +82,7 @@ pub fn operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, 
         Gt => (">", Binds::Comparison),
         Ge => (">=", Binds::Comparison),
         Xor if kind == Scalar::Bool => ("!=", Binds::Comparison),
-        And | Or => (l.logical(op, kind), Binds::Mixed),
+        And | Or => (l.logical_operator(op, kind), Binds::Mixed),
         Xor => ("^", Binds::Mixed),
         Shl => ("<<", Binds::Mixed),
         Shr => (">>", Binds::Mixed),
@@ -91,10 +91,13 @@ pub fn operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, 
 }
 
 /// A constant scalar or vector of finite numbers: a component that is the same in all is written once.
-fn constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
+fn print_constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
     let kind = ty.kind().unwrap_or(Scalar::F32);
     let lanes = &bits[..ty.components() as usize];
-    let parts: Vec<Text> = lanes.iter().map(|bits| l.scalar(kind, ty.half, *bits)).collect();
+    let parts: Vec<Text> = lanes
+        .iter()
+        .map(|bits| l.scalar_literal(kind, ty.half, *bits))
+        .collect();
     match &parts[..] {
         [one] => one.clone(),
         [first, rest @ ..] if rest.iter().all(|part| part == first) => l.splat(ty, first),
@@ -103,28 +106,28 @@ fn constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
 }
 
 /// A finite float with few digits that every reader takes for the same bits.
-pub fn float(bits: u32) -> Text {
+pub fn float_literal(bits: u32) -> Text {
     let x = f32::from_bits(bits);
     Text::literal(decimal_digits(x), x.is_sign_negative())
 }
 
 /// An integer literal with a suffix.
-pub fn integer(n: i64, suffix: &str) -> Text {
+pub fn integer_literal(n: i64, suffix: &str) -> Text {
     Text::literal(format!("{n}{suffix}"), n < 0)
 }
 
 /// An unsigned literal: hexadecimal where it is a mask of many bits.
-pub fn unsigned(bits: u32) -> Text {
+pub fn unsigned_literal(bits: u32) -> Text {
     let run = bits.checked_shr(bits.trailing_zeros()).unwrap_or_default();
     let is_mask = bits > 0xffff && run.count_ones() > 1 && run & run.wrapping_add(1) == 0;
     match is_mask {
         true => Text::name(format!("{bits:#x}u")),
-        false => integer(i64::from(bits), "u"),
+        false => integer_literal(i64::from(bits), "u"),
     }
 }
 
 /// The function of WGSL that stands for an operation on numbers.
-pub fn function(op: &ir::Op) -> &'static str {
+pub fn wgsl_function(op: &ir::Op) -> &'static str {
     use UnaryOp::*;
     match op {
         ir::Op::Binary(BinaryOp::Min) => "min",

@@ -9,7 +9,7 @@ use crate::emit::own_words::SAMPLER;
 
 impl Wgsl<'_> {
     /// The head of a function that takes all that it reads.
-    pub(super) fn taking(&self) -> String {
+    pub(super) fn kernel_function_head(&self) -> String {
         let r = self.resources;
         // A function that reads textures through the host's functions takes no textures.
         let calls_host = r.options.calls_host();
@@ -21,7 +21,7 @@ impl Wgsl<'_> {
             let sampler = r.sampler(*k);
             format!("{}: {}", sampler.name, wgsl::sampler_type(sampler.comparison))
         });
-        let varyings = r.varyings().map(|v| format!("{}: {}", v.name, v.ty));
+        let varyings = r.manifest_varyings().map(|v| format!("{}: {}", v.name, v.ty));
         let uniforms = r
             .uniforms
             .iter()
@@ -34,12 +34,12 @@ impl Wgsl<'_> {
 
 impl Glsl<'_> {
     /// The head of a function that takes all that it reads.
-    pub(super) fn taking(&self) -> String {
+    pub(super) fn kernel_function_head(&self) -> String {
         let r = self.resources;
         let mut all = Vec::new();
         if r.options.calls_host() {
             // The host's functions read its textures.
-        } else if self.vulkan() {
+        } else if self.is_vulkan() {
             for bound in &r.read {
                 let texture = r.texture(bound.index);
                 all.push(format!("{} {}", glsl::texture_type(texture), texture.name));
@@ -57,23 +57,23 @@ impl Glsl<'_> {
             }
         }
         all.push("vec2 position".to_owned());
-        all.extend(r.varyings.iter().map(|v| glsl::declared(&v.name, v.ty.into())));
+        all.extend(r.varyings.iter().map(|v| glsl::variable_declared(&v.name, v.ty.into())));
         let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
-        all.extend(uniforms.map(|u| glsl::declared(&u.name, u.ty.into())));
+        all.extend(uniforms.map(|u| glsl::variable_declared(&u.name, u.ty.into())));
         format!("{} {}({}) {{", self.result_type(), r.entry, all.join(", "))
     }
 }
 
 impl Hlsl<'_> {
     /// The head of a function that takes all that it reads.
-    pub(super) fn taking(&self) -> String {
+    pub(super) fn kernel_function_head(&self) -> String {
         let r = self.resources;
         let textures = r.read.iter().map(|bound| texture_declared(r, bound.index));
         let buffers = r.read_buffers.iter().map(|(k, _)| buffer_declared(r, *k));
         let samplers = r.used_samplers.iter().map(|(k, _)| sampler_declared(r, *k));
-        let varyings = r.varyings.iter().map(|v| hlsl::declared(&v.name, v.ty.into()));
+        let varyings = r.varyings.iter().map(|v| hlsl::variable_declared(&v.name, v.ty.into()));
         let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
-        let uniforms = uniforms.map(|u| hlsl::declared(&u.name, u.ty.into()));
+        let uniforms = uniforms.map(|u| hlsl::variable_declared(&u.name, u.ty.into()));
         let bound = textures.chain(buffers).chain(samplers);
         // A function that reads textures through the host's functions takes no textures.
         let bound = bound.filter(|_| !r.options.calls_host());

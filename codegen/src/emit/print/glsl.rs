@@ -2,9 +2,9 @@
 
 mod types;
 
-use super::expr::{float, integer, unsigned};
-use super::wgsl::four;
-use super::{Language, Text, commented};
+use super::expr::{float_literal, integer_literal, unsigned_literal};
+use super::wgsl::pad_texel;
+use super::{Language, Text, header_comment};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Module, Ty};
 use crate::emit::derived::Derived;
@@ -18,7 +18,7 @@ use straightline_evaluator::ir::{
 };
 use straightline_manifest::{REGION, Stage};
 
-pub use types::{declared, image_type, plain_sampler, sampler_of, sampler_type, texture_type, type_name};
+pub use types::{image_type, plain_sampler, sampler_of, sampler_type, texture_type, type_name, variable_declared};
 
 /// The region's uniforms where no block holds them, with the fields that they are otherwise.
 pub const LOOSE_REGION: [(&str, &str); 3] = [
@@ -67,7 +67,7 @@ impl<'a> Glsl<'a> {
     }
 
     /// Constructs that naga does not read, in all that was printed of a module.
-    pub fn unread(&self, module: &Module<'_>) -> BTreeSet<Unread> {
+    pub fn unread_constructs(&self, module: &Module<'_>) -> BTreeSet<Unread> {
         let mut unread = self.unread.borrow().clone();
         unread.extend(self.is_function().then_some(Unread::Function));
         let precise = module.variables.iter().any(|variable| variable.precise);
@@ -75,7 +75,7 @@ impl<'a> Glsl<'a> {
         unread
     }
 
-    fn note(&self, construct: Unread) {
+    fn note_unread(&self, construct: Unread) {
         self.unread.borrow_mut().insert(construct);
     }
 
@@ -83,12 +83,12 @@ impl<'a> Glsl<'a> {
         self.resources.options.is_function()
     }
 
-    pub(super) fn vulkan(&self) -> bool {
+    pub(super) fn is_vulkan(&self) -> bool {
         self.target == Target::Glsl450
     }
 
     /// Name of the combined sampler that a texture is read by.
-    fn combined(&self, texture: u32, sampler: Option<u32>) -> Text {
+    fn combined_sampler(&self, texture: u32, sampler: Option<u32>) -> Text {
         let r = self.resources;
         let of_texture = || r.combined.iter().filter(|one| one.texture == texture);
         let same = of_texture().find(|one| one.sampler == sampler);
@@ -98,9 +98,9 @@ impl<'a> Glsl<'a> {
     }
 
     /// A texture to take texels of, or the size.
-    fn unfiltered(&self, texture: u32) -> Text {
-        if !self.vulkan() {
-            return self.combined(texture, None);
+    fn unfiltered_texture(&self, texture: u32) -> Text {
+        if !self.is_vulkan() {
+            return self.combined_sampler(texture, None);
         }
         if self
             .resources
@@ -108,16 +108,16 @@ impl<'a> Glsl<'a> {
             .iter()
             .any(|bound| bound.index == texture && bound.compared)
         {
-            self.note(Unread::ComparedTexels);
+            self.note_unread(Unread::ComparedTexels);
         }
         let texture = self.resources.texture(texture);
         Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture), texture.name))
     }
 
     /// A texture with a sampler of the kernel's.
-    fn through(&self, texture: u32, sampler: u32) -> Text {
-        if !self.vulkan() {
-            return self.combined(texture, Some(sampler));
+    fn sampled_texture(&self, texture: u32, sampler: u32) -> Text {
+        if !self.is_vulkan() {
+            return self.combined_sampler(texture, Some(sampler));
         }
         let (texture, sampler) = (self.resources.texture(texture), self.resources.sampler(sampler));
         let kind = sampler_of(texture, sampler.comparison);
@@ -125,20 +125,20 @@ impl<'a> Glsl<'a> {
     }
 
     /// The four texels around a place, or the results of a comparison with them.
-    fn gather(&self, args: &[&Text]) -> Text {
-        self.note(Unread::Gather);
+    fn gather_call(&self, args: &[&Text]) -> Text {
+        self.note_unread(Unread::Gather);
         Text::call("textureGather", args)
     }
 
     /// Number of elements of a buffer, an `int`.
-    fn length(&self, buffer: u32) -> Text {
-        self.note(Unread::Length);
+    fn buffer_length(&self, buffer: u32) -> Text {
+        self.note_unread(Unread::Length);
         Text::name(format!("{}.elements.length()", self.resources.buffer(buffer).name))
     }
 
     /// A place with the layer and the reference behind it, in one vector, and what else there is; and how many components the
     /// vector has.
-    fn packed(&self, texture: u32, args: &[Text], compares: bool) -> (Text, usize) {
+    fn pack_coordinates(&self, texture: u32, args: &[Text], compares: bool) -> (Text, usize) {
         let kind = self.resources.texture(texture).kind;
         let layers = usize::from(kind.has_layers());
         let parts = 1 + layers + usize::from(compares);
@@ -155,9 +155,9 @@ impl<'a> Glsl<'a> {
     }
 
     /// `layout(set = 0, binding = N)`, with what else a layout says, as far as the version knows of bindings.
-    pub(super) fn layout(&self, binding: u32, before: &str, behind: &str) -> String {
+    pub(super) fn layout_qualifier(&self, binding: u32, before: &str, behind: &str) -> String {
         let binding = match self.target {
-            Target::Glsl450 => format!("set = {}, binding = {binding}", self.resources.places.group()),
+            Target::Glsl450 => format!("set = {}, binding = {binding}", self.resources.places.bind_group()),
             Target::Glsl430 | Target::Essl310 => format!("binding = {binding}"),
             _ => return String::new(),
         };
@@ -165,15 +165,15 @@ impl<'a> Glsl<'a> {
     }
 
     /// Storage buffers.
-    pub(super) fn buffers(&self) -> String {
+    pub(super) fn buffer_declarations(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
-            let (name, block) = (&r.buffer(*k).name, r.derived(Derived::Block(*k)));
+            let (name, block) = (&r.buffer(*k).name, r.derived_name(Derived::Block(*k)));
             let element = match &r.buffer(*k).element {
                 Element::Value(ty) => type_name((*ty).into()),
                 Element::Struct(structure) => structure.name.clone(),
             };
-            let layout = self.layout(*binding, "std430, ", "");
+            let layout = self.layout_qualifier(*binding, "std430, ", "");
             let qualifier = match r.buffer(*k).access {
                 Access::Read => "readonly ",
                 Access::Write => "writeonly ",
@@ -181,11 +181,11 @@ impl<'a> Glsl<'a> {
             };
             format!("{layout}{qualifier}buffer {block} {{ {element} elements[]; }} {name};\n")
         });
-        let structures = r.structures().into_iter().map(|structure| {
+        let structures = r.read_structures().into_iter().map(|structure| {
             let fields = structure
                 .fields
                 .iter()
-                .map(|f| format!("    {};\n", declared(&f.name, f.ty.into())));
+                .map(|f| format!("    {};\n", variable_declared(&f.name, f.ty.into())));
             format!("\nstruct {} {{\n{}}};\n\n", structure.name, fields.collect::<String>())
         });
         structures.collect::<String>() + &each.collect::<String>()
@@ -196,14 +196,14 @@ impl<'a> Glsl<'a> {
         let r = self.resources;
         if r.options.stage == Stage::Compute {
             let images = r.outputs.iter().map(|output| {
-                let format = format!(", {}", output.format.glsl());
-                let layout = self.layout(output.binding.unwrap_or_default(), "", &format);
+                let format = format!(", {}", output.format.glsl_qualifier());
+                let layout = self.layout_qualifier(output.binding.unwrap_or_default(), "", &format);
                 format!("{layout}uniform writeonly {} {};\n", image_type(output), output.name)
             });
             return images.collect();
         }
         let each = r.varyings.iter().enumerate().map(|(k, varying)| {
-            let declared = declared(&varying.name, varying.ty.into());
+            let declared = variable_declared(&varying.name, varying.ty.into());
             match located {
                 true => format!("layout(location = {k}) in {declared};\n"),
                 false => format!("in {declared};\n"),
@@ -211,7 +211,7 @@ impl<'a> Glsl<'a> {
         });
         let outputs = r.outputs.iter().enumerate();
         let outputs = outputs.map(|(k, output)| {
-            let declared = declared(&output.name, output.texel().into());
+            let declared = variable_declared(&output.name, output.texel_type().into());
             format!("layout(location = {k}) out {declared};\n")
         });
         each.collect::<String>() + &outputs.collect::<String>()
@@ -225,7 +225,7 @@ impl Glsl<'_> {
         let fields = r
             .outputs
             .iter()
-            .map(|o| format!("    {};\n", declared(&o.name, o.ty.into())));
+            .map(|o| format!("    {};\n", variable_declared(&o.name, o.ty.into())));
         format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())
     }
 
@@ -239,22 +239,22 @@ impl Glsl<'_> {
 }
 
 impl Language for Glsl<'_> {
-    fn ty(&self, ty: Ty) -> String {
+    fn type_spelling(&self, ty: Ty) -> String {
         type_name(ty)
     }
 
-    fn scalar(&self, kind: Scalar, _: bool, bits: u32) -> Text {
+    fn scalar_literal(&self, kind: Scalar, _: bool, bits: u32) -> Text {
         match kind {
-            Scalar::F32 => float(bits),
+            Scalar::F32 => float_literal(bits),
             // The smallest `int`, which no literal is.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
-            Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 | Scalar::Usize => unsigned(bits),
+            Scalar::I32 => integer_literal(i64::from(bits as i32), ""),
+            Scalar::U32 | Scalar::Usize => unsigned_literal(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }
 
-    fn builtin(&self, builtin: Builtin) -> Text {
+    fn builtin_value(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("ivec2(gl_GlobalInvocationID.xy)"),
             Builtin::Local => Text::name("ivec2(gl_LocalInvocationID.xy)"),
@@ -269,7 +269,7 @@ impl Language for Glsl<'_> {
                     Builtin::RegionSize => "size",
                     _ => "place",
                 };
-                Text::name(match self.vulkan() {
+                Text::name(match self.is_vulkan() {
                     true => format!("{REGION}.{field}"),
                     false => format!("{REGION}_{field}"),
                 })
@@ -277,27 +277,29 @@ impl Language for Glsl<'_> {
         }
     }
 
-    fn function(&self, op: &ir::Op) -> &'static str {
+    fn function_name(&self, op: &ir::Op) -> &'static str {
         match op {
             ir::Op::Binary(BinaryOp::Atan2) => "atan",
             ir::Op::Unary(UnaryOp::Round) => "roundEven",
             ir::Op::Unary(UnaryOp::InverseSqrt) => "inversesqrt",
             ir::Op::Unary(UnaryOp::ReverseBits) => "bitfieldReverse",
-            other => super::expr::function(other),
+            other => super::expr::wgsl_function(other),
         }
     }
 
-    fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
-        if let Some(call) = host_reads::call(self.resources, op, args) {
+    fn resource_read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        if let Some(call) = host_reads::host_call(self.resources, op, args) {
             return call;
         }
         let zero = Text::name("0");
         match op {
-            ir::Op::Uniform(k) if !self.vulkan() || self.is_function() => Text::name(self.resources.uniform(*k)),
-            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
-            ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
+            ir::Op::Uniform(k) if !self.is_vulkan() || self.is_function() => {
+                Text::name(self.resources.uniform_name(*k))
+            }
+            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform_name(*k))),
+            ir::Op::Varying(k) => Text::name(self.resources.varying_name(*k)),
             ir::Op::TextureSize(texture) => {
-                let name = self.unfiltered(*texture);
+                let name = self.unfiltered_texture(*texture);
                 match self.resources.texture(*texture).kind {
                     TextureKind::Multisampled => Text::call("textureSize", &[&name]),
                     TextureKind::Layers | TextureKind::DepthLayers => {
@@ -306,13 +308,14 @@ impl Language for Glsl<'_> {
                     _ => Text::call("textureSize", &[&name, &zero]),
                 }
             }
-            ir::Op::TextureLevels(texture) => Text::call("textureQueryLevels", &[&self.unfiltered(*texture)]),
-            ir::Op::TextureLayers(texture) => {
-                Text::member(&Text::call("textureSize", &[&self.unfiltered(*texture), &zero]), "z")
-            }
+            ir::Op::TextureLevels(texture) => Text::call("textureQueryLevels", &[&self.unfiltered_texture(*texture)]),
+            ir::Op::TextureLayers(texture) => Text::member(
+                &Text::call("textureSize", &[&self.unfiltered_texture(*texture), &zero]),
+                "z",
+            ),
             ir::Op::Load { texture, .. } => {
                 let kind = self.resources.texture(*texture).kind;
-                let name = self.unfiltered(*texture);
+                let name = self.unfiltered_texture(*texture);
                 if kind == TextureKind::Multisampled {
                     return Text::call("texelFetch", &[&name, &args[0], &args[1]]);
                 }
@@ -327,8 +330,8 @@ impl Language for Glsl<'_> {
                 }
             }
             ir::Op::Sample { texture, sampler, .. } => {
-                let through = self.through(*texture, *sampler);
-                let (place, _) = self.packed(*texture, args, false);
+                let through = self.sampled_texture(*texture, *sampler);
+                let (place, _) = self.pack_coordinates(*texture, args, false);
                 let layers = usize::from(self.resources.texture(*texture).kind.has_layers());
                 match &args[1 + layers..] {
                     [] => Text::call("textureLod", &[&through, &place, &Text::name("0.0")]),
@@ -342,13 +345,13 @@ impl Language for Glsl<'_> {
                 component,
                 ..
             } => {
-                let through = self.through(*texture, *sampler);
-                let (place, _) = self.packed(*texture, args, false);
-                self.gather(&[&through, &place, &Text::name(component.to_string())])
+                let through = self.sampled_texture(*texture, *sampler);
+                let (place, _) = self.pack_coordinates(*texture, args, false);
+                self.gather_call(&[&through, &place, &Text::name(component.to_string())])
             }
             ir::Op::Compare { texture, sampler, .. } => {
-                let through = self.through(*texture, *sampler);
-                let (place, components) = self.packed(*texture, args, true);
+                let through = self.sampled_texture(*texture, *sampler);
+                let (place, components) = self.pack_coordinates(*texture, args, true);
                 if components == 3 {
                     return Text::call("textureLod", &[&through, &place, &Text::name("0.0")]);
                 }
@@ -360,8 +363,8 @@ impl Language for Glsl<'_> {
                 Text::call("textureGrad", &[&through, &place, &step, &step])
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
-                let through = self.through(*texture, *sampler);
-                self.gather(&[&through, &args[0], &args[1]])
+                let through = self.sampled_texture(*texture, *sampler);
+                self.gather_call(&[&through, &args[0], &args[1]])
             }
             ir::Op::SharedLoad(shared) => Text::index(
                 &Text::name(self.resources.shared[*shared as usize].name.as_str()),
@@ -371,11 +374,11 @@ impl Language for Glsl<'_> {
                 let buffer = self.resources.buffer(*buffer);
                 let elements = Text::name(format!("{}.elements", buffer.name));
                 let element = Text::index(&elements, &args[0]);
-                super::part(&element, &buffer.element, *field, args.get(1))
+                super::element_part(&element, &buffer.element, *field, args.get(1))
             }
-            ir::Op::BufferLen(buffer) => Text::call("int", &[&self.length(*buffer)]),
+            ir::Op::BufferLen(buffer) => Text::call("int", &[&self.buffer_length(*buffer)]),
             ir::Op::Message(direction) => {
-                self.note(Unread::QuadSwap);
+                self.note_unread(Unread::QuadSwap);
                 let function = match direction {
                     Direction::Horizontal => "subgroupQuadSwapHorizontal",
                     Direction::Vertical => "subgroupQuadSwapVertical",
@@ -391,18 +394,18 @@ impl Language for Glsl<'_> {
         }
     }
 
-    fn select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn scalar_select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
         Text::choice(condition, yes, no)
     }
 
-    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
-        if !self.vulkan() {
+    fn component_select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+        if !self.is_vulkan() {
             return Text::choice(condition, yes, no);
         }
         Text::call("mix", &[no, yes, condition])
     }
 
-    fn logical(&self, op: BinaryOp, kind: Scalar) -> &'static str {
+    fn logical_operator(&self, op: BinaryOp, kind: Scalar) -> &'static str {
         match (op, kind) {
             (BinaryOp::And, Scalar::Bool) => "&&",
             (_, Scalar::Bool) => "||",
@@ -411,16 +414,16 @@ impl Language for Glsl<'_> {
         }
     }
 
-    fn immutable(&self, name: &str, ty: Ty) -> String {
-        declared(name, ty)
+    fn let_head(&self, name: &str, ty: Ty) -> String {
+        variable_declared(name, ty)
     }
 
-    fn mutable(&self, name: &str, ty: Ty, _: bool) -> String {
-        declared(name, ty)
+    fn var_head(&self, name: &str, ty: Ty, _: bool) -> String {
+        variable_declared(name, ty)
     }
 
-    fn table(&self, name: &str, ty: Ty) -> String {
-        format!("const {}", declared(name, ty))
+    fn table_head(&self, name: &str, ty: Ty) -> String {
+        format!("const {}", variable_declared(name, ty))
     }
 
     fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String {
@@ -432,19 +435,19 @@ impl Language for Glsl<'_> {
     }
 
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
-        let params: Vec<String> = params.iter().map(|(name, ty)| declared(name, *ty)).collect();
+        let params: Vec<String> = params.iter().map(|(name, ty)| variable_declared(name, *ty)).collect();
         format!("{} {name}({}) {{", type_name(result), params.join(", "))
     }
 
-    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+    fn texel_store(&self, output: usize, place: &Text, value: &Text) -> Text {
         let output = &self.resources.outputs[output];
         let name = Text::name(output.name.as_str());
-        Text::call("imageStore", &[&name, place, &four(self, output, value)])
+        Text::call("imageStore", &[&name, place, &pad_texel(self, output, value)])
     }
 
-    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
-        self.note(Unread::Effect);
-        let (element, name) = self.resources.memory(effect.memory);
+    fn effect_statement(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        self.note_unread(Unread::Effect);
+        let (element, name) = self.resources.element_and_name(effect.memory);
         let elements = match effect.memory {
             Memory::Buffer(_) => Text::name(format!("{name}.elements")),
             Memory::Shared(_) | Memory::Image(_) => Text::name(name),
@@ -467,18 +470,18 @@ impl Language for Glsl<'_> {
     }
 
     fn unsigned_length(&self, buffer: u32) -> Text {
-        Text::call("uint", &[&self.length(buffer)])
+        Text::call("uint", &[&self.buffer_length(buffer)])
     }
 
-    fn barrier(&self, buffers: bool) -> &'static [&'static str] {
-        self.note(Unread::Barrier);
+    fn barrier_statements(&self, buffers: bool) -> &'static [&'static str] {
+        self.note_unread(Unread::Barrier);
         match buffers {
             true => &["memoryBarrierBuffer();", "memoryBarrierShared();", "barrier();"],
             false => &["memoryBarrierShared();", "barrier();"],
         }
     }
 
-    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+    fn output_statements(&self, values: &[Text]) -> Vec<(String, Text)> {
         let r = self.resources;
         match values {
             [one] if self.is_function() => vec![("return ".to_owned(), one.clone())],
@@ -502,13 +505,13 @@ impl Language for Glsl<'_> {
             (true, false) => String::new(),
             // Directives stand before everything else of the host's text.
             (true, true) => format!("// Needs {extension}"),
-            (false, _) => format!("#version {}\n", self.target.version()),
+            (false, _) => format!("#version {}\n", self.target.glsl_version()),
         };
         if r.subgroups && !self.is_function() {
             out += extension;
         }
-        out += &commented(header);
-        if !r.read.is_empty() && self.vulkan() && !r.options.strip_comments {
+        out += &header_comment(header);
+        if !r.read.is_empty() && self.is_vulkan() && !r.options.strip_comments {
             out +=
                 "// GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.\n";
         }
@@ -516,7 +519,7 @@ impl Language for Glsl<'_> {
         // A function whose host reads its textures stands below what the host has said of precision.
         if matches!(self.target, Target::Essl310 | Target::Essl300) && !r.options.calls_host() {
             out += "precision highp float;\nprecision highp int;\n";
-            for ty in self.opaque() {
+            for ty in self.opaque_types() {
                 out += &format!("precision highp {ty};\n");
             }
             out.push('\n');
@@ -528,14 +531,14 @@ impl Language for Glsl<'_> {
             return out.trim_end().to_owned() + "\n";
         }
         if r.options.stage == Stage::Compute {
-            let [x, y, z] = r.workgroup();
+            let [x, y, z] = r.workgroup_size();
             out += &format!("layout(local_size_x = {x}, local_size_y = {y}, local_size_z = {z}) in;\n\n");
         }
-        out += &match self.vulkan() {
+        out += &match self.is_vulkan() {
             true => self.of_vulkan(),
-            false => self.opengl(),
+            false => self.opengl_declarations(),
         };
-        for shared in r.shared() {
+        for shared in r.shared_memory() {
             let element = type_name(shared.element.into());
             out += &format!("shared {element} {}[{}];\n", shared.name, shared.len);
         }
@@ -544,7 +547,7 @@ impl Language for Glsl<'_> {
 
     fn entry_head(&self) -> String {
         if self.is_function() {
-            return self.taking();
+            return self.kernel_function_head();
         }
         "void main() {".to_owned()
     }

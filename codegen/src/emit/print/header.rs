@@ -2,7 +2,7 @@
 
 use crate::compiled::Compiled;
 use crate::emit::layout::value_type;
-use crate::emit::prose::comment;
+use crate::emit::prose::single_line_comment;
 use crate::emit::resources::Resources;
 use straightline_evaluator::ir::{Invocation, Scalar, Type};
 use straightline_evaluator::policy::Transport;
@@ -12,7 +12,7 @@ use straightline_manifest::{Counts, Form, Origin, Precision};
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
 
 /// Lines of the header. Deterministic for the same input: no date, no path of the machine.
-pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Vec<String> {
+pub fn header_lines(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Vec<String> {
     let mut lines = vec![
         match compiled.summary.as_str() {
             "" => compiled.kernel.clone(),
@@ -24,27 +24,27 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         .changed
         .iter()
         .filter_map(|name| Some((name, compiled.options.get(name)?)));
-    lines.extend(changed.map(|(name, value)| format!("{name} = {}", shortened(&value.to_string()))));
+    lines.extend(changed.map(|(name, value)| format!("{name} = {}", shorten_list(&value.to_string()))));
     let options = &resources.options;
     let (what, output) = match options.form {
-        Form::Entry => (format!("Stage {}", options.stage.name()), outputs(resources)),
-        Form::Function => ("Function for a fragment shader".to_owned(), results(resources)),
+        Form::Entry => (format!("Stage {}", options.stage.name()), describe_outputs(resources)),
+        Form::Function => ("Function for a fragment shader".to_owned(), describe_results(resources)),
     };
     lines.push(format!(
         "{what}, unroll {}, {}{}{}{output}.",
         compiled.policy,
-        messages(compiled),
-        precision(options.precision),
-        origin(options.origin),
+        describe_transport(compiled),
+        describe_precision(options.precision),
+        describe_origin(options.origin),
     ));
     let reads = match (counts.texture_reads, counts.colour_reads) {
-        (reads, 0) => many(reads, "read"),
-        (0, reads) => format!("{} of colour", many(reads, "read")),
-        (reads, colour) => format!("{} + {colour} of colour", many(reads, "texture read")),
+        (reads, 0) => counted_noun(reads, "read"),
+        (0, reads) => format!("{} of colour", counted_noun(reads, "read")),
+        (reads, colour) => format!("{} + {colour} of colour", counted_noun(reads, "texture read")),
     };
     let mut figures = vec![
-        many(counts.basic_blocks, "basic block"),
-        many(counts.statements, "statement"),
+        counted_noun(counts.basic_blocks, "basic block"),
+        counted_noun(counts.statements, "statement"),
         reads,
     ];
     figures.extend(
@@ -53,14 +53,14 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
             .iter()
             .map(|(name, n)| format!("{n} {}", name.replace('_', " "))),
     );
-    figures.push(many(counts.transcendentals, "transcendental call"));
+    figures.push(counted_noun(counts.transcendentals, "transcendental call"));
     if counts.messages > 0 {
-        figures.push(many(counts.messages, "message"));
+        figures.push(counted_noun(counts.messages, "message"));
     }
     if counts.shared_reads > 0 {
-        figures.push(many(counts.shared_reads, "read of shared memory"));
+        figures.push(counted_noun(counts.shared_reads, "read of shared memory"));
     }
-    figures.push(format!("at most {} alive", many(counts.max_live, "scalar")));
+    figures.push(format!("at most {} alive", counted_noun(counts.max_live, "scalar")));
     let per = match resources.block {
         [1, 1] => "pixel".to_owned(),
         [width, height] => format!("block of {width}x{height} pixels"),
@@ -69,7 +69,7 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     if let Some(sharing) = &compiled.sharing {
         let [width, height] = sharing.threads;
         let tiles = sharing.tiles.iter().map(|tile| {
-            let ([across, down], many) = (tile.size, many(tile.fills, "read"));
+            let ([across, down], many) = (tile.size, counted_noun(tile.fills, "read"));
             format!("{across}x{down} of {} ({many} instead of {})", tile.of(), tile.reads)
         });
         let tiles: Vec<String> = tiles.collect();
@@ -84,9 +84,9 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         let each = each.map(|g| {
             format!(
                 "{} of {} in place of {}",
-                many(g.gathers, "gather"),
+                counted_noun(g.gathers, "gather"),
                 g.of(),
-                many(g.reads, "read")
+                counted_noun(g.reads, "read")
             )
         });
         lines.push(format!("Four texels at once: {}.", each.collect::<Vec<_>>().join(", ")));
@@ -96,11 +96,11 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     } else {
         lines.len()
     };
-    lines.iter().take(kept).map(|line| comment(line)).collect()
+    lines.iter().take(kept).map(|line| single_line_comment(line)).collect()
 }
 
 /// Describes the outputs with their formats.
-fn outputs(resources: &Resources) -> String {
+fn describe_outputs(resources: &Resources) -> String {
     match &resources.outputs[..] {
         [] => "no output".to_owned(),
         [one] => format!("output {}", one.format),
@@ -114,7 +114,7 @@ fn outputs(resources: &Resources) -> String {
 }
 
 /// Describes the results of a function.
-fn results(resources: &Resources) -> String {
+fn describe_results(resources: &Resources) -> String {
     match &resources.outputs[..] {
         [one] if one.ty == Type::value(Scalar::F32, 4) => "result a colour".to_owned(),
         [one] => format!("result of type {}", value_type(one.ty)),
@@ -126,7 +126,7 @@ fn results(resources: &Resources) -> String {
 }
 
 /// A list of many numbers that are all alike by one of them.
-fn shortened(value: &str) -> String {
+fn shorten_list(value: &str) -> String {
     let numbers: Vec<&str> = value.split(',').collect();
     match numbers[..] {
         [first, .., last] if numbers.len() > 9 && numbers.iter().all(|n| *n == last) => {
@@ -137,7 +137,7 @@ fn shortened(value: &str) -> String {
 }
 
 /// Describes the transport of quad swaps, if the kernel has any.
-fn messages(compiled: &Compiled) -> &'static str {
+fn describe_transport(compiled: &Compiled) -> &'static str {
     match compiled.graph.invocation {
         Invocation::Lane if compiled.transport == Some(Transport::Derivatives) => "messages by fine derivatives, ",
         Invocation::Lane => "messages by quad operations, ",
@@ -146,7 +146,7 @@ fn messages(compiled: &Compiled) -> &'static str {
 }
 
 /// Describes the precision, unless it is the default.
-fn precision(precision: Precision) -> &'static str {
+fn describe_precision(precision: Precision) -> &'static str {
     match precision {
         Precision::F32 => "",
         Precision::F16 => "half precision (f16), ",
@@ -154,7 +154,7 @@ fn precision(precision: Precision) -> &'static str {
 }
 
 /// Describes the position of row 0, unless it is the default.
-fn origin(origin: Origin) -> &'static str {
+fn describe_origin(origin: Origin) -> &'static str {
     match origin {
         Origin::UpperLeft => "",
         Origin::LowerLeft => "rows from below, ",
@@ -162,7 +162,7 @@ fn origin(origin: Origin) -> &'static str {
 }
 
 /// `1 read`, `2 reads`, `2 reads of shared memory`.
-fn many(n: u32, what: &str) -> String {
+fn counted_noun(n: u32, what: &str) -> String {
     let (noun, of) = what.split_at(what.find(" of ").unwrap_or(what.len()));
     format!("{n} {noun}{}{of}", if n == 1 { "" } else { "s" })
 }

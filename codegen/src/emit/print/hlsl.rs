@@ -2,18 +2,18 @@
 
 mod declarations;
 
-use super::expr::{float, integer, unsigned};
-use super::{Language, Text, commented};
+use super::expr::{float_literal, integer_literal, unsigned_literal};
+use super::{Language, Text, header_comment};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::derived::Derived;
 use crate::emit::host_reads;
 use crate::emit::own_words::{UNIFORMS, VARIABLE};
 use crate::emit::resources::Resources;
-use declarations::{fields, structures};
+use declarations::{structure_declarations, uniform_members};
 use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
-pub use declarations::{buffer_declared, declared, sampler_declared, texture_declared, type_name};
+pub use declarations::{buffer_declared, sampler_declared, texture_declared, type_name, variable_declared};
 
 /// HLSL.
 pub struct Hlsl<'a> {
@@ -33,7 +33,7 @@ enum Size {
 }
 
 impl Size {
-    fn of(op: &Op) -> Option<Size> {
+    fn from_op(op: &Op) -> Option<Size> {
         match op {
             Op::Ir(ir::Op::TextureSize(texture)) => Some(Size::Texture(*texture)),
             Op::Ir(ir::Op::TextureLevels(texture)) => Some(Size::Levels(*texture)),
@@ -50,7 +50,7 @@ impl<'a> Hlsl<'a> {
     pub fn new(resources: &'a Resources, module: &Module<'_>) -> Hlsl<'a> {
         let mut sizes = Vec::new();
         let mut see = |expr: &Expr| {
-            if let Some(size) = Size::of(&expr.op)
+            if let Some(size) = Size::from_op(&expr.op)
                 && !sizes.contains(&size)
             {
                 sizes.push(size);
@@ -65,7 +65,7 @@ impl<'a> Hlsl<'a> {
     }
 
     /// The call that queries a size.
-    fn ask(&self, size: Size) -> Text {
+    fn size_call(&self, size: Size) -> Text {
         let name = match size {
             Size::Texture(texture) | Size::Levels(texture) | Size::Layers(texture) => {
                 &self.resources.texture(texture).name
@@ -79,7 +79,7 @@ impl<'a> Hlsl<'a> {
     }
 
     fn size_of(&self, size: Size) -> &str {
-        self.resources.derived(match size {
+        self.resources.derived_name(match size {
             Size::Texture(texture) => Derived::Size(texture),
             Size::Levels(texture) => Derived::Levels(texture),
             Size::Layers(texture) => Derived::Layers(texture),
@@ -89,7 +89,7 @@ impl<'a> Hlsl<'a> {
     }
 
     /// A function that asks for a size: the language gives it by way of variables.
-    fn asks(&self, size: Size) -> String {
+    fn size_function(&self, size: Size) -> String {
         let name = self.size_of(size);
         let taken = match (self.is_function(), size) {
             (false, _) | (_, Size::Output) => None,
@@ -149,7 +149,7 @@ impl<'a> Hlsl<'a> {
     }
 
     /// A place with the layer behind it, in one vector.
-    fn packed(&self, texture: u32, args: &[Text]) -> Text {
+    fn pack_coordinates(&self, texture: u32, args: &[Text]) -> Text {
         match self.resources.texture(texture).kind.has_layers() {
             true => Text::call("float3", &[&args[0], &Text::call("float", &[&args[1]])]),
             false => args[0].clone(),
@@ -157,7 +157,7 @@ impl<'a> Hlsl<'a> {
     }
 
     /// A method of a texture, with a sampler.
-    fn sampled(&self, texture: u32, method: &str, sampler: u32, args: &[&Text]) -> Text {
+    fn sample_call(&self, texture: u32, method: &str, sampler: u32, args: &[&Text]) -> Text {
         let texture = &self.resources.texture(texture).name;
         let sampler = Text::name(self.resources.sampler(sampler).name.as_str());
         let mut all = vec![&sampler];
@@ -167,23 +167,23 @@ impl<'a> Hlsl<'a> {
 }
 
 impl Language for Hlsl<'_> {
-    fn ty(&self, ty: Ty) -> String {
+    fn type_spelling(&self, ty: Ty) -> String {
         type_name(ty)
     }
 
-    fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text {
+    fn scalar_literal(&self, kind: Scalar, half: bool, bits: u32) -> Text {
         match kind {
-            Scalar::F32 if half => crate::emit::half::literal(bits),
-            Scalar::F32 => float(bits),
+            Scalar::F32 if half => crate::emit::half::half_literal(bits),
+            Scalar::F32 => float_literal(bits),
             // The smallest `int`, which no literal is.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
-            Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 | Scalar::Usize => unsigned(bits),
+            Scalar::I32 => integer_literal(i64::from(bits as i32), ""),
+            Scalar::U32 | Scalar::Usize => unsigned_literal(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }
 
-    fn builtin(&self, builtin: Builtin) -> Text {
+    fn builtin_value(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("int2(id.xy)"),
             Builtin::Local => Text::name("int2(local_id.xy)"),
@@ -191,36 +191,36 @@ impl Language for Hlsl<'_> {
             Builtin::Group => Text::name("int2(group_id.xy)"),
             Builtin::Position if self.is_function() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
-            Builtin::OutputSize => self.ask(Size::Output),
+            Builtin::OutputSize => self.size_call(Size::Output),
             Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
             Builtin::RegionSize => Text::name(format!("{REGION}.size")),
             Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
         }
     }
 
-    fn function(&self, op: &ir::Op) -> &'static str {
+    fn function_name(&self, op: &ir::Op) -> &'static str {
         match op {
             ir::Op::Unary(UnaryOp::Fract) => "frac",
             ir::Op::Unary(UnaryOp::InverseSqrt) => "rsqrt",
             ir::Op::Unary(UnaryOp::ReverseBits) => "reversebits",
-            other => super::expr::function(other),
+            other => super::expr::wgsl_function(other),
         }
     }
 
-    fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
-        if let Some(call) = host_reads::call(self.resources, op, args) {
+    fn resource_read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        if let Some(call) = host_reads::host_call(self.resources, op, args) {
             return call;
         }
         let r = self.resources;
         let zero = Text::name("0");
         match op {
-            ir::Op::Uniform(k) if self.is_function() => Text::name(r.uniform(*k)),
-            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform(*k))),
-            ir::Op::Varying(k) => Text::name(r.varying(*k)),
-            ir::Op::TextureSize(texture) => self.ask(Size::Texture(*texture)),
-            ir::Op::TextureLevels(texture) => self.ask(Size::Levels(*texture)),
-            ir::Op::TextureLayers(texture) => self.ask(Size::Layers(*texture)),
-            ir::Op::BufferLen(buffer) => self.ask(Size::Buffer(*buffer)),
+            ir::Op::Uniform(k) if self.is_function() => Text::name(r.uniform_name(*k)),
+            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform_name(*k))),
+            ir::Op::Varying(k) => Text::name(r.varying_name(*k)),
+            ir::Op::TextureSize(texture) => self.size_call(Size::Texture(*texture)),
+            ir::Op::TextureLevels(texture) => self.size_call(Size::Levels(*texture)),
+            ir::Op::TextureLayers(texture) => self.size_call(Size::Layers(*texture)),
+            ir::Op::BufferLen(buffer) => self.size_call(Size::Buffer(*buffer)),
             ir::Op::Load { texture, .. } => {
                 let texture = r.texture(*texture);
                 let load = format!("{}.Load", texture.name);
@@ -236,12 +236,12 @@ impl Language for Hlsl<'_> {
                 Text::call(&load, &[&Text::call(&format!("int{lanes}"), &parts)])
             }
             ir::Op::Sample { texture, sampler, .. } => {
-                let place = self.packed(*texture, args);
+                let place = self.pack_coordinates(*texture, args);
                 let layers = usize::from(r.texture(*texture).kind.has_layers());
                 match &args[1 + layers..] {
-                    [] => self.sampled(*texture, "SampleLevel", *sampler, &[&place, &Text::name("0.0")]),
-                    [level] => self.sampled(*texture, "SampleLevel", *sampler, &[&place, level]),
-                    [across, down, ..] => self.sampled(*texture, "SampleGrad", *sampler, &[&place, across, down]),
+                    [] => self.sample_call(*texture, "SampleLevel", *sampler, &[&place, &Text::name("0.0")]),
+                    [level] => self.sample_call(*texture, "SampleLevel", *sampler, &[&place, level]),
+                    [across, down, ..] => self.sample_call(*texture, "SampleGrad", *sampler, &[&place, across, down]),
                 }
             }
             ir::Op::Gather {
@@ -251,21 +251,21 @@ impl Language for Hlsl<'_> {
                 ..
             } => {
                 let method = ["GatherRed", "GatherGreen", "GatherBlue", "GatherAlpha"][*component as usize & 3];
-                self.sampled(*texture, method, *sampler, &[&self.packed(*texture, args)])
+                self.sample_call(*texture, method, *sampler, &[&self.pack_coordinates(*texture, args)])
             }
             ir::Op::Compare { texture, sampler, .. } => {
-                let place = self.packed(*texture, args);
+                let place = self.pack_coordinates(*texture, args);
                 let reference = args.last().unwrap_or(&zero);
-                self.sampled(*texture, "SampleCmpLevelZero", *sampler, &[&place, reference])
+                self.sample_call(*texture, "SampleCmpLevelZero", *sampler, &[&place, reference])
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
-                self.sampled(*texture, "GatherCmp", *sampler, &[&args[0], &args[1]])
+                self.sample_call(*texture, "GatherCmp", *sampler, &[&args[0], &args[1]])
             }
             ir::Op::SharedLoad(shared) => Text::index(&Text::name(r.shared[*shared as usize].name.as_str()), &args[0]),
             ir::Op::BufferLoad { buffer, field, .. } => {
                 let buffer = r.buffer(*buffer);
                 let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
-                let part = super::part(&element, &buffer.element, *field, args.get(1));
+                let part = super::element_part(&element, &buffer.element, *field, args.get(1));
                 match (buffer.element.field(*field), args.len()) {
                     // An array element of three components occupies the space of four.
                     (Some(ty), 2) if ty.components() == 3 => Text::member(&part, "xyz"),
@@ -288,12 +288,12 @@ impl Language for Hlsl<'_> {
         }
     }
 
-    fn select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn scalar_select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
         Text::choice(condition, yes, no)
     }
 
     // Only of scalars: functions of vectors call those of scalars.
-    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn component_select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
         Text::choice(condition, yes, no)
     }
 
@@ -309,11 +309,11 @@ impl Language for Hlsl<'_> {
         Text::call(&type_name(ty), &vec![component; ty.components() as usize])
     }
 
-    fn elements(&self, _: Ty, parts: &[&Text]) -> Text {
+    fn table_value(&self, _: Ty, parts: &[&Text]) -> Text {
         Text::list("{ ".to_owned(), parts, " }")
     }
 
-    fn logical(&self, op: BinaryOp, kind: Scalar) -> &'static str {
+    fn logical_operator(&self, op: BinaryOp, kind: Scalar) -> &'static str {
         match (op, kind) {
             (BinaryOp::And, Scalar::Bool) => "&&",
             (_, Scalar::Bool) => "||",
@@ -322,16 +322,16 @@ impl Language for Hlsl<'_> {
         }
     }
 
-    fn immutable(&self, name: &str, ty: Ty) -> String {
-        declared(name, ty)
+    fn let_head(&self, name: &str, ty: Ty) -> String {
+        variable_declared(name, ty)
     }
 
-    fn mutable(&self, name: &str, ty: Ty, _: bool) -> String {
-        declared(name, ty)
+    fn var_head(&self, name: &str, ty: Ty, _: bool) -> String {
+        variable_declared(name, ty)
     }
 
-    fn table(&self, name: &str, ty: Ty) -> String {
-        format!("static const {}", declared(name, ty))
+    fn table_head(&self, name: &str, ty: Ty) -> String {
+        format!("static const {}", variable_declared(name, ty))
     }
 
     fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String {
@@ -343,17 +343,17 @@ impl Language for Hlsl<'_> {
     }
 
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
-        let params: Vec<String> = params.iter().map(|(name, ty)| declared(name, *ty)).collect();
+        let params: Vec<String> = params.iter().map(|(name, ty)| variable_declared(name, *ty)).collect();
         format!("{} {name}({}) {{", type_name(result), params.join(", "))
     }
 
-    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+    fn texel_store(&self, output: usize, place: &Text, value: &Text) -> Text {
         let name = &self.resources.outputs[output].name;
         Text::list(format!("{name}[{}] = ", place.code), &[value], "")
     }
 
-    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
-        let name = self.resources.memory(effect.memory).1;
+    fn effect_statement(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let name = self.resources.element_and_name(effect.memory).1;
         let place = Text::index(&Text::name(name), &args[0]);
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
@@ -369,21 +369,21 @@ impl Language for Hlsl<'_> {
     }
 
     fn unsigned_length(&self, buffer: u32) -> Text {
-        Text::call("uint", &[&self.ask(Size::Buffer(buffer))])
+        Text::call("uint", &[&self.size_call(Size::Buffer(buffer))])
     }
 
     fn gives_before(&self) -> bool {
         false
     }
 
-    fn barrier(&self, buffers: bool) -> &'static [&'static str] {
+    fn barrier_statements(&self, buffers: bool) -> &'static [&'static str] {
         match buffers {
             true => &["AllMemoryBarrierWithGroupSync();"],
             false => &["GroupMemoryBarrierWithGroupSync();"],
         }
     }
 
-    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+    fn output_statements(&self, values: &[Text]) -> Vec<(String, Text)> {
         let returned = |value: Text| ("return ".to_owned(), value);
         match values {
             [one] => vec![returned(one.clone())],
@@ -401,28 +401,28 @@ impl Language for Hlsl<'_> {
     fn preamble(&self, header: &[String]) -> String {
         let r = self.resources;
         let mut out = String::new();
-        out += &commented(header);
+        out += &header_comment(header);
         out.push('\n');
-        out += &structures(r);
+        out += &structure_declarations(r);
         if self.is_function() {
             if r.outputs.len() > 1 {
                 out += &format!("{}\n", self.outputs_structure());
             }
             for size in self.sizes.iter().filter(|_| !r.options.calls_host()) {
-                out += &format!("{}\n", self.asks(*size));
+                out += &format!("{}\n", self.size_function(*size));
             }
             return out.trim_end().to_owned() + "\n";
         }
         for bound in &r.read {
-            let register = r.places.register('t', bound.binding);
+            let register = r.places.register_at('t', bound.binding);
             out += &format!("{} : register({register});\n", texture_declared(r, bound.index));
         }
         for (k, binding) in &r.read_buffers {
-            let register = r.places.register(r.buffer_class(*k), *binding);
+            let register = r.places.register_at(r.buffer_class(*k), *binding);
             out += &format!("{} : register({register});\n", buffer_declared(r, *k));
         }
         for (k, binding) in &r.used_samplers {
-            let register = r.places.register('s', *binding);
+            let register = r.places.register_at('s', *binding);
             out += &format!("{} : register({register});\n", sampler_declared(r, *k));
         }
         for output in &r.outputs {
@@ -432,16 +432,16 @@ impl Language for Hlsl<'_> {
             } else {
                 ""
             };
-            let texel = type_name(output.texel().into());
-            let register = r.places.register('u', binding);
+            let texel = type_name(output.texel_type().into());
+            let register = r.places.register_at('u', binding);
             out += &format!("RWTexture2D<{unorm}{texel}> {} : register({register});\n", output.name);
         }
         if let Some(binding) = r.uniform_binding() {
             out += "\nstruct Parameters {\n";
-            for line in fields(r) {
+            for line in uniform_members(r) {
                 out += &format!("    {line};\n");
             }
-            let register = r.places.register('b', binding);
+            let register = r.places.register_at('b', binding);
             out += &format!(
                 "}};\n\ncbuffer Parameters_buffer : register({register}) {{\n    Parameters {UNIFORMS};\n}}\n"
             );
@@ -449,15 +449,15 @@ impl Language for Hlsl<'_> {
         if let Some(binding) = r.region_binding() {
             out += &format!("\nstruct Region {{\n    {}\n", r.region_comment());
             out += "    int2 first;\n    int2 size;\n    int2 place;\n};\n\n";
-            let register = r.places.register('b', binding);
+            let register = r.places.register_at('b', binding);
             out += &format!("cbuffer Region_buffer : register({register}) {{\n    Region {REGION};\n}}\n");
         }
-        for shared in r.shared() {
+        for shared in r.shared_memory() {
             let element = type_name(shared.element.into());
             out += &format!("groupshared {element} {}[{}];\n", shared.name, shared.len);
         }
         for size in &self.sizes {
-            out += &format!("\n{}", self.asks(*size));
+            out += &format!("\n{}", self.size_function(*size));
         }
         if r.options.stage == Stage::Fragment && r.outputs.len() > 1 {
             out += &format!("\n{}", self.outputs_structure());
@@ -467,13 +467,13 @@ impl Language for Hlsl<'_> {
 
     fn entry_head(&self) -> String {
         if self.is_function() {
-            return self.taking();
+            return self.kernel_function_head();
         }
         let r = self.resources;
         let entry = &r.entry;
         match r.options.stage {
             Stage::Compute => {
-                let [x, y, z] = r.workgroup();
+                let [x, y, z] = r.workgroup_size();
                 let mut told = vec!["uint3 id : SV_DispatchThreadID"];
                 let zeroes = r.is_zeroed();
                 told.extend(r.asks_local.then_some("uint3 local_id : SV_GroupThreadID"));
@@ -483,12 +483,12 @@ impl Language for Hlsl<'_> {
             }
             Stage::Fragment => {
                 let varyings = r.varyings.iter().enumerate().map(|(k, varying)| {
-                    let declared = declared(&varying.name, varying.ty.into());
+                    let declared = variable_declared(&varying.name, varying.ty.into());
                     format!(", {declared} : TEXCOORD{k}")
                 });
                 let varyings: String = varyings.collect();
                 let (result, semantic) = match &r.outputs[..] {
-                    [one] => (type_name(one.texel().into()), " : SV_Target0"),
+                    [one] => (type_name(one.texel_type().into()), " : SV_Target0"),
                     _ => (r.outputs_type(), ""),
                 };
                 format!("{result} {entry}(float4 position : SV_Position{varyings}){semantic} {{")
@@ -506,10 +506,10 @@ impl Hlsl<'_> {
             .iter()
             .enumerate()
             .map(|(k, output)| match self.is_function() {
-                true => format!("    {};\n", declared(&output.name, output.ty.into())),
+                true => format!("    {};\n", variable_declared(&output.name, output.ty.into())),
                 false => format!(
                     "    {} : SV_Target{k};\n",
-                    declared(&output.name, output.texel().into())
+                    variable_declared(&output.name, output.texel_type().into())
                 ),
             });
         format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())

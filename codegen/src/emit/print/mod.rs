@@ -14,7 +14,7 @@ use super::text::{Binds, Text, wrapped_comment};
 use straightline_evaluator::ir::{self, Scalar, UnaryOp};
 
 pub use glsl::{Glsl, LOOSE_REGION};
-pub use header::{GENERATOR, header};
+pub use header::{GENERATOR, header_lines};
 pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;
 
@@ -29,7 +29,7 @@ pub fn hlsl_type(ty: Ty) -> String {
 }
 
 /// A part of an element of a buffer.
-fn part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> Text {
+fn element_part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> Text {
     let ir::Element::Struct(of) = of else {
         return element.clone();
     };
@@ -44,48 +44,48 @@ pub const PRECISE: &str = "precise ";
 /// A shading language.
 pub trait Language {
     /// A type.
-    fn ty(&self, ty: Ty) -> String;
+    fn type_spelling(&self, ty: Ty) -> String;
     /// A scalar constant.
-    fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text;
+    fn scalar_literal(&self, kind: Scalar, half: bool, bits: u32) -> Text;
     /// An unsigned constant by its bits.
-    fn hex(&self, bits: u32) -> String {
+    fn hex_literal(&self, bits: u32) -> String {
         format!("{bits:#x}u")
     }
     /// A built-in value of the entry point.
-    fn builtin(&self, builtin: Builtin) -> Text;
+    fn builtin_value(&self, builtin: Builtin) -> Text;
     /// The function that stands for an operation of the graph on numbers; WGSL's name unless the language has another.
-    fn function(&self, op: &ir::Op) -> &'static str {
-        expr::function(op)
+    fn function_name(&self, op: &ir::Op) -> &'static str {
+        expr::wgsl_function(op)
     }
     /// A read of what the host binds, a size of it, or what another lane has.
-    fn read(&self, op: &ir::Op, args: &[Text]) -> Text;
+    fn resource_read(&self, op: &ir::Op, args: &[Text]) -> Text;
     /// Selection by a scalar boolean.
-    fn select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text;
+    fn scalar_select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text;
     /// Selection by component.
-    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text;
+    fn component_select(&self, condition: &Text, yes: &Text, no: &Text) -> Text;
     /// Reinterprets the bits as another type.
     fn bitcast(&self, to: Ty, x: &Text) -> Text {
-        Text::call(&self.ty(to), &[x])
+        Text::call(&self.type_spelling(to), &[x])
     }
     /// A vector or array from its parts.
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
-        Text::call(&self.ty(ty), parts)
+        Text::call(&self.type_spelling(ty), parts)
     }
     /// A vector of one constant in all components.
     fn splat(&self, ty: Ty, component: &Text) -> Text {
         self.construct(ty, &[component])
     }
     /// The spelling of `&` and `|` of booleans, or of numbers.
-    fn logical(&self, op: ir::BinaryOp, kind: Scalar) -> &'static str;
+    fn logical_operator(&self, op: ir::BinaryOp, kind: Scalar) -> &'static str;
 
     /// Declaration of an immutable local, up to ` = value;`.
-    fn immutable(&self, name: &str, ty: Ty) -> String;
+    fn let_head(&self, name: &str, ty: Ty) -> String;
     /// Declaration of a mutable local, up to its value if it `has_value`, or else up to `;`.
-    fn mutable(&self, name: &str, ty: Ty, has_value: bool) -> String;
+    fn var_head(&self, name: &str, ty: Ty, has_value: bool) -> String;
     /// Declaration of a constant array at module scope, up to its value.
-    fn table(&self, name: &str, ty: Ty) -> String;
+    fn table_head(&self, name: &str, ty: Ty) -> String;
     /// The value of a constant array.
-    fn elements(&self, ty: Ty, parts: &[&Text]) -> Text {
+    fn table_value(&self, ty: Ty, parts: &[&Text]) -> Text {
         self.construct(ty, parts)
     }
     /// The head of a loop, up to the opening brace.
@@ -99,9 +99,9 @@ pub trait Language {
     /// The head of a function, up to the opening brace.
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
     /// Writes a texel of an output.
-    fn store(&self, output: usize, place: &Text, value: &Text) -> Text;
+    fn texel_store(&self, output: usize, place: &Text, value: &Text) -> Text;
     /// Writes to memory: statements without their semicolons. `before` is the variable that takes what was there before.
-    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
+    fn effect_statement(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
     /// Number of elements of a buffer, unsigned.
     fn unsigned_length(&self, buffer: u32) -> Text;
     /// Returns whether the call of an atomic operation evaluates to the old value.
@@ -109,26 +109,26 @@ pub trait Language {
         true
     }
     /// Waits for the other invocations of the workgroup: statements, each a line.
-    fn barrier(&self, buffers: bool) -> &'static [&'static str];
+    fn barrier_statements(&self, buffers: bool) -> &'static [&'static str];
     /// Assigns the fragment's outputs, one value each: statements without their semicolons.
-    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)>;
+    fn output_statements(&self, values: &[Text]) -> Vec<(String, Text)>;
     /// Everything before the first function: header, directives, bindings.
     fn preamble(&self, header: &[String]) -> String;
     /// The head of the entry point or function, up to the opening brace.
     fn entry_head(&self) -> String;
     /// Text after a function that leads.
-    fn behind(&self) -> Option<String> {
+    fn trailing_text(&self) -> Option<String> {
         None
     }
     /// Returns whether the entry point is a function before which nothing may stand: the header stands in it, and everything else after it.
-    fn leads(&self) -> bool {
+    fn function_leads(&self) -> bool {
         false
     }
 }
 
 /// A module in a language, under a header.
-pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
-    Printed::new(language, module).under(language, header)
+pub fn print_module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
+    Printed::new(language, module).with_header(language, header)
 }
 
 /// A module as text, which its header is yet to stand over.
@@ -145,18 +145,18 @@ impl Printed {
         let printer = Printer { language, module };
         Printed {
             beside: printer.tables_and_functions(),
-            body: printer.block(&module.body, 1),
+            body: printer.print_block(&module.body, 1),
         }
     }
 
     /// All of it, under a header, in the same language.
-    pub fn under(&self, language: &dyn Language, header: &[String]) -> String {
+    pub fn with_header(&self, language: &dyn Language, header: &[String]) -> String {
         let entry = |header: &str| format!("{}\n{header}{}}}\n", language.entry_head(), self.body);
         let mut parts = self.beside.clone();
-        if language.leads() {
+        if language.function_leads() {
             let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
             parts.insert(0, entry(&(header + "\n")));
-            parts.extend(language.behind());
+            parts.extend(language.trailing_text());
         } else {
             parts.insert(0, language.preamble(header));
             parts.push(entry(""));
@@ -166,7 +166,7 @@ impl Printed {
 }
 
 /// A header as comments, a line each.
-pub fn commented(header: &[String]) -> String {
+pub fn header_comment(header: &[String]) -> String {
     header.iter().map(|line| wrapped_comment(line, 0) + "\n").collect()
 }
 
@@ -177,12 +177,12 @@ struct Printer<'m> {
 }
 
 impl Printer<'_> {
-    fn name(&self, var: VarId) -> &str {
+    fn variable_name(&self, var: VarId) -> &str {
         &self.module.variables[var.0 as usize].name
     }
 
     /// A declaration, with the word that keeps compilers from changing roundings.
-    fn qualified(&self, var: VarId, declared: String) -> String {
+    fn qualify_precise(&self, var: VarId, declared: String) -> String {
         match self.module.variables[var.0 as usize].precise {
             true => format!("{PRECISE}{declared}"),
             false => declared,
@@ -192,15 +192,22 @@ impl Printer<'_> {
     /// The constants, and each of the functions beside the entry point.
     fn tables_and_functions(&self) -> Vec<String> {
         let table = |(var, value): &(VarId, Expr)| {
-            let declared = self.language.table(self.name(*var), self.module.ty(*var));
+            let declared = self
+                .language
+                .table_head(self.variable_name(*var), self.module.variable_type(*var));
             let value = match value.ty.shape {
-                straightline_evaluator::ir::Type::Array { .. } => self.elements(value),
-                _ => self.expr(value),
+                straightline_evaluator::ir::Type::Array { .. } => self.print_elements(value),
+                _ => self.print_expr(value),
             };
             Self::line(0, &format!("{declared} = "), &value, ";") + "\n"
         };
         let tables: String = self.module.tables.iter().map(table).collect();
-        let mut functions: Vec<String> = self.module.functions.iter().map(|f| self.function(f) + "\n").collect();
+        let mut functions: Vec<String> = self
+            .module
+            .functions
+            .iter()
+            .map(|f| self.print_function(f) + "\n")
+            .collect();
         functions.sort();
         if !tables.is_empty() {
             functions.insert(0, tables);
@@ -208,21 +215,21 @@ impl Printer<'_> {
         functions
     }
 
-    fn function(&self, function: &Function<'_>) -> String {
+    fn print_function(&self, function: &Function<'_>) -> String {
         let params: Vec<(&str, Ty)> = function
             .params
             .iter()
-            .map(|var| (self.name(*var), self.module.ty(*var)))
+            .map(|var| (self.variable_name(*var), self.module.variable_type(*var)))
             .collect();
         let head = self.language.function_head(&function.name, &params, function.result);
         let comment = match function.comment.as_str() {
             "" => String::new(),
             text => format!("// {text}\n"),
         };
-        format!("{comment}{head}\n{}}}", self.block(&function.body, 1))
+        format!("{comment}{head}\n{}}}", self.print_block(&function.body, 1))
     }
 
-    fn block(&self, block: &[Stmt<'_>], depth: usize) -> String {
+    fn print_block(&self, block: &[Stmt<'_>], depth: usize) -> String {
         let mut out = String::new();
         let mut rest = block;
         while let [stmt, behind @ ..] = rest {
@@ -234,75 +241,91 @@ impl Printer<'_> {
                 && self.language.gives_before()
             {
                 let declared = match after.iter().any(|stmt| stmt.assigns(*var)) {
-                    true => self.language.mutable(self.name(*var), self.module.ty(*var), true),
-                    false => self.language.immutable(self.name(*var), self.module.ty(*var)),
+                    true => self
+                        .language
+                        .var_head(self.variable_name(*var), self.module.variable_type(*var), true),
+                    false => self
+                        .language
+                        .let_head(self.variable_name(*var), self.module.variable_type(*var)),
                 };
-                out += &(self.effect(effect, Some(&declared), depth) + "\n");
+                out += &(self.print_effect(effect, Some(&declared), depth) + "\n");
                 rest = after;
                 continue;
             }
-            out += &self.stmt(stmt, depth);
+            out += &self.print_statement(stmt, depth);
         }
         out
     }
 
     /// A write to memory; `before` is what takes what was there.
-    fn effect(&self, effect: &Effect, before: Option<&str>, depth: usize) -> String {
-        let args: Vec<Text> = effect.args.iter().map(|arg| self.expr(arg)).collect();
-        let (before, text) = self.language.effect(effect, &args, before);
+    fn print_effect(&self, effect: &Effect, before: Option<&str>, depth: usize) -> String {
+        let args: Vec<Text> = effect.args.iter().map(|arg| self.print_expr(arg)).collect();
+        let (before, text) = self.language.effect_statement(effect, &args, before);
         Self::line(depth, &before, &text, ";")
     }
 
     /// A line, or several where it would be too wide.
     fn line(depth: usize, before: &str, value: &Text, behind: &str) -> String {
         let indent = 4 * depth;
-        let value = value.wrapped(indent + before.len(), behind.len(), indent);
+        let value = value.wrap_lines(indent + before.len(), behind.len(), indent);
         format!("{}{before}{value}{behind}", " ".repeat(indent))
     }
 
-    fn stmt(&self, stmt: &Stmt<'_>, depth: usize) -> String {
+    fn print_statement(&self, stmt: &Stmt<'_>, depth: usize) -> String {
         let indent = "    ".repeat(depth);
         let l = self.language;
-        let set = |before: &str, value: &Expr| Self::line(depth, &format!("{before} = "), &self.expr(value), ";");
+        let set = |before: &str, value: &Expr| Self::line(depth, &format!("{before} = "), &self.print_expr(value), ";");
         let text = match &stmt.kind {
             StmtKind::Let(var, value) => {
-                let declared = l.immutable(self.name(*var), self.module.ty(*var));
-                set(&self.qualified(*var, declared), value)
+                let declared = l.let_head(self.variable_name(*var), self.module.variable_type(*var));
+                set(&self.qualify_precise(*var, declared), value)
             }
             StmtKind::Var(var, value) => {
-                let declared = l.mutable(self.name(*var), self.module.ty(*var), value.is_some());
-                let declared = self.qualified(*var, declared);
+                let declared = l.var_head(
+                    self.variable_name(*var),
+                    self.module.variable_type(*var),
+                    value.is_some(),
+                );
+                let declared = self.qualify_precise(*var, declared);
                 match value {
                     Some(value) if value.op == Op::Construct && value.ty.is_array() => {
-                        Self::line(depth, &format!("{declared} = "), &self.elements(value), ";")
+                        Self::line(depth, &format!("{declared} = "), &self.print_elements(value), ";")
                     }
                     Some(value) => set(&declared, value),
                     None => format!("{indent}{declared};"),
                 }
             }
             StmtKind::Assign(place, op, value) => {
-                let op = op.map_or("", |op| expr::operator(l, op, Scalar::F32).0);
-                let before = format!("{} {op}= ", self.expr(place).code);
-                Self::line(depth, &before, &self.expr(value), ";")
+                let op = op.map_or("", |op| expr::spell_operator(l, op, Scalar::F32).0);
+                let before = format!("{} {op}= ", self.print_expr(place).code);
+                Self::line(depth, &before, &self.print_expr(value), ";")
             }
-            StmtKind::Store(output, place, value) => {
-                Self::line(depth, "", &l.store(*output, &self.expr(place), &self.expr(value)), ";")
+            StmtKind::Store(output, place, value) => Self::line(
+                depth,
+                "",
+                &l.texel_store(*output, &self.print_expr(place), &self.print_expr(value)),
+                ";",
+            ),
+            StmtKind::Effect(effect) => {
+                self.print_effect(effect, effect.before.map(|var| self.variable_name(var)), depth)
             }
-            StmtKind::Effect(effect) => self.effect(effect, effect.before.map(|var| self.name(var)), depth),
             StmtKind::Barrier { buffers } => {
-                let lines = l.barrier(*buffers).iter().map(|line| format!("{indent}{line}"));
+                let lines = l
+                    .barrier_statements(*buffers)
+                    .iter()
+                    .map(|line| format!("{indent}{line}"));
                 lines.collect::<Vec<_>>().join("\n")
             }
             StmtKind::Output(values) => {
-                let values: Vec<Text> = values.iter().map(|value| self.expr(value)).collect();
-                let lines = l.outputs(&values);
+                let values: Vec<Text> = values.iter().map(|value| self.print_expr(value)).collect();
+                let lines = l.output_statements(&values);
                 let lines = lines
                     .iter()
                     .map(|(before, value)| Self::line(depth, before, value, ";"));
                 lines.collect::<Vec<_>>().join("\n")
             }
             StmtKind::Return(None) => format!("{indent}return;"),
-            StmtKind::Return(Some(value)) => Self::line(depth, "return ", &self.expr(value), ";"),
+            StmtKind::Return(Some(value)) => Self::line(depth, "return ", &self.print_expr(value), ";"),
             StmtKind::Comment(text) => wrapped_comment(text, 4 * depth),
             StmtKind::For {
                 counter,
@@ -310,21 +333,21 @@ impl Printer<'_> {
                 end,
                 body,
             } => {
-                let name = self.name(*counter);
-                let bound = Text::infix(&Text::name(name), "<", &self.expr(end), Binds::Comparison);
-                let head = l.loop_head(name, start.ty, &self.expr(start).code, &bound.code);
-                format!("{indent}{head}\n{}{indent}}}", self.block(body, depth + 1))
+                let name = self.variable_name(*counter);
+                let bound = Text::infix(&Text::name(name), "<", &self.print_expr(end), Binds::Comparison);
+                let head = l.loop_head(name, start.ty, &self.print_expr(start).code, &bound.code);
+                format!("{indent}{head}\n{}{indent}}}", self.print_block(body, depth + 1))
             }
             StmtKind::Loop(body) => {
                 let [before, behind] = l.if_head();
                 let (head, body) = match body.split_first().map(|(first, rest)| (goes_on(first), rest)) {
                     Some((Some(condition), rest)) => {
                         let before = before.replacen("if", "while", 1);
-                        (Self::line(depth, &before, &self.expr(condition), behind), rest)
+                        (Self::line(depth, &before, &self.print_expr(condition), behind), rest)
                     }
                     _ => (format!("{indent}{}", l.endless_head()), &body[..]),
                 };
-                format!("{head}\n{}{indent}}}", self.block(body, depth + 1))
+                format!("{head}\n{}{indent}}}", self.print_block(body, depth + 1))
             }
             StmtKind::Break => format!("{indent}break;"),
             StmtKind::If {
@@ -333,8 +356,8 @@ impl Printer<'_> {
                 otherwise,
             } => {
                 let [before, behind] = l.if_head();
-                let head = Self::line(depth, before, &self.expr(condition), behind);
-                let mut text = format!("{head}\n{}", self.block(then, depth + 1));
+                let head = Self::line(depth, before, &self.print_expr(condition), behind);
+                let mut text = format!("{head}\n{}", self.print_block(then, depth + 1));
                 let mut last = otherwise;
                 while let [
                     Stmt {
@@ -349,12 +372,12 @@ impl Printer<'_> {
                 ] = last.as_slice()
                 {
                     let before = format!("}} else {before}");
-                    let head = Self::line(depth, &before, &self.expr(condition), behind);
-                    text += &format!("{head}\n{}", self.block(then, depth + 1));
+                    let head = Self::line(depth, &before, &self.print_expr(condition), behind);
+                    text += &format!("{head}\n{}", self.print_block(then, depth + 1));
                     last = otherwise;
                 }
                 if !last.is_empty() {
-                    text += &format!("{indent}}} else {{\n{}", self.block(last, depth + 1));
+                    text += &format!("{indent}}} else {{\n{}", self.print_block(last, depth + 1));
                 }
                 format!("{text}{indent}}}")
             }
@@ -363,16 +386,16 @@ impl Printer<'_> {
     }
 
     /// The elements of an array where it is declared.
-    fn elements(&self, array: &Expr) -> Text {
-        let parts: Vec<Text> = array.args.iter().map(|part| self.expr(part)).collect();
-        self.language.elements(array.ty, &parts.iter().collect::<Vec<_>>())
+    fn print_elements(&self, array: &Expr) -> Text {
+        let parts: Vec<Text> = array.args.iter().map(|part| self.print_expr(part)).collect();
+        self.language.table_value(array.ty, &parts.iter().collect::<Vec<_>>())
     }
 
-    fn expr(&self, expr: &Expr) -> Text {
+    fn print_expr(&self, expr: &Expr) -> Text {
         if let Op::Var(var) = expr.op {
-            return Text::name(self.name(var));
+            return Text::name(self.variable_name(var));
         }
-        let args: Vec<Text> = expr.args.iter().map(|arg| self.expr(arg)).collect();
+        let args: Vec<Text> = expr.args.iter().map(|arg| self.print_expr(arg)).collect();
         expr::print(self.language, expr, &args)
     }
 }

@@ -1,12 +1,12 @@
 //! Declarations in the GLSL of OpenGL and OpenGL ES: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, sampler_of};
+use super::glsl::{Glsl, LOOSE_REGION, image_type, sampler_of, variable_declared};
 use crate::emit::Target;
 use crate::emit::derived::Combined;
 
 impl Glsl<'_> {
     /// Types that have no precision of their own in OpenGL ES.
-    pub(super) fn opaque(&self) -> Vec<String> {
+    pub(super) fn opaque_types(&self) -> Vec<String> {
         let r = self.resources;
         let mut all: Vec<String> = Vec::new();
         for ty in r.combined.iter().map(|one| self.combined_type(*one)) {
@@ -30,26 +30,26 @@ impl Glsl<'_> {
     }
 
     /// Declares the bindings of OpenGL.
-    pub(super) fn opengl(&self) -> String {
+    pub(super) fn opengl_declarations(&self) -> String {
         let r = self.resources;
         let mut out = String::new();
         for one in &r.combined {
             let binding = r.texture_binding(one.texture).unwrap_or_default();
             let ty = self.combined_type(*one);
             let layout = match r.combined.iter().filter(|c| c.texture == one.texture).count() {
-                1 => self.layout(binding, "", ""),
+                1 => self.layout_qualifier(binding, "", ""),
                 // Two samplers of one texture have two units, which the host numbers.
                 _ => String::new(),
             };
             out += &format!("{layout}uniform {ty} {};\n", r.combined_name(*one));
         }
-        out += &self.buffers();
+        out += &self.buffer_declarations();
         out += &self.output_and_inputs(matches!(self.target, Target::Glsl430 | Target::Essl310));
         if !r.uniforms.is_empty() {
             out.push('\n');
         }
         for uniform in &r.uniforms {
-            out += &format!("uniform {};\n", declared(&uniform.name, uniform.ty.into()));
+            out += &format!("uniform {};\n", variable_declared(&uniform.name, uniform.ty.into()));
         }
         if r.options.region {
             out += &format!("\n{}\n", r.region_comment());

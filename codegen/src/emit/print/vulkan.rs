@@ -1,6 +1,6 @@
 //! Declarations in Vulkan's GLSL: separate textures and samplers in descriptor sets.
 
-use super::glsl::{Glsl, declared, sampler_type, texture_type};
+use super::glsl::{Glsl, sampler_type, texture_type, variable_declared};
 use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use straightline_manifest::REGION;
 
@@ -11,25 +11,34 @@ impl Glsl<'_> {
         let mut out = String::new();
         for bound in &r.read {
             let texture = r.texture(bound.index);
-            let (layout, ty) = (self.layout(bound.binding, "", ""), texture_type(texture));
+            let (layout, ty) = (self.layout_qualifier(bound.binding, "", ""), texture_type(texture));
             out += &format!("{layout}uniform {ty} {};\n", texture.name);
         }
-        out += &self.buffers();
+        out += &self.buffer_declarations();
         for (k, binding) in &r.used_samplers {
             let sampler = r.sampler(*k);
-            let (layout, ty) = (self.layout(*binding, "", ""), sampler_type(sampler.comparison));
+            let (layout, ty) = (
+                self.layout_qualifier(*binding, "", ""),
+                sampler_type(sampler.comparison),
+            );
             out += &format!("{layout}uniform {ty} {};\n", sampler.name);
         }
         out += &self.output_and_inputs(true);
         if let Some(binding) = r.uniform_binding() {
-            out += &format!("\n{}uniform Parameters {{\n", self.layout(binding, "std140, ", ""));
+            out += &format!(
+                "\n{}uniform Parameters {{\n",
+                self.layout_qualifier(binding, "std140, ", "")
+            );
             for uniform in &r.uniforms {
-                out += &format!("    {};\n", declared(&uniform.name, uniform.ty.into()));
+                out += &format!("    {};\n", variable_declared(&uniform.name, uniform.ty.into()));
             }
             out += &format!("}} {UNIFORMS};\n");
         }
         if let Some(binding) = r.region_binding() {
-            out += &format!("\n{}uniform Region {{\n", self.layout(binding, "std140, ", ""));
+            out += &format!(
+                "\n{}uniform Region {{\n",
+                self.layout_qualifier(binding, "std140, ", "")
+            );
             out += &format!("    {}\n", r.region_comment());
             out += "    ivec2 first;\n    ivec2 size;\n    ivec2 place;\n";
             out += &format!("}} {REGION};\n");
@@ -37,7 +46,7 @@ impl Glsl<'_> {
         if !r.read.is_empty() {
             out += &format!(
                 "{}uniform sampler {SAMPLER};\n",
-                self.layout(r.sampler_binding(), "", "")
+                self.layout_qualifier(r.sampler_binding(), "", "")
             );
         }
         out

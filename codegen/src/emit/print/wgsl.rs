@@ -1,10 +1,10 @@
 //! WGSL as WebGPU and wgpu read it.
 
-use super::expr::{float, integer, unsigned};
-use super::{Language, Text, commented};
+use super::expr::{float_literal, integer_literal, unsigned_literal};
+use super::{Language, Text, header_comment};
 use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::host_reads;
-use crate::emit::outputs::{BoundOutput, one};
+use crate::emit::outputs::{BoundOutput, one_bits};
 use crate::emit::own_words::UNIFORMS;
 use crate::emit::resources::Resources;
 use std::fmt::Write;
@@ -20,42 +20,42 @@ pub struct Wgsl<'a> {
 }
 
 impl Wgsl<'_> {
-    fn pair(&self, texture: u32, sampler: u32) -> [Text; 2] {
+    fn texture_and_sampler(&self, texture: u32, sampler: u32) -> [Text; 2] {
         let texture = self.resources.texture(texture).name.as_str();
         let sampler = self.resources.sampler(sampler).name.as_str();
         [texture, sampler].map(Text::name)
     }
 
     /// Number of levels or layers of a texture, as `i32`.
-    fn count(&self, function: &str, texture: u32) -> Text {
+    fn count_call(&self, function: &str, texture: u32) -> Text {
         let name = Text::name(self.resources.texture(texture).name.as_str());
         Text::call("i32", &[&Text::call(function, &[&name])])
     }
 }
 
 impl Language for Wgsl<'_> {
-    fn ty(&self, ty: Ty) -> String {
+    fn type_spelling(&self, ty: Ty) -> String {
         ty.short_name()
     }
 
-    fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text {
+    fn scalar_literal(&self, kind: Scalar, half: bool, bits: u32) -> Text {
         match kind {
-            Scalar::F32 if half => crate::emit::half::literal(bits),
-            Scalar::F32 => float(bits),
+            Scalar::F32 if half => crate::emit::half::half_literal(bits),
+            Scalar::F32 => float_literal(bits),
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("i32(-2147483648)"),
-            Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 | Scalar::Usize => unsigned(bits),
+            Scalar::I32 => integer_literal(i64::from(bits as i32), ""),
+            Scalar::U32 | Scalar::Usize => unsigned_literal(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }
 
-    fn builtin(&self, builtin: Builtin) -> Text {
+    fn builtin_value(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("vec2i(id.xy)"),
             Builtin::Local => Text::name("vec2i(local_id.xy)"),
             Builtin::LocalIndex => Text::name("i32(local_index)"),
             Builtin::Group => Text::name("vec2i(group_id.xy)"),
-            Builtin::Position if self.leads() => Text::name("position"),
+            Builtin::Position if self.function_leads() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
             Builtin::OutputSize => Text::name(format!("vec2i(textureDimensions({}))", self.resources.sized_output())),
             Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
@@ -64,21 +64,21 @@ impl Language for Wgsl<'_> {
         }
     }
 
-    fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
-        if let Some(call) = host_reads::call(self.resources, op, args) {
+    fn resource_read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        if let Some(call) = host_reads::host_call(self.resources, op, args) {
             return call;
         }
         match op {
-            ir::Op::Uniform(k) if self.leads() => Text::name(self.resources.uniform(*k)),
-            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
-            ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
+            ir::Op::Uniform(k) if self.function_leads() => Text::name(self.resources.uniform_name(*k)),
+            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform_name(*k))),
+            ir::Op::Varying(k) => Text::name(self.resources.varying_name(*k)),
             ir::Op::TextureSize(texture) => {
                 let name = Text::name(self.resources.texture(*texture).name.as_str());
                 let ty = Ty::from(self.resources.texture(*texture).kind.coordinate()).short_name();
                 Text::call(&ty, &[&Text::call("textureDimensions", &[&name])])
             }
-            ir::Op::TextureLevels(texture) => self.count("textureNumLevels", *texture),
-            ir::Op::TextureLayers(texture) => self.count("textureNumLayers", *texture),
+            ir::Op::TextureLevels(texture) => self.count_call("textureNumLevels", *texture),
+            ir::Op::TextureLayers(texture) => self.count_call("textureNumLayers", *texture),
             ir::Op::Load { texture, .. } => {
                 let texture = self.resources.texture(*texture);
                 let (name, level) = (Text::name(texture.name.as_str()), Text::name("0"));
@@ -92,7 +92,7 @@ impl Language for Wgsl<'_> {
             }
             ir::Op::Sample { texture, sampler, .. } => {
                 let behind = args.len() - usize::from(self.resources.texture(*texture).kind.has_layers());
-                let [name, sampler] = self.pair(*texture, *sampler);
+                let [name, sampler] = self.texture_and_sampler(*texture, *sampler);
                 let finest = Text::name("0.0");
                 let mut all = vec![&name, &sampler];
                 all.extend(args);
@@ -109,24 +109,24 @@ impl Language for Wgsl<'_> {
                 component,
                 ..
             } => {
-                let [texture, sampler] = self.pair(*texture, *sampler);
+                let [texture, sampler] = self.texture_and_sampler(*texture, *sampler);
                 let component = Text::name(component.to_string());
                 let all: Vec<&Text> = [&component, &texture, &sampler].into_iter().chain(args).collect();
                 Text::call("textureGather", &all)
             }
             ir::Op::Compare { texture, sampler, .. } => {
-                let [texture, sampler] = self.pair(*texture, *sampler);
+                let [texture, sampler] = self.texture_and_sampler(*texture, *sampler);
                 let all: Vec<&Text> = [&texture, &sampler].into_iter().chain(args).collect();
                 Text::call("textureSampleCompareLevel", &all)
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
-                let [texture, sampler] = self.pair(*texture, *sampler);
+                let [texture, sampler] = self.texture_and_sampler(*texture, *sampler);
                 Text::call("textureGatherCompare", &[&texture, &sampler, &args[0], &args[1]])
             }
             ir::Op::BufferLoad { buffer, field, .. } => {
                 let buffer = self.resources.buffer(*buffer);
                 let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
-                super::part(&element, &buffer.element, *field, args.get(1))
+                super::element_part(&element, &buffer.element, *field, args.get(1))
             }
             ir::Op::SharedLoad(shared) => Text::index(
                 &Text::name(self.resources.shared[*shared as usize].name.as_str()),
@@ -152,7 +152,7 @@ impl Language for Wgsl<'_> {
         }
     }
 
-    fn select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn scalar_select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
         if ty.kind() == Some(Scalar::Bool) {
             // `a < b, c, d > e` would begin a list of template arguments.
             return Text::call("select", &[&no.in_parentheses(), &yes.in_parentheses(), condition]);
@@ -160,7 +160,7 @@ impl Language for Wgsl<'_> {
         Text::call("select", &[no, yes, condition])
     }
 
-    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn component_select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
         Text::call("select", &[no, yes, condition])
     }
 
@@ -178,22 +178,22 @@ impl Language for Wgsl<'_> {
     }
 
     // Operands are pure, and naga makes control flow of `&&` and `||`.
-    fn logical(&self, op: BinaryOp, _: Scalar) -> &'static str {
+    fn logical_operator(&self, op: BinaryOp, _: Scalar) -> &'static str {
         if op == BinaryOp::And { "&" } else { "|" }
     }
 
-    fn immutable(&self, name: &str, _: Ty) -> String {
+    fn let_head(&self, name: &str, _: Ty) -> String {
         format!("let {name}")
     }
 
-    fn mutable(&self, name: &str, ty: Ty, has_value: bool) -> String {
+    fn var_head(&self, name: &str, ty: Ty, has_value: bool) -> String {
         match has_value {
             true => format!("var {name}"),
             false => format!("var {name}: {}", ty.short_name()),
         }
     }
 
-    fn table(&self, name: &str, _: Ty) -> String {
+    fn table_head(&self, name: &str, _: Ty) -> String {
         format!("const {name}")
     }
 
@@ -217,14 +217,14 @@ impl Language for Wgsl<'_> {
         format!("fn {name}({}) -> {} {{", params.join(", "), result.short_name())
     }
 
-    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+    fn texel_store(&self, output: usize, place: &Text, value: &Text) -> Text {
         let output = &self.resources.outputs[output];
         let name = Text::name(output.name.as_str());
-        Text::call("textureStore", &[&name, place, &four(self, output, value)])
+        Text::call("textureStore", &[&name, place, &pad_texel(self, output, value)])
     }
 
-    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
-        let name = self.resources.memory(effect.memory).1;
+    fn effect_statement(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let name = self.resources.element_and_name(effect.memory).1;
         let place = Text::index(&Text::name(name), &args[0]);
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
@@ -240,14 +240,14 @@ impl Language for Wgsl<'_> {
         Text::call("arrayLength", &[&name])
     }
 
-    fn barrier(&self, buffers: bool) -> &'static [&'static str] {
+    fn barrier_statements(&self, buffers: bool) -> &'static [&'static str] {
         match buffers {
             true => &["storageBarrier();", "workgroupBarrier();"],
             false => &["workgroupBarrier();"],
         }
     }
 
-    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+    fn output_statements(&self, values: &[Text]) -> Vec<(String, Text)> {
         let value = match values {
             [one] => one.clone(),
             several => Text::call(&self.resources.outputs_type(), &several.iter().collect::<Vec<_>>()),
@@ -261,16 +261,16 @@ impl Language for Wgsl<'_> {
         if r.options.precision == Precision::F16 {
             out += "enable f16;\n\n";
         }
-        out += &commented(header);
+        out += &header_comment(header);
         out.push('\n');
-        for structure in r.structures() {
+        for structure in r.read_structures() {
             out += &format!("struct {} {{\n", structure.name);
             for field in &structure.fields {
                 out += &format!("    {}: {},\n", field.name, Ty::from(field.ty).short_name());
             }
             out += "}\n\n";
         }
-        let group = r.places.group();
+        let group = r.places.bind_group();
         let mut bind = |binding: u32, what: String| {
             let _ = writeln!(out, "@group({group}) @binding({binding}) var{what};");
         };
@@ -300,7 +300,7 @@ impl Language for Wgsl<'_> {
             bind(*binding, format!(" {}: {ty}", sampler.name));
         }
         for output in &r.outputs {
-            let (name, format) = (&output.name, output.format.wgsl());
+            let (name, format) = (&output.name, output.format.wgsl_name());
             if let Some(binding) = output.binding {
                 bind(binding, format!(" {name}: texture_storage_2d<{format}, write>"));
             }
@@ -317,7 +317,7 @@ impl Language for Wgsl<'_> {
             out += "    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
             out += &format!("@group({group}) @binding({binding}) var<uniform> {REGION}: Region;\n");
         }
-        for shared in r.shared() {
+        for shared in r.shared_memory() {
             let element = Ty::from(shared.element).short_name();
             let element = if shared.atomic {
                 format!("atomic<{element}>")
@@ -333,14 +333,14 @@ impl Language for Wgsl<'_> {
     }
 
     fn entry_head(&self) -> String {
-        if self.leads() {
-            return self.taking();
+        if self.function_leads() {
+            return self.kernel_function_head();
         }
         let r = self.resources;
         let entry = &r.entry;
         match r.options.stage {
             Stage::Compute => {
-                let [x, y, z] = r.workgroup();
+                let [x, y, z] = r.workgroup_size();
                 let mut told = vec!["@builtin(global_invocation_id) id: vec3u"];
                 told.extend(r.asks_local.then_some("@builtin(local_invocation_id) local_id: vec3u"));
                 told.extend(r.asks_group.then_some("@builtin(workgroup_id) group_id: vec3u"));
@@ -355,11 +355,11 @@ impl Language for Wgsl<'_> {
             }
             Stage::Fragment => {
                 let varyings = r
-                    .varyings()
+                    .manifest_varyings()
                     .map(|v| format!(", @location({}) {}: {}", v.location, v.name, v.ty));
                 let varyings: String = varyings.collect();
                 let result = match &r.outputs[..] {
-                    [one] => format!("@location(0) {}", Ty::from(one.texel()).short_name()),
+                    [one] => format!("@location(0) {}", Ty::from(one.texel_type()).short_name()),
                     _ => r.outputs_type(),
                 };
                 format!("@fragment\nfn {entry}(@builtin(position) position: vec4f{varyings}) -> {result} {{")
@@ -367,13 +367,13 @@ impl Language for Wgsl<'_> {
         }
     }
 
-    fn leads(&self) -> bool {
+    fn function_leads(&self) -> bool {
         self.resources.options.is_function()
     }
 
-    fn behind(&self) -> Option<String> {
+    fn trailing_text(&self) -> Option<String> {
         let r = self.resources;
-        (self.leads() && r.outputs.len() > 1).then(|| self.outputs_structure())
+        (self.function_leads() && r.outputs.len() > 1).then(|| self.outputs_structure())
     }
 }
 
@@ -381,14 +381,18 @@ impl Wgsl<'_> {
     /// The structure of several outputs: of an entry point with their locations.
     fn outputs_structure(&self) -> String {
         let r = self.resources;
-        let fields = r.outputs.iter().enumerate().map(|(k, output)| match self.leads() {
-            true => format!("    {}: {},\n", output.name, Ty::from(output.ty).short_name()),
-            false => format!(
-                "    @location({k}) {}: {},\n",
-                output.name,
-                Ty::from(output.texel()).short_name()
-            ),
-        });
+        let fields = r
+            .outputs
+            .iter()
+            .enumerate()
+            .map(|(k, output)| match self.function_leads() {
+                true => format!("    {}: {},\n", output.name, Ty::from(output.ty).short_name()),
+                false => format!(
+                    "    @location({k}) {}: {},\n",
+                    output.name,
+                    Ty::from(output.texel_type()).short_name()
+                ),
+            });
         format!("struct {} {{\n{}}}\n", r.outputs_type(), fields.collect::<String>())
     }
 
@@ -402,11 +406,11 @@ impl Wgsl<'_> {
 }
 
 /// A texel of four components, as texels are stored whatever their format.
-pub(super) fn four(language: &dyn Language, output: &BoundOutput, value: &Text) -> Text {
-    let texel = output.texel();
+pub(super) fn pad_texel(language: &dyn Language, output: &BoundOutput, value: &Text) -> Text {
+    let texel = output.texel_type();
     let kind = texel.kind().unwrap_or(Scalar::F32);
-    let whole = language.ty(Type::value(kind, 4).into());
-    let [zero, one] = [0, one(Some(kind))].map(|bits| language.scalar(kind, false, bits));
+    let whole = language.type_spelling(Type::value(kind, 4).into());
+    let [zero, one] = [0, one_bits(Some(kind))].map(|bits| language.scalar_literal(kind, false, bits));
     match texel.components() {
         1 => Text::call(&whole, &[value, &zero, &zero, &one]),
         2 => Text::call(&whole, &[value, &zero, &one]),

@@ -1,7 +1,7 @@
 //! Calls of straight functions, replaced by their instructions: naga guards integer divisions, and Straightline conversions, by
 //! functions without a branch, each of which would be a basic block of its own.
 
-use super::{HEADER, instructions, opcode};
+use super::{HEADER, opcode_of, split_instructions};
 use std::collections::HashMap;
 
 /// Opcodes of declarations, functions, and the instructions whose operands are not all ids.
@@ -33,7 +33,7 @@ mod op {
 /// Functions of one block that do nothing but compute, replaced where they are called. A module that has none is left as it is.
 ///
 /// Each round takes one function away, so the rounds are at most as many as the functions.
-pub fn inlined(words: &[u32]) -> Vec<u32> {
+pub fn inline_functions(words: &[u32]) -> Vec<u32> {
     let mut module = words.to_vec();
     while let Some(next) = without_one(&module) {
         module = next;
@@ -57,11 +57,14 @@ impl<'w> Straight<'w> {
         let [head, inner @ .., last, _end] = all else {
             return None;
         };
-        let params = inner.iter().take_while(|i| opcode(i) == op::FUNCTION_PARAMETER).count();
+        let params = inner
+            .iter()
+            .take_while(|i| opcode_of(i) == op::FUNCTION_PARAMETER)
+            .count();
         let (params, inner) = inner.split_at(params);
         let (label, body) = inner.split_first()?;
-        let is_straight = opcode(label) == super::opcode::LABEL
-            && opcode(last) == op::RETURN_VALUE
+        let is_straight = opcode_of(label) == super::opcode::LABEL
+            && opcode_of(last) == op::RETURN_VALUE
             && body.iter().all(|i| first_literal(i).is_some());
         is_straight.then(|| Straight {
             id: head[2],
@@ -80,7 +83,7 @@ impl<'w> Straight<'w> {
 /// Index of the first operand of a computation that is a literal, not an id, counted in words from the instruction's first, or the
 /// instruction's length if all are ids; `None` for every other instruction. The second word is the type, the third the result.
 fn first_literal(instruction: &[u32]) -> Option<usize> {
-    match opcode(instruction) {
+    match opcode_of(instruction) {
         // The set of instructions is an id, the number in it is none, and ids follow.
         op::EXT_INST => Some(4),
         op::COMPOSITE_EXTRACT => Some(4),
@@ -99,33 +102,33 @@ fn first_literal(instruction: &[u32]) -> Option<usize> {
 
 /// The module with one straight function fewer.
 fn without_one(words: &[u32]) -> Option<Vec<u32>> {
-    let all = instructions(words);
+    let all = split_instructions(words);
     let entries: Vec<u32> = all
         .iter()
-        .filter(|i| opcode(i) == op::ENTRY_POINT)
+        .filter(|i| opcode_of(i) == op::ENTRY_POINT)
         .map(|i| i[2])
         .collect();
-    let starts = (0..all.len()).filter(|k| opcode(all[*k]) == op::FUNCTION);
+    let starts = (0..all.len()).filter(|k| opcode_of(all[*k]) == op::FUNCTION);
     let mut spans = starts.filter_map(|first| {
-        let length = all[first..].iter().position(|i| opcode(i) == op::FUNCTION_END)? + 1;
+        let length = all[first..].iter().position(|i| opcode_of(i) == op::FUNCTION_END)? + 1;
         Some((first, first + length))
     });
     let (span, straight) = spans.find_map(|(first, end)| {
         let straight = Straight::new(&all[first..end])?;
         // Of straight functions that call others, the others go first.
-        let calls = straight.body.iter().any(|i| opcode(i) == op::FUNCTION_CALL);
+        let calls = straight.body.iter().any(|i| opcode_of(i) == op::FUNCTION_CALL);
         (!calls && !entries.contains(&straight.id)).then_some(((first, end), straight))
     })?;
     let mut bound = *words.get(3)?;
     let mut copies: HashMap<u32, Vec<u32>> = HashMap::new();
     let mut functions = Vec::new();
-    let declared = all.iter().position(|i| opcode(i) == op::FUNCTION)?;
+    let declared = all.iter().position(|i| opcode_of(i) == op::FUNCTION)?;
     for (_, instruction) in (declared..)
         .zip(&all[declared..])
         .filter(|(k, _)| *k < span.0 || *k >= span.1)
     {
-        if opcode(instruction) == op::FUNCTION_CALL && instruction[3] == straight.id {
-            call(&straight, instruction, &mut bound, &mut copies, &mut functions);
+        if opcode_of(instruction) == op::FUNCTION_CALL && instruction[3] == straight.id {
+            inline_call(&straight, instruction, &mut bound, &mut copies, &mut functions);
         } else {
             functions.extend_from_slice(instruction);
         }
@@ -133,7 +136,7 @@ fn without_one(words: &[u32]) -> Option<Vec<u32>> {
     let mut out = words[..HEADER].to_vec();
     out[3] = bound;
     for instruction in &all[..declared] {
-        match opcode(instruction) {
+        match opcode_of(instruction) {
             op::NAME if straight.defines(instruction[1]) => {}
             // Decorations of a result apply to each of its copies.
             op::DECORATE if straight.defines(instruction[1]) => {
@@ -150,7 +153,7 @@ fn without_one(words: &[u32]) -> Option<Vec<u32>> {
 }
 
 /// Writes the body of a function for one call of it.
-fn call(
+fn inline_call(
     straight: &Straight<'_>,
     instruction: &[u32],
     bound: &mut u32,
@@ -170,7 +173,7 @@ fn call(
             }
         };
         let literals = first_literal(computed).unwrap_or(computed.len());
-        let ids_again = match opcode(computed) {
+        let ids_again = match opcode_of(computed) {
             op::EXT_INST => literals + 1,
             _ => computed.len(),
         };

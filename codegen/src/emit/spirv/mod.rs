@@ -4,8 +4,8 @@
 mod inline;
 mod uncontracted;
 
-pub use inline::inlined;
-pub use uncontracted::uncontracted;
+pub use inline::inline_functions;
+pub use uncontracted::forbid_contraction;
 
 /// Words before the first instruction: magic number, version, generator, bound of ids, and 0.
 const HEADER: usize = 5;
@@ -21,7 +21,7 @@ mod opcode {
 }
 
 /// The instructions of a module, each with its first word.
-fn instructions(words: &[u32]) -> Vec<&[u32]> {
+fn split_instructions(words: &[u32]) -> Vec<&[u32]> {
     let mut rest = words.get(HEADER..).unwrap_or_default();
     let mut found = Vec::new();
     while let Some(first) = rest.first() {
@@ -33,22 +33,22 @@ fn instructions(words: &[u32]) -> Vec<&[u32]> {
     found
 }
 
-fn opcode(instruction: &[u32]) -> u32 {
+fn opcode_of(instruction: &[u32]) -> u32 {
     instruction[0] & 0xffff
 }
 
 /// The module with a block and the next in one where the first ends in a branch to the second, and nothing else names that:
 /// naga begins each function with a block of its own for variables.
-pub fn joined(words: &[u32]) -> Vec<u32> {
-    let all = instructions(words);
-    let merges = |k: usize| k > 0 && matches!(opcode(all[k - 1]), opcode::LOOP_MERGE | opcode::SELECTION_MERGE);
+pub fn join_blocks(words: &[u32]) -> Vec<u32> {
+    let all = split_instructions(words);
+    let merges = |k: usize| k > 0 && matches!(opcode_of(all[k - 1]), opcode::LOOP_MERGE | opcode::SELECTION_MERGE);
     let mut users: std::collections::HashMap<u32, u32> = all
         .iter()
-        .filter(|i| opcode(i) == opcode::LABEL)
+        .filter(|i| opcode_of(i) == opcode::LABEL)
         .map(|i| (i[1], 0))
         .collect();
     // A literal of a switch may look like a label: then a block is left as it is.
-    let controls = |i: &&&[u32]| matches!(opcode(i), opcode::PHI..=opcode::SWITCH if opcode(i) != opcode::LABEL);
+    let controls = |i: &&&[u32]| matches!(opcode_of(i), opcode::PHI..=opcode::SWITCH if opcode_of(i) != opcode::LABEL);
     for word in all.iter().filter(controls).flat_map(|i| &i[1..]) {
         if let Some(count) = users.get_mut(word) {
             *count += 1;
@@ -57,11 +57,11 @@ pub fn joined(words: &[u32]) -> Vec<u32> {
     let mut out = words[..HEADER.min(words.len())].to_vec();
     let mut k = 0;
     while k < all.len() {
-        let joins = opcode(all[k]) == opcode::BRANCH
+        let joins = opcode_of(all[k]) == opcode::BRANCH
             && !merges(k)
             && all
                 .get(k + 1)
-                .is_some_and(|next| opcode(next) == opcode::LABEL && next[1] == all[k][1] && users[&next[1]] == 1);
+                .is_some_and(|next| opcode_of(next) == opcode::LABEL && next[1] == all[k][1] && users[&next[1]] == 1);
         if joins {
             k += 2;
         } else {

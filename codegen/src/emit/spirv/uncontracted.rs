@@ -1,7 +1,7 @@
 //! Decoration of exact operations: naga writes none, so exact values pass through a function in the WGSL that is translated, and
 //! its calls become the decoration here.
 
-use super::{HEADER, instructions, opcode};
+use super::{HEADER, opcode_of, split_instructions};
 use crate::emit::legalise::AS_WRITTEN;
 use std::collections::HashSet;
 
@@ -37,33 +37,34 @@ const NO_CONTRACTION: u32 = 42;
 
 /// The module with each call of the marking function as a copy of its argument, and the operation that computes the argument decorated;
 /// the function is gone.
-pub fn uncontracted(words: &[u32]) -> Vec<u32> {
-    let all = instructions(words);
+pub fn forbid_contraction(words: &[u32]) -> Vec<u32> {
+    let all = split_instructions(words);
     // An entry point may have the name; no other function is a kernel's own.
     let entries: HashSet<u32> = all
         .iter()
-        .filter(|i| opcode(i) == code::ENTRY_POINT)
+        .filter(|i| opcode_of(i) == code::ENTRY_POINT)
         .map(|i| i[2])
         .collect();
-    let is_named = |i: &&&[u32]| opcode(i) == code::NAME && i.len() > 2 && text(&i[2..]).starts_with(AS_WRITTEN);
+    let is_named =
+        |i: &&&[u32]| opcode_of(i) == code::NAME && i.len() > 2 && literal_string(&i[2..]).starts_with(AS_WRITTEN);
     let named: HashSet<u32> = all.iter().filter(is_named).map(|i| i[1]).collect();
-    let functions = all.iter().filter(|i| opcode(i) == code::FUNCTION).map(|i| i[2]);
+    let functions = all.iter().filter(|i| opcode_of(i) == code::FUNCTION).map(|i| i[2]);
     let marks: HashSet<u32> = functions
         .filter(|id| named.contains(id) && !entries.contains(id))
         .collect();
-    let is_call = |i: &[u32]| opcode(i) == code::FUNCTION_CALL && i.len() == 5 && marks.contains(&i[3]);
+    let is_call = |i: &[u32]| opcode_of(i) == code::FUNCTION_CALL && i.len() == 5 && marks.contains(&i[3]);
     if !all.iter().any(|i| is_call(i)) {
         return words.to_vec();
     }
     let exact: HashSet<u32> = all.iter().filter(|i| is_call(i)).map(|i| i[4]).collect();
-    let arithmetic = all.iter().filter(|i| code::ARITHMETIC.contains(&opcode(i)));
+    let arithmetic = all.iter().filter(|i| code::ARITHMETIC.contains(&opcode_of(i)));
     let mut decorated: Vec<u32> = arithmetic.map(|i| i[2]).filter(|id| exact.contains(id)).collect();
     decorated.sort_unstable();
     decorated.dedup();
     let (mut kept, mut gone) = (Vec::with_capacity(all.len()), marks.clone());
     let mut inside = false;
     for instruction in all {
-        match opcode(instruction) {
+        match opcode_of(instruction) {
             code::FUNCTION => inside = marks.contains(&instruction[2]),
             code::FUNCTION_PARAMETER if inside => _ = gone.insert(instruction[2]),
             code::LABEL if inside => _ = gone.insert(instruction[1]),
@@ -80,16 +81,16 @@ pub fn uncontracted(words: &[u32]) -> Vec<u32> {
     let mut out = words[..HEADER].to_vec();
     let mut decorations = Some(decorated);
     for instruction in kept {
-        if !is_before_types(opcode(instruction)) {
+        if !is_before_types(opcode_of(instruction)) {
             for id in decorations.take().into_iter().flatten() {
-                out.extend([head(3, code::DECORATE), id, NO_CONTRACTION]);
+                out.extend([instruction_head(3, code::DECORATE), id, NO_CONTRACTION]);
             }
         }
-        match opcode(instruction) {
+        match opcode_of(instruction) {
             code::NAME if gone.contains(&instruction[1]) => {}
             _ if is_call(instruction) => {
                 out.extend([
-                    head(4, code::COPY_OBJECT),
+                    instruction_head(4, code::COPY_OBJECT),
                     instruction[1],
                     instruction[2],
                     instruction[4],
@@ -102,7 +103,7 @@ pub fn uncontracted(words: &[u32]) -> Vec<u32> {
 }
 
 /// The first word of an instruction.
-fn head(length: u32, opcode: u32) -> u32 {
+fn instruction_head(length: u32, opcode: u32) -> u32 {
     length << 16 | opcode
 }
 
@@ -130,7 +131,7 @@ fn is_before_types(opcode: u32) -> bool {
 }
 
 /// A literal string.
-fn text(words: &[u32]) -> String {
+fn literal_string(words: &[u32]) -> String {
     let bytes = words.iter().flat_map(|word| word.to_le_bytes());
     String::from_utf8_lossy(&bytes.take_while(|byte| *byte != 0).collect::<Vec<u8>>()).into_owned()
 }

@@ -5,11 +5,11 @@ use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
 use straightline_evaluator::ir::{self, BinaryOp, Type, UnaryOp};
 
 /// Moves every `break` that ends a loop's body into the branch before it that decides on it.
-pub fn early(block: &mut Block<'_>) {
+pub fn sink_breaks(block: &mut Block<'_>) {
     for stmt in &mut *block {
-        stmt.blocks_mut().into_iter().for_each(early);
+        stmt.blocks_mut().into_iter().for_each(sink_breaks);
         if let StmtKind::For { body, .. } | StmtKind::Loop(body) = &mut stmt.kind {
-            sink(body);
+            sink_break(body);
         }
     }
     let mut declared = Vec::new();
@@ -18,7 +18,7 @@ pub fn early(block: &mut Block<'_>) {
             StmtKind::Var(var, Some(value)) if value.as_constant().is_some() => declared.push((*var, value.clone())),
             StmtKind::For { body, .. } | StmtKind::Loop(body) => {
                 for (var, value) in &declared {
-                    if stays(body, *var, value) {
+                    if keeps_value(body, *var, value) {
                         drop_assignments(body, *var, value);
                     }
                 }
@@ -39,7 +39,7 @@ enum Known {
 
 impl Known {
     /// Returns whether the condition is decided, here or in a branch at the end.
-    fn decides(&self) -> bool {
+    fn is_decided(&self) -> bool {
         match self {
             Known::Is(_) => true,
             Known::Left(_, within) => *within,
@@ -48,7 +48,7 @@ impl Known {
 }
 
 /// Merges a `break` at the end of a block with the branch before it, as deep as that decides.
-fn sink(block: &mut Block<'_>) {
+fn sink_break(block: &mut Block<'_>) {
     branch_last(block);
     let [.., branch, leave] = block.as_slice() else { return };
     let StmtKind::If {
@@ -59,10 +59,10 @@ fn sink(block: &mut Block<'_>) {
     else {
         return;
     };
-    let Some(leaves) = leaves(leave) else { return };
-    let known = [(true, then), (false, otherwise)].map(|(holds, side)| decided(leaves, condition, holds, side));
+    let Some(leaves) = exit_condition(leave) else { return };
+    let known = [(true, then), (false, otherwise)].map(|(holds, side)| evaluate_exit(leaves, condition, holds, side));
     let [first, second] = known;
-    if !first.decides() && !second.decides() {
+    if !first.is_decided() && !second.is_decided() {
         return;
     }
     let Some(leave) = block.pop() else { return };
@@ -89,7 +89,7 @@ fn sink(block: &mut Block<'_>) {
                     otherwise: Vec::new(),
                 };
                 side.push(Stmt { kind, ..leave });
-                sink(side);
+                sink_break(side);
             }
         }
     }
@@ -112,7 +112,7 @@ fn sink(block: &mut Block<'_>) {
 }
 
 /// The condition of a statement that only leaves the loop.
-fn leaves<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
+fn exit_condition<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
     match &stmt.kind {
         StmtKind::If {
             condition,
@@ -126,15 +126,15 @@ fn leaves<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
 }
 
 /// Evaluates the exit condition `leaves` at the end of a side of a branch that is taken where `condition` is `holds`.
-fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Known {
+fn evaluate_exit(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Known {
     let unchanged = !condition.mentions(|var| side.iter().any(|stmt| stmt.assigns(var)));
     let left = leaves.clone().rewrite(&mut |expr| {
         let of_condition = (unchanged && expr == *condition).then_some(holds);
         let of_negation = (unchanged && not(expr.clone()) == *condition).then_some(!holds);
         let assigned = expr.as_var().and_then(|var| last_value(side, var));
         match of_condition.or(of_negation) {
-            Some(value) => truth(value),
-            None => reduced(assigned.cloned().unwrap_or(expr)),
+            Some(value) => bool_constant(value),
+            None => reduce_boolean(assigned.cloned().unwrap_or(expr)),
         }
     });
     if let Some(bits) = left.as_constant() {
@@ -146,7 +146,7 @@ fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Kn
             then,
             otherwise,
         }) => {
-            let side = |holds, side| decided(&left, condition, holds, side).decides();
+            let side = |holds, side| evaluate_exit(&left, condition, holds, side).is_decided();
             side(true, then) || side(false, otherwise)
         }
         _ => false,
@@ -172,7 +172,7 @@ fn branch_last(block: &mut Block<'_>) {
     let Some(end) = block
         .len()
         .checked_sub(1)
-        .filter(|_| block.last().is_some_and(|stmt| leaves(stmt).is_some()))
+        .filter(|_| block.last().is_some_and(|stmt| exit_condition(stmt).is_some()))
     else {
         return;
     };
@@ -199,21 +199,21 @@ fn branch_last(block: &mut Block<'_>) {
     }
 }
 
-fn truth(holds: bool) -> Expr {
+fn bool_constant(holds: bool) -> Expr {
     Expr::constant(Type::BOOL, [u32::from(holds), 0, 0, 0])
 }
 
 /// A boolean operation of which an argument is known.
-fn reduced(expr: Expr) -> Expr {
+fn reduce_boolean(expr: Expr) -> Expr {
     let known = |k: usize| expr.args.get(k).and_then(Expr::as_constant).map(|bits| bits[0] != 0);
     let keep = match (&expr.op, known(0), known(1)) {
-        (Op::Ir(ir::Op::Unary(UnaryOp::Not)), Some(value), _) => return truth(!value),
+        (Op::Ir(ir::Op::Unary(UnaryOp::Not)), Some(value), _) => return bool_constant(!value),
         (Op::Ir(ir::Op::Binary(BinaryOp::Or)), Some(true), _)
         | (Op::Ir(ir::Op::Binary(BinaryOp::Or)), _, Some(true)) => {
-            return truth(true);
+            return bool_constant(true);
         }
         (Op::Ir(ir::Op::Binary(BinaryOp::And)), Some(false), _)
-        | (Op::Ir(ir::Op::Binary(BinaryOp::And)), _, Some(false)) => return truth(false),
+        | (Op::Ir(ir::Op::Binary(BinaryOp::And)), _, Some(false)) => return bool_constant(false),
         (Op::Ir(ir::Op::Binary(BinaryOp::Or | BinaryOp::And)), Some(_), _) => 1,
         (Op::Ir(ir::Op::Binary(BinaryOp::Or | BinaryOp::And)), _, Some(_)) => 0,
         _ => return expr,
@@ -224,14 +224,14 @@ fn reduced(expr: Expr) -> Expr {
 
 /// Returns whether a variable that begins as `value` still holds it wherever a loop's body assigns that value again: each assignment of
 /// another value leads out of the loop.
-fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
+fn keeps_value(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
     let leaves = matches!(body.last().map(|stmt| &stmt.kind), Some(StmtKind::Break));
     body.iter().all(|stmt| match &stmt.kind {
-        StmtKind::Assign(place, op, to) if place.root() == Some(var) => {
+        StmtKind::Assign(place, op, to) if place.root_variable() == Some(var) => {
             leaves || (op.is_none() && place.as_var() == Some(var) && to == value)
         }
         StmtKind::For { .. } | StmtKind::Loop(_) => !stmt.assigns(var),
-        _ => stmt.blocks().into_iter().all(|inner| stays(inner, var, value)),
+        _ => stmt.blocks().into_iter().all(|inner| keeps_value(inner, var, value)),
     })
 }
 
@@ -239,7 +239,7 @@ fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
 fn drop_assignments(block: &mut Block<'_>, var: VarId, value: &Expr) {
     if matches!(block.last().map(|stmt| &stmt.kind), Some(StmtKind::Break)) {
         // The value assigned before a `break` is read after the loop.
-        let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if place.root() == Some(var) && to != value);
+        let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if place.root_variable() == Some(var) && to != value);
         if block.iter().any(others) {
             return;
         }

@@ -6,13 +6,15 @@ use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId, Variable}
 use std::collections::BTreeSet;
 
 /// Merges such variables, innermost blocks first.
-pub fn coalesce(module: &mut Module<'_>) {
-    merge(&mut module.body, &module.variables);
+pub fn coalesce_variables(module: &mut Module<'_>) {
+    merge_block(&mut module.body, &module.variables);
 }
 
-fn merge(block: &mut Block<'_>, variables: &[Variable]) {
+fn merge_block(block: &mut Block<'_>, variables: &[Variable]) {
     for stmt in &mut *block {
-        stmt.blocks_mut().into_iter().for_each(|inner| merge(inner, variables));
+        stmt.blocks_mut()
+            .into_iter()
+            .for_each(|inner| merge_block(inner, variables));
     }
     // Variables whose whole value is assigned to another one: few of a long block.
     let passed_on: BTreeSet<VarId> = block
@@ -35,7 +37,9 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
         if let Some((copy, original, last)) = copied_back(block, k) {
             block.remove(last);
             block.remove(k);
-            block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            block[k..]
+                .iter_mut()
+                .for_each(|stmt| rename_variable(stmt, copy, original));
             continue;
         }
         if let Some((copy, original, declared)) = goes_on(block, k, variables) {
@@ -45,7 +49,9 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
                 kind => kind,
             };
             block.remove(k);
-            block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            block[k..]
+                .iter_mut()
+                .for_each(|stmt| rename_variable(stmt, copy, original));
             continue;
         }
         let made = match block[k].kind {
@@ -55,7 +61,9 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
         if made && let Some((copy, original, last)) = moved_on(block, k) {
             block.remove(last);
             let declaration = block.remove(k);
-            block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            block[k..]
+                .iter_mut()
+                .for_each(|stmt| rename_variable(stmt, copy, original));
             if let StmtKind::Let(_, value) | StmtKind::Var(_, Some(value)) = declaration.kind {
                 let place = Expr::var(original, value.ty);
                 let kind = StmtKind::Assign(place, None, value);
@@ -84,7 +92,7 @@ fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarI
     let mut changed = false;
     let kept = block[k + 1..]
         .iter()
-        .all(|stmt| keeps(stmt, copy, original, &mut changed));
+        .all(|stmt| keeps_original(stmt, copy, original, &mut changed));
     kept.then_some((copy, original, declared))
 }
 
@@ -98,7 +106,7 @@ fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let declares = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Var(var, _) if var == original);
     let unread = block[k + 1..last]
         .iter()
-        .all(|stmt| !stmt.mentions(original) && !declares(stmt) && !leaves(stmt));
+        .all(|stmt| !stmt.mentions(original) && !declares(stmt) && !may_leave(stmt));
     let behind = &block[last + 1..];
     let unused = behind.iter().all(|stmt| !stmt.mentions(copy));
     let same = behind.iter().all(|stmt| !stmt.assigns(original) && !stmt.assigns(copy));
@@ -106,10 +114,10 @@ fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
 }
 
 /// Returns whether a statement may leave its block.
-fn leaves(stmt: &Stmt<'_>) -> bool {
+fn may_leave(stmt: &Stmt<'_>) -> bool {
     match &stmt.kind {
         StmtKind::Break | StmtKind::Return(_) => true,
-        _ => stmt.blocks().into_iter().any(|inner| inner.iter().any(leaves)),
+        _ => stmt.blocks().into_iter().any(|inner| inner.iter().any(may_leave)),
     }
 }
 
@@ -128,7 +136,7 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let mut changed = false;
     let kept = block[k + 1..last]
         .iter()
-        .all(|stmt| keeps(stmt, copy, original, &mut changed));
+        .all(|stmt| keeps_original(stmt, copy, original, &mut changed));
     // From there on both are the same, unless one of them changes.
     let rest = &block[last + 1..];
     let unused = rest.iter().all(|stmt| !stmt.mentions(copy));
@@ -173,11 +181,11 @@ fn read_first(stmt: &mut Stmt<'_>, copy: VarId, original: VarId) {
 }
 
 /// Returns whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
-fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> bool {
+fn keeps_original(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> bool {
     let reads = |expr: &Expr| expr.mentions(|var| var == original);
     match &stmt.kind {
         StmtKind::Assign(place, _, value) => {
-            let target = place.root();
+            let target = place.root_variable();
             let index = place.args.iter().skip(1).any(reads);
             if target == Some(original) || ((reads(value) || index) && *changed) {
                 return false;
@@ -194,8 +202,10 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
                 return false;
             }
             let (mut first, mut second) = (*changed, *changed);
-            let sides = then.iter().all(|stmt| keeps(stmt, copy, original, &mut first))
-                && otherwise.iter().all(|stmt| keeps(stmt, copy, original, &mut second));
+            let sides = then.iter().all(|stmt| keeps_original(stmt, copy, original, &mut first))
+                && otherwise
+                    .iter()
+                    .all(|stmt| keeps_original(stmt, copy, original, &mut second));
             *changed |= first | second;
             sides
         }
@@ -209,11 +219,11 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
             *changed |= copied;
             !read || !(copied || first || stmt.assigns(original))
         }
-        _ => !(*changed && stmt.own().any(reads)),
+        _ => !(*changed && stmt.own_exprs().any(reads)),
     }
 }
 
-fn rename(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
+fn rename_variable(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
     stmt.rewrite(&mut |expr| match expr.op {
         Op::Var(var) if var == from => Expr::var(to, expr.ty),
         _ => expr,

@@ -25,14 +25,14 @@ impl Columns<'_> {
             StmtKind::Comment(_) | StmtKind::Barrier { .. } => 0,
         };
         (
-            around + stmt.own().map(|expr| self.of(expr)).sum::<usize>(),
-            stmt.own().map(Expr::operations).sum(),
+            around + stmt.own_exprs().map(|expr| self.expr_columns(expr)).sum::<usize>(),
+            stmt.own_exprs().map(Expr::operation_count).sum(),
         )
     }
 
     /// Columns of an expression.
-    pub fn of(&self, expr: &Expr) -> usize {
-        let args: usize = expr.args.iter().map(|arg| self.of(arg)).sum();
+    pub fn expr_columns(&self, expr: &Expr) -> usize {
+        let args: usize = expr.args.iter().map(|arg| self.expr_columns(arg)).sum();
         let commas = 2 * expr.args.len().saturating_sub(1);
         let call = |name: usize| name + 2 + args + commas;
         match &expr.op {
@@ -40,7 +40,7 @@ impl Columns<'_> {
             Op::Swizzle(components) => args + 1 + components.len(),
             Op::Index { .. } => args + 2,
             Op::Construct | Op::Convert { .. } => call(expr.ty.short_name().len()),
-            Op::Division(..) => args + 3 + parentheses(expr),
+            Op::Division(..) => args + 3 + parenthesis_columns(expr),
             Op::Guarded(..) => call(10),
             Op::Builtin(_) => 20,
             Op::Any | Op::All => call(3),
@@ -50,25 +50,29 @@ impl Columns<'_> {
             Op::Call(name) => call(name.len()),
             Op::Function(name) => call(name.len()),
             Op::Ir(op) => match op {
-                ir::Op::Const(bits) => self.constant(expr.ty, bits),
+                ir::Op::Const(bits) => self.constant_columns(expr.ty, bits),
                 ir::Op::Uniform(k) => 11 + self.graph.uniforms[*k as usize].name.len(),
                 ir::Op::Varying(k) => self.graph.varyings[*k as usize].name.len(),
                 ir::Op::Unary(ir::UnaryOp::Neg | ir::UnaryOp::Not | ir::UnaryOp::BitNot) => {
-                    args + 1 + parentheses(expr)
+                    args + 1 + parenthesis_columns(expr)
                 }
                 ir::Op::Binary(BinaryOp::Min | BinaryOp::Max | BinaryOp::Pow) => call(3),
                 ir::Op::Binary(BinaryOp::Atan2) => call(5),
-                ir::Op::Binary(_) => args + 3 + parentheses(expr),
+                ir::Op::Binary(_) => args + 3 + parenthesis_columns(expr),
                 ir::Op::Unary(op) => call(format!("{op:?}").len()),
                 ir::Op::Bitcast => call(8 + expr.ty.short_name().len() + 2),
-                ir::Op::Load { texture, .. } => call(16 + self.texture(*texture)),
-                ir::Op::Sample { texture, sampler, .. } => call(28 + self.texture(*texture) + self.sampler(*sampler)),
-                ir::Op::Gather { texture, sampler, .. } => call(20 + self.texture(*texture) + self.sampler(*sampler)),
-                ir::Op::Compare { texture, sampler, .. } | ir::Op::GatherCompare { texture, sampler, .. } => {
-                    call(29 + self.texture(*texture) + self.sampler(*sampler))
+                ir::Op::Load { texture, .. } => call(16 + self.texture_columns(*texture)),
+                ir::Op::Sample { texture, sampler, .. } => {
+                    call(28 + self.texture_columns(*texture) + self.sampler_columns(*sampler))
                 }
-                ir::Op::TextureSize(texture) => 26 + self.texture(*texture),
-                ir::Op::TextureLevels(texture) | ir::Op::TextureLayers(texture) => 23 + self.texture(*texture),
+                ir::Op::Gather { texture, sampler, .. } => {
+                    call(20 + self.texture_columns(*texture) + self.sampler_columns(*sampler))
+                }
+                ir::Op::Compare { texture, sampler, .. } | ir::Op::GatherCompare { texture, sampler, .. } => {
+                    call(29 + self.texture_columns(*texture) + self.sampler_columns(*sampler))
+                }
+                ir::Op::TextureSize(texture) => 26 + self.texture_columns(*texture),
+                ir::Op::TextureLevels(texture) | ir::Op::TextureLayers(texture) => 23 + self.texture_columns(*texture),
                 ir::Op::BufferLoad { buffer, field, .. } => {
                     let buffer = &self.graph.buffers[*buffer as usize];
                     let field = match &buffer.element {
@@ -85,7 +89,7 @@ impl Columns<'_> {
         }
     }
 
-    fn constant(&self, ty: Ty, bits: &ir::Bits) -> usize {
+    fn constant_columns(&self, ty: Ty, bits: &ir::Bits) -> usize {
         let lanes = &bits[..ty.components() as usize];
         let number = |bits: &u32| number_columns(ty, *bits);
         match lanes {
@@ -95,17 +99,17 @@ impl Columns<'_> {
         }
     }
 
-    fn texture(&self, index: u32) -> usize {
+    fn texture_columns(&self, index: u32) -> usize {
         self.graph.textures[index as usize].name.len()
     }
 
-    fn sampler(&self, index: u32) -> usize {
+    fn sampler_columns(&self, index: u32) -> usize {
         self.graph.samplers[index as usize].name.len()
     }
 }
 
 /// Parentheses around operands that are operators themselves, where there may be some.
-fn parentheses(expr: &Expr) -> usize {
+fn parenthesis_columns(expr: &Expr) -> usize {
     let operator = |arg: &&Expr| match (&arg.op, &expr.op) {
         (Op::Ir(ir::Op::Binary(inner)), Op::Ir(ir::Op::Binary(outer))) => !matches!(
             (inner, outer),

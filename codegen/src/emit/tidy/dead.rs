@@ -4,10 +4,10 @@ use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use straightline_evaluator::limits;
 
 /// Counts the reads of each variable, by variable.
-pub fn uses(module: &Module<'_>) -> Vec<u32> {
+pub fn count_reads(module: &Module<'_>) -> Vec<u32> {
     let mut uses = vec![0; module.variables.len()];
     for stmt in &module.body {
-        count(stmt, &mut uses);
+        count_stmt_reads(stmt, &mut uses);
     }
     for (_, value) in &module.tables {
         value.visit(&mut |expr| {
@@ -22,10 +22,10 @@ pub fn uses(module: &Module<'_>) -> Vec<u32> {
 /// Expressions that a statement reads itself: writing to a variable is no use of it.
 pub fn read_by<'s>(stmt: &'s Stmt<'_>) -> impl Iterator<Item = &'s Expr> {
     let written = matches!(&stmt.kind, StmtKind::Assign(place, None, _) if matches!(place.op, Op::Var(_)));
-    stmt.own().skip(usize::from(written))
+    stmt.own_exprs().skip(usize::from(written))
 }
 
-fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
+fn count_stmt_reads(stmt: &Stmt<'_>, uses: &mut [u32]) {
     for expr in read_by(stmt) {
         expr.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
@@ -34,23 +34,23 @@ fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
         });
     }
     for block in stmt.blocks() {
-        block.iter().for_each(|stmt| count(stmt, uses));
+        block.iter().for_each(|stmt| count_stmt_reads(stmt, uses));
     }
 }
 
 /// Removes variables that nothing reads with what is assigned to them, branches without statements, and tables.
-pub fn remove(module: &mut Module<'_>) {
+pub fn remove_dead(module: &mut Module<'_>) {
     // Each turn but the last takes a statement away, and the first may take only tables.
-    for _ in 0..=crate::emit::ast::count(&module.body) + 1 {
-        limits::spend(u64::from(crate::emit::ast::count(&module.body)));
+    for _ in 0..=crate::emit::ast::count_statements(&module.body) + 1 {
+        limits::spend(u64::from(crate::emit::ast::count_statements(&module.body)));
         if limits::exceeded(0).is_some() {
             // The remaining statements are dead but correct; the caller that requested the text reports the exceeded limit.
             return;
         }
-        let uses = uses(module);
+        let uses = count_reads(module);
         let is_used = |var: VarId| uses[var.0 as usize] > 0;
         let mut removed = false;
-        sweep(&mut module.body, &is_used, &mut removed);
+        sweep_block(&mut module.body, &is_used, &mut removed);
         module.tables.retain(|(var, _)| is_used(*var));
         if !removed {
             return;
@@ -58,7 +58,7 @@ pub fn remove(module: &mut Module<'_>) {
     }
 }
 
-fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut bool) {
+fn sweep_block(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut bool) {
     let before = block.len();
     let mut needed = Vec::new();
     for stmt in block.iter() {
@@ -66,7 +66,7 @@ fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut b
     }
     for stmt in block.iter_mut() {
         for inner in stmt.blocks_mut() {
-            sweep(inner, is_used, removed);
+            sweep_block(inner, is_used, removed);
         }
     }
     block.retain(|stmt| match &stmt.kind {

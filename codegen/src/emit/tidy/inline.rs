@@ -1,9 +1,9 @@
 //! A value that is used once is written where it is used, while the line stays short.
 
 use super::columns::Columns;
-use super::{dead, simplify};
+use super::{dead, simplify_expr};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
-use crate::emit::liveness::width;
+use crate::emit::liveness::register_count;
 use crate::emit::text::WIDEST;
 use rustc_hash::{FxHashMap, FxHashSet};
 use straightline_evaluator::ir::{Graph, Memory};
@@ -21,8 +21,8 @@ pub struct Stays {
 }
 
 /// Inlines values that are used once, but for those that stay; gives whether there were some.
-pub fn inline(module: &mut Module<'_>, graph: &Graph, stays: Stays) -> bool {
-    let uses = dead::uses(module);
+pub fn inline_values(module: &mut Module<'_>, graph: &Graph, stays: Stays) -> bool {
+    let uses = dead::count_reads(module);
     let mut body = std::mem::take(&mut module.body);
     let mut inliner = Inliner {
         left: uses.clone(),
@@ -30,7 +30,7 @@ pub fn inline(module: &mut Module<'_>, graph: &Graph, stays: Stays) -> bool {
         stays,
         columns: Columns { module, graph },
     };
-    let inlined = inliner.block(&mut body, 1);
+    let inlined = inliner.inline_block(&mut body, 1);
     module.body = body;
     inlined
 }
@@ -66,20 +66,20 @@ struct Seen {
 }
 
 impl Inliner<'_> {
-    fn block(&mut self, block: &mut Block<'_>, depth: usize) -> bool {
+    fn inline_block(&mut self, block: &mut Block<'_>, depth: usize) -> bool {
         let mut inlined = false;
         let mut out: Vec<Option<Stmt<'_>>> = Vec::with_capacity(block.len());
         let mut seen = Seen::default();
         for mut stmt in block.drain(..) {
             let at = out.len();
-            read(dead::read_by(&stmt), 1, &mut |var, times| {
+            visit_reads(dead::read_by(&stmt), 1, &mut |var, times| {
                 self.left[var.0 as usize] -= times as u32
             });
             self.absorb(&mut stmt, &mut out, &seen, depth);
             for inner in stmt.blocks_mut() {
-                inlined |= self.block(inner, depth + 1);
+                inlined |= self.inline_block(inner, depth + 1);
             }
-            assignments(&stmt, &mut |var| _ = seen.assigned.insert(var, at));
+            visit_assignments(&stmt, &mut |var| _ = seen.assigned.insert(var, at));
             stmt.visit(&mut |expr| {
                 if let Op::Var(var) = expr.op
                     && let Some(last) = seen.read.get_mut(&var)
@@ -96,8 +96,8 @@ impl Inliner<'_> {
             {
                 let candidate = Candidate {
                     at,
-                    columns: self.columns.of(value),
-                    operations: value.operations(),
+                    columns: self.columns.expr_columns(value),
+                    operations: value.operation_count(),
                 };
                 seen.defined.insert(*var, candidate);
             }
@@ -110,7 +110,7 @@ impl Inliner<'_> {
 
     /// Returns whether computing a value in a later statement would keep more scalars alive: its operands then live until there, in place
     /// of the value.
-    fn crowds(&self, value: &Expr, at: usize, stmt: &Stmt<'_>, out: &[Option<Stmt<'_>>], seen: &Seen) -> bool {
+    fn is_crowding(&self, value: &Expr, at: usize, stmt: &Stmt<'_>, out: &[Option<Stmt<'_>>], seen: &Seen) -> bool {
         let is_last = |at: usize| out[at + 1..].iter().all(Option::is_none);
         if is_last(at) {
             return false;
@@ -121,13 +121,16 @@ impl Inliner<'_> {
                 && self.left[var.0 as usize] == 0
                 && seen.read.get(&var).is_some_and(|last| !is_last(*last))
                 && !longer.contains(&var)
-                && !stmt.own().any(|own| own.mentions(|other| other == var))
+                && !stmt.own_exprs().any(|own| own.mentions(|other| other == var))
             {
                 longer.push(var);
             }
         });
-        let more: u32 = longer.iter().map(|var| width(self.columns.module.ty(*var).shape)).sum();
-        more > width(value.ty.shape)
+        let more: u32 = longer
+            .iter()
+            .map(|var| register_count(self.columns.module.variable_type(*var).shape))
+            .sum();
+        more > register_count(value.ty.shape)
     }
 
     /// Writes values of earlier statements into a statement, short ones first.
@@ -136,7 +139,7 @@ impl Inliner<'_> {
         let mut written = FxHashSet::default();
         let is_loop = matches!(stmt.kind, StmtKind::For { .. });
         if is_loop {
-            assignments(stmt, &mut |var| _ = written.insert(var));
+            visit_assignments(stmt, &mut |var| _ = written.insert(var));
         }
         let suits = |value: &Expr, operations: usize| {
             !is_loop || (operations <= 2 && !reads_memory(value) && !value.mentions(|var| written.contains(&var)))
@@ -144,7 +147,7 @@ impl Inliner<'_> {
         // Each turn takes one of them.
         for _ in 0..=out.len() {
             let mut candidates = Vec::new();
-            for expr in stmt.own() {
+            for expr in stmt.own_exprs() {
                 expr.visit(&mut |expr| {
                     if let Op::Var(var) = expr.op
                         && self.uses[var.0 as usize] == 1
@@ -155,7 +158,7 @@ impl Inliner<'_> {
                         }) = &out[candidate.at]
                         && !changed_since(value, candidate.at, &seen.assigned)
                         && suits(value, candidate.operations)
-                        && !(self.stays.crowding && self.crowds(value, candidate.at, stmt, out, seen))
+                        && !(self.stays.crowding && self.is_crowding(value, candidate.at, stmt, out, seen))
                     {
                         candidates.push((candidate.columns, var, *candidate));
                     }
@@ -185,16 +188,16 @@ impl Inliner<'_> {
             }
             let mut reads: FxHashMap<VarId, i32> = FxHashMap::default();
             let mut note = |var, times| *reads.entry(var).or_default() += times;
-            read(stmt.own().chain([&value]), 1, &mut note);
+            visit_reads(stmt.own_exprs().chain([&value]), 1, &mut note);
             let mut value = Some(value);
             for own in stmt.own_mut() {
                 // A shorter expression has room for more values.
                 own.rewrite_in_place(&mut |expr| match expr.op {
                     Op::Var(found) if found == var => value.take().unwrap_or(expr),
-                    _ => simplify(expr),
+                    _ => simplify_expr(expr),
                 });
             }
-            read(stmt.own(), -1, &mut note);
+            visit_reads(stmt.own_exprs(), -1, &mut note);
             for (read, lost) in reads {
                 let uses = &mut self.uses[read.0 as usize];
                 *uses = uses.saturating_add_signed(-lost);
@@ -204,7 +207,7 @@ impl Inliner<'_> {
 }
 
 /// Shows each variable that expressions read, with `weight` each time.
-fn read<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, see: &mut dyn FnMut(VarId, i32)) {
+fn visit_reads<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, see: &mut dyn FnMut(VarId, i32)) {
     for expr in exprs {
         expr.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
@@ -241,7 +244,7 @@ fn changed_since(value: &Expr, at: usize, assigned: &FxHashMap<VarId, usize>) ->
 }
 
 /// Shows every variable that a statement assigns to.
-fn assignments(stmt: &Stmt<'_>, see: &mut dyn FnMut(VarId)) {
+fn visit_assignments(stmt: &Stmt<'_>, see: &mut dyn FnMut(VarId)) {
     if let StmtKind::Assign(place, ..) = &stmt.kind {
         place.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
@@ -260,6 +263,6 @@ fn assignments(stmt: &Stmt<'_>, see: &mut dyn FnMut(VarId)) {
         see(VarId::MEMORY);
     }
     for block in stmt.blocks() {
-        block.iter().for_each(|stmt| assignments(stmt, see));
+        block.iter().for_each(|stmt| visit_assignments(stmt, see));
     }
 }

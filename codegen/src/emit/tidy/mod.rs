@@ -10,14 +10,14 @@ mod inline;
 mod simplify;
 mod statements;
 
-use super::ast::{Module, count};
+use super::ast::{Module, count_statements};
 use super::liveness::most_alive;
-use inline::{Stays, inline};
+use inline::{Stays, inline_values};
 use straightline_evaluator::ir::Graph;
 use straightline_evaluator::limits;
 use straightline_evaluator::policy::ReadOrder;
 
-pub use simplify::simplify;
+pub use simplify::simplify_expr;
 
 /// Scalars alive at once from which values stay where fewer are alive for them. With fewer, compilers of GPUs do as well by
 /// themselves (docs/study.md).
@@ -25,35 +25,35 @@ const MANY_ALIVE: u32 = 32;
 
 /// Tidies a kernel's statements. Reads that stand in an order of their own stay where they are, and of a kernel in which many values
 /// are alive what would make them more.
-pub fn tidy<'g>(module: &mut Module<'g>, graph: &Graph, reads: ReadOrder) {
-    module.rewrite(&mut |_, expr| simplify(expr));
-    dead::remove(module);
-    coalesce::coalesce(module);
+pub fn tidy_kernel<'g>(module: &mut Module<'g>, graph: &Graph, reads: ReadOrder) {
+    module.rewrite(&mut |_, expr| simplify_expr(expr));
+    dead::remove_dead(module);
+    coalesce::coalesce_variables(module);
     let mut stays = Stays {
         reads: reads == ReadOrder::Rows,
         crowding: false,
     };
     let untouched = module.clone();
-    shorten(module, graph, stays);
+    inline_repeatedly(module, graph, stays);
     if most_alive(module).0 >= MANY_ALIVE {
         stays.crowding = true;
         *module = untouched;
-        shorten(module, graph, stays);
+        inline_repeatedly(module, graph, stays);
     }
-    statements::shorten(&mut module.body);
+    statements::shorten_statements(&mut module.body);
 }
 
 /// Writes values where they are used, until there are no more.
-fn shorten(module: &mut Module<'_>, graph: &Graph, stays: Stays) {
-    inline(module, graph, stays);
-    breaks::early(&mut module.body);
+fn inline_repeatedly(module: &mut Module<'_>, graph: &Graph, stays: Stays) {
+    inline_values(module, graph, stays);
+    breaks::sink_breaks(&mut module.body);
     // Variables that were separated by a loop's early exit can be merged now.
-    coalesce::coalesce(module);
+    coalesce::coalesce_variables(module);
     // Inlined values have new neighbours, and shorter ones may be inlined now. Each turn but the last removes a statement.
-    for _ in 0..=count(&module.body) {
-        module.rewrite(&mut |_, expr| simplify(expr));
-        dead::remove(module);
-        if !inline(module, graph, stays) || limits::exceeded(0).is_some() {
+    for _ in 0..=count_statements(&module.body) {
+        module.rewrite(&mut |_, expr| simplify_expr(expr));
+        dead::remove_dead(module);
+        if !inline_values(module, graph, stays) || limits::exceeded(0).is_some() {
             break;
         }
     }

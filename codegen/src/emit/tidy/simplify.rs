@@ -4,14 +4,14 @@ use crate::emit::ast::{Expr, Op};
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites an expression, whose arguments have been rewritten.
-pub fn simplify(expr: Expr) -> Expr {
+pub fn simplify_expr(expr: Expr) -> Expr {
     match &expr.op {
-        Op::Swizzle(_) => swizzle(expr),
-        Op::Construct => construct(expr),
-        Op::Convert { .. } => convert(expr),
+        Op::Swizzle(_) => simplify_swizzle(expr),
+        Op::Construct => simplify_construct(expr),
+        Op::Convert { .. } => simplify_convert(expr),
         Op::Ir(ir::Op::Binary(op)) => {
             let op = *op;
-            together(op, subtracted(op, scalar_operands(op, expr)))
+            merge_comparisons(op, flip_negative_term(op, scalar_operands(op, expr)))
         }
         _ => expr,
     }
@@ -40,14 +40,14 @@ pub fn not(mut condition: Expr) -> Expr {
 }
 
 /// `v.zyx.y` is `v.y`, `v.xyz` of a vector of three `v`, `vec2(a, b).y` is `b`.
-fn swizzle(mut expr: Expr) -> Expr {
+fn simplify_swizzle(mut expr: Expr) -> Expr {
     let Op::Swizzle(components) = &expr.op else { return expr };
     let base = &mut expr.args[0];
     match &mut base.op {
         Op::Swizzle(inner) => {
             let components = components.iter().map(|k| inner[*k as usize]).collect();
             let base = base.args.swap_remove(0);
-            swizzle(Expr::new(Op::Swizzle(components), vec![base], expr.ty))
+            simplify_swizzle(Expr::new(Op::Swizzle(components), vec![base], expr.ty))
         }
         Op::Construct
             if components.len() == 1
@@ -64,7 +64,7 @@ fn swizzle(mut expr: Expr) -> Expr {
 }
 
 /// `vec3(v.x, v.y, a)` is `vec3(v.xy, a)`.
-fn construct(expr: Expr) -> Expr {
+fn simplify_construct(expr: Expr) -> Expr {
     if expr.ty.is_array() || expr.args.len() < 2 {
         return expr;
     }
@@ -83,7 +83,7 @@ fn construct(expr: Expr) -> Expr {
         }
         parts.push(part);
     }
-    let parts: Vec<Expr> = parts.into_iter().map(swizzle).collect();
+    let parts: Vec<Expr> = parts.into_iter().map(simplify_swizzle).collect();
     match &parts[..] {
         [one] if one.ty == expr.ty => one.clone(),
         _ => Expr::new(Op::Construct, parts, expr.ty),
@@ -91,7 +91,7 @@ fn construct(expr: Expr) -> Expr {
 }
 
 /// `f32(u32(i))` is `f32(i)` where `i` has no sign; so is `i32(u32(i))` `i`.
-fn convert(mut expr: Expr) -> Expr {
+fn simplify_convert(mut expr: Expr) -> Expr {
     let Op::Convert { fits: outer } = expr.op else {
         return expr;
     };
@@ -116,7 +116,7 @@ fn scalar_operands(op: BinaryOp, mut expr: Expr) -> Expr {
     }
     for k in [1, 0] {
         if !expr.args[1 - k].ty.is_scalar()
-            && let Some(scalar) = splatted(&expr.args[k])
+            && let Some(scalar) = splatted_scalar(&expr.args[k])
         {
             expr.args[k] = scalar;
         }
@@ -125,7 +125,7 @@ fn scalar_operands(op: BinaryOp, mut expr: Expr) -> Expr {
 }
 
 /// The number that all components of a vector are.
-fn splatted(expr: &Expr) -> Option<Expr> {
+fn splatted_scalar(expr: &Expr) -> Option<Expr> {
     let kind = expr.ty.kind()?;
     let lanes = expr.ty.components() as usize;
     let ty = crate::emit::ast::Ty {
@@ -140,7 +140,7 @@ fn splatted(expr: &Expr) -> Option<Expr> {
 }
 
 /// `x + -1` is `x - 1`, and `x - -1` is `x + 1`.
-fn subtracted(op: BinaryOp, mut expr: Expr) -> Expr {
+fn flip_negative_term(op: BinaryOp, mut expr: Expr) -> Expr {
     let other = match op {
         BinaryOp::Add => BinaryOp::Sub,
         BinaryOp::Sub => BinaryOp::Add,
@@ -169,16 +169,16 @@ fn subtracted(op: BinaryOp, mut expr: Expr) -> Expr {
 }
 
 /// `(f(v.x) < a) & (f(v.y) < a)` is `all(f(v.xy) < vec2(a))`, and so is `max(v.x, v.y) < a` of integers.
-fn together(op: BinaryOp, expr: Expr) -> Expr {
+fn merge_comparisons(op: BinaryOp, expr: Expr) -> Expr {
     match op {
         BinaryOp::And | BinaryOp::Or if expr.ty.shape == Type::BOOL => {
             let quantifier = if op == BinaryOp::And { Op::All } else { Op::Any };
             let [left, right] = [&expr.args[0], &expr.args[1]];
             let joined = match (left.op == quantifier, right.op == quantifier) {
-                (true, true) => joined(&left.args[0], &right.args[0]),
-                (true, false) => joined(&left.args[0], right),
-                (false, true) => joined(left, &right.args[0]),
-                (false, false) => joined(left, right),
+                (true, true) => join_components(&left.args[0], &right.args[0]),
+                (true, false) => join_components(&left.args[0], right),
+                (false, true) => join_components(left, &right.args[0]),
+                (false, false) => join_components(left, right),
             };
             match joined {
                 Some(both) if is_comparison(&both) || !both.ty.is_scalar() => {
@@ -194,7 +194,7 @@ fn together(op: BinaryOp, expr: Expr) -> Expr {
                 _ => BinaryOp::Min,
             };
             let mut parts = Vec::new();
-            chain(&expr.args[0], outermost, &mut parts);
+            collect_operands(&expr.args[0], outermost, &mut parts);
             let Some(vector) = whole_vector(&parts) else {
                 return expr;
             };
@@ -211,9 +211,9 @@ fn is_comparison(expr: &Expr) -> bool {
 }
 
 /// Operands of a chain of an operator.
-fn chain<'e>(expr: &'e Expr, op: BinaryOp, out: &mut Vec<&'e Expr>) {
+fn collect_operands<'e>(expr: &'e Expr, op: BinaryOp, out: &mut Vec<&'e Expr>) {
     if expr.op == Op::Ir(ir::Op::Binary(op)) {
-        expr.args.iter().for_each(|arg| chain(arg, op, out));
+        expr.args.iter().for_each(|arg| collect_operands(arg, op, out));
     } else {
         out.push(expr);
     }
@@ -231,7 +231,7 @@ fn whole_vector(parts: &[&Expr]) -> Option<Expr> {
 
 /// Two expressions that differ by the components of one vector alone, as one of more components; both have the shape of the other
 /// but for how many components they are of.
-fn joined(left: &Expr, right: &Expr) -> Option<Expr> {
+fn join_components(left: &Expr, right: &Expr) -> Option<Expr> {
     let lanes = left.ty.components() + right.ty.components();
     if lanes > 4 || left.ty.is_array() {
         return None;
@@ -240,7 +240,11 @@ fn joined(left: &Expr, right: &Expr) -> Option<Expr> {
     match (&left.op, &right.op) {
         (Op::Swizzle(before), Op::Swizzle(after)) if left.args == right.args => {
             let components = before.iter().chain(after).copied().collect();
-            Some(swizzle(Expr::new(Op::Swizzle(components), left.args.clone(), shape)))
+            Some(simplify_swizzle(Expr::new(
+                Op::Swizzle(components),
+                left.args.clone(),
+                shape,
+            )))
         }
         (Op::Ir(ir::Op::Const(a)), Op::Ir(ir::Op::Const(b))) => {
             let same = (0..left.ty.components() as usize).all(|k| a[k] == b[0])
@@ -249,7 +253,7 @@ fn joined(left: &Expr, right: &Expr) -> Option<Expr> {
         }
         (Op::Ir(a @ (ir::Op::Unary(_) | ir::Op::Binary(_) | ir::Op::Bitcast)), Op::Ir(b)) if a == b => {
             let pairs = left.args.iter().zip(&right.args);
-            let args: Option<Vec<Expr>> = pairs.map(|(l, r)| joined(l, r)).collect();
+            let args: Option<Vec<Expr>> = pairs.map(|(l, r)| join_components(l, r)).collect();
             Some(Expr::new(left.op.clone(), args?, shape))
         }
         _ => None,

@@ -5,13 +5,13 @@ use crate::emit::ast::{Block, Expr, Op, StmtKind};
 use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 
 /// Rewrites every statement, those of inner blocks too.
-pub fn shorten(block: &mut Block<'_>) {
+pub fn shorten_statements(block: &mut Block<'_>) {
     for stmt in block {
-        stmt.blocks_mut().into_iter().for_each(shorten);
+        stmt.blocks_mut().into_iter().for_each(shorten_statements);
         match &mut stmt.kind {
             StmtKind::Assign(place, op @ None, value) => {
                 one_component(place, value);
-                compound(place, op, value);
+                compound_assignment(place, op, value);
             }
             StmtKind::If {
                 condition,
@@ -54,7 +54,7 @@ fn one_component(place: &mut Expr, value: &mut Expr) {
 }
 
 /// `x = x + a` is `x += a`.
-fn compound(place: &Expr, assigned: &mut Option<BinaryOp>, value: &mut Expr) {
+fn compound_assignment(place: &Expr, assigned: &mut Option<BinaryOp>, value: &mut Expr) {
     let Op::Ir(ir::Op::Binary(op)) = value.op else { return };
     let compounds = match op {
         BinaryOp::Add | BinaryOp::Mul | BinaryOp::Sub | BinaryOp::Div => true,

@@ -29,7 +29,7 @@ pub enum Words {
 
 impl Words {
     /// The words of a target's text.
-    pub fn of(target: Target) -> Words {
+    pub fn from_target(target: Target) -> Words {
         match target {
             Target::Hlsl => Words::Hlsl,
             Target::Wgsl | Target::Spirv | Target::Msl => Words::Wgsl,
@@ -38,7 +38,7 @@ impl Words {
     }
 
     /// Returns whether a word has a meaning of its own in the language.
-    pub fn reserve(self, word: &str) -> bool {
+    pub fn is_reserved(self, word: &str) -> bool {
         word.starts_with("__")
             || match self {
                 Words::Wgsl => {
@@ -75,16 +75,16 @@ pub struct Reserved {
 impl Reserved {
     /// Of a text in the language of a target.
     pub fn new(target: Target, options: &EmitOptions) -> Reserved {
-        let also = options.clear_of.iter().map(|other| Words::of(*other));
+        let also = options.clear_of.iter().map(|other| Words::from_target(*other));
         Reserved {
-            languages: also.chain([Words::of(target)]).collect(),
+            languages: also.chain([Words::from_target(target)]).collect(),
             words: options.reserved.clone(),
         }
     }
 
     /// Returns whether a word is reserved.
     pub fn has(&self, word: &str) -> bool {
-        is_among(&self.words, word) || self.languages.iter().any(|language| language.reserve(word))
+        is_among(&self.words, word) || self.languages.iter().any(|language| language.is_reserved(word))
     }
 }
 
@@ -220,7 +220,7 @@ fn is_shape(text: &str) -> bool {
 
 /// A name as an identifier of every language: `é` becomes `ue9`, two underscores in a row become one, and what is very long is
 /// cut.
-pub fn identifier(name: &str) -> String {
+pub fn to_identifier(name: &str) -> String {
     let mut out = String::new();
     let mut push = |c: char| {
         // GLSL keeps two underscores in a row for itself.
@@ -259,10 +259,10 @@ pub fn is_plain(name: &str) -> bool {
 /// # Errors
 ///
 /// All of a million names are taken.
-pub fn free(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<String, Refusal> {
+pub fn free_name(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<String, Refusal> {
     let base = match is_plain(name) {
         true => name.to_owned(),
-        false => identifier(name),
+        false => to_identifier(name),
     };
     if !taken(&base) {
         return Ok(base);
@@ -276,7 +276,7 @@ pub fn free(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<St
     }
     let [_, before] = &marked;
     // Words of an engine may begin as the name does.
-    numbered(kernel, before, 2, taken).map(|(name, _)| name)
+    numbered_name(kernel, before, 2, taken).map(|(name, _)| name)
 }
 
 /// The first of `stem_K`, `stem_(K + 1)`, ... that is not taken, and the number behind its own.
@@ -284,7 +284,12 @@ pub fn free(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<St
 /// # Errors
 ///
 /// All of a million names are taken.
-pub fn numbered(kernel: &str, stem: &str, from: u32, taken: impl Fn(&str) -> bool) -> Result<(String, u32), Refusal> {
+pub fn numbered_name(
+    kernel: &str,
+    stem: &str,
+    from: u32,
+    taken: impl Fn(&str) -> bool,
+) -> Result<(String, u32), Refusal> {
     let mut numbers = from..from.saturating_add(MOST);
     let found = numbers.find_map(|k| {
         let name = format!("{stem}_{k}");
@@ -313,7 +318,7 @@ mod tests {
             "samplerCUBE",
             "int16_t4",
         ] {
-            assert!(Words::Hlsl.reserve(word), "{word}");
+            assert!(Words::Hlsl.is_reserved(word), "{word}");
         }
         for word in [
             "mat4x3",
@@ -325,7 +330,7 @@ mod tests {
             "textureCubeLod",
             "dmat2",
         ] {
-            assert!(Words::Glsl.reserve(word), "{word}");
+            assert!(Words::Glsl.is_reserved(word), "{word}");
         }
         for word in [
             "vec2f",
@@ -336,7 +341,7 @@ mod tests {
             "rgba16float",
             "array",
         ] {
-            assert!(Words::Wgsl.reserve(word), "{word}");
+            assert!(Words::Wgsl.is_reserved(word), "{word}");
         }
         for language in [Words::Wgsl, Words::Glsl, Words::Hlsl] {
             for name in [
@@ -358,7 +363,7 @@ mod tests {
                 "sampler2D_",
                 "images2D",
             ] {
-                assert!(!language.reserve(name), "{name} in {language:?}");
+                assert!(!language.is_reserved(name), "{name} in {language:?}");
             }
         }
     }
@@ -366,7 +371,7 @@ mod tests {
     #[test]
     fn a_name_in_place_of_one_that_is_taken_is_free() {
         let taken = BTreeSet::from(["a", "a_", "a_2", "b", "ue9"]);
-        let free = |name: &str| free("k", name, |name| taken.contains(name) || Words::Glsl.reserve(name));
+        let free = |name: &str| free_name("k", name, |name| taken.contains(name) || Words::Glsl.is_reserved(name));
         for (name, other) in [
             ("c", "c"),
             ("_x", "_x"),
@@ -381,7 +386,7 @@ mod tests {
             assert_eq!(free(name).expect("a free name"), other, "{name}");
             assert!(is_plain(other), "{other}");
         }
-        assert!(super::free("k", "a", |_| true).is_err());
+        assert!(super::free_name("k", "a", |_| true).is_err());
         let long = free(&"n".repeat(2000)).expect("a free name");
         assert!(long.len() <= LONGEST);
     }

@@ -1,6 +1,6 @@
 //! Light: a sun with sharp shadows, a sky, and what shines.
 
-use super::solids::{Hit, Material, hit};
+use super::solids::{Hit, Material, first_hit};
 use glam::{Vec3, vec3};
 
 /// Towards the sun, of length 1.
@@ -16,11 +16,11 @@ pub fn sky(direction: Vec3) -> Vec3 {
 }
 
 /// The colour of what a ray has met.
-pub fn shade(at: Vec3, direction: Vec3, met: &Hit) -> Vec3 {
-    let (albedo, shine) = material(at, met);
+pub fn shade_hit(at: Vec3, direction: Vec3, met: &Hit) -> Vec3 {
+    let (albedo, shine) = hit_material(at, met);
     let normal = met.normal;
     let towards = normal.dot(SUN);
-    let lit = towards > 0.0 && hit(at + normal * 2.0e-3, SUN, 100.0).is_none();
+    let lit = towards > 0.0 && first_hit(at + normal * 2.0e-3, SUN, 100.0).is_none();
     let sun = match lit {
         true => SUNLIGHT * towards,
         false => Vec3::ZERO,
@@ -37,7 +37,7 @@ pub fn shade(at: Vec3, direction: Vec3, met: &Hit) -> Vec3 {
 }
 
 /// Colour, and how much it shines.
-fn material(at: Vec3, met: &Hit) -> (Vec3, f32) {
+fn hit_material(at: Vec3, met: &Hit) -> (Vec3, f32) {
     match met.material {
         Material::Plain(colour, shine) => (colour, shine),
         Material::Tiles => {

@@ -37,7 +37,7 @@ struct Solid {
     material: Material,
 }
 
-const fn plain(r: f32, g: f32, b: f32, shine: f32) -> Material {
+const fn plain_material(r: f32, g: f32, b: f32, shine: f32) -> Material {
     Material::Plain(vec3(r, g, b), shine)
 }
 
@@ -58,30 +58,30 @@ const fn block(centre: Vec3, half: Vec3, turn: [f32; 2], material: Material) -> 
 const fn wire(from: Vec3, to: Vec3, radius: f32) -> Solid {
     Solid {
         shape: Shape::Wire(from, to, radius),
-        material: plain(0.04, 0.04, 0.05, 0.1),
+        material: plain_material(0.04, 0.04, 0.05, 0.1),
     }
 }
 
 const STRAIGHT: [f32; 2] = [0.0, 1.0];
 const TURNED: [f32; 2] = [0.479_425_5, 0.877_582_6];
 const ASKEW: [f32; 2] = [-0.644_217_7, 0.764_842_2];
-const WOOD: Material = plain(0.55, 0.50, 0.42, 0.05);
+const WOOD: Material = plain_material(0.55, 0.50, 0.42, 0.05);
 
 const SOLIDS: [Solid; 12] = [
-    sphere(vec3(-1.45, 0.8, 0.6), 0.8, plain(0.62, 0.06, 0.04, 0.6)),
-    sphere(vec3(0.15, 0.5, -0.35), 0.5, plain(0.80, 0.48, 0.10, 0.8)),
-    sphere(vec3(-0.55, 0.28, -1.15), 0.28, plain(0.04, 0.36, 0.38, 0.5)),
+    sphere(vec3(-1.45, 0.8, 0.6), 0.8, plain_material(0.62, 0.06, 0.04, 0.6)),
+    sphere(vec3(0.15, 0.5, -0.35), 0.5, plain_material(0.80, 0.48, 0.10, 0.8)),
+    sphere(vec3(-0.55, 0.28, -1.15), 0.28, plain_material(0.04, 0.36, 0.38, 0.5)),
     block(
         vec3(1.75, 0.7, 0.9),
         vec3(0.62, 0.7, 0.62),
         TURNED,
-        plain(0.16, 0.26, 0.52, 0.1),
+        plain_material(0.16, 0.26, 0.52, 0.1),
     ),
     block(
         vec3(1.8, 1.68, 0.95),
         vec3(0.36, 0.28, 0.36),
         ASKEW,
-        plain(0.70, 0.66, 0.58, 0.1),
+        plain_material(0.70, 0.66, 0.58, 0.1),
     ),
     block(vec3(-3.4, 1.9, 6.0), vec3(0.9, 1.9, 0.9), TURNED, Material::Wall),
     block(vec3(3.9, 1.3, 7.0), vec3(1.3, 1.3, 0.9), ASKEW, Material::Wall),
@@ -99,7 +99,7 @@ const FENCE: Vec3 = vec3(0.0, 0.62, 3.12);
 const BARS: i32 = 16;
 
 /// The first thing that a ray meets within a distance.
-pub fn hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
+pub fn first_hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
     let mut nearest: Option<Hit> = None;
     let mut offer = |found: Option<(f32, Vec3)>, material: Material| {
         if let Some((distance, normal)) = found
@@ -118,7 +118,7 @@ pub fn hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
     for solid in &SOLIDS {
         let found = match &solid.shape {
             Shape::Sphere(centre, radius) => on_sphere(from - *centre, direction, *radius),
-            Shape::Block(centre, half, turn) => match passes(from - *centre, direction, *half) {
+            Shape::Block(centre, half, turn) => match misses_block(from - *centre, direction, *half) {
                 true => None,
                 false => on_block(from - *centre, direction, *half, *turn),
             },
@@ -133,7 +133,7 @@ pub fn hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
         for k in [-1.0, 0.0, 1.0] {
             let index = across.round() + k;
             let bar = FENCE + vec3(index * BAR_STEP, 0.0, 0.0);
-            if index.abs() <= BARS as f32 && !passes(from - bar, direction, BAR) {
+            if index.abs() <= BARS as f32 && !misses_block(from - bar, direction, BAR) {
                 offer(on_block(from - bar, direction, BAR, STRAIGHT), WOOD);
             }
         }
@@ -142,7 +142,7 @@ pub fn hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
 }
 
 /// Returns whether a ray misses the sphere around a block, a quick test.
-fn passes(from: Vec3, direction: Vec3, half: Vec3) -> bool {
+fn misses_block(from: Vec3, direction: Vec3, half: Vec3) -> bool {
     let (a, b) = (direction.length_squared(), from.dot(direction));
     b * b < a * (from.length_squared() - half.length_squared())
 }

@@ -77,7 +77,7 @@ fn resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
             base.unwrap_or(Path::new("")).join(name)
         }
     };
-    files::read(&path, MAX_BYTES).map_err(|error| format!("`{}`: {error}", shown()))
+    files::read_file(&path, MAX_BYTES).map_err(|error| format!("`{}`: {error}", shown()))
 }
 
 struct Model<'a> {

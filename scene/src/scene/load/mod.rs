@@ -85,7 +85,7 @@ pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError
 const MAX_BYTES: u64 = 1 << 32;
 
 fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
-    files::read(path, MAX_BYTES).map_err(|source| SceneError::Io {
+    files::read_file(path, MAX_BYTES).map_err(|source| SceneError::Io {
         path: path.to_owned(),
         source,
     })

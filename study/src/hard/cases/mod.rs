@@ -11,7 +11,7 @@ use super::case::{Case, Normal, Place, Seen};
 use glam::{Vec3, vec3};
 
 /// All of them.
-pub fn all() -> Vec<Case> {
+pub fn all_cases() -> Vec<Case> {
     [
         shape::CASES,
         depth::CASES,
@@ -24,15 +24,15 @@ pub fn all() -> Vec<Case> {
 }
 
 /// A wall before another, both facing the viewer a little askance: depths 5 and 8.
-fn walls(place: &Place) -> Seen {
+fn two_walls(place: &Place) -> Seen {
     match place.is_behind() {
-        true => seen(place, 8.0, vec3(0.6, 0.0, 0.8)),
-        false => seen(place, 5.0, vec3(0.0, -0.28, 0.96)),
+        true => noisy_surface(place, 8.0, vec3(0.6, 0.0, 0.8)),
+        false => noisy_surface(place, 5.0, vec3(0.0, -0.28, 0.96)),
     }
 }
 
 /// A surface with noise for colour.
-fn seen(place: &Place, depth: f32, normal: Vec3) -> Seen {
+fn noisy_surface(place: &Place, depth: f32, normal: Vec3) -> Seen {
     Seen {
         depth,
         normal: Normal::Vector(normal),

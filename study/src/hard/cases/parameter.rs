@@ -1,89 +1,99 @@
 //! Options and uniforms at the ends of their ranges, and beyond.
 
-use super::{seen, walls};
+use super::{noisy_surface, two_walls};
 use crate::hard::case::{Case, Place, Seen};
 use glam::vec3;
 
 const UNIFORM: &[(&str, &str)] = &[("tau", "uniform"), ("depth-scale", "uniform")];
 
 pub const CASES: &[Case] = &[
-    Case::new("tau-0", "every surface counts alike", slanted).options(&[("tau", "0")]),
-    Case::new("tau-tiny", "weights differ by less than they are rounded by", slanted).options(&[("tau", "1e-9")]),
-    Case::new("tau-1e6", "all weights but the nearest surface's underflow", slanted).options(&[("tau", "1e6")]),
-    Case::new("tau-0-at-run-time", "the same as a uniform", slanted)
-        .options(UNIFORM)
-        .uniforms(&[("tau", 0.0)]),
-    Case::new("tau-1e6-at-run-time", "the same as a uniform", slanted)
-        .options(UNIFORM)
-        .uniforms(&[("tau", 1.0e6)]),
+    Case::new("tau-0", "every surface counts alike", slanted_walls).with_options(&[("tau", "0")]),
+    Case::new(
+        "tau-tiny",
+        "weights differ by less than they are rounded by",
+        slanted_walls,
+    )
+    .with_options(&[("tau", "1e-9")]),
+    Case::new(
+        "tau-1e6",
+        "all weights but the nearest surface's underflow",
+        slanted_walls,
+    )
+    .with_options(&[("tau", "1e6")]),
+    Case::new("tau-0-at-run-time", "the same as a uniform", slanted_walls)
+        .with_options(UNIFORM)
+        .with_uniforms(&[("tau", 0.0)]),
+    Case::new("tau-1e6-at-run-time", "the same as a uniform", slanted_walls)
+        .with_options(UNIFORM)
+        .with_uniforms(&[("tau", 1.0e6)]),
     Case::new(
         "tau-infinite",
         "beyond its range at run time: infinity times the difference 0",
-        slanted,
+        slanted_walls,
     )
-    .options(UNIFORM)
-    .uniforms(&[("tau", f64::INFINITY)]),
-    Case::new("depth-scale-0", "depth counts for nothing", slanted).options(&[("depth-scale", "0")]),
+    .with_options(UNIFORM)
+    .with_uniforms(&[("tau", f64::INFINITY)]),
+    Case::new("depth-scale-0", "depth counts for nothing", slanted_walls).with_options(&[("depth-scale", "0")]),
     Case::new(
         "depth-scale-tiny",
         "depth counts for less than the rounding of normals",
-        slanted,
+        slanted_walls,
     )
-    .options(&[("depth-scale", "1e-12")]),
+    .with_options(&[("depth-scale", "1e-12")]),
     Case::new(
         "depth-scale-1e6",
         "every step in depth is one between surfaces",
-        slanted,
+        slanted_walls,
     )
-    .options(&[("depth-scale", "1e6")]),
+    .with_options(&[("depth-scale", "1e6")]),
     Case::new(
         "depth-scale-0-at-run-time",
         "the same as a uniform, before an infinite sky",
-        sky,
+        walls_before_sky,
     )
-    .options(UNIFORM)
-    .uniforms(&[("depth_scale", 0.0)]),
+    .with_options(UNIFORM)
+    .with_uniforms(&[("depth_scale", 0.0)]),
     Case::new(
         "depth-scale-1e6-at-run-time",
         "the same as a uniform, before an infinite sky",
-        sky,
+        walls_before_sky,
     )
-    .options(UNIFORM)
-    .uniforms(&[("depth_scale", 1.0e6)]),
+    .with_options(UNIFORM)
+    .with_uniforms(&[("depth_scale", 1.0e6)]),
     Case::new(
         "depth-scale-1e38",
         "beyond its range at run time: a step of 3 becomes infinite",
-        slanted,
+        slanted_walls,
     )
-    .options(UNIFORM)
-    .uniforms(&[("depth_scale", 1.0e38)]),
+    .with_options(UNIFORM)
+    .with_uniforms(&[("depth_scale", 1.0e38)]),
     Case::new(
         "narrowest-gaussian",
         "the narrowest falloff: corners weigh 1e-28, and may be the only ones",
-        slanted,
+        slanted_walls,
     )
-    .options(&[("falloff", "gaussian"), ("sigma", "0.125"), ("pattern", "latin16")]),
+    .with_options(&[("falloff", "gaussian"), ("sigma", "0.125"), ("pattern", "latin16")]),
     Case::new(
         "masked-at-0",
         "a mask that keeps only what does not differ at all",
-        slanted,
+        slanted_walls,
     )
-    .options(&[("mask", "select"), ("mask-threshold", "0")]),
+    .with_options(&[("mask", "select"), ("mask-threshold", "0")]),
     Case::new("relative-at-0", "depth counts by its share, and begins at 0", |p| {
-        seen(p, 1.0 + p.centred().x, vec3(0.0, 0.0, 1.0))
+        noisy_surface(p, 1.0 + p.centred().x, vec3(0.0, 0.0, 1.0))
     })
-    .options(&[("difference", "relative")]),
+    .with_options(&[("difference", "relative")]),
 ];
 
 /// Walls that recede: differences of all sizes.
-fn slanted(place: &Place) -> Seen {
-    let mut seen = walls(place);
+fn slanted_walls(place: &Place) -> Seen {
+    let mut seen = two_walls(place);
     seen.depth += 0.003 * place.at.x + 0.000_3 * place.at.y * place.at.y;
     seen
 }
 
-fn sky(place: &Place) -> Seen {
-    let mut seen = slanted(place);
+fn walls_before_sky(place: &Place) -> Seen {
+    let mut seen = slanted_walls(place);
     if place.is_behind() {
         seen.depth = f32::INFINITY;
     }

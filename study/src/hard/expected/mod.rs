@@ -20,7 +20,7 @@ mod sums;
 
 use super::HardError;
 use super::case::Case;
-use super::form::{Family, Form, choice};
+use super::form::{Family, Form, choice_or};
 use super::inputs::Reads;
 use glam::{IVec2, Vec4};
 use straightline_bench::execute::Inputs;
@@ -46,7 +46,7 @@ pub struct Expected {
 }
 
 /// Returns the expected result of a form with `options`.
-pub fn expected(form: &Form, options: &OptionValues, reads: &Reads) -> Result<Expected, HardError> {
+pub fn expected_result(form: &Form, options: &OptionValues, reads: &Reads) -> Result<Expected, HardError> {
     let inputs = &reads.inputs;
     match form.family {
         Family::Sraa => {
@@ -61,12 +61,12 @@ pub fn expected(form: &Form, options: &OptionValues, reads: &Reads) -> Result<Ex
                 lanes: 4,
             })
         }
-        Family::Stalker | Family::TabulaRasa => Ok(edges(form.family, options, inputs)),
-        Family::Upsampling => Ok(upsampled(options, inputs)),
-        Family::Bilateral => Ok(blurred(options, inputs)),
-        Family::Convolution => Ok(sums::convolved(options, inputs)),
-        Family::Ssao => Ok(sums::occluded(options, inputs)),
-        Family::Pcf | Family::Pcss => Ok(shadow::shadowed(form.family, options, inputs)),
+        Family::Stalker | Family::TabulaRasa => Ok(expected_edges(form.family, options, inputs)),
+        Family::Upsampling => Ok(expected_upsampling(options, inputs)),
+        Family::Bilateral => Ok(expected_blur(options, inputs)),
+        Family::Convolution => Ok(sums::expected_convolution(options, inputs)),
+        Family::Ssao => Ok(sums::expected_occlusion(options, inputs)),
+        Family::Pcf | Family::Pcss => Ok(shadow::expected_shadow(form.family, options, inputs)),
     }
 }
 
@@ -76,24 +76,24 @@ pub fn half_limit(case: &Case, family: Family) -> f64 {
         return 1.0 / 255.0;
     }
     let pixels = (0..case.size.y).flat_map(|y| (0..case.size.x).map(move |x| glam::uvec2(x, y)));
-    let lanes = pixels.flat_map(|pixel| case.at(pixel, glam::Vec2::ZERO, None).color.to_array());
+    let lanes = pixels.flat_map(|pixel| case.surface_at(pixel, glam::Vec2::ZERO, None).color.to_array());
     let finite = lanes.filter(|lane| lane.is_finite());
     finite.fold(0.0f64, |most, lane| most.max(f64::from(lane).abs())) / 255.0
 }
 
-fn find<'a>(inputs: &'a Inputs, name: &str) -> Option<&'a Frame<Vec4>> {
+fn find_image<'a>(inputs: &'a Inputs, name: &str) -> Option<&'a Frame<Vec4>> {
     let found = inputs.images.iter().rev().find(|(known, _)| known == name);
     found.and_then(|(_, layers)| layers.first())
 }
 
-fn frame<T: Copy>(inputs: &Inputs, name: &str, of: impl Fn(Vec4) -> T) -> Frame<T> {
-    match find(inputs, name) {
+fn input_frame<T: Copy>(inputs: &Inputs, name: &str, of: impl Fn(Vec4) -> T) -> Frame<T> {
+    match find_image(inputs, name) {
         Some(image) => Frame::new(image.size(), image.texels().iter().map(|t| of(*t)).collect()),
         None => Frame::new(glam::UVec2::ONE, vec![of(Vec4::ZERO)]),
     }
 }
 
-fn number(options: &OptionValues, name: &str, default: f64) -> f64 {
+fn number_or(options: &OptionValues, name: &str, default: f64) -> f64 {
     options.number(name).unwrap_or(default)
 }
 
@@ -101,36 +101,36 @@ fn number(options: &OptionValues, name: &str, default: f64) -> f64 {
 /// their sums, a reciprocal of 2.5 ULP.
 const CLOSE: f64 = 32.0 * Rounding::SINGLE.unit;
 
-fn edges(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
+fn expected_edges(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
     let (depth, normal) = (
-        frame(inputs, "depth", |t| t.x),
-        frame(inputs, "normal", |t| t.truncate()),
+        input_frame(inputs, "depth", |t| t.x),
+        input_frame(inputs, "normal", |t| t.truncate()),
     );
-    let color = frame(inputs, "color", |t| t);
+    let color = input_frame(inputs, "color", |t| t);
     let geometry = Geometry {
         depth: &depth,
         normal: &normal,
     };
-    let printed = choice(options, "form", "corrected") == "paper";
+    let printed = choice_or(options, "form", "corrected") == "paper";
     let (edges, colors) = match family {
         Family::Stalker => {
             let filter = Stalker {
                 printed,
-                linear_depth: choice(options, "depth", "projected") == "linear",
-                normal_barrier: number(options, "normal-barrier", 0.8),
-                depth_barrier: number(options, "depth-barrier", 1.0e-5),
-                normal_weight: number(options, "normal-weight", 1.0),
-                depth_weight: number(options, "depth-weight", 1.0),
-                kernel: number(options, "kernel", 1.0),
+                linear_depth: choice_or(options, "depth", "projected") == "linear",
+                normal_barrier: number_or(options, "normal-barrier", 0.8),
+                depth_barrier: number_or(options, "depth-barrier", 1.0e-5),
+                normal_weight: number_or(options, "normal-weight", 1.0),
+                depth_weight: number_or(options, "depth-weight", 1.0),
+                kernel: number_or(options, "kernel", 1.0),
             };
             (filter.edges(&geometry), filter.antialiased(&geometry, &color))
         }
         _ => {
             let filter = TabulaRasa {
                 printed,
-                depth_sensibility: number(options, "depth-sensibility", 25.0),
-                normal_sensibility: number(options, "normal-sensibility", 1.0),
-                weight: number(options, "weight", 1.0),
+                depth_sensibility: number_or(options, "depth-sensibility", 25.0),
+                normal_sensibility: number_or(options, "normal-sensibility", 1.0),
+                weight: number_or(options, "weight", 1.0),
             };
             (filter.edges(&geometry), filter.antialiased(&geometry, &color))
         }
@@ -196,22 +196,22 @@ impl Around {
     }
 }
 
-fn picture(inputs: &Inputs, name: &str, of: impl Fn([f64; 4]) -> [f64; 4]) -> Picture {
-    let image = frame(inputs, name, |t| t);
+fn input_picture(inputs: &Inputs, name: &str, of: impl Fn([f64; 4]) -> [f64; 4]) -> Picture {
+    let image = input_frame(inputs, name, |t| t);
     Picture {
         size: [image.size().x.into(), image.size().y.into()],
         texels: image.texels().iter().map(|t| of(t.to_array().map(f64::from))).collect(),
     }
 }
 
-fn places(inputs: &Inputs) -> impl Iterator<Item = [i64; 2]> {
+fn pixel_positions(inputs: &Inputs) -> impl Iterator<Item = [i64; 2]> {
     let size = inputs.size;
     (0..size.y).flat_map(move |y| (0..size.x).map(move |x| [i64::from(x), i64::from(y)]))
 }
 
 /// A Gaussian weight `tent` exp(−`exponent`), and the most that it may be off, `off` being the most that the exponent is beside
 /// the rounding of the squares that it is a sum of.
-fn gaussian(tent: f64, exponent: f64, off: f64) -> (f64, f64) {
+fn gaussian_weight(tent: f64, exponent: f64, off: f64) -> (f64, f64) {
     let rounding = &Rounding::SINGLE;
     let weight = tent * (-exponent).exp();
     let share = off + rounding.of_exponential(exponent) + 16.0 * rounding.unit * (1.0 + exponent);
@@ -219,28 +219,31 @@ fn gaussian(tent: f64, exponent: f64, off: f64) -> (f64, f64) {
     (weight, most.min(tent) + 2.0 * rounding.smallest)
 }
 
-fn size(color: &[f64; 4]) -> f64 {
+fn largest_component(color: &[f64; 4]) -> f64 {
     color.iter().fold(0.0, |most, lane| most.max(lane.abs()))
 }
 
-fn blurred(options: &OptionValues, inputs: &Inputs) -> Expected {
-    let (radius, sigma) = (number(options, "radius", 2.0) as i64, number(options, "sigma", 2.0));
-    let depth_sigma = number(options, "depth-sigma", 0.1);
-    let image = picture(inputs, "image", |t| t);
-    let colors = places(inputs)
+fn expected_blur(options: &OptionValues, inputs: &Inputs) -> Expected {
+    let (radius, sigma) = (
+        number_or(options, "radius", 2.0) as i64,
+        number_or(options, "sigma", 2.0),
+    );
+    let depth_sigma = number_or(options, "depth-sigma", 0.1);
+    let image = input_picture(inputs, "image", |t| t);
+    let colors = pixel_positions(inputs)
         .map(|at| quads::bilateral(&image, radius, sigma, depth_sigma, at))
         .collect();
     let most_off = |[x, y]: [i64; 2]| {
         let centre = quads::counted(image.at(x, y), 3);
         let mut shares = Vec::new();
-        let mut brightest = size(&color_of(centre));
+        let mut brightest = largest_component(&color_of(centre));
         for j in -radius..=radius {
             for i in -radius..=radius {
                 let texel = quads::counted(image.at(x + i, y + j), 3);
                 let z = (texel[3] - centre[3]) / depth_sigma;
                 let near = (i * i + j * j) as f64 / (sigma * sigma);
-                let (weight, off) = gaussian(1.0, 0.5 * (z * z + near), 0.0);
-                brightest = brightest.max(size(&color_of(texel)));
+                let (weight, off) = gaussian_weight(1.0, 0.5 * (z * z + near), 0.0);
+                brightest = brightest.max(largest_component(&color_of(texel)));
                 shares.push(Share {
                     color: color_of(texel),
                     weight,
@@ -250,7 +253,7 @@ fn blurred(options: &OptionValues, inputs: &Inputs) -> Expected {
         }
         bound::of_mean(&shares, true, &Rounding::SINGLE) + 24.0 * Rounding::SINGLE.unit * brightest
     };
-    let bounds: Vec<f64> = places(inputs).map(most_off).collect();
+    let bounds: Vec<f64> = pixel_positions(inputs).map(most_off).collect();
     Expected {
         colors,
         device_bounds: bounds.clone(),
@@ -264,29 +267,35 @@ fn color_of(texel: [f64; 4]) -> [f64; 4] {
     [texel[0], texel[1], texel[2], 0.0]
 }
 
-fn upsampled(options: &OptionValues, inputs: &Inputs) -> Expected {
-    let factor: i64 = if choice(options, "factor", "twice") == "four-times" {
+fn expected_upsampling(options: &OptionValues, inputs: &Inputs) -> Expected {
+    let factor: i64 = if choice_or(options, "factor", "twice") == "four-times" {
         4
     } else {
         2
     };
-    let packed = choice(options, "reads", "packed") == "packed";
+    let packed = choice_or(options, "reads", "packed") == "packed";
     let normals = !packed && options.flag("normals") == Some(true);
-    let low = picture(inputs, "low", |t| if packed { [t[0], t[1], t[2], 1.0] } else { t });
-    let surface = picture(inputs, if packed { "low" } else { "low_surface" }, |t| t);
-    let (depth, normal) = (picture(inputs, "depth", |t| t), picture(inputs, "normal", |t| t));
+    let low = input_picture(inputs, "low", |t| if packed { [t[0], t[1], t[2], 1.0] } else { t });
+    let surface = input_picture(inputs, if packed { "low" } else { "low_surface" }, |t| t);
+    let (depth, normal) = (
+        input_picture(inputs, "depth", |t| t),
+        input_picture(inputs, "normal", |t| t),
+    );
     let given = quads::Upsampled {
         factor,
         low: &low,
         surface: &surface,
         depth: &depth,
         normal: &normal,
-        depth_sigma: number(options, "depth-sigma", 0.1),
-        normal_sigma: normals.then(|| number(options, "normal-sigma", 0.1)),
-        screen_sigma: (choice(options, "screen", "tent") == "gaussian").then(|| number(options, "screen-sigma", 0.5)),
+        depth_sigma: number_or(options, "depth-sigma", 0.1),
+        normal_sigma: normals.then(|| number_or(options, "normal-sigma", 0.1)),
+        screen_sigma: (choice_or(options, "screen", "tent") == "gaussian")
+            .then(|| number_or(options, "screen-sigma", 0.5)),
     };
-    let colors = places(inputs).map(|at| quads::upsampling(&given, at)).collect();
-    let bounds: Vec<f64> = places(inputs).map(|at| upsampling_off(&given, at)).collect();
+    let colors = pixel_positions(inputs)
+        .map(|at| quads::upsampling(&given, at))
+        .collect();
+    let bounds: Vec<f64> = pixel_positions(inputs).map(|at| upsampling_off(&given, at)).collect();
     Expected {
         colors,
         device_bounds: bounds.clone(),
@@ -307,18 +316,18 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
         // A cosine is off by four roundings of its products; its square by twice that times itself.
         let n_off = 8.0 * unit * tap.products / given.normal_sigma.unwrap_or(1.0);
         let off = n_off * tap.turned.abs() + n_off * n_off;
-        let (weight, most) = gaussian(tap.screen, 0.5 * tap.exponent, off);
+        let (weight, most) = gaussian_weight(tap.screen, 0.5 * tap.exponent, off);
         shares.push(Share {
             color: tap.color,
             weight,
             off: most,
         });
     }
-    let brightest = taps.iter().map(|tap| size(&tap.color)).fold(0.0, f64::max);
+    let brightest = taps.iter().map(|tap| largest_component(&tap.color)).fold(0.0, f64::max);
     let rounded = 24.0 * unit * brightest + 24.0 * Rounding::SINGLE.smallest;
     let range = taps
         .iter()
-        .flat_map(|a| taps.iter().map(|b| apart(&a.color, &b.color)))
+        .flat_map(|a| taps.iter().map(|b| largest_difference(&a.color, &b.color)))
         .fold(0.0, f64::max);
     let (low, high) = shares.iter().fold((0.0, 0.0), |(l, h), s| {
         (l + (s.weight - s.off).max(0.0), h + s.weight + s.off)
@@ -338,11 +347,11 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     let may_be = |tap: &&quads::Tap| tap.away <= nearest + 4.0 * unit * tap.away;
     let near: Vec<_> = taps.iter().filter(may_be).collect();
     near.iter()
-        .flat_map(|a| near.iter().map(|b| apart(&a.color, &b.color)))
+        .flat_map(|a| near.iter().map(|b| largest_difference(&a.color, &b.color)))
         .fold(0.0, f64::max)
         + rounded
 }
 
-fn apart(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+fn largest_difference(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     (0..4).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
 }

@@ -4,17 +4,17 @@
 //! the coordinates that were read and with each of them a little smaller and a little larger: between these results lies every outcome
 //! of those decisions, as all are off by the same.
 
-use super::{Expected, number, picture, places};
-use crate::hard::form::{self, Family, choice};
+use super::{Expected, input_picture, number_or, pixel_positions};
+use crate::hard::form::{self, Family, choice_or};
 use straightline_bench::execute::Inputs;
 use straightline_kernels::OptionValues;
 use straightline_oracle::oracle::bound::Rounding;
 use straightline_oracle::oracle::quads::{self, Counted, Shadow};
 
 /// Returns the expected result of a form with `options` for coordinates and a shadow map.
-pub fn shadowed(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
-    let coord = picture(inputs, "coord", |t| t);
-    let depths = picture(inputs, "shadow", |t| t);
+pub fn expected_shadow(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
+    let coord = input_picture(inputs, "coord", |t| t);
+    let depths = input_picture(inputs, "shadow", |t| t);
     let filter = Filter::new(
         family,
         options,
@@ -22,13 +22,13 @@ pub fn shadowed(family: Family, options: &OptionValues, inputs: &Inputs) -> Expe
         depths.texels.iter().map(|t| t[0]).collect(),
     );
     let (mut colors, mut bounds, mut device_bounds) = (Vec::new(), Vec::new(), Vec::new());
-    for [x, y] in places(inputs) {
+    for [x, y] in pixel_positions(inputs) {
         let lanes = [0, 1, 2, 3].map(|k| {
             let [x, y, z, _] = coord.at(x / 2 * 2 + k % 2, y / 2 * 2 + k / 2);
             quads::counted_coordinates([x, y, z], filter.map.size, filter.reach)
         });
         let own = lanes[(x % 2 + 2 * (y % 2)) as usize];
-        let (value, off, by_device) = filter.between(own, quads::mean(&lanes));
+        let (value, off, by_device) = filter.light_with_bounds(own, quads::mean(&lanes));
         colors.push([value; 4]);
         bounds.push(off);
         device_bounds.push(by_device);
@@ -56,21 +56,21 @@ struct Filter<'a> {
 
 impl<'a> Filter<'a> {
     fn new(family: Family, options: &'a OptionValues, size: [i64; 2], depths: Vec<f64>) -> Filter<'a> {
-        let texels = form::texels(options);
-        let is_lookup = choice(options, "weights", "box") == "lookup";
-        let is_gathered = choice(options, "method", "quad") == "gather";
+        let texels = form::shadow_filter_width(options);
+        let is_lookup = choice_or(options, "weights", "box") == "lookup";
+        let is_gathered = choice_or(options, "method", "quad") == "gather";
         let map = Shadow {
             size,
             depths,
             // The table holds a cubic B-spline.
             weights: match is_lookup {
                 true => "cubic".to_owned(),
-                false => choice(options, "weights", "box").to_owned(),
+                false => choice_or(options, "weights", "box").to_owned(),
             },
             half: if is_gathered { 3.0 } else { texels as f64 / 2.0 },
         };
         let reach = match family {
-            Family::Pcss => 0.375 * number(options, "search", 16.0).max(number(options, "widest", 24.0)) + 2.0,
+            Family::Pcss => 0.375 * number_or(options, "search", 16.0).max(number_or(options, "widest", 24.0)) + 2.0,
             _ => texels as f64 / 2.0 + 2.0,
         };
         Filter {
@@ -84,9 +84,9 @@ impl<'a> Filter<'a> {
     }
 
     /// Light for a pixel, and the most that an interpreter and a device may be off.
-    fn between(&self, own: Counted, mean: [f64; 3]) -> (f64, f64, f64) {
+    fn light_with_bounds(&self, own: Counted, mean: [f64; 3]) -> (f64, f64, f64) {
         let unit = Rounding::SINGLE.unit;
-        let (value, slant) = self.light(own.coord, mean);
+        let (value, slant) = self.light_and_slope(own.coord, mean);
         let blockers = match self.family {
             Family::Pcss => self.blockers(own.coord, mean),
             _ => Vec::new(),
@@ -107,7 +107,7 @@ impl<'a> Filter<'a> {
                 })
             };
             let (own_there, mean_there) = (moved(own.coord), moved(mean));
-            off = off.max((self.light(own_there, mean_there).0 - value).abs());
+            off = off.max((self.light_and_slope(own_there, mean_there).0 - value).abs());
             // Each depth of a search may be another by itself, and then the penumbra any.
             if self.family == Family::Pcss && self.blockers(own_there, mean_there) != blockers {
                 off = 1.0;
@@ -120,22 +120,22 @@ impl<'a> Filter<'a> {
 
     /// Returns the result of the search for blockers.
     fn blockers(&self, own: [f64; 3], mean: [f64; 3]) -> Vec<f64> {
-        let from = match choice(self.options, "sharing", "quad") {
+        let from = match choice_or(self.options, "sharing", "quad") {
             "quad" => mean,
             _ => own,
         };
         let place = [0, 1].map(|axis| from[axis] * self.map.size[axis] as f64);
-        quads::blockers(&self.map, place, from[2], number(self.options, "search", 16.0))
+        quads::blockers(&self.map, place, from[2], number_or(self.options, "search", 16.0))
     }
 
     /// Light for a pixel at `own` of a quad at `mean`, and by how much an error of all comparisons counts in its slope.
-    fn light(&self, own: [f64; 3], mean: [f64; 3]) -> (f64, f64) {
+    fn light_and_slope(&self, own: [f64; 3], mean: [f64; 3]) -> (f64, f64) {
         let of = |c: [f64; 3]| [0, 1].map(|axis| c[axis] * self.map.size[axis] as f64);
         let (own_place, place) = (of(own), of(mean));
-        let value = |name: &str, default| choice(self.options, name, default);
+        let value = |name: &str, default| choice_or(self.options, name, default);
         if self.family == Family::Pcss {
             let numbers = [("search", 16.0), ("light", 400.0), ("narrowest", 2.0), ("widest", 24.0)];
-            let numbers = numbers.map(|(name, default)| number(self.options, name, default));
+            let numbers = numbers.map(|(name, default)| number_or(self.options, name, default));
             let (place, depth) = match value("sharing", "quad") {
                 "quad" => (place, mean[2]),
                 _ => (own_place, own[2]),

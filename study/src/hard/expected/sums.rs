@@ -1,7 +1,7 @@
 //! Convolutions and ambient occlusion, by definition.
 
-use super::{Expected, number, picture, places, size};
-use crate::hard::form::choice;
+use super::{Expected, input_picture, largest_component, number_or, pixel_positions};
+use crate::hard::form::choice_or;
 use straightline_bench::execute::Inputs;
 use straightline_kernels::OptionValues;
 use straightline_oracle::oracle::bound::Rounding;
@@ -10,11 +10,11 @@ use straightline_oracle::oracle::quads::{self, Ao, Picture};
 /// Returns the expected result of a convolution. A sum of n products is off by n + 2 roundings of the largest; bilinear taps by
 /// the place between
 /// texels, too, and on a device by its steps of 1/256 on each axis.
-pub fn convolved(options: &OptionValues, inputs: &Inputs) -> Expected {
-    let radius = number(options, "radius", 1.0) as i64;
-    let is_bilinear = choice(options, "taps", "pixels") == "bilinear";
-    let is_box = choice(options, "weights", "box") == "box";
-    let raw = picture(inputs, "image", |t| t);
+pub fn expected_convolution(options: &OptionValues, inputs: &Inputs) -> Expected {
+    let radius = number_or(options, "radius", 1.0) as i64;
+    let is_bilinear = choice_or(options, "taps", "pixels") == "bilinear";
+    let is_box = choice_or(options, "weights", "box") == "box";
+    let raw = input_picture(inputs, "image", |t| t);
     let image = quads::bounded_image(&raw, 1.0);
     let width = (2 * radius + 1) as f64;
     let unit = Rounding::SINGLE.unit;
@@ -33,10 +33,10 @@ pub fn convolved(options: &OptionValues, inputs: &Inputs) -> Expected {
             quads::fitted(&raw, radius, weight, at)
         }
     };
-    let colors: Vec<_> = places(inputs).map(color).collect();
+    let colors: Vec<_> = pixel_positions(inputs).map(color).collect();
     let side = raw.size[0].max(raw.size[1]) as f64;
     let (mut bounds, mut device_bounds) = (Vec::new(), Vec::new());
-    for at in places(inputs) {
+    for at in pixel_positions(inputs) {
         let brightest = brightest_around(&image, radius + 1, at);
         let rounded = (width * width + 16.0) * unit * brightest + 64.0 * Rounding::SINGLE.smallest;
         let [placed, by_device] = match is_bilinear {
@@ -58,24 +58,29 @@ pub fn convolved(options: &OptionValues, inputs: &Inputs) -> Expected {
 
 fn brightest_around(image: &Picture, radius: i64, [x, y]: [i64; 2]) -> f64 {
     let around = (-radius..=radius).flat_map(|j| (-radius..=radius).map(move |i| [x + i, y + j]));
-    around.map(|[x, y]| size(&image.at(x, y))).fold(0.0, f64::max)
+    around
+        .map(|[x, y]| largest_component(&image.at(x, y)))
+        .fold(0.0, f64::max)
 }
 
 /// Returns the expected ambient occlusion, between the least and the most that roundings make of each tap and of its place.
-pub fn occluded(options: &OptionValues, inputs: &Inputs) -> Expected {
+pub fn expected_occlusion(options: &OptionValues, inputs: &Inputs) -> Expected {
     // Options are numbers of 32 bits.
-    let option = |name: &str, default: f64| f64::from(number(options, name, default) as f32);
+    let option = |name: &str, default: f64| f64::from(number_or(options, name, default) as f32);
     let ao = Ao {
-        taps: number(options, "taps", 4.0) as usize,
+        taps: number_or(options, "taps", 4.0) as usize,
         radius: option("radius", 0.5),
         bias: option("bias", 0.05),
         strength: option("strength", 2.0),
         pixel_angle: option("pixel-angle", 0.005),
         depth_sigma: option("depth-sigma", 0.2),
     };
-    let (depth, normal) = (picture(inputs, "depth", |t| t), picture(inputs, "normal", |t| t));
-    let is_shared = choice(options, "sharing", "quad") == "quad";
-    let light = places(inputs).map(|at| quads::ssao_between(&ao, &depth, &normal, is_shared, at));
+    let (depth, normal) = (
+        input_picture(inputs, "depth", |t| t),
+        input_picture(inputs, "normal", |t| t),
+    );
+    let is_shared = choice_or(options, "sharing", "quad") == "quad";
+    let light = pixel_positions(inputs).map(|at| quads::ssao_between(&ao, &depth, &normal, is_shared, at));
     let (colors, bounds): (Vec<_>, Vec<f64>) = light
         .map(|light| {
             (

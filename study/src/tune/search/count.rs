@@ -1,6 +1,6 @@
 //! Static counts of variants.
 
-use super::{Search, chunk};
+use super::{Search, chunk_size};
 use crate::progress::Progress;
 use crate::tune::features::Static;
 use crate::tune::space::Variant;
@@ -14,22 +14,28 @@ const LONGEST: f64 = 2500.0;
 
 impl Search {
     /// Static counts of every variant that has none yet, but of blocks that would be too long.
-    pub(super) fn count(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+    pub(super) fn count_variants(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         // Both precisions share one graph; single pixels come before blocks, which are judged by them.
         let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
         let unknown = self.entries.iter().enumerate().filter(|(_, e)| e.known.is_none());
         for (k, entry) in unknown {
-            alike.entry(entry.variant.with(Term::Precision, 0)).or_default().push(k);
+            alike
+                .entry(entry.variant.with_value(Term::Precision, 0))
+                .or_default()
+                .push(k);
         }
         let mut graphs: Vec<Variant> = alike.keys().copied().collect();
-        graphs.sort_by_key(|variant| variant.at(Term::Block));
+        graphs.sort_by_key(|variant| variant.value_index(Term::Block));
         progress.begin("counts", graphs.len());
         let mut too_long = 0;
-        for some in graphs.chunks(4 * chunk()) {
-            if progress.stopped() {
+        for some in graphs.chunks(4 * chunk_size()) {
+            if progress.is_stopped() {
                 return Ok(false);
             }
-            let counted: Vec<_> = some.par_iter().map(|graph| (*graph, self.counted(*graph))).collect();
+            let counted: Vec<_> = some
+                .par_iter()
+                .map(|graph| (*graph, self.count_variant(*graph)))
+                .collect();
             for (graph, counted) in counted {
                 let counted = counted?;
                 too_long += usize::from(counted.is_none());
@@ -46,24 +52,24 @@ impl Search {
             ));
         }
         if self.entries.iter().any(|entry| entry.known.is_none()) {
-            self.keep(|entry| entry.known.is_some());
+            self.retain_entries(|entry| entry.known.is_some());
         }
         Ok(true)
     }
 
     /// Counts of a variant; `None` of a block that would be too long.
-    fn counted(&self, variant: Variant) -> Result<Option<Static>, TuneError> {
-        let [width, height] = self.space.value(variant, Term::Block).block;
-        let single = self.index.get(&variant.with(Term::Block, 0));
+    fn count_variant(&self, variant: Variant) -> Result<Option<Static>, TuneError> {
+        let [width, height] = self.space.variant_value(variant, Term::Block).block;
+        let single = self.index.get(&variant.with_value(Term::Block, 0));
         let single = single.and_then(|k| self.entries[*k].known.as_ref());
         if let Some(single) = single.filter(|_| width * height > 1)
             && single.statements * f64::from(width * height) > LONGEST
         {
             return Ok(None);
         }
-        let filter = Static::of(&self.compile(variant)?);
-        Ok(Some(match self.placing(variant) {
-            Some(placing) => filter.after(placing.known.clone()),
+        let filter = Static::from_compiled(&self.compile(variant)?);
+        Ok(Some(match self.placing_for(variant) {
+            Some(placing) => filter.after_placing(placing.known.clone()),
             None => filter,
         }))
     }

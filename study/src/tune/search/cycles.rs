@@ -10,14 +10,19 @@ use straightline_isa::IsaError;
 
 impl Search {
     /// Asks the compiler for the cycles of variants, of which the first is the most general one. Whether all was done.
-    pub(super) fn ask(&mut self, which: &[usize], what: &str, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+    pub(super) fn measure_cycles(
+        &mut self,
+        which: &[usize],
+        what: &str,
+        progress: &mut dyn Progress,
+    ) -> Result<bool, TuneError> {
         progress.begin(what, which.len());
         for k in which {
-            if progress.stopped() {
+            if progress.is_stopped() {
                 return Ok(false);
             }
             if self.entries[*k].cycles.is_none() {
-                match self.cycles(*k) {
+                match self.cycles_per_pixel(*k) {
                     Ok(cycles) => self.entries[*k].cycles = Some(cycles),
                     // Without the most general variant nothing can be said.
                     Err(TuneError::Compiler(IsaError::Shader(_, why))) if *k != 0 => {
@@ -42,18 +47,18 @@ impl Search {
     }
 
     /// Cycles of a wave and pixel of its invocations, of both passes where its pixels are placed.
-    fn cycles(&mut self, index: usize) -> Result<f64, TuneError> {
+    fn cycles_per_pixel(&mut self, index: usize) -> Result<f64, TuneError> {
         let variant = self.entries[index].variant;
-        let [width, height] = self.space.value(variant, Term::Block).block;
+        let [width, height] = self.space.variant_value(variant, Term::Block).block;
         let filter = self.compile(variant)?;
-        let filter = self.asked(&filter, self.space.precision(variant))? / f64::from(width * height);
-        let samples = variant.at(Term::Samples);
-        let placing = self.placing(variant);
+        let filter = self.kernel_cycles(&filter, self.space.precision(variant))? / f64::from(width * height);
+        let samples = variant.value_index(Term::Samples);
+        let placing = self.placing_for(variant);
         let place = match placing.map(|placing| (placing.cycles, placing.compiled.clone())) {
             None => 0.0,
             Some((Some(cycles), _)) => cycles,
             Some((None, compiled)) => {
-                let cycles = self.asked(&compiled, Precision::F32)?;
+                let cycles = self.kernel_cycles(&compiled, Precision::F32)?;
                 if let Some(placing) = &mut self.grounds[samples].placing {
                     placing.cycles = Some(cycles);
                 }
@@ -64,7 +69,7 @@ impl Search {
     }
 
     /// Cycles of a wave and invocation of a kernel.
-    fn asked(&mut self, compiled: &Compiled, precision: Precision) -> Result<f64, TuneError> {
+    fn kernel_cycles(&mut self, compiled: &Compiled, precision: Precision) -> Result<f64, TuneError> {
         let options = EmitOptions::new()
             .stage(Stage::Compute)
             .precision(precision)

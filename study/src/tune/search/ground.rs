@@ -64,9 +64,9 @@ impl Ground {
     ) -> Result<Ground, TuneError> {
         let reads = |place: &str| -> Result<Vec<(Compiled, Manifest)>, TuneError> {
             // A capture that is shaded elsewhere stays so.
-            let settings = richest(space, samples).into_iter().map(|v| match placed {
-                Some(_) => shaded(space, v, place),
-                None => space.settings(v),
+            let settings = richest_variants(space, samples).into_iter().map(|v| match placed {
+                Some(_) => shading_settings(space, v, place),
+                None => space.variant_settings(v),
             });
             settings.map(|settings| manifest_of(bench, kernel, &settings)).collect()
         };
@@ -78,7 +78,7 @@ impl Ground {
         let place = placed.map(|_| {
             let options = place_options(
                 space,
-                space.value(space.general().with(Term::Samples, samples), Term::Samples),
+                space.variant_value(space.general().with_value(Term::Samples, samples), Term::Samples),
             );
             let settings = Settings::new().set_all(options);
             manifest_of(bench, &Kernel::builtin("sraa_place")?, &settings)
@@ -95,7 +95,7 @@ impl Ground {
             all.push((compiled.clone(), manifest.clone()));
             all.extend(reads("placed")?);
         }
-        let wide = widest(all.iter().map(|(_, manifest)| manifest));
+        let wide = merge_bindings(all.iter().map(|(_, manifest)| manifest));
         let here = Manifest {
             bindings: wide
                 .iter()
@@ -117,10 +117,10 @@ impl Ground {
                 let (pass, _) = bench.pass(&compiled, Stage::Compute)?;
                 Ok(Placing {
                     reads: bench.share(&manifest, &inputs, &uploaded)?,
-                    known: Static::of(&compiled),
+                    known: Static::from_compiled(&compiled),
                     compiled,
                     pass,
-                    uploaded: bench.upload_onto(&there, &moved(&inputs, placed), &uploaded)?,
+                    uploaded: bench.upload_onto(&there, &placed_inputs(&inputs, placed), &uploaded)?,
                     cycles: None,
                 })
             });
@@ -133,7 +133,7 @@ impl Ground {
     }
 
     /// Bytes that a variant reads a pixel, by its metric, and whether it is placed and borrows light apart.
-    pub(super) fn bytes(&self, metric: &str, is_placed: bool, is_apart: bool) -> u64 {
+    pub(super) fn bytes_per_pixel(&self, metric: &str, is_placed: bool, is_apart: bool) -> u64 {
         let geometry = match metric {
             _ if is_placed => DEPTH_BYTES + NORMAL_BYTES,
             "normals" => NORMAL_BYTES,
@@ -150,9 +150,9 @@ impl Ground {
 
 /// Variants that together read all that any of one set of samples does, and of each texture as many components: what a loop chooses a
 /// sample by is read whole. The last reads every texture.
-fn richest(space: &Space, samples: usize) -> Vec<Variant> {
-    let general = space.general().with(Term::Samples, samples);
-    let most = |v: Variant, term: Term| v.with(term, space.values(term).len() - 1);
+fn richest_variants(space: &Space, samples: usize) -> Vec<Variant> {
+    let general = space.general().with_value(Term::Samples, samples);
+    let most = |v: Variant, term: Term| v.with_value(term, space.term_values(term).len() - 1);
     let searched = most(general, Term::Search);
     let mut all = vec![general, searched, most(searched, Term::Light)];
     all.dedup();
@@ -160,7 +160,7 @@ fn richest(space: &Space, samples: usize) -> Vec<Variant> {
 }
 
 /// The bindings of several kernels, each with all components that one of them reads.
-fn widest<'a>(manifests: impl Iterator<Item = &'a Manifest>) -> Vec<Binding> {
+fn merge_bindings<'a>(manifests: impl Iterator<Item = &'a Manifest>) -> Vec<Binding> {
     let mut all: Vec<Binding> = Vec::new();
     for binding in manifests.flat_map(|manifest| &manifest.bindings) {
         match all.iter_mut().find(|known| known.name == binding.name) {
@@ -186,14 +186,14 @@ fn manifest_of(bench: &Bench, kernel: &Kernel, settings: &Settings) -> Result<(C
 }
 
 /// Settings of a variant, with one place of shading where that is searched.
-fn shaded(space: &Space, variant: Variant, place: &str) -> Settings {
-    let mut options = space.options(variant);
+fn shading_settings(space: &Space, variant: Variant, place: &str) -> Settings {
+    let mut options = space.variant_options(variant);
     for (name, value) in &mut options {
         if name == "shading" && matches!(value.choice(), Some("centre" | "placed")) {
             *value = OptionValue::Choice(place.to_owned());
         }
     }
-    let mut settings = space.settings(variant);
+    let mut settings = space.variant_settings(variant);
     settings.options = spell_settings(&options);
     settings
 }
@@ -206,7 +206,7 @@ fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText>
 }
 
 /// Returns the inputs of a filter of placed shading.
-fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
+fn placed_inputs(inputs: &Inputs, placed: &Placed) -> Inputs {
     let mut moved = inputs.clone().image("color", placed.color.clone());
     for (name, frame) in [("direct", &placed.direct), ("rest", &placed.rest)] {
         if let Some(frame) = frame {
@@ -221,7 +221,7 @@ fn moved(inputs: &Inputs, placed: &Placed) -> Inputs {
 /// # Errors
 ///
 /// If an option that all variants are to have is wrong.
-pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> Result<Offer, TuneError> {
+pub(super) fn build_offer(kernel: &Kernel, subject: &Subject, question: &Question) -> Result<Offer, TuneError> {
     let first = subject.captures.first();
     let samples = subject.captures.iter().map(|capture| sample_set(kernel, capture));
     let mut offer = Offer {
@@ -256,7 +256,7 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
         sampled.retain(|(name, _)| !offer.fixes(name));
         options.extend(sampled);
         let settings = Settings::new().set_all(options);
-        refusal(kernel, &settings)
+        compile_refusal(kernel, &settings)
     };
     let no_search = blind.clone().or_else(|| refused(&[("search", "five")]));
     let has_rest = |capture: &Capture| capture.rest.is_some() || offer.fixes("rest");
@@ -274,20 +274,23 @@ pub(super) fn offer(kernel: &Kernel, subject: &Subject, question: &Question) -> 
 
 /// Why there can be no blocks, if so: they take no branch, and what all variants have may bring one.
 pub(super) fn no_blocks(kernel: &Kernel, space: &Space) -> Option<String> {
-    let last = |term: Term| space.values(term).len() - 1;
+    let last = |term: Term| space.term_values(term).len() - 1;
     let cheapest = space
         .general()
-        .with(Term::Samples, last(Term::Samples))
-        .with(Term::Metric, last(Term::Metric));
+        .with_value(Term::Samples, last(Term::Samples))
+        .with_value(Term::Metric, last(Term::Metric));
     // Errors of single pixels, too, are reported elsewhere.
-    match refusal(kernel, &space.settings(cheapest)) {
-        None => refusal(kernel, &space.settings(cheapest.with(Term::Block, last(Term::Block)))),
+    match compile_refusal(kernel, &space.variant_settings(cheapest)) {
+        None => compile_refusal(
+            kernel,
+            &space.variant_settings(cheapest.with_value(Term::Block, last(Term::Block))),
+        ),
         Some(_) => None,
     }
 }
 
 /// Returns the kernel's objection to options.
-fn refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
+fn compile_refusal(kernel: &Kernel, settings: &Settings) -> Option<String> {
     let errors = kernel.compile(settings).err()?;
     Some(errors.first_message().to_owned())
 }

@@ -11,10 +11,10 @@ use super::features::Static;
 use super::space::{SampleSet, Space, Variant};
 use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Gauge, Question, Term, TuneError};
-use crate::builtin::builtin;
+use crate::builtin::load_builtin;
 use crate::record::Model;
 use glam::{UVec2, Vec4};
-use ground::{Ground, Placing, no_blocks, offer, sample_set};
+use ground::{Ground, Placing, build_offer, no_blocks, sample_set};
 use std::collections::BTreeMap;
 use straightline_bench::execute::{Bench, ExecuteError, Ratio, Times, Uploaded};
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
@@ -98,8 +98,8 @@ impl Search {
     ///
     /// If an option is wrong, or the capture lacks what the options need.
     pub fn new(bench: &Bench, subject: Subject, question: &Question, gauge: Gauge) -> Result<Search, TuneError> {
-        let kernel = builtin("sraa")?;
-        let mut space = Space::new(&offer(&kernel, &subject, question)?).map_err(TuneError::Space)?;
+        let kernel = load_builtin("sraa")?;
+        let mut space = Space::new(&build_offer(&kernel, &subject, question)?).map_err(TuneError::Space)?;
         if let Some(why) = no_blocks(&kernel, &space) {
             space.leave_aside(Term::Block, format!("blocks: {why}"));
         }
@@ -112,7 +112,7 @@ impl Search {
         let sets = subject.captures.iter().map(|capture| sample_set(&kernel, capture));
         let sets = sets.collect::<Result<Vec<_>, _>>()?;
         let mut grounds = Vec::new();
-        for (place, value) in space.values(Term::Samples).iter().enumerate() {
+        for (place, value) in space.term_values(Term::Samples).iter().enumerate() {
             // Of the captures, one whose options a value has.
             let is_own = |set: &SampleSet| {
                 let mut options = set.options.iter().filter(|(name, _)| name != "shading");
@@ -121,12 +121,12 @@ impl Search {
             let Some(k) = sets.iter().position(is_own) else {
                 continue;
             };
-            let may_be_placed = space.values(Term::Placing).iter().any(|v| v.beyond);
+            let may_be_placed = space.term_values(Term::Placing).iter().any(|v| v.beyond);
             let placed = subject.placed.get(k).filter(|_| may_be_placed);
             let view = (&subject.captures[k], placed);
             grounds.push(Ground::new(bench, (&kernel, &space), place, view)?);
         }
-        let entries: Vec<Entry> = space.variants().into_iter().map(Entry::new).collect();
+        let entries: Vec<Entry> = space.base_variants().into_iter().map(Entry::new).collect();
         Ok(Search {
             bench: bench.clone(),
             defaults: kernel.option_values(&[])?,
@@ -136,7 +136,7 @@ impl Search {
             name: subject.name,
             referred_to: subject.referred_to,
             size,
-            index: places(&entries),
+            index: index_variants(&entries),
             entries,
             space,
             grounds,
@@ -160,9 +160,9 @@ impl Search {
     }
 
     /// Leaves entries out. Passes are known by their entries' places, and are made anew.
-    fn keep(&mut self, kept: impl Fn(&Entry) -> bool) {
+    fn retain_entries(&mut self, kept: impl Fn(&Entry) -> bool) {
         self.entries.retain(kept);
-        self.index = places(&self.entries);
+        self.index = index_variants(&self.entries);
         self.ready.clear();
     }
 
@@ -179,45 +179,45 @@ impl Search {
     }
 
     /// Error of the picture as it is without any filter.
-    pub(in crate::tune) fn unfiltered(&self) -> f64 {
+    pub(in crate::tune) fn unfiltered_error(&self) -> f64 {
         self.reference
             .as_ref()
-            .map_or(0.0, |reference| self.error(&self.color, reference))
+            .map_or(0.0, |reference| self.capped_error(&self.color, reference))
     }
 
     /// Bytes of G-buffer that a variant reads.
     pub(in crate::tune) fn gbuffer_bytes(&self, variant: Variant) -> u64 {
-        let metric = self.space.value(variant, Term::Metric).label.as_str();
+        let metric = self.space.variant_value(variant, Term::Metric).label.as_str();
         let (is_placed, is_apart) = (
             self.space.is_placed(variant),
-            self.space.value(variant, Term::Light).beyond,
+            self.space.variant_value(variant, Term::Light).beyond,
         );
         let bytes = self
-            .ground(variant)
-            .map_or(0, |ground| ground.bytes(metric, is_placed, is_apart));
+            .ground_for(variant)
+            .map_or(0, |ground| ground.bytes_per_pixel(metric, is_placed, is_apart));
         bytes * u64::from(self.size.x) * u64::from(self.size.y)
     }
 
-    fn ground(&self, variant: Variant) -> Option<&Ground> {
-        self.grounds.get(variant.at(Term::Samples))
+    fn ground_for(&self, variant: Variant) -> Option<&Ground> {
+        self.grounds.get(variant.value_index(Term::Samples))
     }
 
     /// The pass that goes before a variant, if its pixels are shaded where that says.
-    pub(in crate::tune) fn placing(&self, variant: Variant) -> Option<&Placing> {
-        let ground = self.ground(variant).filter(|_| self.space.is_placed(variant))?;
+    pub(in crate::tune) fn placing_for(&self, variant: Variant) -> Option<&Placing> {
+        let ground = self.ground_for(variant).filter(|_| self.space.is_placed(variant))?;
         ground.placing.as_ref()
     }
 
     pub(in crate::tune) fn compile(&self, variant: Variant) -> Result<Compiled, TuneError> {
-        Ok(self.kernel.compile(&self.space.settings(variant))?)
+        Ok(self.kernel.compile(&self.space.variant_settings(variant))?)
     }
 
     pub(in crate::tune) fn megapixels(&self) -> f64 {
         f64::from(self.size.x) * f64::from(self.size.y) / 1.0e6
     }
 
-    fn error(&self, picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
-        let error = self.question.metric.error(picture, reference);
+    fn capped_error(&self, picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
+        let error = self.question.metric.measure_error(picture, reference);
         match self.question.metric {
             ErrorMetric::Psnr => error.min(self.ceiling_db),
             ErrorMetric::Flip => error,
@@ -230,14 +230,14 @@ impl Search {
     }
 
     fn prepare(&self, variant: Variant) -> Result<Ready, TuneError> {
-        let ground = self.ground(variant);
+        let ground = self.ground_for(variant);
         let ground = ground.ok_or_else(|| ExecuteError::Input("there is no such set of samples".to_owned()))?;
         let precision: Precision = self.space.precision(variant);
         let compiled = self.compile(variant)?;
         let bench = self.bench.clone().precision(precision);
         let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
         let there = self
-            .placing(variant)
+            .placing_for(variant)
             .map_or(&ground.uploaded, |placing| &placing.uploaded);
         let uploaded = bench.share(&manifest, &ground.inputs, there)?;
         Ok((pass, uploaded))
@@ -245,12 +245,12 @@ impl Search {
 }
 
 /// Variants that are worked on at once, between looks at the progress.
-fn chunk() -> usize {
+fn chunk_size() -> usize {
     2 * rayon::current_num_threads().max(1)
 }
 
 /// Maps each variant to the index of its entry.
-fn places(entries: &[Entry]) -> BTreeMap<Variant, usize> {
+fn index_variants(entries: &[Entry]) -> BTreeMap<Variant, usize> {
     let places = entries.iter().enumerate();
     places.map(|(k, entry)| (entry.variant, k)).collect()
 }

@@ -1,6 +1,6 @@
 //! Pictures of variants, and their errors.
 
-use super::{Entry, Ready, Search, Seen, chunk};
+use super::{Entry, Ready, Search, Seen, chunk_size};
 use crate::progress::Progress;
 use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
@@ -18,8 +18,8 @@ impl Search {
     /// # Errors
     ///
     /// If the most general variant cannot be run.
-    pub fn pictures(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
-        if !self.count(progress)? {
+    pub fn measure_pictures(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+        if !self.count_variants(progress)? {
             return Ok(false);
         }
         let general = self.prepare(self.space.general())?;
@@ -30,11 +30,11 @@ impl Search {
         if !self.probe_half(progress)? {
             return Ok(false);
         }
-        Ok(self.judge("pictures", progress)? && self.extend(progress)?)
+        Ok(self.measure_errors("pictures", progress)? && self.extend_best(progress)?)
     }
 
     /// Measures the errors of all variants that have none yet. Whether all was done.
-    pub(super) fn judge(&mut self, what: &str, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+    pub(super) fn measure_errors(&mut self, what: &str, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let is_open = |entry: &&Entry| entry.error.is_none() && entry.refused.is_none();
         let mut apart: BTreeSet<Variant> = self
             .entries
@@ -52,12 +52,12 @@ impl Search {
         let apart: Vec<Variant> = apart.into_iter().collect();
         progress.begin(what, apart.len());
         let mut finished = true;
-        for some in apart.chunks(chunk()) {
-            if progress.stopped() {
+        for some in apart.chunks(chunk_size()) {
+            if progress.is_stopped() {
                 finished = false;
                 break;
             }
-            let judged: Vec<_> = some.par_iter().map(|v| (*v, self.judged(*v))).collect();
+            let judged: Vec<_> = some.par_iter().map(|v| (*v, self.variant_error(*v))).collect();
             for (variant, result) in judged {
                 found.insert(variant, result);
                 progress.step();
@@ -81,10 +81,10 @@ impl Search {
     /// others are not run in it. Returns whether all was done.
     fn probe_half(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let general = self.space.general();
-        let mut precisions = 0..self.space.values(Term::Precision).len();
-        let half = precisions.find(|k| self.space.values(Term::Precision)[*k].precision == Precision::F16);
+        let mut precisions = 0..self.space.term_values(Term::Precision).len();
+        let half = precisions.find(|k| self.space.term_values(Term::Precision)[*k].precision == Precision::F16);
         let Some(half) = half
-            .map(|k| general.with(Term::Precision, k))
+            .map(|k| general.with_value(Term::Precision, k))
             .filter(|half| *half != general)
         else {
             return Ok(true);
@@ -92,7 +92,7 @@ impl Search {
         let Some(index) = self.index.get(&half).copied() else {
             return Ok(true);
         };
-        if !self.measure(&[index], PROBED, "half precision", progress)? {
+        if !self.measure_variants(&[index], PROBED, "half precision", progress)? {
             return Ok(false);
         }
         match self.entries[index].ratio {
@@ -101,9 +101,9 @@ impl Search {
                     "half precision, but for the most general variant: it takes {:.1} times as long as f32 here",
                     1.0 / ratio.median
                 ));
-                let whole = general.at(Term::Precision);
-                let kept = |v: Variant| v == half || v.at(Term::Precision) == whole;
-                self.keep(|entry| kept(entry.variant));
+                let whole = general.value_index(Term::Precision);
+                let kept = |v: Variant| v == half || v.value_index(Term::Precision) == whole;
+                self.retain_entries(|entry| kept(entry.variant));
                 self.slow_half = Some(half);
             }
             _ => {}
@@ -112,18 +112,18 @@ impl Search {
     }
 
     /// A variant ready to run, and its error.
-    pub(super) fn shown(&self, variant: Variant) -> Result<(Ready, Seen), String> {
+    pub(super) fn run_variant(&self, variant: Variant) -> Result<(Ready, Seen), String> {
         let ready = self.prepare(variant).map_err(|error| error.to_string())?;
         let picture = self.bench.picture_of(&ready.0, &ready.1, self.size);
         let picture = picture.map_err(|error| error.to_string())?;
         let error = self
             .reference
             .as_ref()
-            .map_or(0.0, |reference| self.error(&picture, reference));
+            .map_or(0.0, |reference| self.capped_error(&picture, reference));
         Ok((ready, (error, metrics::non_finite(&picture))))
     }
 
-    fn judged(&self, variant: Variant) -> Result<Seen, String> {
-        self.shown(variant).map(|(_, error)| error)
+    fn variant_error(&self, variant: Variant) -> Result<Seen, String> {
+        self.run_variant(variant).map(|(_, error)| error)
     }
 }

@@ -1,6 +1,6 @@
 //! Costs of variants: measured of some, predicted of all.
 
-use super::{Search, chunk};
+use super::{Search, chunk_size};
 use crate::progress::Progress;
 use crate::record::Model;
 use crate::tune::features::NAMES;
@@ -19,9 +19,9 @@ impl Search {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn learn(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+    pub fn learn_model(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let usable = self.usable();
-        let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.row(*k)).collect();
+        let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.feature_row(*k)).collect();
         let general = self.space.general();
         let mut first: Vec<usize> = vec![0];
         first.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
@@ -33,7 +33,7 @@ impl Search {
         // First among those of the paper's terms, which the larger counts of the others would leave few places.
         let is_bare = |at: usize| {
             let variant = self.entries[usable[at]].variant;
-            self.space.bare(variant) == variant
+            self.space.without_extensions(variant) == variant
         };
         let bare: Vec<usize> = (0..usable.len()).filter(|at| is_bare(*at)).collect();
         let mut learned = first;
@@ -45,7 +45,7 @@ impl Search {
                 .filter(|(_, at)| learned.contains(&usable[**at]));
             let taken: Vec<usize> = taken.map(|(k, _)| k).collect();
             let missing = wanted.saturating_sub(learned.len());
-            let more = model::spanning(&rows, &taken, missing);
+            let more = model::choose_spanning(&rows, &taken, missing);
             learned.extend(more.iter().map(|k| usable[among[*k]]));
         }
         // Any others: spread over the list by a step that visits all of it.
@@ -54,10 +54,10 @@ impl Search {
             .map(|k| others[(k * 2 + 1) * others.len() / (2 * others.len().min(TESTED_ON))])
             .collect();
         let both: Vec<usize> = learned.iter().chain(&tested).copied().collect();
-        if !self.measure(&both, self.fewer_rounds(), "measuring, to learn", progress)? {
+        if !self.measure_variants(&both, self.fewer_rounds(), "measuring, to learn", progress)? {
             return Ok(false);
         }
-        let size = self.share();
+        let size = self.model_scale();
         // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
         let general = &self.entries[0];
         let general = general
@@ -65,12 +65,12 @@ impl Search {
             .or(general.time.map(|time| time.median_ms))
             .unwrap_or(0.0)
             / size;
-        let measured = |k: &usize| Some((self.row(*k)?, general / self.entries[*k].ratio?.median));
+        let measured = |k: &usize| Some((self.feature_row(*k)?, general / self.entries[*k].ratio?.median));
         let (rows, times): (Vec<_>, Vec<_>) = learned.iter().filter_map(measured).unzip();
-        let coefficients = model::learn(&rows, &times);
+        let coefficients = model::fit_coefficients(&rows, &times);
         let (rows, times): (Vec<_>, Vec<_>) = tested.iter().filter_map(measured).unzip();
-        let predicted: Vec<f64> = rows.iter().map(|row| model::predict(&coefficients, row)).collect();
-        let (mean_error, largest_error) = model::errors(&predicted, &times);
+        let predicted: Vec<f64> = rows.iter().map(|row| model::predict_cost(&coefficients, row)).collect();
+        let (mean_error, largest_error) = model::relative_errors(&predicted, &times);
         self.model = Model {
             terms: NAMES
                 .iter()
@@ -89,22 +89,22 @@ impl Search {
     /// Says of all variants what they take by the model, if there is one.
     pub(super) fn predict(&mut self) {
         let coefficients: Vec<f64> = self.model.terms.iter().map(|(_, coefficient)| *coefficient).collect();
-        let size = self.share();
+        let size = self.model_scale();
         for k in 0..self.entries.len() {
-            if let Some(row) = self.row(k) {
-                self.entries[k].predicted = size * model::predict(&coefficients, &row);
+            if let Some(row) = self.feature_row(k) {
+                self.entries[k].predicted = size * model::predict_cost(&coefficients, &row);
             }
         }
     }
 
     /// Returns the factor of the model's figures: milliseconds grow with the picture, cycles are those of a pixel.
-    fn share(&self) -> f64 {
+    fn model_scale(&self) -> f64 {
         self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0)
     }
 
     /// Measures variants, and the most general one with them: their times in turn, or cycles. Each also shows its own picture.
     /// Whether all was done.
-    pub(in crate::tune) fn measure(
+    pub(in crate::tune) fn measure_variants(
         &mut self,
         which: &[usize],
         rounds: u32,
@@ -116,13 +116,13 @@ impl Search {
         all.retain(|k| seen.insert(*k));
         let fresh: Vec<usize> = all.iter().copied().filter(|k| !self.ready.contains_key(k)).collect();
         progress.begin("compiling", fresh.len());
-        for some in fresh.chunks(chunk()) {
-            if progress.stopped() {
+        for some in fresh.chunks(chunk_size()) {
+            if progress.is_stopped() {
                 return Ok(false);
             }
             let prepared: Vec<_> = some
                 .par_iter()
-                .map(|k| (*k, self.shown(self.entries[*k].variant)))
+                .map(|k| (*k, self.run_variant(self.entries[*k].variant)))
                 .collect();
             for (k, prepared) in prepared {
                 match prepared {
@@ -137,7 +137,7 @@ impl Search {
         }
         all.retain(|k| self.ready.contains_key(k));
         if matches!(self.gauge, Gauge::Compiler(_)) {
-            return self.ask(&all, what, progress);
+            return self.measure_cycles(&all, what, progress);
         }
         let work = |k: &usize| {
             let (pass, uploaded) = &self.ready[k];
@@ -146,7 +146,7 @@ impl Search {
                 uploaded,
                 size: self.size,
             };
-            let place = self.placing(self.entries[*k].variant);
+            let place = self.placing_for(self.entries[*k].variant);
             let mut jobs: Vec<Job<'_>> = place.iter().map(|place| job(&place.pass, &place.reads)).collect();
             jobs.push(job(pass, uploaded));
             self.bench.following(&jobs)
@@ -159,7 +159,7 @@ impl Search {
                 progress.step();
             }
             complete = round == rounds;
-            !progress.stopped()
+            !progress.is_stopped()
         })?;
         for (job, k) in all.iter().enumerate() {
             self.entries[*k].time = timed.times(job);
@@ -173,7 +173,7 @@ impl Search {
         (self.question.rounds / 3).max(3)
     }
 
-    fn row(&self, index: usize) -> Option<Vec<f64>> {
+    fn feature_row(&self, index: usize) -> Option<Vec<f64>> {
         self.entries[index].known.as_ref().map(|known| known.row.clone())
     }
 }

@@ -14,12 +14,12 @@ pub struct Variant(pub [usize; Term::ALL.len()]);
 
 impl Variant {
     /// The place of a term's value.
-    pub fn at(&self, term: Term) -> usize {
+    pub fn value_index(&self, term: Term) -> usize {
         self.0[term as usize]
     }
 
     /// Changes one term.
-    pub fn with(mut self, term: Term, value: usize) -> Variant {
+    pub fn with_value(mut self, term: Term, value: usize) -> Variant {
         self.0[term as usize] = value;
         self
     }
@@ -56,7 +56,7 @@ impl Space {
     /// If a fixed option leaves a term without any value.
     pub fn new(offer: &Offer) -> Result<Space, String> {
         let mut left_aside = Vec::new();
-        let mut terms = terms::of(offer, &mut left_aside);
+        let mut terms = terms::offered_values(offer, &mut left_aside);
         let mut fixed = offer.fixed.clone();
         for (name, value) in &offer.fixed {
             let varies = |values: &Vec<Value>| values.iter().any(|v| v.options.iter().any(|(n, _)| n == name));
@@ -66,7 +66,7 @@ impl Space {
             let term = &mut terms[place];
             let selects = name == "mask" && value.choice() == Some("select");
             let stands_for = |(n, v): &Setting| n == name && (v == value || (selects && v.choice() == Some("branch")));
-            let line = Offer::set(name, value);
+            let line = Offer::fixed_reason(name, value);
             if !left_aside.contains(&line) {
                 left_aside.push(line);
             }
@@ -74,7 +74,7 @@ impl Space {
             // Terms beyond the paper have more values than are searched.
             if !found && Term::BEYOND.iter().any(|beyond| *beyond as usize == place) {
                 term.truncate(1);
-                term[0] = terms::unsaid(term[0].clone());
+                term[0] = terms::without_options(term[0].clone());
                 continue;
             }
             term.retain(|v| v.options.iter().any(stands_for));
@@ -103,79 +103,79 @@ impl Space {
     }
 
     /// The values of a term, the one that computes most first.
-    pub fn values(&self, term: Term) -> &[Value] {
+    pub fn term_values(&self, term: Term) -> &[Value] {
         &self.terms[term as usize]
     }
 
     /// A variant's value of a term.
-    pub fn value(&self, variant: Variant, term: Term) -> &Value {
-        &self.terms[term as usize][variant.at(term)]
+    pub fn variant_value(&self, variant: Variant, term: Term) -> &Value {
+        &self.terms[term as usize][variant.value_index(term)]
     }
 
     /// The most general variant: of every term the value that computes most, and nothing beyond the paper that is not set. It is the
-    /// first of [`variants`](Self::variants).
+    /// first of [`base_variants`](Self::base_variants).
     pub fn general(&self) -> Variant {
         Variant([0; Term::ALL.len()])
     }
 
     /// Every variant that adds nothing to the most general one: all combinations but those that mean the same.
-    pub fn variants(&self) -> Vec<Variant> {
+    pub fn base_variants(&self) -> Vec<Variant> {
         let mut all = vec![self.general()];
         for term in Term::ALL.into_iter().filter(|term| !Term::BEYOND.contains(term)) {
-            all = self.each(&all, term);
+            all = self.vary_term(&all, term);
         }
         all.retain(|v| *v == self.canonical(*v));
         all
     }
 
     /// A variant with everything that goes beyond the paper, in all combinations, and nothing else changed. None of one that is not
-    /// [`plain`](Self::plain).
-    pub fn extended(&self, variant: Variant) -> Vec<Variant> {
-        let bare = self.bare(variant);
-        if self.plain(bare) != bare {
+    /// [`plain_variant`](Self::plain_variant).
+    pub fn extended_variants(&self, variant: Variant) -> Vec<Variant> {
+        let bare = self.without_extensions(variant);
+        if self.plain_variant(bare) != bare {
             return Vec::new();
         }
         let mut all = vec![bare];
         for term in Term::BEYOND {
-            all = self.each(&all, term);
+            all = self.vary_term(&all, term);
         }
-        all.retain(|v| self.bare(*v) != *v);
+        all.retain(|v| self.without_extensions(*v) != *v);
         all
     }
 
-    fn each(&self, variants: &[Variant], term: Term) -> Vec<Variant> {
-        let values = 0..self.values(term).len();
+    fn vary_term(&self, variants: &[Variant], term: Term) -> Vec<Variant> {
+        let values = 0..self.term_values(term).len();
         let all = variants
             .iter()
-            .flat_map(|v| values.clone().map(move |k| v.with(term, k)));
+            .flat_map(|v| values.clone().map(move |k| v.with_value(term, k)));
         all.collect()
     }
 
     /// A variant without what is added to the most general one.
-    pub fn bare(&self, variant: Variant) -> Variant {
-        Term::BEYOND.into_iter().fold(variant, |v, term| v.with(term, 0))
+    pub fn without_extensions(&self, variant: Variant) -> Variant {
+        Term::BEYOND.into_iter().fold(variant, |v, term| v.with_value(term, 0))
     }
 
     /// A variant as it can be added to: all pixels filtered, each by its own invocation, in whole floats, by exact mathematics. More is
     /// not searched, so that the space stays small.
-    pub fn plain(&self, variant: Variant) -> Variant {
+    pub fn plain_variant(&self, variant: Variant) -> Variant {
         let cheaper = [Term::Mask, Term::Precision, Term::Math, Term::Block];
-        cheaper.into_iter().fold(variant, |v, term| v.with(term, 0))
+        cheaper.into_iter().fold(variant, |v, term| v.with_value(term, 0))
     }
 
     /// Where depth is not compared, how it is compared means nothing, and fast mathematics has next to nothing to do where nothing is
     /// tested: of variants that mean the same, the one that is searched. Of those with what goes beyond the paper, the plain one.
     pub fn canonical(&self, variant: Variant) -> Variant {
-        let variant = match self.bare(variant) == variant {
+        let variant = match self.without_extensions(variant) == variant {
             true => variant,
-            false => self.plain(variant),
+            false => self.plain_variant(variant),
         };
-        let variant = match self.value(variant, Term::FiniteTest).label.as_str() {
-            "no finite test" => variant.with(Term::Math, 0),
+        let variant = match self.variant_value(variant, Term::FiniteTest).label.as_str() {
+            "no finite test" => variant.with_value(Term::Math, 0),
             _ => variant,
         };
-        match self.value(variant, Term::Metric).label.as_str() {
-            "normals" => variant.with(Term::Difference, 0),
+        match self.variant_value(variant, Term::Metric).label.as_str() {
+            "normals" => variant.with_value(Term::Difference, 0),
             _ => variant,
         }
     }
@@ -183,8 +183,8 @@ impl Space {
     /// The variants that differ in one term.
     pub fn neighbours(&self, variant: Variant) -> Vec<Variant> {
         let of = |term: Term| {
-            let others = (0..self.values(term).len()).filter(move |k| *k != variant.at(term));
-            others.map(move |k| self.canonical(variant.with(term, k)))
+            let others = (0..self.term_values(term).len()).filter(move |k| *k != variant.value_index(term));
+            others.map(move |k| self.canonical(variant.with_value(term, k)))
         };
         let mut found: Vec<Variant> = Term::ALL.into_iter().flat_map(of).collect();
         found.retain(|v| *v != variant);
@@ -196,31 +196,31 @@ impl Space {
     /// differs by roundings (what is measured is judged by its own), and a filter without the finite test the same if all colours are
     /// finite.
     pub fn picture_of(&self, variant: Variant, finite: bool) -> Variant {
-        let single = variant.with(Term::Block, 0).with(Term::Math, 0);
+        let single = variant.with_value(Term::Block, 0).with_value(Term::Math, 0);
         if finite {
-            single.with(Term::FiniteTest, 0)
+            single.with_value(Term::FiniteTest, 0)
         } else {
             single
         }
     }
 
     /// Returns the settings with which the kernel is generated for a variant.
-    pub fn settings(&self, variant: Variant) -> Settings {
+    pub fn variant_settings(&self, variant: Variant) -> Settings {
         Settings::new()
-            .set_all(spell_settings(&self.options(variant)))
+            .set_all(spell_settings(&self.variant_options(variant)))
             .block(
-                self.value(variant, Term::Block).block[0],
-                self.value(variant, Term::Block).block[1],
+                self.variant_value(variant, Term::Block).block[0],
+                self.variant_value(variant, Term::Block).block[1],
             )
-            .math(self.value(variant, Term::Math).math)
+            .math(self.variant_value(variant, Term::Math).math)
     }
 
     /// Options that a variant sets.
-    pub fn options(&self, variant: Variant) -> Vec<Setting> {
-        let terms = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
-        let block = self.value(variant, Term::Block).block;
+    pub fn variant_options(&self, variant: Variant) -> Vec<Setting> {
+        let terms = Term::ALL.into_iter().filter(|term| self.has_effect(variant, *term));
+        let block = self.variant_value(variant, Term::Block).block;
         let mut options = self.fixed.clone();
-        options.extend(terms.flat_map(|term| self.value(variant, term).options.iter().cloned()));
+        options.extend(terms.flat_map(|term| self.variant_value(variant, term).options.iter().cloned()));
         // The pixels of a block go the same way: there the mask selects.
         for (name, value) in &mut options {
             if name == "mask" && value.choice() == Some("branch") && block != [1, 1] {
@@ -231,21 +231,23 @@ impl Space {
     }
 
     /// Returns whether a term does anything in a variant: normals alone have no depths to compare.
-    fn counts(&self, variant: Variant, term: Term) -> bool {
-        term != Term::Difference || self.value(variant, Term::Metric).label != "normals"
+    fn has_effect(&self, variant: Variant, term: Term) -> bool {
+        term != Term::Difference || self.variant_value(variant, Term::Metric).label != "normals"
     }
 
     /// A variant's precision.
     pub fn precision(&self, variant: Variant) -> Precision {
-        self.value(variant, Term::Precision).precision
+        self.variant_value(variant, Term::Precision).precision
     }
 
     /// A variant in words, term by term; what it does not add is not mentioned.
-    pub fn name(&self, variant: Variant) -> String {
-        let is_said = |term: &Term| !Term::BEYOND.contains(term) || self.value(variant, *term).beyond;
-        let labels = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
+    pub fn variant_name(&self, variant: Variant) -> String {
+        let is_said = |term: &Term| !Term::BEYOND.contains(term) || self.variant_value(variant, *term).beyond;
+        let labels = Term::ALL.into_iter().filter(|term| self.has_effect(variant, *term));
         let labels = labels.filter(is_said);
-        let labels: Vec<&str> = labels.map(|term| self.value(variant, term).label.as_str()).collect();
+        let labels: Vec<&str> = labels
+            .map(|term| self.variant_value(variant, term).label.as_str())
+            .collect();
         labels.join(", ")
     }
 
@@ -254,27 +256,29 @@ impl Space {
         let all_default = |value: &&Value| value.options.iter().all(|(name, v)| defaults.get(name) == Some(v));
         let mut variant = self.general();
         for term in Term::ALL {
-            let values = self.values(term);
+            let values = self.term_values(term);
             let place = values.iter().position(|v| all_default(&v))?;
-            variant = variant.with(term, place);
+            variant = variant.with_value(term, place);
         }
         Some(self.canonical(variant))
     }
 
     /// Returns whether a variant's pixels are shaded where the kernel `sraa_place` says.
     pub fn is_placed(&self, variant: Variant) -> bool {
-        self.value(variant, Term::Placing).sets("shading", "placed")
+        self.variant_value(variant, Term::Placing).sets("shading", "placed")
     }
 
     /// Terms that can be added to a variant, or were: in words, whether they were, and the variant without it and with it, both
     /// as they are searched.
-    pub fn added(&self, variant: Variant) -> Vec<Added> {
-        let open = Term::BEYOND.into_iter().filter(|term| self.values(*term).len() > 1);
+    pub fn addable_terms(&self, variant: Variant) -> Vec<Added> {
+        let open = Term::BEYOND
+            .into_iter()
+            .filter(|term| self.term_values(*term).len() > 1);
         let added = open.map(|term| Added {
-            term: self.values(term)[0].needs.clone(),
-            is_there: variant.at(term) != 0,
-            without: self.plain(variant).with(term, 0),
-            with: self.plain(variant).with(term, 1),
+            term: self.term_values(term)[0].needs.clone(),
+            is_there: variant.value_index(term) != 0,
+            without: self.plain_variant(variant).with_value(term, 0),
+            with: self.plain_variant(variant).with_value(term, 1),
         });
         added.collect()
     }
@@ -284,30 +288,30 @@ impl Space {
         let mut found = Vec::new();
         for term in Term::ALL {
             // A block leaves nothing out, and `added` has the terms that are added.
-            if variant.at(term) == 0 || term == Term::Block || Term::BEYOND.contains(&term) {
+            if variant.value_index(term) == 0 || term == Term::Block || Term::BEYOND.contains(&term) {
                 continue;
             }
             // Neither does another scale.
-            let own = &self.value(variant, term).options;
+            let own = &self.variant_value(variant, term).options;
             if term == Term::Difference && own.iter().any(|(_, value)| value.choice() == Some("relative")) {
                 continue;
             }
             if term == Term::Metric {
-                let label = |k: usize| self.values(term)[k].label.as_str();
-                let own = label(variant.at(term));
-                for place in 0..variant.at(term) {
+                let label = |k: usize| self.term_values(term)[k].label.as_str();
+                let own = label(variant.value_index(term));
+                for place in 0..variant.value_index(term) {
                     let lacks = match (label(place), own) {
                         ("planes-normals", _) => "planes",
                         ("depth-normals", "normals") => "depth",
                         ("depth-normals", "depth") => "normals",
                         _ => continue,
                     };
-                    found.push((lacks.to_owned(), self.canonical(variant.with(term, place))));
+                    found.push((lacks.to_owned(), self.canonical(variant.with_value(term, place))));
                 }
                 continue;
             }
-            let needs = self.values(term)[0].needs.clone();
-            found.push((needs, self.canonical(variant.with(term, 0))));
+            let needs = self.term_values(term)[0].needs.clone();
+            found.push((needs, self.canonical(variant.with_value(term, 0))));
         }
         found
     }

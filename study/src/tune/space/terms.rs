@@ -75,11 +75,11 @@ pub struct Value {
 }
 
 impl Value {
-    pub(super) fn of(label: &str, needs: &str, options: &[(&str, OptionValue)]) -> Value {
+    pub(super) fn from_parts(label: &str, needs: &str, options: &[(&str, OptionValue)]) -> Value {
         Value {
             label: label.to_owned(),
             needs: needs.to_owned(),
-            options: owned(options),
+            options: to_settings(options),
             precision: Precision::F32,
             math: Math::Exact,
             block: [1, 1],
@@ -134,89 +134,89 @@ impl Offer {
     }
 
     /// Why an option that all variants have is not searched.
-    pub(super) fn set(name: &str, value: &OptionValue) -> String {
+    pub(super) fn fixed_reason(name: &str, value: &OptionValue) -> String {
         format!("{name}: it was set to {value}")
     }
 }
 
 /// The values of every term that an offer leaves open, before options are fixed. What is not searched is said in `left_aside`.
-pub(super) fn of(offer: &Offer, left_aside: &mut Vec<String>) -> [Vec<Value>; Term::ALL.len()] {
+pub(super) fn offered_values(offer: &Offer, left_aside: &mut Vec<String>) -> [Vec<Value>; Term::ALL.len()] {
     let precision = match &offer.no_half {
         Some(why) => {
             left_aside.push(format!("half precision: {why}"));
-            vec![Value::of("f32", "f32", &[])]
+            vec![Value::from_parts("f32", "f32", &[])]
         }
         None => vec![
-            Value::of("f32", "f32", &[]),
+            Value::from_parts("f32", "f32", &[]),
             Value {
                 precision: Precision::F16,
-                ..Value::of("f16", "f16", &[])
+                ..Value::from_parts("f16", "f16", &[])
             },
         ],
     };
     [
-        samples(offer),
-        metrics(offer, left_aside),
-        differences(offer),
+        sample_values(offer),
+        metric_values(offer, left_aside),
+        difference_values(offer),
         vec![
-            Value::of(
+            Value::from_parts(
                 "gaussian",
                 "nine taps a sample, weighted",
-                &[("falloff", named("gaussian"))],
+                &[("falloff", choice_value("gaussian"))],
             ),
-            Value::of("no falloff", "nine taps a sample", &[("falloff", named("none"))]),
-            Value::of("tent", "tent", &[("falloff", named("tent"))]),
+            Value::from_parts("no falloff", "nine taps a sample", &[("falloff", choice_value("none"))]),
+            Value::from_parts("tent", "tent", &[("falloff", choice_value("tent"))]),
         ],
-        masks(offer),
+        mask_values(offer),
         vec![
-            Value::of("finite test", "finite test", &[("non-finite", named("skip"))]),
-            Value::of(
+            Value::from_parts("finite test", "finite test", &[("non-finite", choice_value("skip"))]),
+            Value::from_parts(
                 "no finite test",
                 "no finite test",
-                &[("non-finite", named("spread")), ("guards", named("none"))],
+                &[("non-finite", choice_value("spread")), ("guards", choice_value("none"))],
             ),
         ],
         precision,
         vec![
-            Value::of("exact", "exact mathematics", &[]),
+            Value::from_parts("exact", "exact mathematics", &[]),
             Value {
                 math: Math::Fast,
-                ..Value::of("fast", "fast mathematics", &[])
+                ..Value::from_parts("fast", "fast mathematics", &[])
             },
         ],
         vec![
-            Value::of("1x1", "one pixel an invocation", &[]),
+            Value::from_parts("1x1", "one pixel an invocation", &[]),
             Value {
                 block: [2, 2],
-                ..Value::of("2x2", "blocks of 2x2", &[])
+                ..Value::from_parts("2x2", "blocks of 2x2", &[])
             },
         ],
-        placing(offer, left_aside),
-        beyond(
+        placing_values(offer, left_aside),
+        extension_values(
             (offer, &offer.no_search),
-            Value::of("not searched", "search", &[("search", named("none"))]),
-            Value::of("searched", "search", &[("search", named("five"))]),
+            Value::from_parts("not searched", "search", &[("search", choice_value("none"))]),
+            Value::from_parts("searched", "search", &[("search", choice_value("five"))]),
             left_aside,
         ),
-        light(offer, left_aside),
+        light_values(offer, left_aside),
     ]
 }
 
 /// Sets of samples. Where shading is searched they leave it open.
-fn samples(offer: &Offer) -> Vec<Value> {
+fn sample_values(offer: &Offer) -> Vec<Value> {
     let value = |set: &SampleSet| {
         let label = format!("{} samples", set.count);
         let mut options = set.options.clone();
         options.retain(|(name, _)| name != "shading" || offer.no_placing.is_some());
         Value {
             options,
-            ..Value::of(&label, &label, &[])
+            ..Value::from_parts(&label, &label, &[])
         }
     };
     offer.samples.iter().map(value).collect()
 }
 
-fn metrics(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
+fn metric_values(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     let all = [
         ("planes-normals", "planes"),
         ("depth-normals", "normals"),
@@ -235,21 +235,25 @@ fn metrics(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     }
     let values = all.iter().filter(|(name, _)| has(name));
     values
-        .map(|(name, needs)| Value::of(name, needs, &[("metric", named(name))]))
+        .map(|(name, needs)| Value::from_parts(name, needs, &[("metric", choice_value(name))]))
         .collect()
 }
 
 /// Ways to compare depths. Two of them have a scale of their own, unless one was set: with one a tenth of the depth is a step, and
 /// a floor that recedes to the horizon is one surface; the other is what the steps of the view call for.
-fn differences(offer: &Offer) -> Vec<Value> {
+fn difference_values(offer: &Offer) -> Vec<Value> {
     let coarse = [
-        ("difference", named("relative")),
+        ("difference", choice_value("relative")),
         ("depth-scale", OptionValue::Number(0.1)),
     ];
     let mut values = vec![
-        Value::of("relative depth", "relative depth", &coarse[..1]),
-        Value::of("coarse relative depth", "coarse relative depth", &coarse),
-        Value::of("absolute depth", "absolute depth", &[("difference", named("absolute"))]),
+        Value::from_parts("relative depth", "relative depth", &coarse[..1]),
+        Value::from_parts("coarse relative depth", "coarse relative depth", &coarse),
+        Value::from_parts(
+            "absolute depth",
+            "absolute depth",
+            &[("difference", choice_value("absolute"))],
+        ),
     ];
     let is_set = offer.fixes("depth-scale");
     if is_set {
@@ -258,56 +262,60 @@ fn differences(offer: &Offer) -> Vec<Value> {
     if let Some(scale) = offer.depth_scale.filter(|_| !is_set) {
         let name = "absolute depth, scaled";
         let options = [
-            ("difference", named("absolute")),
+            ("difference", choice_value("absolute")),
             ("depth-scale", OptionValue::Number(scale)),
         ];
-        values.insert(2, Value::of(name, name, &options));
+        values.insert(2, Value::from_parts(name, name, &options));
     }
     values
 }
 
 /// A mask that looks within the pixel leaves out the most; one that looks around it, too, if that is set.
-fn masks(offer: &Offer) -> Vec<Value> {
-    let options = [("mask", named("branch")), ("variation", named("within"))];
+fn mask_values(offer: &Offer) -> Vec<Value> {
+    let options = [("mask", choice_value("branch")), ("variation", choice_value("within"))];
     let count = if offer.fixes("variation") { 1 } else { 2 };
     vec![
-        Value::of("no mask", "filter where geometry is even", &[("mask", named("none"))]),
-        Value::of("mask", "mask", &options[..count]),
+        Value::from_parts(
+            "no mask",
+            "filter where geometry is even",
+            &[("mask", choice_value("none"))],
+        ),
+        Value::from_parts("mask", "mask", &options[..count]),
     ]
 }
 
-fn placing(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
+fn placing_values(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     let name = "placing";
-    beyond(
+    extension_values(
         (offer, &offer.no_placing),
-        Value::of("shaded at centres", name, &[("shading", named("centre"))]),
-        Value::of("placed", name, &[("shading", named("placed"))]),
+        Value::from_parts("shaded at centres", name, &[("shading", choice_value("centre"))]),
+        Value::from_parts("placed", name, &[("shading", choice_value("placed"))]),
         left_aside,
     )
 }
 
 /// Of `rest` that which is set, if it is; else highlights and haze are borrowed as they are.
-fn light(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
+fn light_values(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
     let name = "light apart from paint and shadow";
     let options = [
-        ("demodulate", named("albedo-shadow")),
+        ("demodulate", choice_value("albedo-shadow")),
         ("rest", OptionValue::Flag(true)),
     ];
     let count = if offer.fixes("rest") { 1 } else { 2 };
-    beyond(
+    extension_values(
         (offer, &offer.no_light),
-        Value::of(
+        Value::from_parts(
             "light with its paint and shadow",
             name,
-            &[("demodulate", named("none"))],
+            &[("demodulate", choice_value("none"))],
         ),
-        Value::of(name, name, &options[..count]),
+        Value::from_parts(name, name, &options[..count]),
         left_aside,
     )
 }
 
 /// The values of a term that goes beyond the paper, or one that says nothing where there is a reason against it.
-fn beyond(
+fn extension_values(
     (offer, no): (&Offer, &Option<String>),
     without: Value,
     with: Value,
@@ -318,14 +326,14 @@ fn beyond(
     };
     let is_own = |(name, _): &&Setting| without.options.iter().any(|(own, _)| own == name);
     left_aside.push(match offer.fixed.iter().find(is_own) {
-        Some((name, value)) => Offer::set(name, value),
+        Some((name, value)) => Offer::fixed_reason(name, value),
         None => format!("{}: {why}", without.needs),
     });
-    vec![unsaid(without)]
+    vec![without_options(without)]
 }
 
 /// Leaves a value's options to the user who fixed them.
-pub(super) fn unsaid(value: Value) -> Value {
+pub(super) fn without_options(value: Value) -> Value {
     Value {
         options: Vec::new(),
         beyond: false,
@@ -334,11 +342,11 @@ pub(super) fn unsaid(value: Value) -> Value {
 }
 
 /// A choice by its name.
-fn named(choice: &str) -> OptionValue {
+fn choice_value(choice: &str) -> OptionValue {
     OptionValue::Choice(choice.to_owned())
 }
 
-fn owned(options: &[(&str, OptionValue)]) -> Vec<Setting> {
+fn to_settings(options: &[(&str, OptionValue)]) -> Vec<Setting> {
     let owned = options.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
     owned.collect()
 }

@@ -345,7 +345,7 @@ fn given_weights_do_not_overflow() {
 
 /// Picture of a case at the pixels' centres.
 fn seen(case: &Case, texel: impl Fn(hard::Seen) -> Vec4) -> Frame<Vec4> {
-    filled(case.size, |pixel| texel(case.at(pixel, Vec2::ZERO, None)))
+    filled(case.size, |pixel| texel(case.surface_at(pixel, Vec2::ZERO, None)))
 }
 
 fn normal(seen: hard::Seen) -> Vec4 {
@@ -381,7 +381,7 @@ fn every_hard_case_is_finite_by_every_transport() {
             };
             let compiled = compile(name, &[], Unroll::Full, Some(*transport));
             let (pass, manifest) = gpu.pass(&compiled, stage).unwrap_or_else(|e| panic!("{name}: {e}"));
-            for case in hard::cases()
+            for case in hard::all_cases()
                 .iter()
                 .filter(|case| case.options.is_empty() && (is_shadow || case.coord.is_none()))
             {
@@ -395,7 +395,9 @@ fn every_hard_case_is_finite_by_every_transport() {
                     .image("image", seen(case, packed))
                     .image(
                         "low",
-                        filled(low, |at| packed(case.at((at * 2).min(case.size - 1), Vec2::ZERO, None))),
+                        filled(low, |at| {
+                            packed(case.surface_at((at * 2).min(case.size - 1), Vec2::ZERO, None))
+                        }),
                     )
                     .image("shadow", map.clone())
                     .image("levels", map)

@@ -241,7 +241,7 @@ fn all_emit_in_all_languages() {
                 let emitted = compiled
                     .emit(&EmitOptions::new().stage(stage).targets(targets))
                     .unwrap_or_else(|e| panic!("{name} {options:?} by {transport}: {e}"));
-                for (file, contents) in emitted.named(&format!("{name}-{k}-{transport}")) {
+                for (file, contents) in emitted.named_files(&format!("{name}-{k}-{transport}")) {
                     let path = folder.join(&file);
                     std::fs::write(&path, contents).expect("a shader is written");
                     match path.extension().and_then(|e| e.to_str()) {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use straightline_codegen::{Kernel, Settings};
-use straightline_engines::{Engine, Request, names};
+use straightline_engines::{Engine, Request, engine_names};
 
 /// Documentation that would end a comment or a string, go on in the next line, be a tag of a template or too long, in some language.
 const HOSTILE: [&str; 9] = [
@@ -52,7 +52,7 @@ fn words_of_authors_stay_words() {
             HOSTILE[(k + 1) % HOSTILE.len()],
             HOSTILE[(k + 4) % HOSTILE.len()],
         );
-        for engine in names() {
+        for engine in engine_names() {
             let [wanted, found] = [&plain, &hostile].map(|subject| texts(subject, engine));
             readable::check(engine, &found).unwrap_or_else(|e| panic!("{engine}, {words:?}: {e}"));
             assert!(wanted.keys().eq(found.keys()), "{engine}");
@@ -126,7 +126,7 @@ fn words_at_random_stay_words() {
                 .collect::<String>()
         });
         let hostile = documented(&kernel, &first, &second);
-        for engine in names() {
+        for engine in engine_names() {
             let [wanted, found] = [&plain, &hostile].map(|subject| texts(subject, engine));
             for (name, text) in found.iter().filter(|(name, _)| *name != "README.md") {
                 let [wanted, found] = [&wanted[name], text].map(|text| {
@@ -171,7 +171,7 @@ impl Folder {
     fn refused(&self) -> String {
         let plain = documented("Plain.", "Plain.", "Plain.");
         let found = Engine::find(&self.0.join("engine").to_string_lossy())
-            .and_then(|engine| engine.files(&Request::new(&plain.compiled, &plain.options)));
+            .and_then(|engine| engine.render_files(&Request::new(&plain.compiled, &plain.options)));
         found.expect_err("a refusal").to_string()
     }
 }

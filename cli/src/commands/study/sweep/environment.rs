@@ -4,18 +4,18 @@ use std::process::Command;
 use straightline_study::record::Environment;
 
 /// Collects what can be found out; nothing here fails.
-pub fn here() -> Environment {
+pub fn collect_environment() -> Environment {
     let governor = std::fs::read_to_string("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").ok();
     Environment {
         generator: env!("CARGO_PKG_VERSION").to_owned(),
         system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
         governor: governor.map(|text| text.trim().to_owned()),
-        commit: commit(),
+        commit: git_commit(),
     }
 }
 
 /// The commit of the repository around, if git knows one.
-fn commit() -> Option<String> {
+fn git_commit() -> Option<String> {
     let git = |words: &[&str]| {
         let output = Command::new("git").args(words).output().ok()?;
         let text = String::from_utf8(output.stdout).ok()?;

@@ -19,7 +19,7 @@ pub struct Given {
 }
 
 /// Names of all that a kernel reads.
-fn names(compiled: &Compiled) -> impl Iterator<Item = &String> {
+fn input_names(compiled: &Compiled) -> impl Iterator<Item = &String> {
     let graph = &compiled.graph;
     let textures = graph.textures.iter().map(|texture| &texture.name);
     let uniforms = graph.uniforms.iter().map(|uniform| &uniform.name);
@@ -36,7 +36,7 @@ impl Given {
             uniform: args.uniform.clone(),
             buffer: args.buffer.clone(),
             size: match args.input.is_empty() {
-                true => Some(common.size()),
+                true => Some(common.picture_size()),
                 false => common.size,
             },
             executor: Executor::Gpu,
@@ -44,19 +44,19 @@ impl Given {
         };
         Given {
             args,
-            names: compiled.iter().flat_map(names).cloned().collect(),
-            size: common.size(),
+            names: compiled.iter().flat_map(input_names).cloned().collect(),
+            size: common.picture_size(),
         }
     }
 
     /// Width and height of the pictures.
-    pub fn size(&self, compiled: &Compiled) -> Result<UVec2, Failure> {
-        Ok(self.inputs(compiled)?.size)
+    pub fn picture_size(&self, compiled: &Compiled) -> Result<UVec2, Failure> {
+        Ok(self.variant_inputs(compiled)?.size)
     }
 
     /// Returns the inputs of a variant. Inputs that only other variants read are left out.
-    pub fn inputs(&self, compiled: &Compiled) -> Result<Inputs, Failure> {
-        let own: BTreeSet<&String> = names(compiled).collect();
+    pub fn variant_inputs(&self, compiled: &Compiled) -> Result<Inputs, Failure> {
+        let own: BTreeSet<&String> = input_names(compiled).collect();
         let wanted = |name: &str| own.iter().any(|own| *own == name) || !self.names.contains(name);
         let mut args = self.args.clone();
         args.input
@@ -66,18 +66,18 @@ impl Given {
         if args.input.is_empty() {
             args.size = args.size.or(Some(self.size));
         }
-        let mut inputs = inputs::inputs(&args, Stage::Compute, compiled)?;
+        let mut inputs = inputs::read_inputs(&args, Stage::Compute, compiled)?;
         let card = test_inputs(&compiled.in_blocks().graph, inputs.size);
-        fill(&mut inputs.images, card.images);
-        fill(&mut inputs.integers, card.integers);
-        fill(&mut inputs.buffers, card.buffers);
-        fill(&mut inputs.uniforms, card.uniforms);
+        add_missing(&mut inputs.images, card.images);
+        add_missing(&mut inputs.integers, card.integers);
+        add_missing(&mut inputs.buffers, card.buffers);
+        add_missing(&mut inputs.uniforms, card.uniforms);
         Ok(inputs)
     }
 }
 
 /// Adds what is not there yet.
-fn fill<T>(own: &mut Vec<(String, T)>, card: Vec<(String, T)>) {
+fn add_missing<T>(own: &mut Vec<(String, T)>, card: Vec<(String, T)>) {
     for (name, value) in card {
         if !own.iter().any(|(known, _)| *known == name) {
             own.push((name, value));

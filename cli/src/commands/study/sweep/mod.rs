@@ -6,7 +6,7 @@ mod print;
 
 use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, MergeArgs, RecordsArgs, SweepArgs};
-use crate::failure::{Failure, count};
+use crate::failure::{Failure, format_count};
 use crate::gpu::Gpu;
 use given::Given;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,14 +21,16 @@ use straightline_study::sweep::{self, RESERVED, Rival, Space, Sweep, SweepError}
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.
-pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
+pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let kernel = args
         .source
         .iter()
-        .fold(Kernel::locate(&args.kernel), |kernel, path| kernel?.with_file(path))?;
-    let space = space(args, &kernel)?;
+        .fold(Kernel::from_argument(&args.kernel), |kernel, path| {
+            kernel?.with_file(path)
+        })?;
+    let space = build_space(args, &kernel)?;
     let sweep = Sweep {
-        baseline: baseline(args, &kernel)?,
+        baseline: build_baseline(args, &kernel)?,
         kernel,
         space,
         rivals: args
@@ -36,22 +38,22 @@ pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -
             .iter()
             .map(|file| Rival { pattern: file.clone() })
             .collect(),
-        rounds: common.rounds(),
+        rounds: common.timing_rounds(),
         until: args.until,
         least: LEAST,
         shard: args.shard,
     };
     let compiled = first_of_groups(&sweep)?;
     let given = Given::new(common, args, &compiled);
-    let size = given.size(&compiled[0])?;
+    let size = given.picture_size(&compiled[0])?;
     let gpu = Gpu::require(&common.adapter)?;
-    let give = |compiled: &Compiled| given.inputs(compiled).map_err(told);
-    let variants = sweep.measure(&gpu.bench(), &give, progress).map_err(failure)?;
-    let mut circumstances = circumstances_of(&gpu, size, common.rounds());
-    circumstances.complete = !progress.stopped();
+    let give = |compiled: &Compiled| given.variant_inputs(compiled).map_err(to_sweep_error);
+    let variants = sweep.measure(&gpu.bench(), &give, progress).map_err(to_failure)?;
+    let mut circumstances = circumstances_of(&gpu, size, common.timing_rounds());
+    circumstances.complete = !progress.is_stopped();
     let record = SweepRecord {
         circumstances,
-        environment: environment::here(),
+        environment: environment::collect_environment(),
         kernel: sweep.kernel.name().to_owned(),
         source: hash_of_text(
             &sweep
@@ -68,45 +70,45 @@ pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -
         shard: args.shard,
         variants,
     };
-    progress.done();
-    record.write(&common.out).map_err(Failure::of)?;
-    print::record(&record);
-    written(common);
+    progress.clear_bar();
+    record.write(&common.out).map_err(Failure::from_error)?;
+    print::print_record(&record);
+    print_paths(common);
     Ok(())
 }
 
 /// Writes all shards as one record.
-pub fn merge(common: &CommonArgs, args: &MergeArgs) -> Result<(), Failure> {
+pub fn merge_shards(common: &CommonArgs, args: &MergeArgs) -> Result<(), Failure> {
     let records: Result<Vec<_>, _> = args.records.iter().map(|path| SweepRecord::read(path)).collect();
-    let record = sweep::joined(&records.map_err(Failure::of)?).map_err(Failure::of)?;
-    record.write(&common.out).map_err(Failure::of)?;
-    print::record(&record);
-    written(common);
+    let record = sweep::join_shards(&records.map_err(Failure::from_error)?).map_err(Failure::from_error)?;
+    record.write(&common.out).map_err(Failure::from_error)?;
+    print::print_record(&record);
+    print_paths(common);
     Ok(())
 }
 
 /// Prints in what two records differ, and fails if they do.
-pub fn compare(args: &RecordsArgs) -> Result<(), Failure> {
-    let read = |path| SweepRecord::read(path).map_err(Failure::of);
+pub fn compare_records(args: &RecordsArgs) -> Result<(), Failure> {
+    let read = |path| SweepRecord::read(path).map_err(Failure::from_error);
     let (first, second) = (read(&args.first)?, read(&args.second)?);
-    let compared = sweep::compared(&first, &second, args.tolerance).map_err(Failure::of)?;
+    let compared = sweep::compare_records(&first, &second, args.tolerance).map_err(Failure::from_error)?;
     if compared.is_empty() {
         return Err(Failure::Failed(
             "the records have no variant in common that was measured in both, beside its baseline".to_owned(),
         ));
     }
-    print::compared(&first, &compared);
+    print::print_comparison(&first, &compared);
     match compared.iter().filter(|of| of.differs).count() {
         0 => Ok(()),
         differ => Err(Failure::Failed(format!(
             "{differ} of {} differ by more than {:.0} %",
-            count(compared.len(), "variant"),
+            format_count(compared.len(), "variant"),
             100.0 * args.tolerance
         ))),
     }
 }
 
-fn written(common: &CommonArgs) {
+fn print_paths(common: &CommonArgs) {
     for extension in ["json", "csv"] {
         outln!(
             "{}",
@@ -116,7 +118,7 @@ fn written(common: &CommonArgs) {
 }
 
 /// Everything that is varied, each value once.
-fn space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
+fn build_space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
     let space = Space {
         options: args.set.clone(),
         knobs: args.vary.clone(),
@@ -160,11 +162,11 @@ fn space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
     Ok(space)
 }
 
-fn baseline(args: &SweepArgs, kernel: &Kernel) -> Result<BTreeMap<String, String>, Failure> {
+fn build_baseline(args: &SweepArgs, kernel: &Kernel) -> Result<BTreeMap<String, String>, Failure> {
     let mut baseline = BTreeMap::new();
     for (name, value) in &args.baseline {
         if baseline
-            .insert(name.clone(), sweep::spelled(kernel, name, value))
+            .insert(name.clone(), sweep::spell_value(kernel, name, value))
             .is_some()
         {
             return Err(Failure::Usage(format!("--baseline has `{name}` twice")));
@@ -180,7 +182,7 @@ fn baseline(args: &SweepArgs, kernel: &Kernel) -> Result<BTreeMap<String, String
 fn first_of_groups(sweep: &Sweep) -> Result<Vec<Compiled>, Failure> {
     let mut wrong = None;
     let mut compiled = Vec::new();
-    for variant in sweep.groups().map_err(failure)?.iter().flatten() {
+    for variant in sweep.groups().map_err(to_failure)?.iter().flatten() {
         match variant.spec().map_err(Failure::Usage)?.compile(&sweep.kernel) {
             Ok(one) => compiled.push(one),
             Err(errors) => wrong = wrong.or(Some(errors)),
@@ -192,14 +194,14 @@ fn first_of_groups(sweep: &Sweep) -> Result<Vec<Compiled>, Failure> {
     }
 }
 
-fn failure(error: SweepError) -> Failure {
+fn to_failure(error: SweepError) -> Failure {
     match error {
         SweepError::Bad(message) | SweepError::Given(message) => Failure::Usage(message),
-        other => Failure::of(other),
+        other => Failure::from_error(other),
     }
 }
 
-fn told(failure: Failure) -> SweepError {
+fn to_sweep_error(failure: Failure) -> SweepError {
     SweepError::Given(match failure {
         Failure::Usage(message) | Failure::Failed(message) => message,
         Failure::Kernel(errors) => errors.render(false),

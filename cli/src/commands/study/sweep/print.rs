@@ -1,13 +1,13 @@
 //! Sweeps for people.
 
-use crate::failure::count;
+use crate::failure::format_count;
 use crate::table;
 use std::collections::BTreeMap;
 use straightline_study::record::{SweepRecord, Swept};
 use straightline_study::sweep::{Axis, Compared, Interval};
 
 /// A table of all variants, and why some were refused.
-pub fn record(record: &SweepRecord) {
+pub fn print_record(record: &SweepRecord) {
     let c = &record.circumstances;
     outln!(
         "{} on {}, {}x{}, {}, {}{}\n",
@@ -19,14 +19,14 @@ pub fn record(record: &SweepRecord) {
             Some(until) => format!(
                 "until ±{:.1} %, at most {}",
                 100.0 * until,
-                count(c.rounds as usize, "round")
+                format_count(c.rounds as usize, "round")
             ),
-            None => count(c.rounds as usize, "round"),
+            None => format_count(c.rounds as usize, "round"),
         },
         c.date,
         if c.complete { "" } else { "; interrupted" }
     );
-    let axes = varied(record);
+    let axes = varied_axes(record);
     let rivals = record.variants.iter().any(|variant| variant.rival.is_some());
     let mut head: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
     if rivals {
@@ -45,7 +45,7 @@ pub fn record(record: &SweepRecord) {
     let row = |variant: &Swept| {
         let measured = variant.measured.as_ref()?;
         let number = |number: Option<u32>| number.map_or(String::new(), |number| number.to_string());
-        let mut row = settings(&axes, &variant.settings);
+        let mut row = setting_values(&axes, &variant.settings);
         if rivals {
             row.push(variant.rival.clone().unwrap_or_default());
         }
@@ -54,7 +54,7 @@ pub fn record(record: &SweepRecord) {
             format!("{:.3}", measured.median_ms),
             match record.is_baseline(variant) {
                 true => "baseline".to_owned(),
-                false => measured.speedup.as_ref().map_or(String::new(), interval),
+                false => measured.speedup.as_ref().map_or(String::new(), format_interval),
             },
             number(measured.loops),
             number(measured.statements),
@@ -65,7 +65,7 @@ pub fn record(record: &SweepRecord) {
         Some(row)
     };
     let rows: Vec<Vec<String>> = record.variants.iter().filter_map(row).collect();
-    out!("{}", table::render(&head, &rows));
+    out!("{}", table::render_table(&head, &rows));
     let base: Vec<String> = record
         .baseline
         .iter()
@@ -88,21 +88,21 @@ pub fn record(record: &SweepRecord) {
 }
 
 /// Prints the comparison of two records.
-pub fn compared(record: &SweepRecord, compared: &[Compared]) {
-    let axes = varied(record);
+pub fn print_comparison(record: &SweepRecord, compared: &[Compared]) {
+    let axes = varied_axes(record);
     let mut head: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
     head.extend(["rival", "first", "second", "second by first", ""]);
     let row = |of: &Compared| {
-        let mut row = settings(&axes, &of.settings);
+        let mut row = setting_values(&axes, &of.settings);
         row.push(of.rival.clone().unwrap_or_default());
         row.extend(of.speedup.map(|ratio| format!("{ratio:.3}")));
-        row.push(interval(&of.quotient));
+        row.push(format_interval(&of.quotient));
         row.push(if of.differs { "differs" } else { "" }.to_owned());
         row
     };
     out!(
         "{}",
-        table::render(&head, &compared.iter().map(row).collect::<Vec<_>>())
+        table::render_table(&head, &compared.iter().map(row).collect::<Vec<_>>())
     );
     outln!(
         "\nfirst, second: speedup over the baseline. Of all intervals together 95 % hold what they should, for these two runs: \
@@ -111,7 +111,7 @@ pub fn compared(record: &SweepRecord, compared: &[Compared]) {
 }
 
 /// Axes of several values, or the baseline's where nothing has several.
-fn varied(record: &SweepRecord) -> Vec<&Axis> {
+fn varied_axes(record: &SweepRecord) -> Vec<&Axis> {
     let several: Vec<&Axis> = record.axes.iter().filter(|axis| axis.values.len() > 1).collect();
     match several.is_empty() {
         true => record
@@ -123,11 +123,11 @@ fn varied(record: &SweepRecord) -> Vec<&Axis> {
     }
 }
 
-fn settings(axes: &[&Axis], settings: &BTreeMap<String, String>) -> Vec<String> {
+fn setting_values(axes: &[&Axis], settings: &BTreeMap<String, String>) -> Vec<String> {
     let value = |axis: &&Axis| settings.get(&axis.name).cloned().unwrap_or_default();
     axes.iter().map(value).collect()
 }
 
-fn interval(of: &Interval) -> String {
+fn format_interval(of: &Interval) -> String {
     format!("{:.2} ({:.2} to {:.2})", of.median, of.low, of.high)
 }

@@ -25,43 +25,43 @@ impl<'m, 'g> Body<'m, 'g> {
     }
 
     /// A number in every component.
-    pub fn number(&self, x: f32) -> Expr {
+    pub fn float_constant(&self, x: f32) -> Expr {
         Expr::splat(self.ty, x.to_bits())
     }
 
     /// A pattern of bits in every component.
-    pub fn word(&self, bits: u32) -> Expr {
-        Expr::new(Op::Hex(bits), Vec::new(), self.ty.of(Scalar::U32))
+    pub fn bits_constant(&self, bits: u32) -> Expr {
+        Expr::new(Op::Hex(bits), Vec::new(), self.ty.with_kind(Scalar::U32))
     }
 
     /// Names a value.
-    pub fn declare(&mut self, name: &str, value: Expr) -> Expr {
-        let var = self.module.variable(name, value.ty);
+    pub fn emit_let(&mut self, name: &str, value: Expr) -> Expr {
+        let var = self.module.new_variable(name, value.ty);
         self.statements.push(StmtKind::Let(var, value).into());
-        self.module.read(var)
+        self.module.read_variable(var)
     }
 
     /// A variable that is assigned again.
-    pub fn variable(&mut self, name: &str, value: Expr) -> VarId {
-        let var = self.module.variable(name, value.ty);
+    pub fn emit_var(&mut self, name: &str, value: Expr) -> VarId {
+        let var = self.module.new_variable(name, value.ty);
         self.statements.push(StmtKind::Var(var, Some(value)).into());
         var
     }
 
     /// The value of a variable.
-    pub fn read(&self, var: VarId) -> Expr {
-        self.module.read(var)
+    pub fn read_variable(&self, var: VarId) -> Expr {
+        self.module.read_variable(var)
     }
 
     /// Gives a variable another value.
-    pub fn assign(&mut self, var: VarId, value: Expr) {
-        let place = self.module.read(var);
+    pub fn emit_assign(&mut self, var: VarId, value: Expr) {
+        let place = self.module.read_variable(var);
         self.statements.push(StmtKind::Assign(place, None, value).into());
     }
 
     /// Repeats what `turn` writes `times` times.
-    pub fn repeat(&mut self, times: Expr, turn: impl FnOnce(&mut Self)) {
-        let counter = self.module.variable("turn", Type::I32);
+    pub fn emit_loop(&mut self, times: Expr, turn: impl FnOnce(&mut Self)) {
+        let counter = self.module.new_variable("turn", Type::I32);
         let outer = std::mem::take(&mut self.statements);
         turn(self);
         let body = std::mem::replace(&mut self.statements, outer);
@@ -77,29 +77,29 @@ impl<'m, 'g> Body<'m, 'g> {
     }
 
     /// The bits of a float.
-    pub fn bits(&self, x: &Expr) -> Expr {
-        x.clone().bits_as(self.ty.of(Scalar::U32))
+    pub fn to_bits(&self, x: &Expr) -> Expr {
+        x.clone().bits_as(self.ty.with_kind(Scalar::U32))
     }
 
     /// The bits of a float without its sign.
     pub fn size_bits(&self, x: &Expr) -> Expr {
-        self.bits(x).binary(BinaryOp::And, self.word(0x7fff_ffff))
+        self.to_bits(x).binary(BinaryOp::And, self.bits_constant(0x7fff_ffff))
     }
 
     /// Tests whether a float is a NaN, by its bits: a compiler may assume that there are no NaNs.
     pub fn is_nan(&self, x: &Expr) -> Expr {
-        self.size_bits(x).binary(BinaryOp::Gt, self.word(0x7f80_0000))
+        self.size_bits(x).binary(BinaryOp::Gt, self.bits_constant(0x7f80_0000))
     }
 
     /// Tests whether a float's sign bit is set.
     pub fn has_sign(&self, x: &Expr) -> Expr {
-        self.bits(x).binary(BinaryOp::Ge, self.word(0x8000_0000))
+        self.to_bits(x).binary(BinaryOp::Ge, self.bits_constant(0x8000_0000))
     }
 
     /// A positive float with the sign bit of another.
     pub fn with_sign_of(&self, size: Expr, of: &Expr) -> Expr {
-        let sign = self.bits(of).binary(BinaryOp::And, self.word(0x8000_0000));
-        self.bits(&size).binary(BinaryOp::Or, sign).bits_as(self.ty)
+        let sign = self.to_bits(of).binary(BinaryOp::And, self.bits_constant(0x8000_0000));
+        self.to_bits(&size).binary(BinaryOp::Or, sign).bits_as(self.ty)
     }
 }
 

@@ -2,14 +2,14 @@
 
 use super::Guard;
 use super::body::{binary, unary};
-use crate::emit::legalise::choose;
+use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{BinaryOp, UnaryOp};
 
 /// From this size on one of the two exponentials is less than half a rounding of the other.
 const LARGE: f32 = 10.0;
 
 /// The function for a hyperbolic function.
-pub fn guard(op: UnaryOp) -> Guard {
+pub fn hyperbolic_guard(op: UnaryOp) -> Guard {
     let (name, comment) = match op {
         UnaryOp::Sinh => (
             "hyperbolic_sine",
@@ -28,20 +28,20 @@ pub fn guard(op: UnaryOp) -> Guard {
         scalar: false,
         value: Box::new(move |b, args| {
             let x = &args[0];
-            let size = b.declare("size", unary(UnaryOp::Abs, x));
+            let size = b.emit_let("size", unary(UnaryOp::Abs, x));
             let sign = unary(UnaryOp::Sign, x);
             // exp(size) / 2 is exp(size - ln 2).
             let half = unary(
                 UnaryOp::Exp,
-                &binary(&size, BinaryOp::Sub, &b.number(std::f32::consts::LN_2)),
+                &binary(&size, BinaryOp::Sub, &b.float_constant(std::f32::consts::LN_2)),
             );
             let far = match op {
                 UnaryOp::Sinh => sign.binary(BinaryOp::Mul, half),
                 UnaryOp::Cosh => half,
                 _ => sign,
             };
-            let large = binary(&size, BinaryOp::Gt, &b.number(LARGE));
-            choose(large, far, unary(op, x))
+            let large = binary(&size, BinaryOp::Gt, &b.float_constant(LARGE));
+            component_select(large, far, unary(op, x))
         }),
     }
 }

@@ -10,12 +10,12 @@ mod power;
 mod remainder;
 mod simple;
 
-use super::{componentwise, is_leaf};
+use super::{componentwise_function, is_leaf};
 use crate::emit::ast::{Domain, Expr, Function, Module, Op, StmtKind, Ty};
 use body::Body;
 use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
 
-pub use simple::unequal;
+pub use simple::rewrite_unequal;
 
 /// Overloading of functions in a language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,40 +42,40 @@ struct Guard {
 }
 
 /// The expression without guarded operations: a call of a function, or another expression.
-pub fn expand(module: &mut Module<'_>, expr: Expr, overloads: Overloads) -> Expr {
+pub fn expand_guarded(module: &mut Module<'_>, expr: Expr, overloads: Overloads) -> Expr {
     let Op::Guarded(op, domain) = expr.op.clone() else {
         return expr;
     };
     let ty = expr.ty;
     if ty.half {
         // By way of `f32`, which holds every `f16`: bits are looked at.
-        let full = ty.full();
+        let full = ty.to_full_precision();
         let args = expr.args.into_iter().map(|arg| match arg.as_constant() {
             Some(bits) => Expr::constant(full, *bits),
-            None => arg.to(full),
+            None => arg.convert_to(full),
         });
         let guarded = Expr::new(Op::Guarded(op, domain), args.collect(), full);
-        return expand(module, guarded, overloads).to(ty);
+        return expand_guarded(module, guarded, overloads).convert_to(ty);
     }
     let mut args = expr.args;
-    if let Some(shorter) = simple::inline(&op, domain, &args, ty) {
+    if let Some(shorter) = simple::inline_guard(&op, domain, &args, ty) {
         return shorter;
     }
-    let guard = guard(&op, domain, &args);
+    let guard = select_guard(&op, domain, &args);
     args.truncate(guard.arguments.len());
-    let called = call(module, &guard, ty, overloads);
+    let called = add_guard_function(module, &guard, ty, overloads);
     Expr::new(called, args, ty)
 }
 
 /// The function that stands for an operation.
-fn guard(op: &ir::Op, domain: Domain, args: &[Expr]) -> Guard {
+fn select_guard(op: &ir::Op, domain: Domain, args: &[Expr]) -> Guard {
     match op {
-        ir::Op::Binary(BinaryOp::Pow) => power::guard(domain, args),
-        ir::Op::Binary(BinaryOp::Atan2) => simple::angle(),
-        ir::Op::Binary(BinaryOp::Rem) => remainder::guard(domain),
-        ir::Op::Unary(op @ (UnaryOp::Log | UnaryOp::Log2)) => simple::logarithm(*op),
-        ir::Op::Unary(op @ (UnaryOp::Sinh | UnaryOp::Cosh | UnaryOp::Tanh)) => hyperbolic::guard(*op),
-        ir::Op::Unary(UnaryOp::Fract) => simple::fraction(),
+        ir::Op::Binary(BinaryOp::Pow) => power::power_guard(domain, args),
+        ir::Op::Binary(BinaryOp::Atan2) => simple::angle_guard(),
+        ir::Op::Binary(BinaryOp::Rem) => remainder::remainder_guard(domain),
+        ir::Op::Unary(op @ (UnaryOp::Log | UnaryOp::Log2)) => simple::logarithm_guard(*op),
+        ir::Op::Unary(op @ (UnaryOp::Sinh | UnaryOp::Cosh | UnaryOp::Tanh)) => hyperbolic::hyperbolic_guard(*op),
+        ir::Op::Unary(UnaryOp::Fract) => simple::fraction_guard(),
         ir::Op::Unary(UnaryOp::Atan) => simple::arc_tangent(),
         ir::Op::Unary(UnaryOp::Cbrt) => power::cube_root(),
         other => unreachable!("{other:?} has no edges"),
@@ -83,28 +83,32 @@ fn guard(op: &ir::Op, domain: Domain, args: &[Expr]) -> Guard {
 }
 
 /// Adds a function for a type, and those that it calls.
-fn call(module: &mut Module<'_>, guard: &Guard, ty: Ty, overloads: Overloads) -> Op {
+fn add_guard_function(module: &mut Module<'_>, guard: &Guard, ty: Ty, overloads: Overloads) -> Op {
     let by_scalars = guard.scalar || overloads == Overloads::Scalars;
     if !by_scalars || ty.is_scalar() {
         let name = match overloads == Overloads::None && !ty.is_scalar() {
             true => format!("{}_{}", guard.name, ty.short_name()),
             false => guard.name.clone(),
         };
-        return module.function(&name, ty, |module| function(module, guard, &name, ty));
+        return module.add_function(&name, ty, |module| build_function(module, guard, &name, ty));
     }
-    let scalar = call(module, guard, ty.element_of().into(), overloads);
+    let scalar = add_guard_function(module, guard, ty.element_of().into(), overloads);
     match overloads {
         Overloads::None => {
             let name = format!("{}_{}", guard.name, ty.short_name());
             by_component(module, guard, scalar, &name, ty)
         }
-        _ => componentwise(module, scalar, ty),
+        _ => componentwise_function(module, scalar, ty),
     }
 }
 
-fn function<'g>(module: &mut Module<'g>, guard: &Guard, name: &str, ty: Ty) -> Function<'g> {
-    let params: Vec<_> = guard.arguments.iter().map(|name| module.variable(*name, ty)).collect();
-    let args: Vec<Expr> = params.iter().map(|param| module.read(*param)).collect();
+fn build_function<'g>(module: &mut Module<'g>, guard: &Guard, name: &str, ty: Ty) -> Function<'g> {
+    let params: Vec<_> = guard
+        .arguments
+        .iter()
+        .map(|name| module.new_variable(*name, ty))
+        .collect();
+    let args: Vec<Expr> = params.iter().map(|param| module.read_variable(*param)).collect();
     let mut body = Body::new(module, ty);
     let value = (guard.value)(&mut body, &args);
     let mut body = body.into_statements();
@@ -120,8 +124,12 @@ fn function<'g>(module: &mut Module<'g>, guard: &Guard, name: &str, ty: Ty) -> F
 
 /// A function of vectors that calls one of scalars for each component, under another name.
 fn by_component<'g>(module: &mut Module<'g>, guard: &Guard, scalar: Op, name: &str, ty: Ty) -> Op {
-    module.function(name, ty, |module: &mut Module<'g>| {
-        let params: Vec<_> = guard.arguments.iter().map(|name| module.variable(*name, ty)).collect();
+    module.add_function(name, ty, |module: &mut Module<'g>| {
+        let params: Vec<_> = guard
+            .arguments
+            .iter()
+            .map(|name| module.new_variable(*name, ty))
+            .collect();
         let component = |k: u8| {
             let part = |param| Expr::new(Op::Swizzle(vec![k]), vec![Expr::var(param, ty)], ty.element_of());
             let parts = params.iter().map(|param| part(*param)).collect();

@@ -3,14 +3,14 @@
 use super::Guard;
 use super::body::{Body, and, binary, not, or, unary};
 use crate::emit::ast::{Domain, Expr};
-use crate::emit::legalise::choose;
+use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{BinaryOp, UnaryOp};
 
 /// The largest integral power that is a product.
 pub const MOST: f32 = 64.0;
 
 /// An exponent that is the same constant in all components.
-pub fn exponent(args: &[Expr]) -> Option<f32> {
+pub fn constant_exponent(args: &[Expr]) -> Option<f32> {
     let bits = args[1].as_constant()?;
     let lanes = usize::from(args[1].ty.components());
     let first = bits[0];
@@ -27,9 +27,9 @@ pub fn product_of(exponent: f32) -> Option<i32> {
 }
 
 /// The function for a power.
-pub fn guard(domain: Domain, args: &[Expr]) -> Guard {
-    if let Some(n) = exponent(args).and_then(product_of) {
-        return product(n);
+pub fn power_guard(domain: Domain, args: &[Expr]) -> Guard {
+    if let Some(n) = constant_exponent(args).and_then(product_of) {
+        return product_guard(n);
     }
     match domain.positive {
         true => Guard {
@@ -38,10 +38,10 @@ pub fn guard(domain: Domain, args: &[Expr]) -> Guard {
             arguments: &["x", "y"],
             scalar: false,
             value: Box::new(|b, args| {
-                let x_is_one = binary(&args[0], BinaryOp::Eq, &b.number(1.0));
-                let y_is_zero = binary(&args[1], BinaryOp::Eq, &b.number(0.0));
+                let x_is_one = binary(&args[0], BinaryOp::Eq, &b.float_constant(1.0));
+                let y_is_zero = binary(&args[1], BinaryOp::Eq, &b.float_constant(0.0));
                 let power = binary(&args[0], BinaryOp::Pow, &args[1]);
-                choose(or(x_is_one, y_is_zero), b.number(1.0), power)
+                component_select(or(x_is_one, y_is_zero), b.float_constant(1.0), power)
             }),
         },
         false => Guard {
@@ -49,42 +49,48 @@ pub fn guard(domain: Domain, args: &[Expr]) -> Guard {
             comment: "x to the power y, of 0 and of negative numbers too, which drivers leave open.",
             arguments: &["x", "y"],
             scalar: false,
-            value: Box::new(power),
+            value: Box::new(build_power),
         },
     }
 }
 
-fn power(b: &mut Body<'_, '_>, args: &[Expr]) -> Expr {
+fn build_power(b: &mut Body<'_, '_>, args: &[Expr]) -> Expr {
     let [x, y] = [&args[0], &args[1]];
-    let size = b.declare("size", unary(UnaryOp::Abs, x));
+    let size = b.emit_let("size", unary(UnaryOp::Abs, x));
     let whole = binary(&unary(UnaryOp::Trunc, y), BinaryOp::Eq, y);
-    let whole = b.declare("is_whole", whole);
-    let half = b.declare("half_of_y", binary(y, BinaryOp::Mul, &b.number(0.5)));
+    let whole = b.emit_let("is_whole", whole);
+    let half = b.emit_let("half_of_y", binary(y, BinaryOp::Mul, &b.float_constant(0.5)));
     let even = binary(&unary(UnaryOp::Trunc, &half), BinaryOp::Eq, &half);
-    let odd = b.declare("is_odd", and(whole.clone(), not(even)));
-    let below = binary(y, BinaryOp::Lt, &b.number(0.0));
-    let of_zero = choose(below, b.number(f32::INFINITY), b.number(0.0));
-    let is_zero = binary(&size, BinaryOp::Eq, &b.number(0.0));
-    let raised = choose(is_zero, of_zero, binary(&size, BinaryOp::Pow, y));
-    let raised = b.declare("raised", raised);
+    let odd = b.emit_let("is_odd", and(whole.clone(), not(even)));
+    let below = binary(y, BinaryOp::Lt, &b.float_constant(0.0));
+    let of_zero = component_select(below, b.float_constant(f32::INFINITY), b.float_constant(0.0));
+    let is_zero = binary(&size, BinaryOp::Eq, &b.float_constant(0.0));
+    let raised = component_select(is_zero, of_zero, binary(&size, BinaryOp::Pow, y));
+    let raised = b.emit_let("raised", raised);
     let negative = and(odd, b.has_sign(x));
-    let signed = b.declare("signed", choose(negative, unary(UnaryOp::Neg, &raised), raised));
-    let of_one = and(
-        binary(&size, BinaryOp::Eq, &b.number(1.0)),
-        binary(&b.size_bits(y), BinaryOp::Eq, &b.word(0x7f80_0000)),
+    let signed = b.emit_let(
+        "signed",
+        component_select(negative, unary(UnaryOp::Neg, &raised), raised),
     );
-    let x_is_one = binary(x, BinaryOp::Eq, &b.number(1.0));
-    let y_is_zero = binary(y, BinaryOp::Eq, &b.number(0.0));
-    let is_one = b.declare("is_one", or(or(y_is_zero, x_is_one), of_one));
-    let root = and(binary(x, BinaryOp::Lt, &b.number(0.0)), not(whole));
-    let root = and(root, binary(&b.size_bits(x), BinaryOp::Lt, &b.word(0x7f80_0000)));
-    let undefined = b.declare("is_undefined", or(or(b.is_nan(x), b.is_nan(y)), root));
-    let defined = choose(undefined, b.number(f32::NAN), signed);
-    choose(is_one, b.number(1.0), defined)
+    let of_one = and(
+        binary(&size, BinaryOp::Eq, &b.float_constant(1.0)),
+        binary(&b.size_bits(y), BinaryOp::Eq, &b.bits_constant(0x7f80_0000)),
+    );
+    let x_is_one = binary(x, BinaryOp::Eq, &b.float_constant(1.0));
+    let y_is_zero = binary(y, BinaryOp::Eq, &b.float_constant(0.0));
+    let is_one = b.emit_let("is_one", or(or(y_is_zero, x_is_one), of_one));
+    let root = and(binary(x, BinaryOp::Lt, &b.float_constant(0.0)), not(whole));
+    let root = and(
+        root,
+        binary(&b.size_bits(x), BinaryOp::Lt, &b.bits_constant(0x7f80_0000)),
+    );
+    let undefined = b.emit_let("is_undefined", or(or(b.is_nan(x), b.is_nan(y)), root));
+    let defined = component_select(undefined, b.float_constant(f32::NAN), signed);
+    component_select(is_one, b.float_constant(1.0), defined)
 }
 
 /// A power by squares, the lowest first; for a negative exponent the reciprocal of that.
-fn product(n: i32) -> Guard {
+fn product_guard(n: i32) -> Guard {
     let name = match n {
         2 => "square".to_owned(),
         3 => "cube".to_owned(),
@@ -111,11 +117,11 @@ fn product(n: i32) -> Guard {
                     break;
                 }
                 squared *= 2;
-                square = b.declare(&format!("x_{squared}"), binary(&square, BinaryOp::Mul, &square));
+                square = b.emit_let(&format!("x_{squared}"), binary(&square, BinaryOp::Mul, &square));
             }
             let power = power.unwrap_or(square);
             match n < 0 {
-                true => b.number(1.0).binary(BinaryOp::Div, power),
+                true => b.float_constant(1.0).binary(BinaryOp::Div, power),
                 false => power,
             }
         }),
@@ -131,12 +137,12 @@ pub fn cube_root() -> Guard {
         scalar: false,
         value: Box::new(|b, args| {
             let size = unary(UnaryOp::Abs, &args[0]);
-            let third = b.number(1.0 / 3.0);
-            let power = b.declare("power", binary(&size, BinaryOp::Pow, &third));
+            let third = b.float_constant(1.0 / 3.0);
+            let power = b.emit_let("power", binary(&size, BinaryOp::Pow, &third));
             let root = b.with_sign_of(power, &args[0]);
             // Zeros and NaN are their own roots.
-            let other = binary(&size, BinaryOp::Gt, &b.number(0.0));
-            choose(other, root, args[0].clone())
+            let other = binary(&size, BinaryOp::Gt, &b.float_constant(0.0));
+            component_select(other, root, args[0].clone())
         }),
     }
 }

@@ -3,11 +3,11 @@
 use super::body::{binary, not, unary};
 use super::{Guard, is_leaf, power};
 use crate::emit::ast::{Domain, Expr, Op, Ty};
-use crate::emit::legalise::choose;
+use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
 
 /// A shorter expression with the same edges, where there is one.
-pub fn inline(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr> {
+pub fn inline_guard(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr> {
     let x = &args[0];
     if *op == ir::Op::Unary(UnaryOp::Fract) && is_short(x) {
         return Some(binary(x, BinaryOp::Sub, &unary(UnaryOp::Floor, x)));
@@ -15,7 +15,7 @@ pub fn inline(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr
     if *op != ir::Op::Binary(BinaryOp::Pow) {
         return None;
     }
-    let exponent = power::exponent(args)?;
+    let exponent = power::constant_exponent(args)?;
     if exponent == -1.0 {
         return Some(Expr::splat(ty, 1.0_f32.to_bits()).binary(BinaryOp::Div, x.clone()));
     }
@@ -54,7 +54,7 @@ fn is_short(expr: &Expr) -> bool {
 }
 
 /// Logarithms, which some drivers have finite at 0, of negative numbers and of a NaN.
-pub fn logarithm(op: UnaryOp) -> Guard {
+pub fn logarithm_guard(op: UnaryOp) -> Guard {
     let name = match op {
         UnaryOp::Log2 => "binary_logarithm",
         _ => "natural_logarithm",
@@ -66,16 +66,16 @@ pub fn logarithm(op: UnaryOp) -> Guard {
         scalar: false,
         value: Box::new(move |b, args| {
             let x = &args[0];
-            let zero = binary(x, BinaryOp::Eq, &b.number(0.0));
-            let none = choose(zero, b.number(f32::NEG_INFINITY), b.number(f32::NAN));
-            let positive = binary(x, BinaryOp::Gt, &b.number(0.0));
-            choose(positive, unary(op, x), none)
+            let zero = binary(x, BinaryOp::Eq, &b.float_constant(0.0));
+            let none = component_select(zero, b.float_constant(f32::NEG_INFINITY), b.float_constant(f32::NAN));
+            let positive = binary(x, BinaryOp::Gt, &b.float_constant(0.0));
+            component_select(positive, unary(op, x), none)
         }),
     }
 }
 
 /// `x - floor(x)`, which is a NaN of an infinity.
-pub fn fraction() -> Guard {
+pub fn fraction_guard() -> Guard {
     Guard {
         name: "fraction".to_owned(),
         comment: "What lies above the integer below x: a NaN of what is not finite.",
@@ -94,14 +94,14 @@ pub fn arc_tangent() -> Guard {
         scalar: false,
         value: Box::new(|b, args| {
             let x = &args[0];
-            choose(not(b.is_nan(x)), unary(UnaryOp::Atan, x), x.clone())
+            component_select(not(b.is_nan(x)), unary(UnaryOp::Atan, x), x.clone())
         }),
     }
 }
 
 /// The angle of a point, by an arc tangent between 0 and 1: drivers leave open what `atan2` is at the origin, of zeros below 0 and
 /// of infinities.
-pub fn angle() -> Guard {
+pub fn angle_guard() -> Guard {
     Guard {
         name: "angle".to_owned(),
         comment: "atan2(y, x), at the origin, of -0 and of infinities too.",
@@ -109,35 +109,38 @@ pub fn angle() -> Guard {
         scalar: false,
         value: Box::new(|b, args| {
             let [y, x] = [&args[0], &args[1]];
-            let height = b.declare("height", unary(UnaryOp::Abs, y));
-            let width = b.declare("width", unary(UnaryOp::Abs, x));
-            let steep = b.declare("is_steep", binary(&height, BinaryOp::Gt, &width));
-            let shorter = b.declare("shorter", choose(steep.clone(), width.clone(), height.clone()));
-            let longer = b.declare("longer", choose(steep.clone(), height, width));
+            let height = b.emit_let("height", unary(UnaryOp::Abs, y));
+            let width = b.emit_let("width", unary(UnaryOp::Abs, x));
+            let steep = b.emit_let("is_steep", binary(&height, BinaryOp::Gt, &width));
+            let shorter = b.emit_let(
+                "shorter",
+                component_select(steep.clone(), width.clone(), height.clone()),
+            );
+            let longer = b.emit_let("longer", component_select(steep.clone(), height, width));
             // Of equal sides 1, and 0 at the origin.
             let equal = binary(&shorter, BinaryOp::Eq, &longer);
-            let slope = choose(
+            let slope = component_select(
                 equal,
                 unary(UnaryOp::Sign, &longer),
                 binary(&shorter, BinaryOp::Div, &longer),
             );
-            let slope = b.declare("slope", slope);
-            let within = b.declare("within", unary(UnaryOp::Atan, &slope));
+            let slope = b.emit_let("slope", slope);
+            let within = b.emit_let("within", unary(UnaryOp::Atan, &slope));
             let right = b
-                .number(std::f32::consts::FRAC_PI_2)
+                .float_constant(std::f32::consts::FRAC_PI_2)
                 .binary(BinaryOp::Sub, within.clone());
-            let above = b.declare("above", choose(steep, right, within));
-            let behind = binary(&b.number(std::f32::consts::PI), BinaryOp::Sub, &above);
-            let above = b.declare("above", choose(b.has_sign(x), behind, above));
+            let above = b.emit_let("above", component_select(steep, right, within));
+            let behind = binary(&b.float_constant(std::f32::consts::PI), BinaryOp::Sub, &above);
+            let above = b.emit_let("above", component_select(b.has_sign(x), behind, above));
             let signed = b.with_sign_of(above, y);
-            choose(b.is_nan(&slope), slope, signed)
+            component_select(b.is_nan(&slope), slope, signed)
         }),
     }
 }
 
 /// Compares floats by `!(a == b)`: a NaN is unequal to everything, but some drivers evaluate `!=` to false for it, and none evaluates `==`
 /// to true.
-pub fn unequal(mut expr: Expr) -> Expr {
+pub fn rewrite_unequal(mut expr: Expr) -> Expr {
     let is_ne = expr.op == Op::Ir(ir::Op::Binary(BinaryOp::Ne));
     if !is_ne || !expr.args[0].ty.is_float() {
         return expr;

@@ -14,7 +14,7 @@ pub fn image_type(output: &BoundOutput) -> &'static str {
 }
 
 /// Suffix of `sampler` and `texture` for a kind of texture.
-pub fn shape(kind: TextureKind) -> &'static str {
+pub fn texture_suffix(kind: TextureKind) -> &'static str {
     match kind {
         TextureKind::Flat | TextureKind::Depth => "2D",
         TextureKind::Layers | TextureKind::DepthLayers => "2DArray",
@@ -25,7 +25,7 @@ pub fn shape(kind: TextureKind) -> &'static str {
 }
 
 /// Prefix of the types of a scalar kind.
-fn prefix(scalar: Scalar) -> &'static str {
+fn type_prefix(scalar: Scalar) -> &'static str {
     match scalar {
         Scalar::I32 => "i",
         Scalar::U32 | Scalar::Usize => "u",
@@ -35,7 +35,7 @@ fn prefix(scalar: Scalar) -> &'static str {
 
 /// The type of a texture with a sampler.
 pub fn plain_sampler(texture: &Texture) -> String {
-    format!("{}sampler{}", prefix(texture.scalar), shape(texture.kind))
+    format!("{}sampler{}", type_prefix(texture.scalar), texture_suffix(texture.kind))
 }
 
 /// The type of a texture with a sampler that compares or not.
@@ -45,7 +45,7 @@ pub fn sampler_of(texture: &Texture, compares: bool) -> String {
 }
 
 /// A variable with its type: arrays have their extent after the name.
-pub fn declared(name: &str, ty: Ty) -> String {
+pub fn variable_declared(name: &str, ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
         _ => format!("{} {name}", type_name(ty)),
@@ -62,7 +62,7 @@ pub fn sampler_type(comparison: bool) -> &'static str {
 
 /// The type of a texture by itself.
 pub fn texture_type(texture: &Texture) -> String {
-    format!("{}texture{}", prefix(texture.scalar), shape(texture.kind))
+    format!("{}texture{}", type_prefix(texture.scalar), texture_suffix(texture.kind))
 }
 
 /// A type as GLSL spells it.

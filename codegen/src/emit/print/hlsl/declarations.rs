@@ -36,9 +36,9 @@ pub fn sampler_declared(resources: &Resources, index: u32) -> String {
 
 /// Structures of buffers, with padding where the language would pack them closer than the buffer has them: it knows no
 /// alignment but that of a number.
-pub fn structures(resources: &Resources) -> String {
+pub fn structure_declarations(resources: &Resources) -> String {
     let mut out = String::new();
-    for structure in resources.structures() {
+    for structure in resources.read_structures() {
         out += &format!("struct {} {{\n", structure.name);
         let mut at = 0;
         let pad = |out: &mut String, at: &mut u32, to: u32| {
@@ -61,7 +61,7 @@ pub fn structures(resources: &Resources) -> String {
                 },
                 other => other,
             };
-            out += &format!("    {};\n", declared(&field.name, ty.into()));
+            out += &format!("    {};\n", variable_declared(&field.name, ty.into()));
             at = field.offset + field.ty.layout().1;
         }
         pad(&mut out, &mut at, structure.stride());
@@ -71,7 +71,7 @@ pub fn structures(resources: &Resources) -> String {
 }
 
 /// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.
-pub fn fields(resources: &Resources) -> Vec<String> {
+pub fn uniform_members(resources: &Resources) -> Vec<String> {
     let mut lines = Vec::new();
     let mut at = 0;
     for (field, uniform) in resources.fields.iter().zip(&resources.uniforms) {
@@ -84,14 +84,14 @@ pub fn fields(resources: &Resources) -> Vec<String> {
             lines.push(format!("uint padding_{at}"));
             at += 4;
         }
-        lines.push(declared(&uniform.name, uniform.ty.into()));
+        lines.push(variable_declared(&uniform.name, uniform.ty.into()));
         at = field.offset + field.size;
     }
     lines
 }
 
 /// A variable with its type: arrays have their extent after the name.
-pub fn declared(name: &str, ty: Ty) -> String {
+pub fn variable_declared(name: &str, ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
         _ => format!("{} {name}", type_name(ty)),
