@@ -30,7 +30,7 @@ fn load_seen(mesh: Option<&Path>, name: &str, viewpoint: &Viewpoint) -> Result<S
     match mesh {
         Some(path) => scene::load_seen(path, viewpoint).map_err(Failure::from_error),
         None => {
-            let mut scene = Scene::named(name).map_err(|error| Failure::Usage(error.to_string()))?;
+            let mut scene = Scene::from_name(name).map_err(|error| Failure::Usage(error.to_string()))?;
             scene.camera = viewpoint.camera(|_| scene.camera, |point| point);
             scene.check().map_err(Failure::from_error)?;
             Ok(scene)
@@ -48,7 +48,7 @@ pub fn create_renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<
 
 /// Offsets of the samples of a pattern by its name, or listed.
 pub fn sample_offsets(name: &str) -> Result<Vec<Vec2>, Failure> {
-    gbuffer::samples(name).ok_or_else(|| {
+    gbuffer::pattern_offsets(name).ok_or_else(|| {
         Failure::Usage(format!(
             "there is no pattern `{name}`; use one of {}, or x and y of each sample, separated by commas, each from -0.5 to 0.5",
             gbuffer::PATTERNS.join(", ")

@@ -67,29 +67,29 @@ pub struct Places {
 
 impl Compiled {
     /// The kernel's reads and stores with next to no arithmetic between: a lower bound of every form
-    /// ([`passes::floor`]). It computes nothing of use, and is there to be timed.
+    /// ([`passes::build_floor`]). It computes nothing of use, and is there to be timed.
     ///
     /// # Errors
     ///
     /// If a loop or branch is left.
     pub fn floor(&self) -> Result<Compiled, Errors> {
         let made = |graph: &Graph| -> Result<Graph, Errors> {
-            let floor = passes::floor(graph).map_err(|why| {
+            let floor = passes::build_floor(graph).map_err(|why| {
                 let what = format!("`{}` has no floor: {why}", self.kernel);
-                Errors::of(
+                Errors::from_diagnostic(
                     Diagnostic::new(Code::UnfitSetting, what)
                         .help("unroll it fully, and let its branches be selections"),
                 )
             })?;
-            let floor = passes::clean(&floor);
-            verify::verify(&floor).map_err(|why| internal_error("floor", &why))?;
+            let floor = passes::clean_graph(&floor);
+            verify::verify_graph(&floor).map_err(|why| internal_error("floor", &why))?;
             Ok(floor)
         };
         let graph = made(&self.graph)?;
         let quad = self.quad.as_deref().map(made).transpose()?;
-        let schedule = passes::schedule(&graph, self.policy.reads);
+        let schedule = passes::schedule_graph(&graph, self.policy.reads);
         let floor = Compiled {
-            counts: passes::count(&graph, &schedule),
+            counts: passes::count_operations(&graph, &schedule),
             graph,
             schedule,
             quad: quad.map(Arc::new),
@@ -101,7 +101,7 @@ impl Compiled {
     /// Returns the counts for a pixel that the publication of a built-in kernel states with these options; `None` also where one invocation
     /// computes several pixels.
     pub fn paper_counts(&self) -> Option<PaperCounts> {
-        let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
+        let entry = self.builtin.filter(|_| self.graph.invocation.block_size() == [1, 1])?;
         (entry.paper)(&self.options)
     }
 
@@ -132,9 +132,9 @@ impl Compiled {
             return Cow::Borrowed(self);
         };
         let graph = Graph::clone(graph);
-        let schedule = passes::schedule(&graph, self.policy.reads);
+        let schedule = passes::schedule_graph(&graph, self.policy.reads);
         let whole = Compiled {
-            counts: passes::count(&graph, &schedule),
+            counts: passes::count_operations(&graph, &schedule),
             graph,
             schedule,
             quad: None,
@@ -146,7 +146,7 @@ impl Compiled {
 
 /// An error that says that a graph breaks a rule: a mistake of the generator.
 pub fn internal_error(stage: &str, why: &str) -> Errors {
-    Errors::of(
+    Errors::from_diagnostic(
         Diagnostic::new(
             Code::Internal,
             format!("the stage `{stage}` made a graph that breaks a rule: {why}"),

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use straightline_evaluator::diagnostic::Errors;
-use straightline_evaluator::front::raw;
+use straightline_evaluator::front::raw_name;
 use straightline_manifest::Manifest;
 
 pub use crate::spec::KernelConfig;
@@ -90,7 +90,7 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
         .fold(kernel, |kernel, path| kernel?.with_file(path));
     let kernel = kernel.map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
     let name = config.name.clone().unwrap_or_else(|| kernel.name().to_owned());
-    if syn::parse_str::<syn::Ident>(&raw(&name)).is_err() {
+    if syn::parse_str::<syn::Ident>(&raw_name(&name)).is_err() {
         return Err(Error::from_problem(Problem::Name(name)));
     }
     // The bindings include it.

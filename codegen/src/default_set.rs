@@ -86,7 +86,7 @@ fn supported_languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTr
     for target in Target::ALL {
         match compiled.emit(&options.clone().targets([target])) {
             Ok(_) => drop(languages.insert(target)),
-            Err(errors) if errors.code() == Some(Code::NotInTarget) => {}
+            Err(errors) if errors.first_code() == Some(Code::NotInTarget) => {}
             Err(errors) => return Err(errors),
         }
     }

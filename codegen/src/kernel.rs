@@ -39,7 +39,7 @@ impl Kernel {
     pub fn builtin(name: &str) -> Result<Kernel, Errors> {
         let Some(entry) = straightline_kernels::find(name) else {
             let known: Vec<&str> = straightline_kernels::CATALOGUE.iter().map(|e| e.name).collect();
-            return Err(Errors::of(
+            return Err(Errors::from_diagnostic(
                 Diagnostic::new(Code::UnknownKernel, format!("there is no kernel `{name}`")).help(format!(
                     "built in: {}; for one of your own give FILE.rs::FUNCTION",
                     known.join(", ")
@@ -161,7 +161,7 @@ impl Kernel {
         if let Some(infos) = self.described.get() {
             return Ok(infos);
         }
-        let infos = eval::describe(library, &self.source.files, &self.source.name)?.into();
+        let infos = eval::describe_options(library, &self.source.files, &self.source.name)?.into();
         Ok(self.described.get_or_init(|| infos))
     }
 
@@ -184,7 +184,7 @@ impl Kernel {
                 errors: mut found,
                 ..
             } = front::parse(&self.source.files, &self.source.name)?;
-            found.extend(infer::mismatches(&library, &others));
+            found.extend(infer::find_mismatches(&library, &others));
             match found.is_empty() {
                 true => Ok(()),
                 false => Err(Errors::new(found, &self.source.files)),
@@ -209,7 +209,7 @@ impl Kernel {
         } = front::parse(&self.source.files, &self.source.name)?;
         add(
             &mut errors,
-            infer::infer(&mut library, &reached).err().unwrap_or_default(),
+            infer::infer_types(&mut library, &reached).err().unwrap_or_default(),
         );
         if !errors.is_empty() {
             let of_parameters = eval::parameter_errors(&library, &self.source.files, &self.source.name);
@@ -248,7 +248,11 @@ impl Kernel {
             return Ok(Vec::new());
         }
         let infos = self.option_infos(library)?.iter();
-        let changed = infos.filter(|info| values.get(&info.name).is_some_and(|value| *value != info.unset()));
+        let changed = infos.filter(|info| {
+            values
+                .get(&info.name)
+                .is_some_and(|value| *value != info.default_value())
+        });
         Ok(changed.map(|info| info.name.clone()).collect())
     }
 }
@@ -289,7 +293,7 @@ fn add(errors: &mut Vec<Diagnostic>, found: Vec<Diagnostic>) {
 fn read_source(path: &Path) -> Result<String, Errors> {
     files::read_text(path, MAX_SOURCE).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
-        Errors::of(
+        Errors::from_diagnostic(
             Diagnostic::new(Code::UnreadableFile, what)
                 .help("paths are taken from the folder that the build runs in: the crate's own")
                 .caused_by(error),
@@ -309,7 +313,9 @@ fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, E
                 .unwrap_or_else(|_| Err(crate::compiled::internal_error("front", "it panicked"))),
             Err(error) => {
                 let what = format!("cannot start a thread: {error}");
-                Err(Errors::of(Diagnostic::new(Code::Limit, what).caused_by(error)))
+                Err(Errors::from_diagnostic(
+                    Diagnostic::new(Code::Limit, what).caused_by(error),
+                ))
             }
         }
     })

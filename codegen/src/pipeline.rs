@@ -41,13 +41,13 @@ pub fn compile(
     let policy = settings.policy();
     policy.check().map_err(|what| {
         let help = "use full, none, or partial(N), and name each loop once";
-        Errors::of(Diagnostic::new(Code::SettingValue, what).help(help))
+        Errors::from_diagnostic(Diagnostic::new(Code::SettingValue, what).help(help))
     })?;
     let invocation = match settings.block {
         [1, 1] => Invocation::Pixel,
         _ => Invocation::MayBeOutside,
     };
-    let mut evaluated = eval::evaluate(
+    let mut evaluated = eval::evaluate_kernel(
         library,
         &kernel.files,
         &kernel.name,
@@ -70,7 +70,7 @@ pub fn compile(
         gathered,
         ..
     } = pipeline.run_stages(graph)?;
-    let schedule = passes::schedule(&graph, settings.reads);
+    let schedule = passes::schedule_graph(&graph, settings.reads);
     // Most of what is too long is known to be before it is written.
     pipeline.check_budget(emit::statements_at_least(&graph, &schedule))?;
     let compiled = Compiled {
@@ -84,7 +84,7 @@ pub fn compile(
         options: evaluated.options.clone(),
         policy,
         loops: evaluated.loops.clone(),
-        counts: passes::count(&graph, &schedule),
+        counts: passes::count_operations(&graph, &schedule),
         graph,
         schedule,
         transport,
@@ -141,15 +141,15 @@ impl<'s> Pipeline<'s, '_> {
 
     /// Verifies the graph after a stage, and compares it with the limits.
     fn check(&mut self, stage: &str, graph: &Graph) -> Result<(), Errors> {
-        limits::spend(graph.nodes.len() as u64);
-        if let Some(excess) = limits::exceeded(graph.nodes.len()) {
+        limits::count_work(graph.nodes.len() as u64);
+        if let Some(excess) = limits::exceeded_limit(graph.nodes.len()) {
             let what = format!("compiling `{}` takes {excess}", self.kernel.name);
-            let error = Diagnostic::at(Code::Limit, self.evaluated.span, what)
+            let error = Diagnostic::error_at(Code::Limit, self.evaluated.span, what)
                 .label(format!("in the stage `{stage}`, with {} operations", graph.nodes.len()))
                 .help(excess.help());
             return Err(self.with_loops(error));
         }
-        verify::verify(graph).map_err(|why| internal_error(stage, &why))?;
+        verify::verify_graph(graph).map_err(|why| internal_error(stage, &why))?;
         (self.observer)(stage, graph);
         Ok(())
     }
@@ -160,7 +160,7 @@ impl<'s> Pipeline<'s, '_> {
             return Ok(());
         }
         let what = format!("`{name}` has {statements} statements, more than its budget of {budget}");
-        let error = Diagnostic::at(Code::Budget, self.evaluated.span, what)
+        let error = Diagnostic::error_at(Code::Budget, self.evaluated.span, what)
             .label("this kernel")
             .help(eval::BUDGET_HELP);
         Err(self.with_loops(error))

@@ -81,8 +81,8 @@ impl Made {
 
     pub fn cleaned(self) -> Self {
         match self {
-            Made::Kernel(graph) => Made::Kernel(passes::clean(&graph)),
-            Made::Quad(graph) => Made::Quad(passes::clean(&graph)),
+            Made::Kernel(graph) => Made::Kernel(passes::clean_graph(&graph)),
+            Made::Quad(graph) => Made::Quad(passes::clean_graph(&graph)),
         }
     }
 }
@@ -100,7 +100,7 @@ impl Refusal {
 
     /// The error at the kernel's name.
     pub fn into_diagnostic(self, kernel: Span) -> Diagnostic {
-        Diagnostic::at(Code::UnfitSetting, kernel, self.message)
+        Diagnostic::error_at(Code::UnfitSetting, kernel, self.message)
             .label("this kernel")
             .help(self.help)
     }
@@ -126,13 +126,13 @@ pub const STAGES: &[Stage] = &[
         reason: "Before fast, which must not touch the sums that are marked here; after share-loads, since a sum that \
                  cancels is found by equal operands.",
         applies: |_| true,
-        run: |work| Ok(Made::Kernel(passes::exactness(&work.graph))),
+        run: |work| Ok(Made::Kernel(passes::mark_exact_ops(&work.graph))),
     },
     Stage {
         name: "fast",
         reason: "Before lanes and pixels are put into one invocation, so that every form has the same roundings.",
         applies: |work| work.settings.math == Math::Fast,
-        run: |work| Ok(Made::Kernel(passes::fast(&work.graph))),
+        run: |work| Ok(Made::Kernel(passes::apply_fast_math(&work.graph))),
     },
     Stage {
         name: "block",

@@ -7,7 +7,7 @@ pub use code::Code;
 use codespan_reporting::diagnostic::Label;
 use std::fmt;
 use std::sync::Arc;
-use view::{Views, message, written_out};
+use view::{Views, printable_message, written_out};
 
 /// A stretch of a source file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -73,27 +73,27 @@ impl Eq for Cause {}
 
 impl Diagnostic {
     /// An error at a place.
-    pub fn at(code: Code, span: Span, message: impl Into<String>) -> Self {
+    pub fn error_at(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             span: Some(span),
-            ..Diagnostic::bare(Some(code), message.into())
+            ..Diagnostic::without_place(Some(code), message.into())
         }
     }
 
     /// An error that is in no file: an option, say.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
-        Diagnostic::bare(Some(code), message.into())
+        Diagnostic::without_place(Some(code), message.into())
     }
 
     /// A remark at a place, which is no error and is shown as a note.
-    pub fn remark(span: Span, message: impl Into<String>) -> Self {
+    pub fn remark_at(span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             span: Some(span),
-            ..Diagnostic::bare(None, message.into())
+            ..Diagnostic::without_place(None, message.into())
         }
     }
 
-    fn bare(code: Option<Code>, message: String) -> Self {
+    fn without_place(code: Option<Code>, message: String) -> Self {
         Diagnostic {
             code,
             message,
@@ -133,7 +133,7 @@ impl Diagnostic {
     }
 
     /// With another place that matters.
-    pub fn other(mut self, span: Span, label: impl Into<String>) -> Self {
+    pub fn label_at(mut self, span: Span, label: impl Into<String>) -> Self {
         self.others.push((span, label.into()));
         self
     }
@@ -171,7 +171,7 @@ impl Errors {
     pub const MOST: usize = 50;
 
     /// Code of the first error.
-    pub fn code(&self) -> Option<Code> {
+    pub fn first_code(&self) -> Option<Code> {
         self.diagnostics.first().and_then(Diagnostic::code)
     }
 
@@ -181,7 +181,7 @@ impl Errors {
     }
 
     /// A single error that is in no file.
-    pub fn of(diagnostic: Diagnostic) -> Self {
+    pub fn from_diagnostic(diagnostic: Diagnostic) -> Self {
         Errors {
             diagnostics: vec![diagnostic],
             files: Arc::default(),
@@ -224,13 +224,13 @@ impl Errors {
                 .chain(diagnostic.others.iter().map(|(span, _)| *span))
                 .collect();
             let files = Views::new(&self.files, &places);
-            let shown = shown(diagnostic, &files);
+            let shown = to_codespan(diagnostic, &files);
             if term::emit_to_write_style(&mut out, &term::Config::default(), &files, &shown).is_err() {
                 // A place outside of its file: say what is wrong without it.
                 return self
                     .diagnostics
                     .iter()
-                    .map(|d| format!("{}: {}\n", head(d), message(&d.message)))
+                    .map(|d| format!("{}: {}\n", message_prefix(d), printable_message(&d.message)))
                     .collect();
             }
         }
@@ -239,30 +239,30 @@ impl Errors {
 }
 
 /// First word of an error or a remark, as codespan writes it.
-fn head(diagnostic: &Diagnostic) -> String {
+fn message_prefix(diagnostic: &Diagnostic) -> String {
     diagnostic
         .code
         .map_or_else(|| "note".to_owned(), |code| format!("error[{code}]"))
 }
 
-fn shown(diagnostic: &Diagnostic, files: &Views) -> codespan_reporting::diagnostic::Diagnostic<usize> {
+fn to_codespan(diagnostic: &Diagnostic, files: &Views) -> codespan_reporting::diagnostic::Diagnostic<usize> {
     use codespan_reporting::diagnostic::Diagnostic as Shown;
     let shown = match diagnostic.code {
         Some(code) => Shown::error().with_code(code.number()),
         None => Shown::note(),
     };
-    let mut shown = shown.with_message(message(&diagnostic.message));
-    let place = |span: Span| files.range(span).map(|range| (span.file as usize, range));
+    let mut shown = shown.with_message(printable_message(&diagnostic.message));
+    let place = |span: Span| files.shown_range(span).map(|range| (span.file as usize, range));
     if let Some((file, range)) = diagnostic.span.and_then(place) {
-        shown = shown.with_label(Label::primary(file, range).with_message(message(&diagnostic.label)));
+        shown = shown.with_label(Label::primary(file, range).with_message(printable_message(&diagnostic.label)));
     }
     for (span, label) in &diagnostic.others {
         if let Some((file, range)) = place(*span) {
-            shown = shown.with_label(Label::secondary(file, range).with_message(message(label)));
+            shown = shown.with_label(Label::secondary(file, range).with_message(printable_message(label)));
         }
     }
     for note in &diagnostic.notes {
-        shown = shown.with_note(format!("note: {}", message(note)));
+        shown = shown.with_note(format!("note: {}", printable_message(note)));
     }
     if let Some(help) = &diagnostic.help {
         shown = shown.with_note(format!("help: {}", written_out(help)));

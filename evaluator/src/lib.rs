@@ -17,4 +17,4 @@ pub mod policy;
 mod suggest;
 
 pub use straightline_files::shorten;
-pub use suggest::{is_close, suggest};
+pub use suggest::{is_close, suggest_name};

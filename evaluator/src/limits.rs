@@ -134,7 +134,7 @@ impl Drop for Meter {
 }
 
 /// Counts work: expressions that are evaluated, nodes that a pass visits, statements that are rewritten.
-pub fn spend(work: u64) {
+pub fn count_work(work: u64) {
     if let Some(mut state) = STATE.get() {
         state.work = state.work.saturating_add(work);
         STATE.set(Some(state));
@@ -142,7 +142,7 @@ pub fn spend(work: u64) {
 }
 
 /// The limit that is exceeded now, if one is; `operations` is the number of nodes that are held.
-pub fn exceeded(operations: usize) -> Option<Excess> {
+pub fn exceeded_limit(operations: usize) -> Option<Excess> {
     let state = STATE.get()?;
     let held = HELD.get().saturating_add((operations * NODE) as u64);
     if held > state.limits.memory {
@@ -207,11 +207,11 @@ mod tests {
         };
         let _meter = Meter::open(limits);
         let held = Held::new(800);
-        assert_eq!(exceeded(1), None);
+        assert_eq!(exceeded_limit(1), None);
         let copy = held.clone();
-        assert_eq!(exceeded(1), Some(Excess::Memory(limits.memory)));
+        assert_eq!(exceeded_limit(1), Some(Excess::Memory(limits.memory)));
         drop(copy);
-        assert_eq!(exceeded(1), None);
+        assert_eq!(exceeded_limit(1), None);
     }
 
     #[test]
@@ -221,19 +221,23 @@ mod tests {
             ..Limits::default()
         };
         let outer = Meter::open(limits);
-        assert_eq!(exceeded(0), None);
+        assert_eq!(exceeded_limit(0), None);
         assert_eq!(would_exceed(Duration::from_secs(4000)), Some(Excess::Time(limits.time)));
-        spend(3);
+        count_work(3);
         {
             let inner = Meter::open(Limits {
                 time: Duration::ZERO,
                 ..limits
             });
-            spend(4);
-            assert_eq!((inner.work(), exceeded(0)), (4, None));
+            count_work(4);
+            assert_eq!((inner.work(), exceeded_limit(0)), (4, None));
         }
         assert_eq!(outer.work(), 7);
         drop(outer);
-        assert_eq!(exceeded(usize::MAX / NODE), None, "nothing is limited without a meter");
+        assert_eq!(
+            exceeded_limit(usize::MAX / NODE),
+            None,
+            "nothing is limited without a meter"
+        );
     }
 }

@@ -309,12 +309,12 @@ impl Policy {
     }
 
     /// Returns the policy requested for the loop over `counter` in `function`, which has the attribute `attribute` in the source.
-    pub fn asked(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Asked {
+    pub fn requested_unroll(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Asked {
         let named = self
             .loops
             .iter()
             .rev()
-            .find(|(path, _)| matches(path, function, counter));
+            .find(|(path, _)| path_names_loop(path, function, counter));
         let named = named.map(|(_, unroll)| *unroll).or(attribute);
         Asked {
             unroll: named.unwrap_or(self.unroll),
@@ -323,7 +323,7 @@ impl Policy {
     }
 
     /// Returns whether a branch with the attribute `attribute` in the source is kept.
-    pub fn keeps(&self, attribute: Option<Branches>) -> bool {
+    pub fn keeps_branch(&self, attribute: Option<Branches>) -> bool {
         match attribute.unwrap_or(self.branches) {
             Branches::Keep => true,
             Branches::Select => false,
@@ -333,7 +333,7 @@ impl Policy {
 }
 
 /// Returns whether `path` names the loop over `counter` in `function`.
-pub fn matches(path: &str, function: &str, counter: &str) -> bool {
+pub fn path_names_loop(path: &str, function: &str, counter: &str) -> bool {
     match path.rsplit_once('.') {
         Some((of, name)) => of == function && name == counter,
         None => path == counter,

@@ -1,7 +1,7 @@
 //! Names that were meant.
 
 /// Help for an unknown name: the name that was probably meant, or the known ones.
-pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
+pub fn suggest_name(name: &str, known: &[&str], has: &str) -> String {
     match known.iter().find(|k| **k != name && is_close(name, k)) {
         Some(close) => format!("did you mean `{close}`?"),
         None if known.is_empty() => "check its name".to_owned(),
@@ -14,11 +14,11 @@ pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
 
 /// Returns whether a name may be another one misspelt.
 pub fn is_close(name: &str, known: &str) -> bool {
-    distance(name, known) <= (1 + name.len() / 5).min(name.len().saturating_sub(1))
+    edit_distance(name, known) <= (1 + name.len() / 5).min(name.len().saturating_sub(1))
 }
 
 /// Letters to be changed, added, left out or exchanged with the next one.
-fn distance(a: &str, b: &str) -> usize {
+fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
     for i in 1..=a.len() {

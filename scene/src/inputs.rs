@@ -69,43 +69,43 @@ impl Inputs {
     }
 
     /// With an image.
-    pub fn image(self, name: &str, image: Frame<Vec4>) -> Self {
-        self.layers(name, vec![image])
+    pub fn with_image(self, name: &str, image: Frame<Vec4>) -> Self {
+        self.with_layers(name, vec![image])
     }
 
     /// With a stack of images.
-    pub fn layers(mut self, name: &str, layers: Vec<Frame<Vec4>>) -> Self {
+    pub fn with_layers(mut self, name: &str, layers: Vec<Frame<Vec4>>) -> Self {
         self.images.push((name.to_owned(), layers));
         self
     }
 
     /// With a texture of several levels, the finest first, each of as many layers, or of the slices of a volume.
-    pub fn levels(mut self, name: &str, mut levels: Vec<Vec<Frame<Vec4>>>) -> Self {
+    pub fn with_levels(mut self, name: &str, mut levels: Vec<Vec<Frame<Vec4>>>) -> Self {
         let smaller = levels.split_off(levels.len().min(1));
         self.smaller.push((name.to_owned(), smaller));
-        self.layers(name, levels.pop().unwrap_or_default())
+        self.with_layers(name, levels.pop().unwrap_or_default())
     }
 
     /// With a stack of images of integers, by their bits.
-    pub fn integers(mut self, name: &str, layers: Vec<Frame<UVec4>>) -> Self {
+    pub fn with_integers(mut self, name: &str, layers: Vec<Frame<UVec4>>) -> Self {
         self.integers.push((name.to_owned(), layers));
         self
     }
 
     /// With a sampler.
-    pub fn sampler(mut self, name: &str, state: SamplerState) -> Self {
+    pub fn with_sampler(mut self, name: &str, state: SamplerState) -> Self {
         self.samplers.push((name.to_owned(), state));
         self
     }
 
     /// With a buffer.
-    pub fn buffer(mut self, name: &str, elements: Vec<[f64; 4]>) -> Self {
+    pub fn with_buffer(mut self, name: &str, elements: Vec<[f64; 4]>) -> Self {
         self.buffers.push((name.to_owned(), elements));
         self
     }
 
     /// With a uniform.
-    pub fn uniform(mut self, name: &str, lanes: &[f64]) -> Self {
+    pub fn with_uniform(mut self, name: &str, lanes: &[f64]) -> Self {
         self.uniforms.push((name.to_owned(), lanes.to_vec()));
         self
     }

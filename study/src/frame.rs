@@ -303,7 +303,7 @@ mod tests {
         let passes = passes.map(|(name, samples, ms)| crate::record::TimedPass {
             name: name.to_owned(),
             samples,
-            ms: Quartiles::of(&[ms]).unwrap(),
+            ms: Quartiles::from_values(&[ms]).unwrap(),
         });
         let methods = vec![
             method("1x", Family::None, &[], 30.0, None),

@@ -234,7 +234,7 @@ fn the_page_says_what_the_records_say() {
     std::fs::create_dir_all(&pictures).unwrap();
     for (name, light) in [("1x", 0.2), ("SRAA", 0.4), ("FXAA", 0.3), ("reference", 0.5)] {
         let frame = Frame::new(uvec2(64, 48), vec![Vec4::splat(light); 64 * 48]);
-        picture::write(&pictures.join(format!("{name}.png")), &frame).unwrap();
+        picture::write_picture(&pictures.join(format!("{name}.png")), &frame).unwrap();
     }
     loops().write(&folder).unwrap();
     quality(true).write(&folder).unwrap();

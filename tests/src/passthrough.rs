@@ -95,7 +95,7 @@ pub fn written(
     let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
     let written = bench.written_by(&pass, &uploaded, inputs.size);
     let written = written.map_err(|e| e.to_string())?;
-    let buffers = bench.buffers(&manifest, &uploaded).map_err(|e| e.to_string())?;
+    let buffers = bench.read_buffers(&manifest, &uploaded).map_err(|e| e.to_string())?;
     Ok((written, buffers))
 }
 
@@ -149,7 +149,7 @@ fn with_language_bindings(manifest: &mut Manifest, target: Target, inputs: &Inpu
             linear: false,
             ..SamplerState::default()
         };
-        inputs = inputs.sampler(&extra.name, nearest);
+        inputs = inputs.with_sampler(&extra.name, nearest);
     }
     Ok(inputs)
 }

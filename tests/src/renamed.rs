@@ -356,7 +356,10 @@ pub fn host_names(compiled: &Compiled, options: &[String]) -> Vec<String> {
     names.extend(graph.shared.iter().map(|s| s.name.clone()));
     names.extend(graph.images.iter().map(|i| i.name.clone()));
     names.extend(graph.varyings.iter().map(|v| v.name.clone()));
-    let given = graph.targets.iter().filter(|t| !t.name.starts_with(Target::ALONE));
+    let given = graph
+        .targets
+        .iter()
+        .filter(|t| !t.name.starts_with(Target::DEFAULT_NAME));
     names.extend(given.map(|t| t.name.clone()));
     let whole = |u: &straightline_codegen::ir::Uniform| u.part.as_ref().map_or(&u.name, |part| &part.of).clone();
     names.extend(graph.uniforms.iter().map(whole));

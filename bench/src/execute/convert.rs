@@ -37,13 +37,13 @@ impl<'a> Converters<'a> {
     }
 
     /// The first components of images as the layers of a texture of depths.
-    pub fn depths(&self, sources: &[wgpu::TextureView], size: UVec2) -> wgpu::Texture {
-        self.draw(sources, size, 1, TextureFormat::Depth32Float, "depth")
+    pub fn create_depths(&self, sources: &[wgpu::TextureView], size: UVec2) -> wgpu::Texture {
+        self.draw_layers(sources, size, 1, TextureFormat::Depth32Float, "depth")
     }
 
     /// Layers as the samples of an image: single numbers in full precision, more in half, which every device can
     /// multisample.
-    pub fn multisampled(
+    pub fn create_multisampled(
         &self,
         source: &wgpu::TextureView,
         size: UVec2,
@@ -55,11 +55,11 @@ impl<'a> Converters<'a> {
             _ => TextureFormat::Rgba16Float,
         };
         let sources = std::slice::from_ref(source);
-        let target = self.draw(sources, size, samples, format, "samples");
+        let target = self.draw_layers(sources, size, samples, format, "samples");
         target.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
-    fn draw(
+    fn draw_layers(
         &self,
         sources: &[wgpu::TextureView],
         size: UVec2,
@@ -186,13 +186,13 @@ impl<'a> Converters<'a> {
 pub fn uniform_value(ty: ValueType, numbers: &[f64]) -> UniformValue {
     let number = |k: usize| numbers.get(k).or(numbers.first()).copied().unwrap_or(0.0);
     let words: Vec<_> = (0..ty.size() as usize / 4)
-        .map(|k| word(ty.scalar(), number(k)))
+        .map(|k| scalar_bytes(ty.scalar(), number(k)))
         .collect();
     UniformValue::from_words(ty, &words).expect("as many words as the type has")
 }
 
 /// The bits of a number, as a shader has it.
-pub fn word(scalar: Scalar, number: f64) -> [u8; 4] {
+pub fn scalar_bytes(scalar: Scalar, number: f64) -> [u8; 4] {
     match scalar {
         Scalar::F32 => (number as f32).to_le_bytes(),
         Scalar::I32 => (number as i32).to_le_bytes(),
@@ -225,11 +225,11 @@ pub fn structure_bytes(values: &[[f64; 4]], fields: &[UniformField], stride: u32
 /// Elements of a buffer, numbers or vectors, as they lie in it.
 pub fn element_bytes(elements: &[[f64; 4]], ty: ValueType) -> Vec<u8> {
     let numbers = elements.iter().flat_map(|e| &e[..ty.components().into()]);
-    numbers.flat_map(|number| word(ty.scalar(), *number)).collect()
+    numbers.flat_map(|number| scalar_bytes(ty.scalar(), *number)).collect()
 }
 
 /// The elements, numbers or vectors, that lie in the bytes of a buffer, each in as many lanes as it has.
-pub fn elements(bytes: &[u8], ty: ValueType) -> Vec<[f64; 4]> {
+pub fn decode_elements(bytes: &[u8], ty: ValueType) -> Vec<[f64; 4]> {
     let number = |word: &[u8]| {
         let word = [word[0], word[1], word[2], word[3]];
         match ty.scalar() {

@@ -1,6 +1,6 @@
 //! The interpreter, on all processors.
 
-use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find};
+use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find_entry};
 use glam::Vec4;
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -48,7 +48,7 @@ struct Row<R> {
 }
 
 /// Puts the texels of an invocation, row by row, behind those to their left; none beyond `width`.
-fn put<T: Copy>(lines: &mut [Vec<T>], texels: &[T], across: usize, width: u32) {
+fn append_texels<T: Copy>(lines: &mut [Vec<T>], texels: &[T], across: usize, width: u32) {
     for (line, texels) in lines.iter_mut().zip(texels.chunks(across)) {
         let room = width as usize - line.len();
         line.extend(texels.iter().take(room));
@@ -60,13 +60,17 @@ fn put<T: Copy>(lines: &mut [Vec<T>], texels: &[T], across: usize, width: u32) {
 /// # Errors
 ///
 /// If something that the kernel reads is missing or does not fit.
-pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> Result<Interpreted<R>, ExecuteError> {
+pub fn interpret_kernel<R: Real>(
+    compiled: &Compiled,
+    inputs: &Inputs,
+    watch: bool,
+) -> Result<Interpreted<R>, ExecuteError> {
     let compiled = &*compiled.in_blocks();
     let mut images = Vec::new();
     for (name, layers) in &inputs.images {
-        let mut image = level(name, layers)?;
-        for smaller in find(&inputs.smaller, name).into_iter().flatten() {
-            image = image.with_smaller(level(name, smaller)?);
+        let mut image = create_level(name, layers)?;
+        for smaller in find_entry(&inputs.smaller, name).into_iter().flatten() {
+            image = image.with_smaller(create_level(name, smaller)?);
         }
         images.push((name, image));
     }
@@ -77,7 +81,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
             .iter()
             .find(|t| t.name == *name)
             .map(|t| t.scalar);
-        let (size, bits) = plain(layers, |texel| texel.to_array());
+        let (size, bits) = collect_texels(layers, |texel| texel.to_array());
         // Bits of a texture that the kernel reads as floats are refused as such.
         let scalar = scalar.filter(|s| *s != Scalar::F32).unwrap_or(Scalar::U32);
         let image = Image::of_integers(scalar, size, bits).ok_or_else(|| of_sizes(name))?;
@@ -96,7 +100,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     for (name, lanes) in &inputs.uniforms {
         bindings = bindings.uniform(name, lanes);
     }
-    if let Some(name) = unset(compiled, inputs) {
+    if let Some(name) = find_unset_uniform(compiled, inputs) {
         return Err(ExecuteError::Input(format!(
             "the uniform `{name}` of `{}` has no default: give it a value",
             compiled.kernel
@@ -106,8 +110,12 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let frame = [width, height];
     let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
-    let interpreter = if watch { interpreter.watch() } else { interpreter };
-    let [across, down] = compiled.graph.invocation.tile();
+    let interpreter = if watch {
+        interpreter.track_non_finite()
+    } else {
+        interpreter
+    };
+    let [across, down] = compiled.graph.invocation.tile_size();
     let names = &compiled.graph.targets;
     let endless = OnceLock::new();
     let row = |scratch: &mut Scratch, row: u32| {
@@ -118,7 +126,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
             if endless.get().is_some() {
                 break;
             }
-            let texels = interpreter.invocation(x, y, scratch);
+            let texels = interpreter.run_invocation(x, y, scratch);
             if scratch.is_endless() {
                 endless.get_or_init(|| [x, y]);
                 break;
@@ -128,9 +136,9 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
                     .non_finite_origin()
                     .map(|b| ([x, y], b.describe(&compiled.graph))),
             );
-            put(&mut lines, &texels, across as usize, width);
+            append_texels(&mut lines, &texels, across as usize, width);
             for (k, lines) in targets.iter_mut().enumerate() {
-                put(lines, &interpreter.target(k, scratch), across as usize, width);
+                append_texels(lines, &interpreter.target_values(k, scratch), across as usize, width);
             }
         }
         let inside = (height - y) as usize;
@@ -146,18 +154,18 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         }
     };
     let numbers = 0..height.div_ceil(down);
-    let mut last = interpreter.scratch();
+    let mut last = interpreter.new_scratch();
     // Rows run one after the other if pixels write buffers, so that the writes keep their order.
     let rows: Vec<Row<R>> = match compiled.graph.has_effects() {
         true => numbers.map(|number| row(&mut last, number)).collect(),
         false => numbers
             .into_par_iter()
-            .map_init(|| interpreter.scratch(), row)
+            .map_init(|| interpreter.new_scratch(), row)
             .collect(),
     };
     if let Some([x, y]) = endless.get() {
         let loops = compiled.loops.iter().filter(|report| report.unroll != Unroll::Full);
-        let named: Vec<String> = loops.map(|report| format!("`{}`", report.path())).collect();
+        let named: Vec<String> = loops.map(|report| format!("`{}`", report.policy_path())).collect();
         return Err(ExecuteError::Input(format!(
             "`{}` does not end at the pixel ({x}, {y}): its loops {} have more than {MOST_ITERATIONS} iterations there; bound them: \
              `#[cfg_attr(false, bound(64))]`",
@@ -170,11 +178,11 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     }
     let written = compiled.graph.buffers.iter().enumerate();
     let written = written.filter(|(_, buffer)| buffer.access != Access::Read);
-    let buffers = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer(k, &last)));
+    let buffers = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer_contents(k, &last)));
     let buffers = buffers.collect();
     let given = (0..names.len()).map(|k| rows.iter().flat_map(|row| &row.targets[k]).copied().collect());
-    let images = (0..compiled.graph.images.len()).map(|k| interpreter.image(k, &last));
-    let pictures = compiled.graph.pictures().zip(given.chain(images));
+    let images = (0..compiled.graph.images.len()).map(|k| interpreter.image_contents(k, &last));
+    let pictures = compiled.graph.written_targets().zip(given.chain(images));
     let targets = pictures.map(|(picture, texels)| Written {
         name: picture.name.clone(),
         size: inputs.size,
@@ -212,8 +220,8 @@ pub fn sampler_state(state: SamplerState) -> interp::SamplerState {
 }
 
 /// A level of an image.
-fn level(name: &str, layers: &[Frame<Vec4>]) -> Result<Image, ExecuteError> {
-    let (size, texels) = plain(layers, |texel| texel.to_array());
+fn create_level(name: &str, layers: &[Frame<Vec4>]) -> Result<Image, ExecuteError> {
+    let (size, texels) = collect_texels(layers, |texel| texel.to_array());
     Image::new(size, texels).ok_or_else(|| of_sizes(name))
 }
 
@@ -222,20 +230,20 @@ fn of_sizes(name: &str) -> ExecuteError {
 }
 
 /// The size of the first layer, and all texels as `of` has them.
-fn plain<T: Copy, U>(layers: &[Frame<T>], of: impl Fn(&T) -> [U; 4]) -> ([u32; 2], Vec<Vec<[U; 4]>>) {
+fn collect_texels<T: Copy, U>(layers: &[Frame<T>], of: impl Fn(&T) -> [U; 4]) -> ([u32; 2], Vec<Vec<[U; 4]>>) {
     let size = layers.first().map_or([0, 0], |l| l.size().to_array());
     let texels = layers.iter().map(|l| l.texels().iter().map(&of).collect());
     (size, texels.collect())
 }
 
 /// The first uniform that is read, has no default and was not given; `None` if there is none. No executor runs without it.
-pub fn unset<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
+pub fn find_unset_uniform<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
     let graph = &compiled.graph;
-    let scheduled = graph.ids().filter(|id| compiled.schedule.has(*id));
+    let scheduled = graph.node_ids().filter(|id| compiled.schedule.has_node(*id));
     let mut read = scheduled.filter_map(|id| match graph.node(id).op {
         Op::Uniform(index) => Some(&graph.uniforms[index as usize]),
         _ => None,
     });
-    let unset = read.find(|uniform| uniform.default.is_none() && find(&inputs.uniforms, &uniform.name).is_none());
+    let unset = read.find(|uniform| uniform.default.is_none() && find_entry(&inputs.uniforms, &uniform.name).is_none());
     unset.map(|uniform| uniform.name.as_str())
 }

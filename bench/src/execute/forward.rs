@@ -37,13 +37,18 @@ impl Bench {
     /// # Errors
     ///
     /// If the kernel cannot be emitted, an input is missing, or the device refuses something.
-    pub fn forward(&self, compiled: &Compiled, inputs: &Inputs, corners: &[Corner]) -> Result<Forward, ExecuteError> {
-        let emitted = compiled.emit(&self.options(Stage::Fragment))?;
+    pub fn prepare_forward(
+        &self,
+        compiled: &Compiled,
+        inputs: &Inputs,
+        corners: &[Corner],
+    ) -> Result<Forward, ExecuteError> {
+        let emitted = compiled.emit(&self.emit_options(Stage::Fragment))?;
         let text = emitted.files.get(&Target::Wgsl).map(|b| String::from_utf8_lossy(b));
         self.forward_by(&emitted.manifest, &text.unwrap_or_default(), inputs, corners)
     }
 
-    /// [`forward`](Self::forward) with any fragment shader that `manifest` describes: to ask what another one would do.
+    /// [`prepare_forward`](Self::prepare_forward) with any fragment shader that `manifest` describes: to ask what another one would do.
     ///
     /// # Errors
     ///
@@ -88,7 +93,7 @@ impl Bench {
                 .flat_map(|lanes| lanes.to_array())
         });
         let bytes: Vec<u8> = lanes.flat_map(f32::to_le_bytes).collect();
-        let vertices = self.filled(&bytes, wgpu::BufferUsages::VERTEX);
+        let vertices = self.create_vertex_buffer(&bytes, wgpu::BufferUsages::VERTEX);
         let depth = self.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
             size: wgpu::Extent3d {
@@ -108,12 +113,12 @@ impl Bench {
             vertices,
             corners: corners.len() as u32,
             size: inputs.size,
-            target: self.target(inputs.size, TextureFormat::Rgba32Float),
+            target: self.create_target(inputs.size, TextureFormat::Rgba32Float),
             depth,
         })
     }
 
-    fn filled(&self, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    fn create_vertex_buffer(&self, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: (bytes.len() as u64).max(16),
@@ -129,7 +134,7 @@ impl Bench {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn picture(&self, forward: &Forward) -> Result<Frame<Vec4>, ExecuteError> {
+    pub fn draw_forward(&self, forward: &Forward) -> Result<Frame<Vec4>, ExecuteError> {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -144,7 +149,7 @@ impl Bench {
     ///
     /// If the device cannot be asked for the time.
     pub fn draw_work<'a>(&self, forward: &'a Forward, least: Duration) -> Result<Work<'a>, ExecuteError> {
-        self.recorded(1, least, |encoder, timer| forward.encode(encoder, timer))
+        self.recorded_work(1, least, |encoder, timer| forward.encode(encoder, timer))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::convert;
 use super::textures::integers_of;
-use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find, has};
+use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find_entry, has_input};
 use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
@@ -52,7 +52,7 @@ impl Uploaded {
     ///
     /// If they do not fit.
     pub fn bind<'t>(&self, pass: &Pass, targets: impl Into<Targets<'t>>) -> Result<Bound, RuntimeError> {
-        pass.bind_with(&self.resources(), targets, &self.options())
+        pass.bind_with(&self.resources(), targets, &self.bind_options())
     }
 
     /// A pass that reads these inputs, for a rectangle of `targets`.
@@ -66,7 +66,7 @@ impl Uploaded {
         targets: impl Into<Targets<'t>>,
         region: Region,
     ) -> Result<Bound, RuntimeError> {
-        pass.bind_with(&self.resources(), targets, &self.options().region(region))
+        pass.bind_with(&self.resources(), targets, &self.bind_options().region(region))
     }
 
     /// A fragment shader for triangles that reads these inputs.
@@ -75,10 +75,10 @@ impl Uploaded {
     ///
     /// If they do not fit.
     pub fn bind_draw(&self, draw: &Draw) -> Result<BoundDraw, RuntimeError> {
-        draw.bind_with(&self.resources(), &self.options())
+        draw.bind_with(&self.resources(), &self.bind_options())
     }
 
-    fn options(&self) -> BindOptions<'_> {
+    fn bind_options(&self) -> BindOptions<'_> {
         let values = self.uniforms.iter();
         values.fold(BindOptions::default(), |options, (name, value)| {
             options.uniform(name, value.clone())
@@ -106,7 +106,7 @@ impl Uploaded {
     }
 
     /// Bytes of all textures and buffers, as they lie on the device.
-    pub fn bytes(&self) -> u64 {
+    pub fn byte_size(&self) -> u64 {
         let bytes = |owned: &Owned| match owned {
             Owned::Texture(view) => texture_bytes(view.texture()),
             Owned::Sampler(_) => 0,
@@ -142,14 +142,14 @@ impl Bench {
     }
 
     /// Sets the precision that shaders compute in; half precision needs the device's feature `SHADER_F16`.
-    pub fn precision(mut self, precision: Precision) -> Self {
+    pub fn with_precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
         self
     }
 
     /// Returns the options with which this bench emits kernels: for a stage, writing full floats, whatever half precision
     /// loses.
-    pub fn options(&self, stage: Stage) -> EmitOptions {
+    pub fn emit_options(&self, stage: Stage) -> EmitOptions {
         let options = EmitOptions::new().stage(stage).precision(self.precision);
         options.accept_loss(true).format(Format::Rgba32Float)
     }
@@ -169,8 +169,8 @@ impl Bench {
     /// # Errors
     ///
     /// If it cannot be emitted, or the device cannot run it.
-    pub fn pass(&self, compiled: &Compiled, stage: Stage) -> Result<(Pass, Manifest), ExecuteError> {
-        self.emitted(compiled, &self.options(stage))
+    pub fn compile_pass(&self, compiled: &Compiled, stage: Stage) -> Result<(Pass, Manifest), ExecuteError> {
+        self.emit_pass(compiled, &self.emit_options(stage))
     }
 
     /// The kernel as a pass emitted with `options`, and its manifest.
@@ -178,9 +178,9 @@ impl Bench {
     /// # Errors
     ///
     /// If it cannot be emitted, or the device cannot run it.
-    pub fn emitted(&self, compiled: &Compiled, options: &EmitOptions) -> Result<(Pass, Manifest), ExecuteError> {
+    pub fn emit_pass(&self, compiled: &Compiled, options: &EmitOptions) -> Result<(Pass, Manifest), ExecuteError> {
         let emitted = compiled.emit(options)?;
-        let pass = self.made(&emitted, &PassOptions::default())?;
+        let pass = self.create_pass(&emitted, &PassOptions::default())?;
         Ok((pass, emitted.manifest))
     }
 
@@ -189,7 +189,7 @@ impl Bench {
     /// # Errors
     ///
     /// If the device cannot run it.
-    pub fn made(&self, emitted: &Emitted, options: &PassOptions) -> Result<Pass, ExecuteError> {
+    pub fn create_pass(&self, emitted: &Emitted, options: &PassOptions) -> Result<Pass, ExecuteError> {
         let wgsl = emitted
             .files
             .get(&Target::Wgsl)
@@ -229,20 +229,20 @@ impl Bench {
         let mut resources = Vec::new();
         for binding in &manifest.bindings {
             let found = there.resources.iter().find(|(name, _)| *name == binding.name);
-            let owned = match found.filter(|_| !has(inputs, &binding.name)) {
+            let owned = match found.filter(|_| !has_input(inputs, &binding.name)) {
                 Some((_, owned)) => Some(owned.clone()),
-                None => self.resource(binding, inputs)?,
+                None => self.create_resource(binding, inputs)?,
             };
             resources.extend(owned.map(|owned| (binding.name.clone(), owned)));
         }
         Ok(Uploaded {
             resources,
-            uniforms: uniforms(manifest, inputs),
+            uniforms: uniform_values(manifest, inputs),
         })
     }
 
     /// Makes the resource of a binding; nothing if it is a uniform.
-    fn resource(&self, binding: &Binding, inputs: &Inputs) -> Result<Option<Owned>, ExecuteError> {
+    fn create_resource(&self, binding: &Binding, inputs: &Inputs) -> Result<Option<Owned>, ExecuteError> {
         let missing = |what: &str, name: &str| ExecuteError::Input(format!("no {what} is given for `{name}`"));
         let name = binding.name.as_str();
         Ok(Some(match &binding.kind {
@@ -253,23 +253,24 @@ impl Bench {
                 ..
             } => {
                 if let Some(scalar) = integers_of(*sample_type) {
-                    let layers = find(&inputs.integers, name).ok_or_else(|| missing("image of integers", name))?;
-                    Owned::Texture(self.integers(layers, *dimension, scalar)?)
+                    let layers =
+                        find_entry(&inputs.integers, name).ok_or_else(|| missing("image of integers", name))?;
+                    Owned::Texture(self.create_integer_texture(layers, *dimension, scalar)?)
                 } else {
-                    let layers = find(&inputs.images, name).ok_or_else(|| missing("image", name))?;
-                    let smaller = find(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
-                    Owned::Texture(self.levels(layers, smaller, *dimension, *sample_type, *components)?)
+                    let layers = find_entry(&inputs.images, name).ok_or_else(|| missing("image", name))?;
+                    let smaller = find_entry(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
+                    Owned::Texture(self.create_mip_texture(layers, smaller, *dimension, *sample_type, *components)?)
                 }
             }
             BindingKind::Sampler { .. } => {
-                let state = find(&inputs.samplers, name).copied().unwrap_or_default();
+                let state = find_entry(&inputs.samplers, name).copied().unwrap_or_default();
                 let is = |of| matches!(&binding.kind, BindingKind::Sampler { sampler } if *sampler == of);
                 // A non-filtering sampler is made by the generator, and not among a kernel's inputs.
                 let state = match is(SamplerType::NonFiltering) {
                     true => SamplerState::NEAREST,
                     false => state,
                 };
-                Owned::Sampler(self.sampler(state, is(SamplerType::Comparison)))
+                Owned::Sampler(self.create_sampler(state, is(SamplerType::Comparison)))
             }
             BindingKind::Buffer {
                 element,
@@ -277,8 +278,8 @@ impl Bench {
                 fields,
                 ..
             } => {
-                let elements = find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
-                Owned::Buffer(self.buffer(elements, element, fields, *stride))
+                let elements = find_entry(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
+                Owned::Buffer(self.create_buffer(elements, element, fields, *stride))
             }
             BindingKind::Uniform { .. } => return Ok(None),
         }))
@@ -290,7 +291,12 @@ impl Bench {
     /// # Errors
     ///
     /// If the other shader does not read what this one does.
-    pub fn share(&self, manifest: &Manifest, inputs: &Inputs, other: &Uploaded) -> Result<Uploaded, ExecuteError> {
+    pub fn share_inputs(
+        &self,
+        manifest: &Manifest,
+        inputs: &Inputs,
+        other: &Uploaded,
+    ) -> Result<Uploaded, ExecuteError> {
         let mut resources = Vec::new();
         for binding in &manifest.bindings {
             if matches!(binding.kind, BindingKind::Uniform { .. }) {
@@ -300,7 +306,7 @@ impl Bench {
                 sampler: SamplerType::NonFiltering,
             } = binding.kind
             {
-                let own = Owned::Sampler(self.sampler(SamplerState::NEAREST, false));
+                let own = Owned::Sampler(self.create_sampler(SamplerState::NEAREST, false));
                 resources.push((binding.name.clone(), own));
                 continue;
             }
@@ -311,7 +317,7 @@ impl Bench {
         }
         Ok(Uploaded {
             resources,
-            uniforms: uniforms(manifest, inputs),
+            uniforms: uniform_values(manifest, inputs),
         })
     }
 
@@ -320,8 +326,13 @@ impl Bench {
     /// # Errors
     ///
     /// If it cannot be emitted or run on these inputs.
-    pub fn targets(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Vec<Written>, ExecuteError> {
-        let (pass, manifest) = self.pass(compiled, stage)?;
+    pub fn run_targets(
+        &self,
+        compiled: &Compiled,
+        stage: Stage,
+        inputs: &Inputs,
+    ) -> Result<Vec<Written>, ExecuteError> {
+        let (pass, manifest) = self.compile_pass(compiled, stage)?;
         let uploaded = self.upload(&manifest, inputs)?;
         self.written_by(&pass, &uploaded, inputs.size)
     }
@@ -332,10 +343,10 @@ impl Bench {
     ///
     /// If it cannot be emitted or run on these inputs.
     pub fn all_written(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<AllWritten, ExecuteError> {
-        let (pass, manifest) = self.pass(compiled, stage)?;
+        let (pass, manifest) = self.compile_pass(compiled, stage)?;
         let uploaded = self.upload(&manifest, inputs)?;
         let targets = self.written_by(&pass, &uploaded, inputs.size)?;
-        Ok((targets, self.buffers(&manifest, &uploaded)?))
+        Ok((targets, self.read_buffers(&manifest, &uploaded)?))
     }
 
     /// Reads the current contents of the buffers that a shader writes, by name.
@@ -343,7 +354,7 @@ impl Bench {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn buffers(&self, manifest: &Manifest, uploaded: &Uploaded) -> Result<Buffers, ExecuteError> {
+    pub fn read_buffers(&self, manifest: &Manifest, uploaded: &Uploaded) -> Result<Buffers, ExecuteError> {
         let mut buffers = Vec::new();
         for binding in &manifest.bindings {
             if let BindingKind::Buffer {
@@ -355,7 +366,7 @@ impl Bench {
                     uploaded.resources.iter().find(|(name, _)| *name == binding.name)
             {
                 let bytes = self.bytes_of(buffer)?;
-                buffers.push((name.clone(), convert::elements(&bytes, *ty)));
+                buffers.push((name.clone(), convert::decode_elements(&bytes, *ty)));
             }
         }
         Ok(buffers)
@@ -391,7 +402,7 @@ impl Bench {
     pub fn written_by(&self, pass: &Pass, uploaded: &Uploaded, size: UVec2) -> Result<Vec<Written>, ExecuteError> {
         let textures: Vec<_> = pass
             .targets()
-            .map(|(name, format)| (name, self.target(size, format)))
+            .map(|(name, format)| (name, self.create_target(size, format)))
             .collect();
         let views: Vec<_> = textures
             .iter()
@@ -407,7 +418,7 @@ impl Bench {
             Ok(Written {
                 name: (*name).to_owned(),
                 size,
-                texels: self.read(texture)?,
+                texels: self.read_texels(texture)?,
             })
         });
         written.collect()
@@ -419,7 +430,7 @@ impl Bench {
     ///
     /// If it cannot be emitted or run on these inputs.
     pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
-        let mut written = self.targets(compiled, stage, inputs)?;
+        let mut written = self.run_targets(compiled, stage, inputs)?;
         match written.len() {
             0 => Err(ExecuteError::Input(format!("`{}` gives no picture", compiled.kernel))),
             _ => Ok(written.swap_remove(0).frame()),
@@ -432,7 +443,7 @@ impl Bench {
     ///
     /// If it cannot be bound, or the device fails.
     pub fn picture_of(&self, pass: &Pass, uploaded: &Uploaded, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
-        let target = self.target(size, pass.target_format());
+        let target = self.create_target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self
             .device
@@ -442,7 +453,7 @@ impl Bench {
         self.download(&target)
     }
 
-    fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
+    fn create_sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
         let filter = if state.linear {
             wgpu::FilterMode::Linear
         } else {
@@ -475,7 +486,13 @@ impl Bench {
     }
 
     /// A storage buffer of elements, or of structures of fields.
-    fn buffer(&self, elements: &[[f64; 4]], element: &Element, fields: &[UniformField], stride: u32) -> wgpu::Buffer {
+    fn create_buffer(
+        &self,
+        elements: &[[f64; 4]],
+        element: &Element,
+        fields: &[UniformField],
+        stride: u32,
+    ) -> wgpu::Buffer {
         let bytes = match element {
             Element::Value(ty) => convert::element_bytes(elements, *ty),
             Element::Structure(_) => convert::structure_bytes(elements, fields, stride),
@@ -491,7 +508,7 @@ impl Bench {
     }
 
     /// A target that either stage can write and that can be read back.
-    pub fn target(&self, size: UVec2, format: TextureFormat) -> wgpu::Texture {
+    pub fn create_target(&self, size: UVec2, format: TextureFormat) -> wgpu::Texture {
         self.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
             size: wgpu::Extent3d {
@@ -515,7 +532,7 @@ impl Bench {
     /// If the device fails.
     pub fn download(&self, texture: &wgpu::Texture) -> Result<Frame<Vec4>, ExecuteError> {
         let size = uvec2(texture.width(), texture.height());
-        let rows = self.rows(texture)?;
+        let rows = self.read_rows(texture)?;
         let texels = rows
             .iter()
             .flat_map(|line| bytemuck::pod_collect_to_vec::<u8, Vec4>(line));
@@ -527,7 +544,7 @@ impl Bench {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn read(&self, texture: &wgpu::Texture) -> Result<Vec<[f64; 4]>, ExecuteError> {
+    pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<Vec<[f64; 4]>, ExecuteError> {
         let format = texture.format();
         let components = usize::from(format.components());
         let component = |bytes: [u8; 4]| match format.sample_type(None, None) {
@@ -541,7 +558,7 @@ impl Bench {
                 _ => f64::from(u8::from(k == 3)),
             })
         };
-        let rows = self.rows(texture)?;
+        let rows = self.read_rows(texture)?;
         Ok(rows
             .iter()
             .flat_map(|line| line.chunks_exact(4 * components).map(texel).collect::<Vec<_>>())
@@ -549,7 +566,7 @@ impl Bench {
     }
 
     /// The bytes of a texture, row by row.
-    fn rows(&self, texture: &wgpu::Texture) -> Result<Vec<Vec<u8>>, ExecuteError> {
+    fn read_rows(&self, texture: &wgpu::Texture) -> Result<Vec<Vec<u8>>, ExecuteError> {
         let bytes = texture.width() * texture.format().block_copy_size(None).unwrap_or(16);
         let row = bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
@@ -597,14 +614,14 @@ impl Bench {
 }
 
 /// The uniforms of a shader that `inputs` say; of the region's none, which is stated with each that is bound.
-fn uniforms(manifest: &Manifest, inputs: &Inputs) -> Vec<(String, UniformValue)> {
+fn uniform_values(manifest: &Manifest, inputs: &Inputs) -> Vec<(String, UniformValue)> {
     let mut uniforms = Vec::new();
     for binding in &manifest.bindings {
         if let BindingKind::Uniform { fields, .. } = &binding.kind
             && !binding.is_region()
         {
             for field in fields {
-                if let Some(numbers) = find(&inputs.uniforms, &field.name) {
+                if let Some(numbers) = find_entry(&inputs.uniforms, &field.name) {
                     uniforms.push((field.name.clone(), convert::uniform_value(field.ty, numbers)));
                 }
             }

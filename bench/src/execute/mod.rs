@@ -15,14 +15,14 @@ mod work;
 use glam::{UVec2, Vec4};
 use straightline_kernels::prelude::Frame;
 
-pub use cpu::{Interpreted, interpret, sampler_state, unset};
+pub use cpu::{Interpreted, find_unset_uniform, interpret_kernel, sampler_state};
 pub use forward::{Corner, Forward};
 pub use gpu::{AllWritten, Bench, Buffers, Uploaded, texture_bytes};
 pub use shadowed::Shadowed;
 pub use straightline_scene::inputs::{Address, Comparison, Inputs, SamplerState};
 pub use synthetic::test_inputs;
-pub use tiles::{Tile, cropped, tiles};
-pub use timing::{Clock, Job, Quartiles, Ratio, Timed, Times, timestamps};
+pub use tiles::{Tile, crop_inputs, split_tiles};
+pub use timing::{Clock, Job, Quartiles, Ratio, Timed, Times, next_timestamps};
 pub use uploads::Uploads;
 pub use work::Work;
 
@@ -47,15 +47,15 @@ impl Written {
 }
 
 /// Returns whether `inputs` have an image, a sampler or a buffer of this name.
-fn has(inputs: &Inputs, name: &str) -> bool {
-    find(&inputs.images, name).is_some()
-        || find(&inputs.integers, name).is_some()
-        || find(&inputs.samplers, name).is_some()
-        || find(&inputs.buffers, name).is_some()
+fn has_input(inputs: &Inputs, name: &str) -> bool {
+    find_entry(&inputs.images, name).is_some()
+        || find_entry(&inputs.integers, name).is_some()
+        || find_entry(&inputs.samplers, name).is_some()
+        || find_entry(&inputs.buffers, name).is_some()
 }
 
 /// The last entry of this name.
-fn find<'a, T>(entries: &'a [(String, T)], name: &str) -> Option<&'a T> {
+fn find_entry<'a, T>(entries: &'a [(String, T)], name: &str) -> Option<&'a T> {
     entries
         .iter()
         .rev()

@@ -69,7 +69,7 @@ impl Shadowed {
                 varyings: vec![Vec4::splat(there.z.clamp(1.0e-6, 1.0))],
             });
         }
-        let depths = draw(gpu, UVec2::splat(texels), &seen_by_sun)?;
+        let depths = draw_corners(gpu, UVec2::splat(texels), &seen_by_sun)?;
         let border = |k: usize| {
             let (x, y) = (k as u32 % texels, k as u32 / texels);
             x == 0 || y == 0 || x == texels - 1 || y == texels - 1
@@ -93,7 +93,7 @@ impl Shadowed {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn coordinates(&self, gpu: &Bench) -> Result<Forward, ExecuteError> {
+    pub fn coordinate_pass(&self, gpu: &Bench) -> Result<Forward, ExecuteError> {
         pass_on(gpu, self.size, &self.corners)
     }
 
@@ -102,11 +102,11 @@ impl Shadowed {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn inputs(&self, gpu: &Bench) -> Result<Inputs, ExecuteError> {
-        let coord = gpu.picture(&self.coordinates(gpu)?)?;
+    pub fn kernel_inputs(&self, gpu: &Bench) -> Result<Inputs, ExecuteError> {
+        let coord = gpu.draw_forward(&self.coordinate_pass(gpu)?)?;
         Ok(Inputs::new(self.size)
-            .image("shadow", self.map.clone())
-            .image("coord", coord))
+            .with_image("shadow", self.map.clone())
+            .with_image("coord", coord))
     }
 
     /// The picture, of how much sun comes to each pixel.
@@ -114,8 +114,8 @@ impl Shadowed {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn picture(&self, gpu: &Bench, lit: &Frame<Vec4>) -> Result<Frame<Vec4>, ExecuteError> {
-        let shades = draw(gpu, self.size, &self.shades)?;
+    pub fn shade_picture(&self, gpu: &Bench, lit: &Frame<Vec4>) -> Result<Frame<Vec4>, ExecuteError> {
+        let shades = draw_corners(gpu, self.size, &self.shades)?;
         let texel = |(shade, lit): (&Vec4, &Vec4)| match *shade == Vec4::ZERO {
             true => vec4(0.55, 0.65, 0.75, 1.0),
             false => (shade.truncate() * lit.x + Vec3::new(0.8, 0.9, 1.1) * shade.w).extend(1.0),
@@ -149,9 +149,9 @@ fn pass_on(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Forward, Exec
     let compiled = Kernel::from_text("pass_on.rs", PASS_ON, "pass_on")
         .compile(&Settings::default())
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
-    gpu.forward(&compiled, &Inputs::new(size), corners)
+    gpu.prepare_forward(&compiled, &Inputs::new(size), corners)
 }
 
-fn draw(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Frame<Vec4>, ExecuteError> {
-    gpu.picture(&pass_on(gpu, size, corners)?)
+fn draw_corners(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Frame<Vec4>, ExecuteError> {
+    gpu.draw_forward(&pass_on(gpu, size, corners)?)
 }

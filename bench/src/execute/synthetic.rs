@@ -17,7 +17,7 @@ pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
             false if texture.kind.is_cube() => UVec2::splat(size.min_element()),
             false => (size / 2).max(UVec2::ONE),
         };
-        let layers = (0..4).map(|k| layer(texture, own, k));
+        let layers = (0..4).map(|k| draw_test_layer(texture, own, k));
         // A texel has 4 samples, an array as many layers as any pattern and the pixel's centre, a cube its faces.
         let count = match texture.kind {
             TextureKind::Flat | TextureKind::Depth => 1,
@@ -26,24 +26,24 @@ pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
             TextureKind::Layers | TextureKind::DepthLayers | TextureKind::Volume => 17,
         };
         let layers: Vec<Frame<Vec4>> = layers
-            .chain((4..17).map(|k| layer(texture, own, k)))
+            .chain((4..17).map(|k| draw_test_layer(texture, own, k)))
             .take(count)
             .collect();
         inputs = match texture.scalar {
-            Scalar::F32 => inputs.layers(&texture.name, layers),
+            Scalar::F32 => inputs.with_layers(&texture.name, layers),
             _ => {
                 let bits = |t: &Vec4| UVec4::from_array(t.to_array().map(|v| (v * 255.0) as u32));
                 let integers = layers
                     .iter()
                     .map(|l| Frame::new(l.size(), l.texels().iter().map(bits).collect()));
-                inputs.integers(&texture.name, integers.collect())
+                inputs.with_integers(&texture.name, integers.collect())
             }
         };
     }
     for buffer in &graph.buffers {
-        let element = |k: u32| [0, 1, 2, 3].map(|lane| f64::from(noise(k * 4 + lane)));
-        let values = 64 * buffer.element.values().len() as u32;
-        inputs = inputs.buffer(&buffer.name, (0..values).map(element).collect());
+        let element = |k: u32| [0, 1, 2, 3].map(|lane| f64::from(hash_noise(k * 4 + lane)));
+        let values = 64 * buffer.element.value_types().len() as u32;
+        inputs = inputs.with_buffer(&buffer.name, (0..values).map(element).collect());
     }
     for uniform in graph.uniforms.iter().filter(|u| u.default.is_none()) {
         let axis = ["_x_axis", "_y_axis", "_z_axis", "_w_axis"];
@@ -51,16 +51,16 @@ pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
             Some(one) => (0..4).map(|k| f64::from(u8::from(k == one))).collect(),
             None => vec![1.0],
         };
-        inputs = inputs.uniform(&uniform.name, &lanes);
+        inputs = inputs.with_uniform(&uniform.name, &lanes);
     }
     inputs
 }
 
-fn layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
-    let shift = 0.5 + vec2(noise(2 * layer), noise(2 * layer + 1)) - 0.5;
+fn draw_test_layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
+    let shift = 0.5 + vec2(hash_noise(2 * layer), hash_noise(2 * layer + 1)) - 0.5;
     let texel = |x: u32, y: u32| {
         let uv = (vec2(x as f32, y as f32) + shift) / size.as_vec2();
-        let surface = Surface::at(uv);
+        let surface = Surface::surface_at(uv);
         if texture.name.contains("depth") {
             Vec4::splat(surface.depth)
         } else if texture.name.contains("normal") {
@@ -68,7 +68,7 @@ fn layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
         } else if texture.components == 1 {
             Vec4::splat(surface.color.x)
         } else {
-            let grain = 0.06 * (noise(x + y * 8192 + layer * 77) - 0.5);
+            let grain = 0.06 * (hash_noise(x + y * 8192 + layer * 77) - 0.5);
             (surface.color + grain).clamp(Vec3::ZERO, Vec3::ONE).extend(1.0)
         }
     };
@@ -88,7 +88,7 @@ struct Surface {
 }
 
 impl Surface {
-    fn at(uv: Vec2) -> Surface {
+    fn surface_at(uv: Vec2) -> Surface {
         let from = uv - vec2(0.42, 0.5);
         let ball = vec2(from.x * 1.5, from.y).length() / 0.33;
         if ball < 1.0 {
@@ -123,7 +123,7 @@ impl Surface {
 }
 
 /// Between 0 and 1, the same for the same number (PCG).
-fn noise(k: u32) -> f32 {
+fn hash_noise(k: u32) -> f32 {
     let state = k.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     ((word >> 22) ^ word) as f32 / u32::MAX as f32

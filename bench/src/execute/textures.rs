@@ -26,18 +26,18 @@ impl Bench {
     /// # Errors
     ///
     /// If it is larger than the device holds, or not of that shape.
-    pub fn texture(
+    pub fn create_texture(
         &self,
         layers: &[Frame<Vec4>],
         dimension: Dimension,
         sample_type: SampleType,
         components: u8,
     ) -> Result<TextureView, ExecuteError> {
-        self.levels(layers, &[], dimension, sample_type, components)
+        self.create_mip_texture(layers, &[], dimension, sample_type, components)
     }
 
     /// As [`texture`](Self::texture), with smaller levels.
-    pub(super) fn levels(
+    pub(super) fn create_mip_texture(
         &self,
         layers: &[Frame<Vec4>],
         smaller: &[Vec<Frame<Vec4>>],
@@ -92,13 +92,13 @@ impl Bench {
                     })
                 };
                 let layers: Vec<TextureView> = (0..layers.len() as u32).map(layer).collect();
-                let depths = converters().depths(&layers, size);
+                let depths = converters().create_depths(&layers, size);
                 depths.create_view(&wgpu::TextureViewDescriptor {
                     dimension: Some(view_of(dimension)),
                     ..Default::default()
                 })
             }
-            (Dimension::D2Multisampled, _) => converters().multisampled(
+            (Dimension::D2Multisampled, _) => converters().create_multisampled(
                 &view(TextureViewDimension::D2Array),
                 size,
                 layers.len() as u32,
@@ -109,7 +109,7 @@ impl Bench {
     }
 
     /// A texture of integers, by their bits.
-    pub(super) fn integers(
+    pub(super) fn create_integer_texture(
         &self,
         layers: &[Frame<UVec4>],
         dimension: Dimension,

@@ -20,7 +20,7 @@ pub struct Tile {
 }
 
 /// The tiles of an image, row by row: `side` × `side` pixels or what is left, with `apron` pixels around them.
-pub fn tiles(size: UVec2, side: u32, apron: u32) -> impl Iterator<Item = Tile> {
+pub fn split_tiles(size: UVec2, side: u32, apron: u32) -> impl Iterator<Item = Tile> {
     let side = side.max(1);
     let rows = (0..size.y).step_by(side as usize);
     let corners = rows.flat_map(move |y| (0..size.x).step_by(side as usize).map(move |x| uvec2(x, y)));
@@ -39,7 +39,7 @@ pub fn tiles(size: UVec2, side: u32, apron: u32) -> impl Iterator<Item = Tile> {
 /// Cuts a tile's inputs out of those of the whole image. An image that is a multiple of the frame's size, as a superresolution
 /// buffer, is cut likewise, and a buffer of whole frames; those of another size are taken whole. `origin` tells kernels where
 /// the tile lies.
-pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
+pub fn crop_inputs(inputs: &Inputs, tile: &Tile) -> Inputs {
     let cut = |image: &Frame<Vec4>| {
         let scale = image.size() / inputs.size;
         if scale.min_element() == 0 || scale * inputs.size != image.size() {
@@ -73,7 +73,7 @@ pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
         buffers: buffers.collect(),
         ..inputs.clone()
     }
-    .uniform("origin", &[origin.x, origin.y])
+    .with_uniform("origin", &[origin.x, origin.y])
 }
 
 impl Bench {
@@ -91,11 +91,11 @@ impl Bench {
         mut inputs: impl FnMut(&Tile) -> Result<Inputs, ExecuteError>,
         mut output: impl FnMut(&Tile, Frame<Vec4>),
     ) -> Result<(), ExecuteError> {
-        let options = self.options(stage).region(true);
-        let (pass, manifest) = self.emitted(compiled, &options)?;
-        for tile in tiles(size, side, apron) {
+        let options = self.emit_options(stage).region(true);
+        let (pass, manifest) = self.emit_pass(compiled, &options)?;
+        for tile in split_tiles(size, side, apron) {
             let uploaded = self.upload(&manifest, &inputs(&tile)?)?;
-            let target = self.target(tile.size, pass.target_format());
+            let target = self.create_target(tile.size, pass.target_format());
             let view = target.create_view(&wgpu::TextureViewDescriptor::default());
             let region = Region {
                 first: (tile.first - tile.inputs_first).to_array(),
@@ -126,7 +126,7 @@ mod tests {
             (uvec2(3, 40), 64),
         ] {
             let mut seen = vec![0; (size.x * size.y) as usize];
-            for tile in tiles(size, side, 1) {
+            for tile in split_tiles(size, side, 1) {
                 assert!(tile.inputs_first.cmple(tile.first).all());
                 assert!((tile.inputs_first + tile.inputs_size).cmple(size).all());
                 for y in 0..tile.size.y {

@@ -23,7 +23,7 @@ pub struct Times {
 
 impl Times {
     /// Median and extremes; `None` of no times.
-    pub fn of(times: &[Duration]) -> Option<Times> {
+    pub fn from_durations(times: &[Duration]) -> Option<Times> {
         let mut sorted: Vec<f64> = times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
         sorted.sort_by(f64::total_cmp);
         let (min, max) = (*sorted.first()?, *sorted.last()?);
@@ -55,10 +55,10 @@ pub struct Ratio {
 
 impl Ratio {
     /// Speedup over `base` of what took `times`, round by round; `None` of no rounds.
-    pub fn of(base: &[Duration], times: &[Duration]) -> Option<Ratio> {
+    pub fn from_durations(base: &[Duration], times: &[Duration]) -> Option<Ratio> {
         let ratio = |(base, time): (&Duration, &Duration)| base.as_secs_f64() / time.as_secs_f64().max(1e-9);
         let ratios: Vec<f64> = base.iter().zip(times).map(ratio).collect();
-        let [low, median, high] = quantiles(&ratios, [0.1, 0.5, 0.9])?;
+        let [low, median, high] = find_quantiles(&ratios, [0.1, 0.5, 0.9])?;
         Some(Ratio { median, low, high })
     }
 }
@@ -76,8 +76,8 @@ pub struct Quartiles {
 
 impl Quartiles {
     /// Of the values of all rounds; `None` of none.
-    pub fn of(values: &[f64]) -> Option<Quartiles> {
-        let [lower, median, upper] = quantiles(values, [0.25, 0.5, 0.75])?;
+    pub fn from_values(values: &[f64]) -> Option<Quartiles> {
+        let [lower, median, upper] = find_quantiles(values, [0.25, 0.5, 0.75])?;
         Some(Quartiles { lower, median, upper })
     }
 
@@ -97,7 +97,7 @@ impl Quartiles {
 }
 
 /// The values below which these shares of all lie, interpolated; `None` of no values.
-fn quantiles<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
+fn find_quantiles<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let last = sorted.len().checked_sub(1)?;
@@ -120,12 +120,12 @@ pub struct Timed {
 impl Timed {
     /// Median and extremes of a shader; `None` if there is no such shader.
     pub fn times(&self, shader: usize) -> Option<Times> {
-        Times::of(self.rounds.get(shader)?)
+        Times::from_durations(self.rounds.get(shader)?)
     }
 
     /// Speedup of a shader over `base`; `None` if one of them is not there.
     pub fn ratio(&self, base: usize, shader: usize) -> Option<Ratio> {
-        Ratio::of(self.rounds.get(base)?, self.rounds.get(shader)?)
+        Ratio::from_durations(self.rounds.get(base)?, self.rounds.get(shader)?)
     }
 }
 
@@ -144,7 +144,7 @@ pub enum Clock {
 /// # Errors
 ///
 /// [`TimerFull`](straightline_runtime::Error::TimerFull).
-pub fn timestamps(timer: Option<&mut Timer>, passes: u32) -> Result<Vec<Timestamps>, ExecuteError> {
+pub fn next_timestamps(timer: Option<&mut Timer>, passes: u32) -> Result<Vec<Timestamps>, ExecuteError> {
     let Some(timer) = timer else {
         return Ok(Vec::new());
     };
@@ -172,22 +172,25 @@ pub struct Job<'a> {
 }
 
 impl Bench {
-    /// Median and extremes of what [`timed`](Self::timed) measures, and its clock. `tick` is called after each round.
+    /// Median and extremes of what [`time_jobs`](Self::time_jobs) measures, and its clock. `tick` is called after each round.
     ///
     /// # Errors
     ///
     /// If a pass cannot be bound, or the device fails.
-    pub fn interleaved(
+    pub fn time_interleaved(
         &self,
         jobs: &[Job<'_>],
         rounds: u32,
         mut tick: impl FnMut(u32),
     ) -> Result<(Vec<Times>, Clock), ExecuteError> {
-        let timed = self.timed(jobs, rounds, |round| {
+        let timed = self.time_jobs(jobs, rounds, |round| {
             tick(round);
             true
         })?;
-        Ok((timed.rounds.iter().filter_map(|t| Times::of(t)).collect(), timed.clock))
+        Ok((
+            timed.rounds.iter().filter_map(|t| Times::from_durations(t)).collect(),
+            timed.clock,
+        ))
     }
 
     /// Runs every job once a round, in turn, after one round that is not counted. `tick` is called after each round, and
@@ -196,11 +199,16 @@ impl Bench {
     /// # Errors
     ///
     /// If a pass cannot be bound, or the device fails.
-    pub fn timed(&self, jobs: &[Job<'_>], rounds: u32, tick: impl FnMut(u32) -> bool) -> Result<Timed, ExecuteError> {
+    pub fn time_jobs(
+        &self,
+        jobs: &[Job<'_>],
+        rounds: u32,
+        tick: impl FnMut(u32) -> bool,
+    ) -> Result<Timed, ExecuteError> {
         self.timed_for(jobs, rounds, Duration::ZERO, tick)
     }
 
-    /// As [`timed`](Self::timed), but a job that is done sooner than `least` is run several times in a row, in one submission:
+    /// As [`time_jobs`](Self::time_jobs), but a job that is done sooner than `least` is run several times in a row, in one submission:
     /// as often as it takes, up to 64 times. A time is that of one of them. What else the machine does, and what a submission
     /// costs by itself, then matters less. Every other round runs the jobs in reverse, so that none always follows the same.
     ///
@@ -214,12 +222,12 @@ impl Bench {
         least: Duration,
         tick: impl FnMut(u32) -> bool,
     ) -> Result<Timed, ExecuteError> {
-        let works: Result<Vec<_>, _> = jobs.iter().map(|job| self.work(*job, least)).collect();
+        let works: Result<Vec<_>, _> = jobs.iter().map(|job| self.job_work(*job, least)).collect();
         self.in_turn(&mut works?, rounds, tick)
     }
 
     /// The time of one of `repeats` recordings in one submission.
-    pub(super) fn once(
+    pub(super) fn time_once(
         &self,
         record: &Record<'_>,
         repeats: u32,
@@ -259,18 +267,18 @@ mod tests {
     fn ratios_are_taken_round_by_round() {
         let ms = |times: &[u64]| times.iter().map(|t| Duration::from_millis(*t)).collect::<Vec<_>>();
         // The second round was slow for both: their ratio is not.
-        let ratio = Ratio::of(&ms(&[40, 400, 44]), &ms(&[10, 100, 10])).unwrap();
+        let ratio = Ratio::from_durations(&ms(&[40, 400, 44]), &ms(&[10, 100, 10])).unwrap();
         assert_eq!(ratio.median, 4.0);
         assert!(
             (ratio.low - 4.0).abs() < 1e-12 && (ratio.high - 4.32).abs() < 1e-12,
             "{ratio:?}"
         );
-        assert_eq!(Ratio::of(&[], &[]), None);
+        assert_eq!(Ratio::from_durations(&[], &[]), None);
     }
 
     #[test]
     fn quartiles_are_interpolated_and_add_up() {
-        let quartiles = Quartiles::of(&[5.0, 1.0, 2.0, 3.0]).unwrap();
+        let quartiles = Quartiles::from_values(&[5.0, 1.0, 2.0, 3.0]).unwrap();
         assert_eq!(
             quartiles,
             Quartiles {
@@ -280,6 +288,6 @@ mod tests {
             }
         );
         assert_eq!(Quartiles::sum([quartiles, quartiles]).upper, 7.0);
-        assert_eq!(Quartiles::of(&[]), None);
+        assert_eq!(Quartiles::from_values(&[]), None);
     }
 }

@@ -27,11 +27,11 @@ impl<'a> Uploads<'a> {
     /// # Errors
     ///
     /// If something is missing, or the device refuses it.
-    pub fn of(&mut self, manifest: &Manifest) -> Result<Rc<Uploaded>, ExecuteError> {
+    pub fn upload_shared(&mut self, manifest: &Manifest) -> Result<Rc<Uploaded>, ExecuteError> {
         let is_resource = |b: &&Binding| !matches!(b.kind, BindingKind::Uniform { .. });
         let wanted: Vec<Binding> = manifest.bindings.iter().filter(is_resource).cloned().collect();
         if let Some((_, uploaded)) = self.uploaded.iter().find(|(known, _)| *known == wanted) {
-            return Ok(Rc::new(self.bench.share(manifest, self.inputs, uploaded)?));
+            return Ok(Rc::new(self.bench.share_inputs(manifest, self.inputs, uploaded)?));
         }
         let uploaded = Rc::new(self.bench.upload(manifest, self.inputs)?);
         self.uploaded.push((wanted, Rc::clone(&uploaded)));

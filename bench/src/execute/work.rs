@@ -21,9 +21,9 @@ impl Bench {
     /// # Errors
     ///
     /// If the pass cannot be bound, or the device cannot be asked for the time.
-    pub fn work<'a>(&self, job: Job<'a>, least: Duration) -> Result<Work<'a>, ExecuteError> {
-        let bound = self.bound(job)?;
-        self.recorded(1, least, move |encoder, timer| {
+    pub fn job_work<'a>(&self, job: Job<'a>, least: Duration) -> Result<Work<'a>, ExecuteError> {
+        let bound = self.bind_job(job)?;
+        self.recorded_work(1, least, move |encoder, timer| {
             match timer {
                 Some(timer) => bound.encode_timed(encoder, timer)?,
                 None => bound.encode(encoder),
@@ -37,9 +37,9 @@ impl Bench {
     /// # Errors
     ///
     /// If a pass cannot be bound, or the device cannot be asked for the time.
-    pub fn following<'a>(&self, jobs: &[Job<'_>]) -> Result<Work<'a>, ExecuteError> {
-        let bound: Vec<Bound> = jobs.iter().map(|job| self.bound(*job)).collect::<Result<_, _>>()?;
-        self.recorded(bound.len() as u32, Duration::ZERO, move |encoder, mut timer| {
+    pub fn sequence_work<'a>(&self, jobs: &[Job<'_>]) -> Result<Work<'a>, ExecuteError> {
+        let bound: Vec<Bound> = jobs.iter().map(|job| self.bind_job(*job)).collect::<Result<_, _>>()?;
+        self.recorded_work(bound.len() as u32, Duration::ZERO, move |encoder, mut timer| {
             for bound in &bound {
                 match &mut timer {
                     Some(timer) => bound.encode_timed(encoder, timer)?,
@@ -55,14 +55,14 @@ impl Bench {
     /// # Errors
     ///
     /// If the pass cannot be bound.
-    pub fn recorder(&self, job: Job<'_>) -> Result<impl Fn(&mut CommandEncoder) + use<>, ExecuteError> {
-        let bound = self.bound(job)?;
+    pub fn pass_recorder(&self, job: Job<'_>) -> Result<impl Fn(&mut CommandEncoder) + use<>, ExecuteError> {
+        let bound = self.bind_job(job)?;
         Ok(move |encoder: &mut CommandEncoder| bound.encode(encoder))
     }
 
-    fn bound(&self, job: Job<'_>) -> Result<Bound, ExecuteError> {
+    fn bind_job(&self, job: Job<'_>) -> Result<Bound, ExecuteError> {
         let view = |format| {
-            let target = self.target(job.size, format);
+            let target = self.create_target(job.size, format);
             target.create_view(&wgpu::TextureViewDescriptor::default())
         };
         let views: Vec<_> = job.pass.targets().map(|(name, format)| (name, view(format))).collect();
@@ -76,7 +76,7 @@ impl Bench {
     /// # Errors
     ///
     /// If the device cannot be asked for the time.
-    pub fn recorded<'a>(
+    pub fn recorded_work<'a>(
         &self,
         passes: u32,
         least: Duration,
@@ -91,12 +91,12 @@ impl Bench {
         let mut repeats = None;
         Ok(Box::new(move || {
             if let Some(repeats) = repeats {
-                return bench.once(&record, repeats, timer.as_mut());
+                return bench.time_once(&record, repeats, timer.as_mut());
             }
-            let mut took = bench.once(&record, 1, timer.as_mut())?;
+            let mut took = bench.time_once(&record, 1, timer.as_mut())?;
             if !least.is_zero() {
                 // The first time has the driver's compiling in it.
-                took = bench.once(&record, 1, timer.as_mut())?;
+                took = bench.time_once(&record, 1, timer.as_mut())?;
             }
             let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
             repeats = Some((wanted.ceil() as u32).clamp(1, most));
@@ -104,7 +104,7 @@ impl Bench {
         }))
     }
 
-    /// As [`timed`](Self::timed), of any work. Each must take its time as this bench does: by [`clock`](Self::clock). Every other
+    /// As [`time_jobs`](Self::time_jobs), of any work. Each must take its time as this bench does: by [`clock`](Self::clock). Every other
     /// round runs them in reverse.
     ///
     /// # Errors

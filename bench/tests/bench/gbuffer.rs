@@ -4,7 +4,7 @@ use crate::common;
 
 use common::Scratch;
 use glam::{Mat3, Quat, Vec2, Vec3, uvec2};
-use straightline_bench::execute::interpret;
+use straightline_bench::execute::interpret_kernel;
 use straightline_codegen::{Kernel, Settings};
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -13,17 +13,17 @@ use straightline_oracle::oracle::{self, SraaParams};
 use straightline_scene::capture::{Capture, NormalSpace, ShadingSample};
 use straightline_scene::encode::{DepthEncoding, DepthStorage};
 use straightline_scene::gbuffer::{self, GBufferError, Misplaced};
-use straightline_scene::render::reference;
+use straightline_scene::render::render_reference;
 use straightline_scene::render::{self, CpuRenderer, Renderer};
 use straightline_scene::scene::{NAMES, Scene};
 
 fn renderer() -> CpuRenderer {
-    CpuRenderer::new(&Scene::named("grooves").expect("a scene"), uvec2(96, 54)).expect("a renderer")
+    CpuRenderer::new(&Scene::from_name("grooves").expect("a scene"), uvec2(96, 54)).expect("a renderer")
 }
 
 fn captured(shading: ShadingSample) -> Capture {
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    render::capture(&renderer(), &samples, shading).expect("a capture")
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    render::capture_scene(&renderer(), &samples, shading).expect("a capture")
 }
 
 fn options(words: &[(&str, &str)]) -> OptionValues {
@@ -36,9 +36,9 @@ fn options(words: &[(&str, &str)]) -> OptionValues {
 
 fn by_planes(capture: &Capture) -> Result<Vec<[f64; 4]>, GBufferError> {
     let options = options(&[("metric", "planes-normals")]);
-    let inputs = gbuffer::inputs(capture, &options)?;
-    let params = SraaParams::of(&options).expect("options");
-    let resolved = oracle::sraa(&inputs, &params).expect("all is there");
+    let inputs = gbuffer::sraa_inputs(capture, &options)?;
+    let params = SraaParams::from_options(&options).expect("options");
+    let resolved = oracle::resolve_sraa(&inputs, &params).expect("all is there");
     Ok(resolved.into_iter().map(|pixel| pixel.color).collect())
 }
 
@@ -68,10 +68,10 @@ fn normals_of_the_world_are_read_with_rays_of_the_world() {
 fn normals_in_another_space_than_is_said_are_refused() {
     let mut refused = 0;
     for (name, _) in NAMES {
-        let scene = Scene::named(name).expect("a scene");
+        let scene = Scene::from_name(name).expect("a scene");
         let renderer = CpuRenderer::new(&scene, uvec2(96, 54)).expect("a renderer");
-        let samples = gbuffer::samples("latin4").expect("a pattern");
-        let view = render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture");
+        let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+        let view = render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture");
         let planes = options(&[("metric", "planes-normals")]);
         let (_, turned) = Quat::from_mat4(&scene.camera.view()).to_axis_angle();
         let turned = turned.to_degrees();
@@ -82,12 +82,12 @@ fn normals_in_another_space_than_is_said_are_refused() {
             } else {
                 of_the_world(&view)
             };
-            gbuffer::inputs(&right_one, &planes).unwrap_or_else(|error| panic!("{name}: {error}"));
+            gbuffer::sraa_inputs(&right_one, &planes).unwrap_or_else(|error| panic!("{name}: {error}"));
             let wrong_one = Capture {
                 normal_space: wrong,
                 ..right_one
             };
-            let error = gbuffer::inputs(&wrong_one, &planes);
+            let error = gbuffer::sraa_inputs(&wrong_one, &planes);
             let error = error.map_or_else(|error| error.to_string(), |_| "no refusal".to_owned());
             // A camera that is hardly turned has two spaces that hardly differ.
             if turned > 6.5 {
@@ -98,7 +98,7 @@ fn normals_in_another_space_than_is_said_are_refused() {
                 );
             }
             // Other metrics do not mind.
-            gbuffer::inputs(&wrong_one, &options(&[])).expect("inputs");
+            gbuffer::sraa_inputs(&wrong_one, &options(&[])).expect("inputs");
         }
     }
     assert!(refused >= 10, "{refused}");
@@ -107,7 +107,7 @@ fn normals_in_another_space_than_is_said_are_refused() {
 #[test]
 fn several_shading_samples_are_captured_and_filtered() {
     let two = captured(ShadingSample::Samples(vec![3, 0]));
-    let shaded = |k: usize| renderer().shaded(two.samples[k]).expect("a picture");
+    let shaded = |k: usize| renderer().draw_shaded(two.samples[k]).expect("a picture");
     assert_eq!(two.colors, [shaded(3), shaded(0)]);
     assert_eq!(
         two.color.texels()[1000],
@@ -134,18 +134,18 @@ fn several_shading_samples_are_captured_and_filtered() {
         let compiled = Kernel::builtin("sraa")
             .and_then(|kernel| kernel.compile(&settings))
             .expect("it compiles");
-        let inputs = gbuffer::inputs(capture, &compiled.options).expect("inputs");
-        let params = SraaParams::of(&compiled.options).expect("options");
-        let expected = oracle::sraa(&inputs, &params).expect("all is there");
+        let inputs = gbuffer::sraa_inputs(capture, &compiled.options).expect("inputs");
+        let params = SraaParams::from_options(&compiled.options).expect("options");
+        let expected = oracle::resolve_sraa(&inputs, &params).expect("all is there");
         let expected: Vec<[f64; 4]> = expected.into_iter().map(|pixel| pixel.color).collect();
-        let found = interpret::<f32>(&compiled, &inputs, false)
+        let found = interpret_kernel::<f32>(&compiled, &inputs, false)
             .expect("it runs")
             .frame(&inputs);
         let off = metrics::max_abs_difference_to(&found, &expected);
         assert!(off < 1.0e-5, "{off}");
         found
     };
-    let perfect = reference(&renderer(), 8, &mut |_, _| {}).expect("a reference");
+    let perfect = render_reference(&renderer(), 8, &mut |_, _| {}).expect("a reference");
     let one = captured(ShadingSample::Centre);
     let psnr = |picture: &Frame<_>| metrics::psnr(picture, &perfect);
     let (plain, once, twice) = (psnr(&one.color), psnr(&filtered(&one)), psnr(&filtered(&two)));
@@ -155,9 +155,9 @@ fn several_shading_samples_are_captured_and_filtered() {
 
 /// Ground and walls at many depths.
 fn ground() -> Capture {
-    let renderer = CpuRenderer::new(&Scene::named("terrain").expect("a scene"), uvec2(96, 54)).expect("a renderer");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture")
+    let renderer = CpuRenderer::new(&Scene::from_name("terrain").expect("a scene"), uvec2(96, 54)).expect("a renderer");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture")
 }
 
 #[test]
@@ -171,14 +171,19 @@ fn sample_offsets_that_are_stated_wrongly_show() {
         (|at| Vec2::new(at.y, at.x), Some(Misplaced::Exchanged)),
     ];
     for scene in ["roof", "creases"] {
-        let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), uvec2(96, 54)).expect("a renderer");
+        let renderer = CpuRenderer::new(&Scene::from_name(scene).expect("a scene"), uvec2(96, 54)).expect("a renderer");
         for shading in [ShadingSample::Centre, ShadingSample::Sample(0)] {
-            let samples = gbuffer::samples("latin4").expect("a pattern");
-            let right = render::capture(&renderer, &samples, shading).expect("a capture");
+            let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+            let right = render::capture_scene(&renderer, &samples, shading).expect("a capture");
             for (wrong, expected) in cases {
                 let mut stated = right.clone();
                 stated.samples.iter_mut().for_each(|at| *at = wrong(*at));
-                assert_eq!(gbuffer::misplaced(&stated), expected, "{scene} {:?}", stated.shading);
+                assert_eq!(
+                    gbuffer::find_misplaced(&stated),
+                    expected,
+                    "{scene} {:?}",
+                    stated.shading
+                );
             }
         }
     }
@@ -214,23 +219,26 @@ fn depth_in_steps_is_told_from_depth_in_floats() {
         let encoding = DepthEncoding::Perspective { near, far: 100.0 };
         move |z: f64| encoding.decode(DepthStorage::Unorm16.round(encoding.encode(z)))
     };
-    assert_eq!(gbuffer::coarse(&capture, &planes(&[])), None);
+    assert_eq!(gbuffer::detect_coarse_depth(&capture, &planes(&[])), None);
     assert_eq!(
-        gbuffer::coarse(&capture, &planes(&[("depth", "reversed-infinite")])),
+        gbuffer::detect_coarse_depth(&capture, &planes(&[("depth", "reversed-infinite")])),
         None
     );
-    let coarse = gbuffer::coarse(&stored(&sixteen_bits(0.05)), &planes(&[])).expect("16 bits are coarse");
+    let coarse = gbuffer::detect_coarse_depth(&stored(&sixteen_bits(0.05)), &planes(&[])).expect("16 bits are coarse");
     assert!(coarse.share > 0.2 && coarse.least > coarse.threshold, "{coarse:?}");
     let half = |z: f64| half::f16::from_f64(z).to_f64();
-    let coarse = gbuffer::coarse(&stored(&half), &planes(&[])).expect("half floats are coarse");
+    let coarse = gbuffer::detect_coarse_depth(&stored(&half), &planes(&[])).expect("half floats are coarse");
     assert!((1.0e-3..=3.0e-2).contains(&coarse.least), "{coarse:?}");
     // In 32 bits a near plane far before everything is.
     let mut near = capture.clone();
     near.camera.as_mut().expect("a camera").near = 1.0e-4;
-    assert!(gbuffer::coarse(&near, &planes(&[("depth", "perspective")])).is_some());
-    assert_eq!(gbuffer::coarse(&near, &planes(&[("depth", "reversed")])), None);
+    assert!(gbuffer::detect_coarse_depth(&near, &planes(&[("depth", "perspective")])).is_some());
     assert_eq!(
-        gbuffer::coarse(&stored(&half), &options(&[("metric", "normals")])),
+        gbuffer::detect_coarse_depth(&near, &planes(&[("depth", "reversed")])),
+        None
+    );
+    assert_eq!(
+        gbuffer::detect_coarse_depth(&stored(&half), &options(&[("metric", "normals")])),
         None
     );
 }
@@ -238,9 +246,9 @@ fn depth_in_steps_is_told_from_depth_in_floats() {
 #[test]
 fn normals_of_a_map_are_told_from_those_of_geometry() {
     for scene in ["roof", "grooves", "creases"] {
-        let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), uvec2(96, 54)).expect("a renderer");
-        let samples = gbuffer::samples("latin4").expect("a pattern");
-        let mut capture = render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture");
+        let renderer = CpuRenderer::new(&Scene::from_name(scene).expect("a scene"), uvec2(96, 54)).expect("a renderer");
+        let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+        let mut capture = render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture");
         assert_eq!(gbuffer::bent_normals(&capture), None, "{scene}");
         let bumps =
             |(k, n): (usize, &Vec3)| (*n + 0.2 * Vec3::new((k as f32).sin(), (1.7 * k as f32).cos(), 0.0)).normalize();

@@ -1,6 +1,6 @@
 //! Running a kernel in the interpreter.
 
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Kernel, Settings};
 use straightline_kernels::prelude::{Frame, Vec4, uvec2};
 
@@ -16,7 +16,7 @@ fn a_loop_without_end_ends_in_the_interpreter() {
         .unwrap_or_else(|e| panic!("{e}"));
     let mut inputs = Inputs::new(uvec2(1, 1));
     inputs.images = vec![("color".to_owned(), vec![Frame::new(uvec2(1, 1), vec![Vec4::ONE])])];
-    let refused = interpret::<f32>(&compiled, &inputs, false)
+    let refused = interpret_kernel::<f32>(&compiled, &inputs, false)
         .expect_err("endless")
         .to_string();
     assert!(

@@ -21,7 +21,7 @@ pub fn render_capture(args: &CaptureArgs) -> Result<(), Failure> {
     let renderer = scene::create_renderer(gpu.as_ref(), &world, args.size)?;
     let capture = match placed_by {
         Some(by) => render::capture_placed(renderer.as_ref(), &samples, by),
-        None => render::capture(renderer.as_ref(), &samples, shading),
+        None => render::capture_scene(renderer.as_ref(), &samples, shading),
     };
     let mut capture = capture.map_err(Failure::from_error)?;
     if args.albedo {
@@ -30,8 +30,8 @@ pub fn render_capture(args: &CaptureArgs) -> Result<(), Failure> {
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };
         let bar = scene::progress_bar(&format!("rendering {samples} samples"));
-        let frame =
-            render::reference(renderer.as_ref(), side, &mut scene::advance_bar(&bar)).map_err(Failure::from_error)?;
+        let frame = render::render_reference(renderer.as_ref(), side, &mut scene::advance_bar(&bar))
+            .map_err(Failure::from_error)?;
         bar.finish_and_clear();
         capture.reference = Some(frame);
     }

@@ -13,7 +13,7 @@ use straightline_scene::picture;
 ///
 /// If either is a PNG, both are taken at its 8 bits, as `study error` takes all pictures: then the figures are the same.
 pub fn compare_pictures(args: &CompareArgs) -> Result<(), Failure> {
-    let read = |path: &Path| picture::read(path).map_err(Failure::from_error);
+    let read = |path: &Path| picture::read_picture(path).map_err(Failure::from_error);
     let (mut test, mut reference) = (read(&args.picture)?, read(&args.reference)?);
     if test.size() != reference.size() {
         let said =

@@ -9,7 +9,7 @@ use glam::{UVec2, Vec4};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Instant, SystemTime};
-use straightline_bench::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret};
+use straightline_bench::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret_kernel};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, files};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
@@ -132,11 +132,11 @@ fn prepare_method(name: &'static str, pattern: &'static str, renderer: &dyn Rend
         Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings))
     };
     let samples = scene::sample_offsets(pattern)?;
-    let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::from_error)?;
+    let capture = render::capture_scene(renderer, &samples, ShadingSample::Centre).map_err(Failure::from_error)?;
     let unrolled = compile(Unroll::Full)?;
     Ok(Method {
         name,
-        inputs: gbuffer::inputs(&capture, &unrolled.options).map_err(Failure::from_error)?,
+        inputs: gbuffer::sraa_inputs(&capture, &unrolled.options).map_err(Failure::from_error)?,
         unrolled,
         looped: compile(Unroll::None)?,
         capture,
@@ -145,7 +145,7 @@ fn prepare_method(name: &'static str, pattern: &'static str, renderer: &dyn Rend
 
 fn render_supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Result<Frame<Vec4>, Failure> {
     let bar = scene::progress_bar(what);
-    let frame = render::reference(renderer, side, &mut scene::advance_bar(&bar)).map_err(Failure::from_error)?;
+    let frame = render::render_reference(renderer, side, &mut scene::advance_bar(&bar)).map_err(Failure::from_error)?;
     bar.finish_and_clear();
     Ok(frame)
 }
@@ -156,7 +156,7 @@ type Measured = (Frame<Vec4>, [Times; 2], Clock);
 fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
     let (inputs, bench) = (&method.inputs, gpu.bench());
     let prepared = |compiled| -> Result<(Pass, Uploaded), ExecuteError> {
-        let (pass, manifest) = bench.pass(compiled, Stage::Compute)?;
+        let (pass, manifest) = bench.compile_pass(compiled, Stage::Compute)?;
         let uploaded = bench.upload(&manifest, inputs)?;
         Ok((pass, uploaded))
     };
@@ -169,7 +169,7 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     }
     let bar = scene::progress_bar("timing 2 SRAA shaders");
     bar.set_length(u64::from(rounds));
-    let timed = bench.interleaved(&jobs, rounds, |k| bar.set_position(u64::from(k)));
+    let timed = bench.time_interleaved(&jobs, rounds, |k| bar.set_position(u64::from(k)));
     let (times, clock) = timed.map_err(Failure::from_error)?;
     bar.finish_and_clear();
     let resolved = bench
@@ -187,13 +187,17 @@ fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     bar.set_length(2);
     for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
         let start = Instant::now();
-        let texels = interpret::<f32>(compiled, inputs, false).map_err(Failure::from_error)?;
+        let texels = interpret_kernel::<f32>(compiled, inputs, false).map_err(Failure::from_error)?;
         resolved = Some(texels.frame(inputs));
         times.push(start.elapsed());
         bar.inc(1);
     }
     bar.finish_and_clear();
-    match (resolved, Times::of(&times[0]), Times::of(&times[1])) {
+    match (
+        resolved,
+        Times::from_durations(&times[0]),
+        Times::from_durations(&times[1]),
+    ) {
         (Some(resolved), Some(looped), Some(unrolled)) => Ok((resolved, [looped, unrolled], Clock::WallClock)),
         _ => Err(Failure::from_error("nothing was interpreted")),
     }
@@ -220,8 +224,8 @@ fn measured_row(
     reference: &Frame<Vec4>,
 ) -> Result<Row, Failure> {
     let counts = &method.unrolled.counts;
-    let params = SraaParams::of(&method.unrolled.options).map_err(Failure::from_error)?;
-    let exact = oracle::sraa(&method.inputs, &params).map_err(Failure::from_error)?;
+    let params = SraaParams::from_options(&method.unrolled.options).map_err(Failure::from_error)?;
+    let exact = oracle::resolve_sraa(&method.inputs, &params).map_err(Failure::from_error)?;
     let exact: Vec<[f64; 4]> = exact.into_iter().map(|pixel| pixel.color).collect();
     Ok(Row {
         texture_reads: Some(counts.texture_reads + counts.colour_reads),
@@ -247,9 +251,9 @@ fn add_pictures(
         save(&format!("{}.png", name.to_lowercase().replace(' ', "-")), frame)?;
     }
     save("256x-reference.png", reference)?;
-    let corner = picture::busiest(&pictures[0].1, reference, SIDE);
+    let corner = picture::find_busiest_square(&pictures[0].1, reference, SIDE);
     let all: Vec<(&str, &Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, frame)).collect();
-    save("detail.png", &picture::details(&all, corner, SIDE, ZOOM))
+    save("detail.png", &picture::compare_details(&all, corner, SIDE, ZOOM))
 }
 
 fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {

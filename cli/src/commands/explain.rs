@@ -135,7 +135,7 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
     }
     let loops = compiled.loops.iter().map(|report| {
         json!({
-            "loop": report.path(),
+            "loop": report.policy_path(),
             "line": report.span.line,
             "unroll": report.unroll.to_string(),
             "unrolled_because": report.reason,
@@ -176,7 +176,7 @@ fn sharing_json(sharing: &Sharing) -> Value {
             "reads_of_a_thread": tile.fills,
         })
     });
-    let apart = sharing.apart.iter();
+    let apart = sharing.unshared.iter();
     let apart = apart.map(|apart| json!({ "texture": apart.texture, "reads": apart.reads, "why": apart.why }));
     json!({
         "workgroup": sharing.threads,
@@ -236,7 +236,7 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     rows.push(count_row("other arithmetic", counts.alu, None));
     rows.push(count_row("statements", counts.statements, None));
     rows.push(count_row("scalars alive at most", counts.max_live, None));
-    let per = match compiled.graph.invocation.pixels() {
+    let per = match compiled.graph.invocation.block_size() {
         [1, 1] => "a pixel".to_owned(),
         [width, height] => format!("{width}x{height} pixels"),
     };
@@ -265,7 +265,7 @@ fn print_sharing(sharing: &Sharing) {
     let rows = sharing.tiles.iter().map(|tile| {
         let ([left, upper], [width, height]) = (tile.first, tile.size);
         let cells = [
-            tile.of(),
+            tile.display_name(),
             format!("{width}x{height} from ({left}, {upper})"),
             tile.bytes.to_string(),
             tile.reads.to_string(),
@@ -281,7 +281,7 @@ fn print_sharing(sharing: &Sharing) {
         "{}",
         table::render_table(&[&head, "texels", "bytes", "reads", "now"], &rows)
     );
-    for apart in &sharing.apart {
+    for apart in &sharing.unshared {
         let (reads, of) = (apart.reads, &apart.texture);
         let noun = if reads == 1 { "read" } else { "reads" };
         outln!("{reads} {noun} of `{of}` not shared: {}", apart.why);
@@ -299,7 +299,7 @@ fn print_gathered(gathered: &[Gathered]) {
     }
     let rows = gathered
         .iter()
-        .map(|g| vec![g.of(), g.reads.to_string(), g.gathers.to_string()]);
+        .map(|g| vec![g.display_name(), g.reads.to_string(), g.gathers.to_string()]);
     let rows: Vec<Vec<String>> = rows.collect();
     out!("{}", table::render_table(&["Gathered", "reads", "gathers"], &rows));
 }
@@ -308,7 +308,7 @@ fn print_gathered(gathered: &[Gathered]) {
 fn print_loops(compiled: &Compiled) {
     let loops = compiled.loops.iter().map(|report| {
         let cells = [
-            report.path(),
+            report.policy_path(),
             report.unroll.to_string(),
             report.copies.to_string(),
             report.operations.to_string(),
@@ -330,7 +330,7 @@ fn print_loops(compiled: &Compiled) {
                 Unroll::Full => "was unrolled",
                 _ => "was left in the shader",
             };
-            outln!("`{}` {became}: {reason}", report.path());
+            outln!("`{}` {became}: {reason}", report.policy_path());
         }
     }
 }

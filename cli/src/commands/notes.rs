@@ -37,7 +37,7 @@ fn multiplied_factors(compiled: &Compiled) -> Option<String> {
     if most.copies < MANY_COPIES || !matches!(most.unroll, Unroll::Partial(_)) {
         return None;
     }
-    let (path, unroll) = (most.path(), most.unroll.to_string());
+    let (path, unroll) = (most.policy_path(), most.unroll.to_string());
     let factor = unroll.trim_start_matches("partial(").trim_end_matches(')');
     Some(format!(
         "`{path}` is written {} times: the factors of loops in loops multiply; give one to this loop alone: `--unroll none --unroll-loop {path}={factor}`",

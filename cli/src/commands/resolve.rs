@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
-use straightline_bench::execute::interpret;
+use straightline_bench::execute::interpret_kernel;
 use straightline_codegen::{Compiled, Kernel, OptionValue, OptionValues, Settings, files};
 use straightline_kernels::prelude::Frame;
 use straightline_oracle::metrics;
@@ -24,7 +24,7 @@ pub fn resolve_capture(args: &ResolveArgs) -> Result<(), Failure> {
     let kernel = Kernel::builtin("sraa")?;
     let settings = with_capture(&kernel, &args.options, &capture)?;
     let compiled = kernel.compile(&settings)?;
-    let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::from_error)?;
+    let inputs = gbuffer::sraa_inputs(&capture, &compiled.options).map_err(Failure::from_error)?;
     let warnings = capture_warnings(&capture, &compiled.options);
     for warning in &warnings {
         errln!("warning: {warning}");
@@ -36,7 +36,7 @@ pub fn resolve_capture(args: &ResolveArgs) -> Result<(), Failure> {
             (resolved.map_err(Failure::from_error)?, gpu.describe())
         }
         Executor::Cpu => {
-            let resolved = interpret::<f32>(&compiled, &inputs, false).map_err(Failure::from_error)?;
+            let resolved = interpret_kernel::<f32>(&compiled, &inputs, false).map_err(Failure::from_error)?;
             (resolved.frame(&inputs), "CPU interpreter".to_owned())
         }
     };
@@ -44,15 +44,15 @@ pub fn resolve_capture(args: &ResolveArgs) -> Result<(), Failure> {
         .reference
         .then(|| measure_errors(&capture, &resolved))
         .transpose()?;
-    picture::write(&args.out, &resolved).map_err(Failure::from_error)?;
+    picture::write_picture(&args.out, &resolved).map_err(Failure::from_error)?;
     print_report(args, &compiled, &by, &resolved, errors, &warnings)
 }
 
 /// Warns of flaws that make a picture worse than it need be, and show in the capture.
 fn capture_warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
     let mut warnings = Vec::new();
-    if let Some(misplaced) = gbuffer::misplaced(capture) {
-        warnings.push(misplaced.words().to_owned());
+    if let Some(misplaced) = gbuffer::find_misplaced(capture) {
+        warnings.push(misplaced.describe_remedy().to_owned());
     }
     let by_planes = options.choice("metric") == Some("planes-normals");
     if let Some(share) = gbuffer::bent_normals(capture).filter(|_| by_planes) {
@@ -62,7 +62,7 @@ fn capture_warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
             100.0 * share
         ));
     }
-    if let Some(coarse) = gbuffer::coarse(capture, options) {
+    if let Some(coarse) = gbuffer::detect_coarse_depth(capture, options) {
         warnings.push(format!(
             "depth is too coarse: {:.0} % of the samples on even ground are off their plane by what counts as more than {}, {:.1e}, and a tenth \
              by {:.1e} and more; store depth in 32 bits, reversed, move the near plane away, or set a lower depth-scale or higher thresholds",

@@ -24,7 +24,7 @@ fn two_pictures_are_compared() {
         ("a.png", 0.0),
         ("b.png", 0.1),
     ] {
-        picture::write(&folder.join(name), &grey(20, light)).expect("written");
+        picture::write_picture(&folder.join(name), &grey(20, light)).expect("written");
     }
     // A pixel of 400 is off by 0.1: 20 dB, and 26.02 for the 399 that are right.
     let said = finishes(&["compare", &path("b.exr"), &path("a.exr")]);
@@ -51,8 +51,8 @@ fn two_pictures_are_compared() {
 fn pictures_of_two_sizes_are_refused() {
     let folder = scratch("compare-sizes");
     let path = |name: &str| folder.join(name).display().to_string();
-    picture::write(&folder.join("a.png"), &grey(20, 0.0)).expect("written");
-    picture::write(&folder.join("b.png"), &grey(21, 0.0)).expect("written");
+    picture::write_picture(&folder.join("a.png"), &grey(20, 0.0)).expect("written");
+    picture::write_picture(&folder.join("b.png"), &grey(21, 0.0)).expect("written");
     fails(
         &["compare", &path("a.png"), &path("b.png")],
         1,

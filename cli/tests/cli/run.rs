@@ -280,7 +280,7 @@ fn picture(folder: &Path, name: &str, size: glam::UVec2, of: impl Fn(u32, u32) -
     let texels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| of(x, y)));
     let path = folder.join(name);
     let frame = straightline_kernels::prelude::Frame::new(size, texels.collect());
-    straightline_scene::picture::write(&path, &frame).unwrap();
+    straightline_scene::picture::write_picture(&path, &frame).unwrap();
     path.to_str().unwrap().to_owned()
 }
 
@@ -336,7 +336,7 @@ fn volumes_cubes_and_integers_come_from_files() {
             let finished = run(table, &faces, &ids, executor);
             let said = String::from_utf8_lossy(&finished.stderr).into_owned();
             assert!(finished.status.success(), "{said}");
-            let found = straightline_scene::picture::read(Path::new(out)).unwrap();
+            let found = straightline_scene::picture::read_picture(Path::new(out)).unwrap();
             for (k, texel) in found.texels().iter().enumerate() {
                 let (x, y) = ((k % 4) as f32 / 4.0, (k / 4) as f32);
                 let expected = vec4(0.25, y * 0.5, x * 0.5, 0.0);

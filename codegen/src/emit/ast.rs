@@ -38,7 +38,7 @@ impl Ty {
 
     /// Returns a scalar or vector of `lanes` such components.
     pub fn shape_of(self, lanes: usize) -> Ty {
-        let scalar = self.kind().unwrap_or(Scalar::F32);
+        let scalar = self.scalar_kind().unwrap_or(Scalar::F32);
         Ty {
             shape: Type::value(scalar, lanes as u8),
             ..self
@@ -47,13 +47,13 @@ impl Ty {
 
     /// Returns the type of a component, in full precision.
     pub fn element_of(self) -> Type {
-        Type::scalar(self.kind().unwrap_or(Scalar::F32))
+        Type::scalar(self.scalar_kind().unwrap_or(Scalar::F32))
     }
 
     /// An element of an array; a value is its own.
     pub fn element_ty(self) -> Ty {
         Ty {
-            shape: self.shape.element(),
+            shape: self.shape.element_type(),
             ..self
         }
     }

@@ -6,7 +6,7 @@ use half::f16;
 /// The `f16` nearest to an `f32`, with the fewest digits that give it back. What becomes of numbers that it cannot
 /// hold, `ir::Real::made` says.
 pub fn half_literal(bits: u32) -> Text {
-    let x = straightline_evaluator::ir::F16::nearest(f32::from_bits(bits).into());
+    let x = straightline_evaluator::ir::F16::nearest_finite(f32::from_bits(bits).into());
     Text::literal(format!("{}h", shortest_decimal(x)), x.is_sign_negative())
 }
 

@@ -64,7 +64,7 @@ pub fn check_host_reads(compiled: &Compiled, resources: &Resources) -> Result<()
         }
     }
     let graph = &compiled.graph;
-    let live = graph.ids().filter(|id| compiled.schedule.has(*id));
+    let live = graph.node_ids().filter(|id| compiled.schedule.has_node(*id));
     for node in live.map(|id| graph.node(id)) {
         let Some(texture) = node.op.texture() else { continue };
         let name = &resources.texture(texture).name;

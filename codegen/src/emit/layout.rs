@@ -8,7 +8,7 @@ pub fn layout_uniforms(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
     let mut at = 0u32;
     let mut fields = Vec::new();
     for uniform in uniforms {
-        let (align, size) = uniform.ty.layout();
+        let (align, size) = uniform.ty.memory_layout();
         at = at.next_multiple_of(align);
         fields.push(UniformField {
             name: uniform.name.clone(),
@@ -28,7 +28,7 @@ pub fn layout_uniforms(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
 }
 
 /// The type of what a uniform of type `ty` is a part of.
-fn whole_type(ty: Type, part: &ir::Part) -> ValueType {
+fn whole_type(ty: Type, part: &ir::UniformPart) -> ValueType {
     let ty = value_type(ty);
     match part.columns {
         true => ValueType::Matrix {
@@ -45,7 +45,7 @@ fn whole_type(ty: Type, part: &ir::Part) -> ValueType {
 
 /// A type as hosts see it. No host sees a boolean: where one is stored it is a `u32`.
 pub fn value_type(ty: Type) -> ValueType {
-    let of = match ty.kind() {
+    let of = match ty.scalar_kind() {
         Some(ir::Scalar::I32) => Scalar::I32,
         Some(ir::Scalar::U32 | ir::Scalar::Usize | ir::Scalar::Bool) => Scalar::U32,
         Some(ir::Scalar::F32) | None => Scalar::F32,
@@ -58,6 +58,6 @@ pub fn value_type(ty: Type) -> ValueType {
             components: lanes,
             count: len,
         },
-        Type::Value { .. } | Type::Results => ValueType::of(of, ty.components()),
+        Type::Value { .. } | Type::Results => ValueType::of(of, ty.component_count()),
     }
 }

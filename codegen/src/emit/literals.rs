@@ -23,7 +23,7 @@ pub fn decimal_digits(x: f32) -> String {
 
 /// Approximate columns of a scalar constant, in any language.
 pub fn number_columns(ty: Ty, bits: u32) -> usize {
-    match ty.kind() {
+    match ty.scalar_kind() {
         Some(Scalar::F32) => float_columns(f32::from_bits(bits)) + usize::from(ty.half),
         Some(Scalar::I32) => (bits as i32).to_string().len(),
         Some(Scalar::U32) => bits.to_string().len() + 1,

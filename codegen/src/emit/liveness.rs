@@ -18,8 +18,8 @@ pub fn most_alive<'g>(module: &Module<'g>) -> (u32, Option<&'g Origin>) {
 pub fn register_count(ty: ir::Type) -> u32 {
     match ty {
         ir::Type::Array { components, len, .. } => u32::from(components).saturating_mul(len),
-        _ if ty.kind() == Some(Scalar::Bool) => 0,
-        _ => u32::from(ty.components()),
+        _ if ty.scalar_kind() == Some(Scalar::Bool) => 0,
+        _ => u32::from(ty.component_count()),
     }
 }
 
@@ -59,7 +59,11 @@ impl<'g> Walk<'g> {
         };
         for variable in &module.variables {
             let ty = variable.ty.shape;
-            let scalars = if ty.is_array() { 1 } else { u32::from(ty.components()) };
+            let scalars = if ty.is_array() {
+                1
+            } else {
+                u32::from(ty.component_count())
+            };
             walk.slots.push((walk.width.len() as Slot, scalars));
             let each = if ty.is_array() {
                 register_count(ty)
@@ -109,10 +113,10 @@ impl<'g> Walk<'g> {
             Op::Construct => {
                 let mut before = 0;
                 let part = value.args.iter().find(|part| {
-                    before += u32::from(part.ty.components());
+                    before += u32::from(part.ty.component_count());
                     k < before
                 })?;
-                self.renamed_component(part, k + u32::from(part.ty.components()) - before, changes)
+                self.renamed_component(part, k + u32::from(part.ty.component_count()) - before, changes)
             }
             _ => None,
         }

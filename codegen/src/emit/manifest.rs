@@ -138,7 +138,7 @@ fn uniform_field(field: &Field) -> UniformField {
         name: field.name.clone(),
         ty: value_type(field.ty),
         offset: field.offset,
-        size: field.ty.layout().1,
+        size: field.ty.memory_layout().1,
         default: None,
         part: None,
     }

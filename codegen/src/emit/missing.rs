@@ -31,7 +31,7 @@ pub fn check_features(compiled: &Compiled, resources: &Resources, target: Target
         );
     }
     let graph = &compiled.graph;
-    let live = graph.ids().filter(|id| compiled.schedule.has(*id));
+    let live = graph.node_ids().filter(|id| compiled.schedule.has_node(*id));
     let ops: Vec<&Op> = live.map(|id| &graph.node(id).op).collect();
     let any = |is: &dyn Fn(&Op) -> bool| ops.iter().any(|op| is(op));
     let of_kind = |kind: TextureKind| resources.read.iter().any(|t| resources.texture(t.index).kind == kind);
@@ -39,7 +39,7 @@ pub fn check_features(compiled: &Compiled, resources: &Resources, target: Target
     let with_compute = "glsl430 or essl310, or any that is newer";
     let needs = [
         (
-            combined && any(&|op| matches!(op, Op::Message(_))),
+            combined && any(&|op| matches!(op, Op::QuadSwap(_))),
             "swaps values by quad operations",
             modern,
         ),

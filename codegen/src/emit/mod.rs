@@ -135,7 +135,7 @@ impl Compiled {
             let _meter = Meter::resume(self.limits, self.time);
             let (compiled, resources) = plan_emission(self, options)?;
             let (_, counts) = shader_tree(&compiled, &resources);
-            within_limits(&compiled, counts.statements, limits::exceeded(0))?;
+            within_limits(&compiled, counts.statements, limits::exceeded_limit(0))?;
             resources.build_manifest(&compiled, &counts)
         };
         described().map_err(|refusal: Refusal| refusal.into_errors(self))
@@ -158,7 +158,7 @@ fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Ex
     let named = |report: &LoopReport| {
         format!(
             ", most of them of the loop `{}` with {} copies",
-            report.path(),
+            report.policy_path(),
             report.copies
         )
     };
@@ -252,7 +252,7 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
     let mut manifest = resources.build_manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
     for target in &options.targets {
-        within_limits(compiled, statements, limits::exceeded(0))?;
+        within_limits(compiled, statements, limits::exceeded_limit(0))?;
         let bytes = match target {
             Target::Wgsl => shader.print_wgsl(&counts)?.into_bytes(),
             Target::Glsl450 | Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => {

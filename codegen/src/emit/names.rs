@@ -235,7 +235,7 @@ fn value_name(graph: &Graph, id: NodeId) -> String {
         Op::Unary(op) => unary_name(*op).to_owned(),
         Op::Binary(op) => binary_name(*op, node.ty).to_owned(),
         Op::Lane => "lane".to_owned(),
-        Op::Message(_) => "swapped".to_owned(),
+        Op::QuadSwap(_) => "swapped".to_owned(),
         Op::Derivative(_) => "slope".to_owned(),
         Op::Dot => "dotted".to_owned(),
         Op::Cross => "crossed".to_owned(),
@@ -245,7 +245,7 @@ fn value_name(graph: &Graph, id: NodeId) -> String {
         Op::MakeArray => "table".to_owned(),
         Op::ArrayGet => "element".to_owned(),
         Op::ArraySet => "array".to_owned(),
-        Op::Convert => match node.ty.kind() {
+        Op::Convert => match node.ty.scalar_kind() {
             Some(Scalar::F32) => "as_float".to_owned(),
             _ => "as_integer".to_owned(),
         },
@@ -295,8 +295,8 @@ fn binary_name(op: BinaryOp, ty: Type) -> &'static str {
         Max => "larger",
         Pow => "power",
         Atan2 => "angle",
-        And if ty.kind() == Some(Scalar::Bool) => "both",
-        Or if ty.kind() == Some(Scalar::Bool) => "either",
+        And if ty.scalar_kind() == Some(Scalar::Bool) => "both",
+        Or if ty.scalar_kind() == Some(Scalar::Bool) => "either",
         And | Or | Xor => "masked",
         Shl | Shr => "shifted",
         Eq => "is_equal",

@@ -36,11 +36,11 @@ pub fn apply_origin<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result
             "leave the precision at f32",
         ));
     }
-    let graph = passes::clean(&passes::from_below(graph));
-    verify::verify(&graph).map_err(|why| Refusal::invalid_text(&compiled.kernel, "graph", &why))?;
-    let schedule = passes::schedule(&graph, compiled.policy.reads);
+    let graph = passes::clean_graph(&passes::from_below(graph));
+    verify::verify_graph(&graph).map_err(|why| Refusal::invalid_text(&compiled.kernel, "graph", &why))?;
+    let schedule = passes::schedule_graph(&graph, compiled.policy.reads);
     let turned = Compiled {
-        counts: passes::count(&graph, &schedule),
+        counts: passes::count_operations(&graph, &schedule),
         graph,
         schedule,
         quad: None,

@@ -36,12 +36,12 @@ impl BoundOutput {
 
 /// The texel format of a value: of 3 or 4 floats that of colours.
 fn texel_format(ty: Type, colour: Format) -> Format {
-    let component = match ty.kind() {
+    let component = match ty.scalar_kind() {
         Some(Scalar::I32) => Component::Sint,
         Some(Scalar::U32) => Component::Uint,
         _ => Component::Float,
     };
-    let components = widen_texel(ty).components();
+    let components = widen_texel(ty).component_count();
     match (component, components) {
         (Component::Float, 4) => colour,
         _ => {
@@ -68,7 +68,7 @@ pub fn whole_texel(value: Expr) -> Expr {
         return value;
     }
     let ty = Ty { shape, ..value.ty };
-    let one = Expr::splat(value.ty.element_of(), one_bits(value.ty.kind()));
+    let one = Expr::splat(value.ty.element_of(), one_bits(value.ty.scalar_kind()));
     Expr::new(Op::Construct, vec![value, one], ty)
 }
 

@@ -7,7 +7,7 @@ pub const UNIFORMS: &str = "parameters";
 /// Name of the sampler that GLSL needs to name a texture; no filtering is ever asked of it.
 pub const SAMPLER: &str = "unfiltered";
 /// Name of what is written by a kernel that gives one value.
-pub const OUTPUT: &str = straightline_evaluator::ir::Target::ALONE;
+pub const OUTPUT: &str = straightline_evaluator::ir::Target::DEFAULT_NAME;
 /// Mark before the name of an output that has the name of an input, where one list has both: `output.depth`.
 pub const OF_OUTPUT: &str = "output.";
 /// Name of the structure of several outputs.

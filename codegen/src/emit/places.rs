@@ -6,7 +6,7 @@ use crate::spec::Target;
 use crate::spec::{LAST_BINDING, LAST_GROUP, Register};
 use std::collections::BTreeMap;
 use straightline_evaluator::shorten;
-use straightline_evaluator::suggest;
+use straightline_evaluator::suggest_name;
 use straightline_manifest::Stage;
 
 /// Something that a shader binds.
@@ -250,5 +250,5 @@ fn unknown_name(
     }
     let known: Vec<&str> = bound.iter().map(|b| b.name.as_str()).collect();
     let what = format!("the shader binds nothing called `{}`", shorten(name));
-    Some((what, suggest(name, &known, "it binds")))
+    Some((what, suggest_name(name, &known, "it binds")))
 }

@@ -13,8 +13,8 @@ use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
-    Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Target as Picture, Texture,
-    Type, Uniform, Varying,
+    Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, SharedArray, Structure, Target as Picture,
+    Texture, Type, Uniform, Varying,
 };
 use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -100,7 +100,7 @@ pub struct Resources {
     /// `true` if the shader reads its workgroup's position in the dispatch.
     pub asks_group: bool,
     /// Workgroup memory, used or not, by index.
-    pub(super) shared: Vec<Shared>,
+    pub(super) shared: Vec<SharedArray>,
     /// Pictures that are written at any place, by index: the last of `outputs`.
     pub(super) images: Vec<Picture>,
     /// Index of each that is used.
@@ -113,8 +113,8 @@ impl Resources {
     /// Collects the bindings of a scheduled graph.
     pub fn from_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, Refusal> {
         let graph = &compiled.graph;
-        let live = |id: &NodeId| compiled.schedule.has(*id);
-        let ops: Vec<&Op> = graph.ids().filter(live).map(|id| &graph.node(id).op).collect();
+        let live = |id: &NodeId| compiled.schedule.has_node(*id);
+        let ops: Vec<&Op> = graph.node_ids().filter(live).map(|id| &graph.node(id).op).collect();
         let kernel = &compiled.kernel;
         if options.region && (compiled.quad.is_some() || compiled.transport.is_some()) {
             let what = format!("`{kernel}` computes quads, which begin at even pixels, and a region may begin at any");
@@ -160,7 +160,7 @@ impl Resources {
         // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
         let framed = |index: &u32| graph.textures[*index as usize].framed;
         let all = || 0..graph.textures.len() as u32;
-        let sized_by_output = options.stage == Stage::Compute && graph.pictures().next().is_some();
+        let sized_by_output = options.stage == Stage::Compute && graph.written_targets().next().is_some();
         // A shader without outputs that could tell needs it anyway: pixels outside of the frame do nothing.
         let needs_size =
             !sized_by_output && (ops.contains(&&Op::FrameSize) || (options.stage == Stage::Compute && !options.region));
@@ -229,8 +229,11 @@ impl Resources {
         let uses = |k: u32| ops.iter().any(|op| op.memory() == Some(Memory::Shared(k)));
         let used_shared: Vec<u32> = (0..graph.shared.len() as u32).filter(|k| uses(*k)).collect();
         let entry = super::entry::resolve_entry_name(&compiled.kernel, options)?;
-        let mut outputs: Vec<BoundOutput> = graph.pictures().map(|t| BoundOutput::new(t, options.format)).collect();
-        let subgroups = ops.iter().any(|op| matches!(op, Op::Message(_)));
+        let mut outputs: Vec<BoundOutput> = graph
+            .written_targets()
+            .map(|t| BoundOutput::new(t, options.format))
+            .collect();
+        let subgroups = ops.iter().any(|op| matches!(op, Op::QuadSwap(_)));
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
         let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
         let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
@@ -332,7 +335,7 @@ impl Resources {
             needs_frame,
             subgroups,
             varyings,
-            block: graph.invocation.pixels(),
+            block: graph.invocation.block_size(),
             group,
             asks_local: ops.contains(&&Op::Thread),
             asks_group: ops.contains(&&Op::GroupOrigin),
@@ -395,14 +398,14 @@ impl Resources {
     /// The type of the elements of memory, and its name.
     pub fn element_and_name(&self, memory: Memory) -> (Type, &str) {
         match memory {
-            Memory::Buffer(k) => (self.buffer(k).value(), &self.buffer(k).name),
+            Memory::Buffer(k) => (self.buffer(k).value_type(), &self.buffer(k).name),
             Memory::Shared(k) => (self.shared[k as usize].element, &self.shared[k as usize].name),
             Memory::Image(k) => (self.images[k as usize].ty, &self.images[k as usize].name),
         }
     }
 
     /// Workgroup memory that is used.
-    pub fn shared_memory(&self) -> impl Iterator<Item = &Shared> {
+    pub fn shared_memory(&self) -> impl Iterator<Item = &SharedArray> {
         self.used_shared.iter().map(|k| &self.shared[*k as usize])
     }
 

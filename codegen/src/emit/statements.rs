@@ -52,7 +52,7 @@ pub fn count_kernel_statements(kernel: &ast::Module<'_>) -> u32 {
 
 /// Lower bound of a kernel's statements, without lowering.
 pub fn statements_at_least(graph: &Graph, schedule: &Schedule) -> u32 {
-    let live = graph.ids().filter(|id| schedule.has(*id));
+    let live = graph.node_ids().filter(|id| schedule.has_node(*id));
     let costs = live.filter(|id| {
         !matches!(
             graph.node(*id).op,

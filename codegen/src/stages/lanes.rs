@@ -27,7 +27,7 @@ pub fn expand_block(work: &mut Work<'_>) -> Result<Made, Refusal> {
             "use blocks of 1 to 64 pixels, such as 2x1 or 2x2",
         ));
     }
-    let expanded = passes::expand(&work.graph, work.settings.block).map_err(|why| {
+    let expanded = passes::expand_lanes(&work.graph, work.settings.block).map_err(|why| {
         Refusal::new(
             format!("the pixels of `{name}` cannot run in step: {why}"),
             "unroll fully and select, so that no loop or branch is left, or compute one pixel at a time",
@@ -56,7 +56,7 @@ pub fn expand_quad(work: &mut Work<'_>) -> Result<Made, Refusal> {
     if work.settings.block != [1, 1] {
         work.transport = Some(Transport::Block);
     }
-    let expanded = passes::expand(&work.graph, size).map_err(|why| {
+    let expanded = passes::expand_lanes(&work.graph, size).map_err(|why| {
         Refusal::new(
             format!("the lanes of `{}` do not run in step: {why}", work.kernel),
             "decide loops and branches by what the whole quad has in common; choose lane by lane with `select`",

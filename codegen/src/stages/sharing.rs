@@ -41,7 +41,7 @@ pub fn share_by_workgroup(work: &mut Work<'_>) -> Result<Made, Refusal> {
 
 /// Reads four texels at once where several of them are needed.
 pub fn gather_reads(work: &mut Work<'_>) -> Result<Made, Refusal> {
-    let (graph, found) = passes::gathers(&work.graph).map_err(|why| {
+    let (graph, found) = passes::form_gathers(&work.graph).map_err(|why| {
         Refusal::new(
             format!("the reads of `{}` cannot be gathered: {why}", work.kernel),
             "leave `reads` out, or let one invocation compute whole pixels",

@@ -206,7 +206,7 @@ fn whole_shaders_take_nothing_of_a_host() {
         fragment.clone().global_uniforms(true),
     ] {
         let refused = compiled.emit(&options).expect_err("a whole shader");
-        assert_eq!(refused.code(), Some(Code::UnfitSetting));
+        assert_eq!(refused.first_code(), Some(Code::UnfitSetting));
         assert!(compiled.emit(&options.form(Form::Function)).is_ok());
     }
 }
@@ -304,8 +304,8 @@ fn every_kernel_is_read_in_the_languages_of_opengl() {
                         compilers::read(&emitted).unwrap_or_else(|e| panic!("{name} {target}: {e}"));
                         read += 1;
                     }
-                    Err(error) if error.code() == Some(Code::NotInTarget) => missing += 1,
-                    Err(error) if error.code() == Some(Code::FrameSize) => {}
+                    Err(error) if error.first_code() == Some(Code::NotInTarget) => missing += 1,
+                    Err(error) if error.first_code() == Some(Code::FrameSize) => {}
                     Err(error) => panic!("{name} {target}: {error}"),
                 }
             }
@@ -345,7 +345,7 @@ fn basic_blocks_are_those_of_the_spirv() {
             let emitted = match compiled.emit(&options) {
                 Ok(emitted) => emitted,
                 // No texture of the frame's size tells a fragment of it.
-                Err(error) if error.code() == Some(Code::FrameSize) => continue,
+                Err(error) if error.first_code() == Some(Code::FrameSize) => continue,
                 Err(error) => panic!("{error}"),
             };
             read(&emitted).unwrap_or_else(|e| panic!("{name}: {e}"));

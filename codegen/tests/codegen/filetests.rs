@@ -19,7 +19,7 @@ const LONGEST: usize = 30;
 fn now(text: &str, template: &Compiled) -> Result<String, String> {
     let input = input(text);
     let graph = parse(input).map_err(|e| e.to_string())?;
-    verify::verify(&graph)?;
+    verify::verify_graph(&graph)?;
     let how = directive(text, "emit").ok_or("no directive")?;
     let case = with_output(input, &emitted(graph, how, template)?);
     let lines = case.lines().count();
@@ -44,9 +44,9 @@ fn emitted(graph: Graph, how: &str, template: &Compiled) -> Result<String, Strin
         true => ReadOrder::Rows,
         false => ReadOrder::Source,
     };
-    let schedule = passes::schedule(&graph, reads);
+    let schedule = passes::schedule_graph(&graph, reads);
     let compiled = Compiled {
-        counts: passes::count(&graph, &schedule),
+        counts: passes::count_operations(&graph, &schedule),
         graph,
         schedule,
         policy: Policy {
@@ -129,7 +129,7 @@ fn printed_graphs_read_back() {
                 let again = parse(&text).unwrap_or_else(|e| panic!("{} after {stage}: {e}", kernel.name()));
                 assert_eq!(again.nodes, graph.nodes, "{} after {stage}", kernel.name());
                 assert_eq!(print(&again), text, "{} after {stage}", kernel.name());
-                verify::verify(&again).unwrap_or_else(|e| panic!("{} after {stage}: {e}", kernel.name()));
+                verify::verify_graph(&again).unwrap_or_else(|e| panic!("{} after {stage}: {e}", kernel.name()));
             };
             kernel
                 .compile_observed(&settings, &mut observe)

@@ -59,12 +59,12 @@ fn reads_that_wait_for_others_still_wait() {
     assert_eq!(reads(&full).len(), 4);
     assert_eq!(reads(&floor).len(), 4);
     // Each of the three depends on the one before.
-    for (id, node) in floor.ids().zip(&floor.nodes) {
+    for (id, node) in floor.node_ids().zip(&floor.nodes) {
         if node.op.is_read() {
             let needed = needed(&floor, &node.args);
-            let awaited = floor.ids().filter(|k| *k != id && needed.contains(k));
+            let awaited = floor.node_ids().filter(|k| *k != id && needed.contains(k));
             let awaited = awaited.filter(|k| floor.node(*k).op.is_read()).count();
-            let place = floor.ids().take_while(|k| *k != id);
+            let place = floor.node_ids().take_while(|k| *k != id);
             assert_eq!(awaited, place.filter(|k| floor.node(*k).op.is_read()).count());
         }
     }

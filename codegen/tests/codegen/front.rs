@@ -10,7 +10,7 @@ fn value(items: &str, body: &str) -> Result<f32, String> {
     match Kernel::from_text("k.rs", &text, "k").compile(&Settings::default()) {
         Ok(compiled) => {
             let graph: &Graph = &compiled.graph;
-            let bits = graph.constant(graph.outputs()[0]).ok_or("not a constant")?;
+            let bits = graph.constant_bits(graph.outputs()[0]).ok_or("not a constant")?;
             Ok(f32::from_bits(bits[0]))
         }
         Err(errors) => Err(errors

@@ -23,7 +23,7 @@ fn texel(compiled: &Compiled) -> f32 {
     let image = Image::new([1, 1], vec![vec![[0.5, 0.25, 2.0, 1.0]]]).expect("one texel");
     let bindings = Bindings::new().texture("color", &image).uniform("n", &[3.0]);
     let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, [1, 1], &bindings).expect("all is bound");
-    interpreter.pixel(0, 0, &mut interpreter.scratch())[0]
+    interpreter.run_pixel(0, 0, &mut interpreter.new_scratch())[0]
 }
 
 /// Chains as long as the language page allows, with their values.

@@ -98,7 +98,7 @@ fn every_spelling_gives_the_same_bytes() {
                 };
                 assert_eq!(expected.options.spelled()[name], canonical, "{} {name}", entry.name);
                 let texts = emitted(&expected);
-                if expected.options.get(name) == Some(&info.unset()) {
+                if expected.options.get(name) == Some(&info.default_value()) {
                     assert_eq!(texts, unset, "{} {name}={canonical}: the default", entry.name);
                 }
                 for other in others {
@@ -126,7 +126,7 @@ fn defaults_have_one_spelling_and_uniforms_are_none() {
         let kernel = Kernel::builtin(entry.name).expect("it is built in");
         let unset = compile(&kernel, &[]).unwrap_or_else(|errors| panic!("{}:\n{errors}", entry.name));
         for info in kernel.options().expect("options") {
-            let found = compile(&kernel, &[(&info.name, &info.unset().to_string())]);
+            let found = compile(&kernel, &[(&info.name, &info.default_value().to_string())]);
             let found = found.unwrap_or_else(|errors| panic!("{} {}:\n{errors}", entry.name, info.name));
             assert!(found.changed.is_empty(), "{} {}", entry.name, info.name);
             assert_eq!(emitted(&found), emitted(&unset), "{} {}", entry.name, info.name);

@@ -47,9 +47,12 @@ impl Views {
     }
 
     /// Range of bytes in the shown text that a place covers.
-    pub fn range(&self, place: Span) -> Option<Range<usize>> {
+    pub fn shown_range(&self, place: Span) -> Option<Range<usize>> {
         let view = self.0.get(place.file as usize)?;
-        let (start, end) = (view.shown(place.start as usize), view.shown(place.end as usize));
+        let (start, end) = (
+            view.shown_offset(place.start as usize),
+            view.shown_offset(place.end as usize),
+        );
         Some(start..end.max(start))
     }
 }
@@ -69,7 +72,7 @@ impl View {
         for (line, text) in file.text.split_inclusive('\n').enumerate() {
             view.lines.push(view.text.len());
             let body = text.trim_end_matches(['\n', '\r']);
-            let plain = body.len() <= WIDTH && !body.chars().any(acts);
+            let plain = body.len() <= WIDTH && !body.chars().any(is_unprintable);
             if plain && body.len() + 1 >= text.len() && !text.ends_with("\r\n") {
                 view.text += text;
             } else {
@@ -78,7 +81,7 @@ impl View {
                     .flat_map(|p| [p.start as usize, p.end as usize])
                     .find(|at| (start..start + text.len()).contains(at))
                     .map(|at| at - start);
-                view.change(line, text, body, at.unwrap_or(0));
+                view.push_changed_line(line, text, body, at.unwrap_or(0));
             }
             start += text.len();
         }
@@ -90,7 +93,7 @@ impl View {
     }
 
     /// Adds a line that is too long, or has characters to be written out; the error is `at` some byte of it.
-    fn change(&mut self, line: usize, text: &str, body: &str, at: usize) {
+    fn push_changed_line(&mut self, line: usize, text: &str, body: &str, at: usize) {
         let before = body.get(..at).map_or(usize::MAX, |text| text.chars().count());
         let before = if before == usize::MAX { 0 } else { before };
         let long = body.chars().count() > WIDTH;
@@ -114,7 +117,7 @@ impl View {
                 }
                 continue;
             }
-            if acts(c) {
+            if is_unprintable(c) {
                 let shown = c.escape_unicode().to_string();
                 width += shown.len();
                 self.text += &shown;
@@ -136,7 +139,7 @@ impl View {
     }
 
     /// Byte of the shown text for a byte of the file.
-    fn shown(&self, byte: usize) -> usize {
+    fn shown_offset(&self, byte: usize) -> usize {
         // Lines are as long as they were, but for those that are changed.
         let mut moved: isize = 0;
         for changed in &self.changed {
@@ -196,7 +199,7 @@ impl<'a> Files<'a> for Views {
 
 /// Returns whether a terminal or an editor acts on a character instead of showing it: controls, line ends other than a line feed, marks
 /// that change the direction of writing, and characters without a width.
-fn acts(c: char) -> bool {
+fn is_unprintable(c: char) -> bool {
     (c.is_control() && c != '\t')
         || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
@@ -205,7 +208,7 @@ fn acts(c: char) -> bool {
 pub fn written_out(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
-        if acts(c) && c != '\n' {
+        if is_unprintable(c) && c != '\n' {
             shown.extend(c.escape_unicode());
         } else {
             shown.push(c);
@@ -215,7 +218,7 @@ pub fn written_out(text: &str) -> String {
 }
 
 /// A message: written out, and of one that repeats a long text its beginning and its end.
-pub fn message(text: &str) -> String {
+pub fn printable_message(text: &str) -> String {
     let shown = written_out(text);
     let count = shown.chars().count();
     if count <= MESSAGE {

@@ -1,7 +1,7 @@
 //! Values where a type is stated.
 
 use super::Evaluator;
-use super::enums::Choice;
+use super::enums::EnumValue;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Generic, Type as SourceType};
@@ -11,24 +11,24 @@ use std::rc::Rc;
 impl Evaluator<'_> {
     /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
     /// integer that type.
-    pub fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
+    pub fn ascribe_type(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
         let ty = match ty {
             // A mutable reference goes on being one; where a value or a shared reference is stated, it is read.
-            Some(SourceType::Ref(true, _)) => return self.referring(value, span),
-            Some(ty) => Some(ty.bare()),
+            Some(SourceType::Ref(true, _)) => return self.ascribe_reference(value, span),
+            Some(ty) => Some(ty.peel_refs()),
             None => return Ok(value),
         };
-        let value = self.loaded(value, span)?;
+        let value = self.deref_value(value, span)?;
         if let Some(lane) = ty.and_then(|ty| self.lane_type(ty)) {
-            return self.ascribe(value, Some(lane), span);
+            return self.ascribe_type(value, Some(lane), span);
         }
         match (ty, value) {
             (Some(SourceType::Name(_, args)), Value::Enum(choice)) => self.ascribe_choice(choice, args, span),
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
             (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
-                let len = self.expr(len)?;
+                let len = self.eval_expr(len)?;
                 let Some(len @ 1..=65536) = self.known_int(&len) else {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeValue,
                         span,
                         "the length of this array is no compile-time constant above 0",
@@ -39,15 +39,17 @@ impl Evaluator<'_> {
                 };
                 let mut elements = Vec::new();
                 for k in 0..len {
-                    self.step(span)?;
-                    let value = self.invoke(&f, vec![Value::Int(k)], span)?;
-                    elements.push(self.ascribe(value, Some(element), span)?);
+                    self.count_step(span)?;
+                    let value = self.call_value(&f, vec![Value::Int(k)], span)?;
+                    elements.push(self.ascribe_type(value, Some(element), span)?);
                 }
                 Ok(Value::array(elements))
             }
             (Some(SourceType::Array(element, len)), Value::Array(elements)) => {
                 check_length(len.as_deref(), elements.len(), span)?;
-                let each = elements.iter().map(|e| self.ascribe(e.clone(), Some(element), span));
+                let each = elements
+                    .iter()
+                    .map(|e| self.ascribe_type(e.clone(), Some(element), span));
                 Ok(Value::array(each.collect::<Eval<_>>()?))
             }
             (Some(SourceType::Array(_, len)), Value::Node(id)) => {
@@ -60,7 +62,7 @@ impl Evaluator<'_> {
                 let each = parts
                     .into_iter()
                     .zip(types)
-                    .map(|(part, ty)| self.ascribe(part, Some(ty), span));
+                    .map(|(part, ty)| self.ascribe_type(part, Some(ty), span));
                 Ok(Value::Tuple(each.collect::<Eval<_>>()?))
             }
             (_, value) => Ok(value),
@@ -68,13 +70,13 @@ impl Evaluator<'_> {
     }
 
     /// What an enum holds, by the types of its fields.
-    fn ascribe_choice(&mut self, choice: Rc<Choice>, args: &[SourceType], span: Span) -> Eval {
-        let holds = choice.all().next().is_some();
+    fn ascribe_choice(&mut self, choice: Rc<EnumValue>, args: &[SourceType], span: Span) -> Eval {
+        let holds = choice.all_fields().next().is_some();
         let Some(definition) = self.library.enums.get(&*choice.ty).filter(|_| holds) else {
             return Ok(Value::Enum(choice));
         };
-        let mut ascribed = Choice::clone(&choice);
-        for (variant, fields) in definition.variants.iter().zip(&mut ascribed.held) {
+        let mut ascribed = EnumValue::clone(&choice);
+        for (variant, fields) in definition.variants.iter().zip(&mut ascribed.variants) {
             let values = fields.iter_mut().flatten();
             for ((_, ty, _), (_, value)) in variant.fields.iter().zip(values) {
                 let parameter = definition.generics.iter().position(
@@ -84,17 +86,17 @@ impl Evaluator<'_> {
                     Some(k) => args.get(k),
                     None => Some(ty),
                 };
-                *value = self.ascribe(value.clone(), ty, span)?;
+                *value = self.ascribe_type(value.clone(), ty, span)?;
             }
         }
         Ok(Value::Enum(Rc::new(ascribed)))
     }
 
     /// A value where `&mut T` is stated.
-    fn referring(&mut self, value: Value, span: Span) -> Eval {
+    fn ascribe_reference(&mut self, value: Value, span: Span) -> Eval {
         match value {
             Value::Ref(_) | Value::Poison => Ok(value),
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 format!("{} where a mutable reference is stated", other.describe()),
@@ -127,7 +129,7 @@ impl Evaluator<'_> {
                     Value::Node(id) => self.ty(*id),
                     _ => Type::I32,
                 };
-                let help = match (found.components(), stated.components()) {
+                let help = match (found.component_count(), stated.component_count()) {
                     (1, 1) => format!("convert it with `as {name}`"),
                     (a, b) if a == b => format!("convert it with `.as_{}()`", name.to_lowercase()),
                     (1, _) => format!("write `{name}::splat(...)`"),
@@ -136,14 +138,14 @@ impl Evaluator<'_> {
                 };
                 let found = found.in_rust();
                 Err(
-                    Diagnostic::at(Code::MismatchedTypes, span, format!("{found} where `{name}` is stated"))
+                    Diagnostic::error_at(Code::MismatchedTypes, span, format!("{found} where `{name}` is stated"))
                         .label("of another type")
                         .help(help)
                         .into(),
                 )
             }
             Value::Poison => Ok(value),
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 format!("{} where `{name}` is stated", other.describe()),
@@ -160,7 +162,7 @@ fn check_length(stated: Option<&Expr>, found: usize, span: Span) -> Eval<()> {
     };
     match usize::try_from(*stated) == Ok(found) {
         true => Ok(()),
-        false => Err(Diagnostic::at(
+        false => Err(Diagnostic::error_at(
             Code::MismatchedTypes,
             span,
             format!("an array of {found} where one of {stated} is stated"),

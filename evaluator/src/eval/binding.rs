@@ -9,42 +9,42 @@ use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// Binds the names of a pattern that takes every value to the parts of a value.
-    pub fn bind(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
-        self.bound(pattern, value, false, span)
+    pub fn bind_pattern(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
+        self.bind_parts(pattern, value, false, span)
     }
 
     /// Binds the names of a pattern that has taken a value.
     pub fn bind_matched(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
-        self.bound(pattern, value, true, span)
+        self.bind_parts(pattern, value, true, span)
     }
 
-    fn bound(&mut self, pattern: &Pattern, value: Value, matched: bool, span: Span) -> Eval<()> {
+    fn bind_parts(&mut self, pattern: &Pattern, value: Value, matched: bool, span: Span) -> Eval<()> {
         match pattern {
             Pattern::Wild | Pattern::Rest => Ok(()),
             // What it compares with has been compared, and names under a `|` are bound by a pattern for each.
             Pattern::Value(_) | Pattern::Range(..) | Pattern::Or(_) if matched => Ok(()),
             Pattern::At(name, _, inner, at) => {
-                self.name(&value, name, *at);
+                self.name_value(&value, name, *at);
                 self.scope.bind(name, value.clone());
-                self.bound(inner, value, matched, span)
+                self.bind_parts(inner, value, matched, span)
             }
             Pattern::Name(name, _, at) => {
-                self.name(&value, name, *at);
+                self.name_value(&value, name, *at);
                 self.scope.bind(name, value);
                 Ok(())
             }
             Pattern::Ref(inner, at) => {
-                let value = self.loaded(value, *at)?;
-                self.bound(inner, value, matched, span)
+                let value = self.deref_value(value, *at)?;
+                self.bind_parts(inner, value, matched, span)
             }
             Pattern::Tuple(parts, at) => match self.taken_apart(value, parts, *at)? {
-                Value::Tuple(values) if Pattern::shared(parts, values.len()).is_some() => {
+                Value::Tuple(values) if Pattern::part_ranges(parts, values.len()).is_some() => {
                     self.each_bound(parts, &values, matched, span)
                 }
                 Value::Poison => parts
                     .iter()
-                    .try_for_each(|part| self.bound(part, Value::Poison, matched, span)),
-                other => Err(Diagnostic::at(
+                    .try_for_each(|part| self.bind_parts(part, Value::Poison, matched, span)),
+                other => Err(Diagnostic::error_at(
                     Code::Pattern,
                     *at,
                     format!("a pattern of {} parts for {}", parts.len(), other.describe()),
@@ -56,37 +56,43 @@ impl Evaluator<'_> {
                 self.each_bound(parts, &elements, matched, span)
             }
             Pattern::Struct(path, fields, at) => {
-                let variant = self.library.variant(path).map(|(_, k, _)| k);
+                let variant = self.library.find_variant(path).map(|(_, k, _)| k);
                 for (name, pattern) in fields {
                     let step = match variant {
-                        Some(k) => Step::Held(k, name.clone()),
+                        Some(k) => Step::VariantField(k, name.clone()),
                         None => Step::Field(name.clone()),
                     };
                     let part = match &value {
                         Value::Poison => Value::Poison,
-                        value => self.part(value, step, *at)?,
+                        value => self.part_of_value(value, step, *at)?,
                     };
-                    self.bound(pattern, part, matched, span)?;
+                    self.bind_parts(pattern, part, matched, span)?;
                 }
                 Ok(())
             }
-            Pattern::Range(..) => Err(Diagnostic::at(Code::RefutablePattern, span, "a `let` cannot compare")
-                .help("use `match`")
-                .into()),
-            Pattern::Value(expr) => Err(
-                Diagnostic::at(Code::RefutablePattern, expr.span, "a `let` cannot compare")
+            Pattern::Range(..) => Err(
+                Diagnostic::error_at(Code::RefutablePattern, span, "a `let` cannot compare")
                     .help("use `match`")
                     .into(),
             ),
-            Pattern::Or(_) => Err(Diagnostic::at(Code::RefutablePattern, span, "a `let` cannot choose")
-                .help("use `match`")
-                .into()),
+            Pattern::Value(expr) => {
+                Err(
+                    Diagnostic::error_at(Code::RefutablePattern, expr.span, "a `let` cannot compare")
+                        .help("use `match`")
+                        .into(),
+                )
+            }
+            Pattern::Or(_) => Err(
+                Diagnostic::error_at(Code::RefutablePattern, span, "a `let` cannot choose")
+                    .help("use `match`")
+                    .into(),
+            ),
         }
     }
 
     /// Binds patterns to the parts of a tuple or an array, `name @ ..` to an array of what the others leave.
     fn each_bound(&mut self, patterns: &[Pattern], parts: &[Value], matched: bool, span: Span) -> Eval<()> {
-        for (pattern, taken) in Pattern::shared(patterns, parts.len()).into_iter().flatten() {
+        for (pattern, taken) in Pattern::part_ranges(patterns, parts.len()).into_iter().flatten() {
             match pattern {
                 Pattern::At(name, _, _, at) if pattern.is_rest() => {
                     let rest = &parts[taken];
@@ -96,15 +102,17 @@ impl Evaluator<'_> {
                         } else {
                             "parts of what is borrowed mutably"
                         };
-                        return Err(Diagnostic::at(Code::Pattern, *at, format!("`{name} @ ..` of {what}"))
-                            .label("not supported")
-                            .help("give each part a name, or leave the name of `..` out")
-                            .into());
+                        return Err(
+                            Diagnostic::error_at(Code::Pattern, *at, format!("`{name} @ ..` of {what}"))
+                                .label("not supported")
+                                .help("give each part a name, or leave the name of `..` out")
+                                .into(),
+                        );
                     }
                     self.scope.bind(name, Value::array(rest.to_vec()));
                 }
                 Pattern::Rest => {}
-                _ => self.bound(pattern, parts[taken.start].clone(), matched, span)?,
+                _ => self.bind_parts(pattern, parts[taken.start].clone(), matched, span)?,
             }
         }
         Ok(())
@@ -114,7 +122,7 @@ impl Evaluator<'_> {
     pub fn elements_of_pattern(&mut self, value: Value, patterns: &[Pattern], at: Span) -> Eval<Vec<Value>> {
         let value = self.taken_apart(value, patterns, at)?;
         let len = self.length_for(&value, patterns);
-        self.elements(&value, len, at)
+        self.array_elements(&value, len, at)
     }
 
     /// How many parts a value is to have so that patterns take it apart.
@@ -127,32 +135,32 @@ impl Evaluator<'_> {
             },
             _ => 0,
         };
-        match Pattern::shared(patterns, has) {
+        match Pattern::part_ranges(patterns, has) {
             Some(_) => has,
             None => patterns.iter().filter(|pattern| !pattern.is_rest()).count(),
         }
     }
 
     /// A part of a value; through a mutable reference, a reference to the part.
-    pub fn part(&mut self, value: &Value, step: Step, span: Span) -> Eval {
+    pub fn part_of_value(&mut self, value: &Value, step: Step, span: Span) -> Eval {
         match (value, &step) {
             (Value::Ref(place), _) => {
-                let place = self.followed((**place).clone(), span)?.part(step);
-                self.read(&place, span)?;
+                let place = self.follow_references((**place).clone(), span)?.with_step(step);
+                self.read_place(&place, span)?;
                 Ok(Value::Ref(Rc::new(place)))
             }
-            (value, Step::Field(name)) => self.field(value, name, span),
-            (value, Step::Index(index)) => self.element(value, index, span),
-            (value, Step::Held(k, name)) => self.held(value, *k, name, span),
+            (value, Step::Field(name)) => self.value_field(value, name, span),
+            (value, Step::Index(index)) => self.array_element(value, index, span),
+            (value, Step::VariantField(k, name)) => self.variant_field(value, *k, name, span),
         }
     }
 
     /// A field of a variant that a value may be.
-    pub fn held(&mut self, value: &Value, variant: usize, name: &str, span: Span) -> Eval {
+    pub fn variant_field(&mut self, value: &Value, variant: usize, name: &str, span: Span) -> Eval {
         let Value::Enum(choice) = value else {
             return match value {
                 Value::Poison => Err(Exit::Noted),
-                other => Err(Diagnostic::at(
+                other => Err(Diagnostic::error_at(
                     Code::Pattern,
                     span,
                     format!("a pattern of an enum for {}", other.describe()),
@@ -160,10 +168,10 @@ impl Evaluator<'_> {
                 .into()),
             };
         };
-        let fields = choice.fields(variant).unwrap_or_default();
+        let fields = choice.variant_fields(variant).unwrap_or_default();
         match fields.iter().find(|(field, _)| field == name) {
             Some((_, value)) => Ok(value.clone()),
-            None => Err(Diagnostic::at(
+            None => Err(Diagnostic::error_at(
                 Code::Pattern,
                 span,
                 format!(
@@ -180,19 +188,21 @@ impl Evaluator<'_> {
         let Value::Ref(place) = &value else {
             return Ok(value);
         };
-        let place = self.followed((**place).clone(), span)?;
+        let place = self.follow_references((**place).clone(), span)?;
         let step = |tuple: bool, k: usize| match tuple {
             true => Step::Field(k.to_string().into()),
             false => Step::Index(Value::Int(k as i64)),
         };
-        let whole = self.read(&place, span)?;
+        let whole = self.read_place(&place, span)?;
         let tuple = matches!(whole, Value::Tuple(_));
         let count = match &whole {
             Value::Tuple(parts) => parts.len(),
-            other => self.elements(other, self.length_for(other, patterns), span)?.len(),
+            other => self
+                .array_elements(other, self.length_for(other, patterns), span)?
+                .len(),
         };
         let parts = (0..count)
-            .map(|k| Value::Ref(Rc::new(place.part(step(tuple, k)))))
+            .map(|k| Value::Ref(Rc::new(place.with_step(step(tuple, k)))))
             .collect();
         Ok(if tuple {
             Value::Tuple(parts)

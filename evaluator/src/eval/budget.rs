@@ -1,7 +1,7 @@
 //! What each loop contributes to the size of a kernel.
 
 use super::Evaluator;
-use super::demand::Why;
+use super::demand::UnrollReason;
 use super::value::Eval;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::limits;
@@ -33,38 +33,38 @@ pub struct LoopReport {
 
 impl LoopReport {
     /// `function.counter`, as policies name it.
-    pub fn path(&self) -> String {
+    pub fn policy_path(&self) -> String {
         format!("{}.{}", self.function, self.counter)
     }
 }
 
 /// All loops that were reached.
 #[derive(Clone, Debug, Default)]
-pub struct Loops {
+pub struct LoopTracker {
     reports: Vec<LoopReport>,
     /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
     open: Vec<(usize, usize, usize)>,
     /// How often each loop was tried to be left in the shader in vain, and why not the last time.
-    refused: HashMap<Span, (u32, Why)>,
+    failures: HashMap<Span, (u32, UnrollReason)>,
     /// Attempts to unroll each loop that were given up, as its end turned out to be a runtime value.
-    guessed: HashMap<Span, u32>,
+    open_ends: HashMap<Span, u32>,
     /// Errors to give if there are no others: what follows a loop needs it unrolled, but it was asked for by name.
     deferred: Vec<Diagnostic>,
 }
 
 /// Attempts to leave one loop in the shader after which it is unrolled wherever it is reached. Without such an end loops
 /// in loops would be tried twice a level.
-const MAX_REFUSALS: u32 = 3;
+const MAX_FAILURES: u32 = 3;
 
 /// Iterations after which a `while` that is left early under a runtime condition is taken to end at run time only.
-const MAX_GUESSED: u64 = 256;
+const MAX_OPEN_ITERATIONS: u64 = 256;
 
 /// The least number of such iterations, after attempts in vain. Without a decrease loops in loops would be tried 256 times a level.
-const MIN_GUESSED: u64 = 4;
+const MIN_OPEN_ITERATIONS: u64 = 4;
 
-impl Loops {
+impl LoopTracker {
     /// A loop begins, when `operations` have been made.
-    pub fn enter(&mut self, function: &str, counter: &str, span: Span, operations: usize) {
+    pub fn enter_loop(&mut self, function: &str, counter: &str, span: Span, operations: usize) {
         let known = self.reports.iter().position(|r| r.span == span);
         let index = known.unwrap_or_else(|| {
             self.reports.push(LoopReport {
@@ -82,67 +82,67 @@ impl Loops {
     }
 
     /// Its body is evaluated once more.
-    pub fn round(&mut self) {
+    pub fn record_iteration(&mut self) {
         if let Some((index, ..)) = self.open.last() {
             self.reports[*index].copies += 1;
         }
     }
 
     /// Notes why a loop is unrolled; the first reason stays.
-    pub fn because(&mut self, span: Span, reason: String) {
+    pub fn record_reason(&mut self, span: Span, reason: String) {
         if let Some(report) = self.reports.iter_mut().find(|r| r.span == span) {
             report.reason.get_or_insert(reason);
         }
     }
 
     /// An attempt to leave a loop in the shader has failed.
-    pub fn refuse(&mut self, span: Span, why: &Why) {
-        let entry = self.refused.entry(span).or_insert_with(|| (0, why.clone()));
+    pub fn record_failure(&mut self, span: Span, why: &UnrollReason) {
+        let entry = self.failures.entry(span).or_insert_with(|| (0, why.clone()));
         *entry = (entry.0 + 1, why.clone());
     }
 
     /// Why a loop is not tried to be left in the shader any more.
-    pub fn given_up(&self, span: Span) -> Option<Why> {
-        let (times, why) = self.refused.get(&span)?;
-        (*times >= MAX_REFUSALS).then(|| why.clone())
+    pub fn previous_failure(&self, span: Span) -> Option<UnrollReason> {
+        let (times, why) = self.failures.get(&span)?;
+        (*times >= MAX_FAILURES).then(|| why.clone())
     }
 
     /// Iterations after which the attempt to unroll a loop is given up if some have left it.
-    pub fn guesses(&self, span: Span) -> u64 {
-        let failed = self.guessed.get(&span).copied().unwrap_or(0);
-        (MAX_GUESSED >> (2 * failed).min(63)).max(MIN_GUESSED)
+    pub fn iteration_limit(&self, span: Span) -> u64 {
+        let failed = self.open_ends.get(&span).copied().unwrap_or(0);
+        (MAX_OPEN_ITERATIONS >> (2 * failed).min(63)).max(MIN_OPEN_ITERATIONS)
     }
 
     /// An attempt to unroll a loop is given up.
-    pub fn guessed(&mut self, span: Span) {
-        *self.guessed.entry(span).or_insert(0) += 1;
+    pub fn record_open_end(&mut self, span: Span) {
+        *self.open_ends.entry(span).or_insert(0) += 1;
     }
 
     /// An error to give if there are no others.
-    pub fn defer(&mut self, error: Diagnostic) {
+    pub fn defer_error(&mut self, error: Diagnostic) {
         if !self.deferred.contains(&error) {
             self.deferred.push(error);
         }
     }
 
     /// Errors to give if there are no others.
-    pub fn deferred(&mut self) -> Vec<Diagnostic> {
+    pub fn take_deferred(&mut self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.deferred)
     }
 
     /// Goes back to a state, but keeps in mind which attempts failed.
-    pub fn return_to(&mut self, before: Loops) {
-        let refused = std::mem::take(&mut self.refused);
-        let guessed = std::mem::take(&mut self.guessed);
-        *self = Loops {
-            refused,
-            guessed,
+    pub fn return_to(&mut self, before: LoopTracker) {
+        let refused = std::mem::take(&mut self.failures);
+        let guessed = std::mem::take(&mut self.open_ends);
+        *self = LoopTracker {
+            failures: refused,
+            open_ends: guessed,
             ..before
         };
     }
 
     /// It ends.
-    pub fn leave(&mut self, unroll: Unroll, operations: usize) {
+    pub fn leave_loop(&mut self, unroll: Unroll, operations: usize) {
         if let Some((index, began, inner)) = self.open.pop() {
             let made = operations.saturating_sub(began);
             self.reports[index].operations += made.saturating_sub(inner) as u64;
@@ -154,7 +154,7 @@ impl Loops {
     }
 
     /// All loops in order of the source.
-    pub fn reports(&self) -> Vec<LoopReport> {
+    pub fn sorted_reports(&self) -> Vec<LoopReport> {
         let mut reports = self.reports.clone();
         reports.sort_by_key(|r| r.span);
         reports
@@ -174,31 +174,34 @@ pub fn name_largest_loops(reports: &[LoopReport], mut error: Diagnostic) -> Diag
         let LoopReport { copies, operations, .. } = report;
         let text = format!(
             "`{}`: {copies} iterations, {operations} operations of its own",
-            report.path()
+            report.policy_path()
         );
-        error = error.other(report.span, text);
+        error = error.label_at(report.span, text);
     }
     error
 }
 
 /// Parts of a value that are copied in the time of a step.
-const PARTS_A_STEP: usize = 8;
+const PARTS_PER_STEP: usize = 8;
 
 impl Evaluator<'_> {
     /// Counts the work of copying or comparing a value of so many parts, so that copies of large arrays in loops end.
-    pub fn copied(&mut self, parts: usize, span: Span) -> Eval<()> {
-        let steps = (parts / PARTS_A_STEP) as u64;
+    pub fn count_copy(&mut self, parts: usize, span: Span) -> Eval<()> {
+        let steps = (parts / PARTS_PER_STEP) as u64;
         self.steps += steps;
-        limits::spend(steps);
-        self.step(span)
+        limits::count_work(steps);
+        self.count_step(span)
     }
 
     /// Notes an error for each loop that the policy names and the kernel has not.
     pub fn check_loop_paths(&mut self) {
-        let known = self.loops.reports();
+        let known = self.loops.sorted_reports();
         for (path, _) in &self.policy.loops {
-            if !known.iter().any(|r| policy::matches(path, &r.function, &r.counter)) {
-                let mut paths: Vec<String> = known.iter().map(LoopReport::path).collect();
+            if !known
+                .iter()
+                .any(|r| policy::path_names_loop(path, &r.function, &r.counter))
+            {
+                let mut paths: Vec<String> = known.iter().map(LoopReport::policy_path).collect();
                 paths.dedup();
                 let help = if paths.is_empty() {
                     "it reaches no loop with these options".to_owned()

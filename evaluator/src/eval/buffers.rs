@@ -22,7 +22,7 @@ impl Evaluator<'_> {
         };
         let whole = [Element::Value(Type::I32), Element::Value(Type::U32)];
         if access == Access::Atomic && !whole.contains(&element) {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ResourceElement,
                 span,
                 format!("the buffer `{name}` has no elements that are changed at once"),
@@ -32,7 +32,7 @@ impl Evaluator<'_> {
             .into());
         }
         if access == Access::Write && matches!(element, Element::Struct(_)) {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ResourceElement,
                 span,
                 format!("the buffer `{name}` has no elements that a shader can write"),
@@ -55,7 +55,7 @@ impl Evaluator<'_> {
     /// Elements that are values lie one after the other natively and in a shader; those that are structures as shaders have them.
     fn element_type(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<Element> {
         let refused = || -> Exit {
-            Diagnostic::at(
+            Diagnostic::error_at(
 Code::ResourceElement,
                 span,
                 format!("the buffer `{name}` has no elements that a shader can read"),
@@ -82,7 +82,7 @@ Code::ResourceElement,
             }
             return Ok(Element::Struct(Structure::new(unraw(of).to_owned(), named)));
         }
-        match value_named(of).filter(|ty| ty.components() != 3) {
+        match value_named(of).filter(|ty| ty.component_count() != 3) {
             Some(ty) => Ok(Element::Value(ty)),
             None => Err(refused()),
         }
@@ -105,7 +105,7 @@ Code::ResourceElement,
             outer => format!("{outer}_{}", unraw(field)),
         };
         let refused = || -> Exit {
-            Diagnostic::at(Code::ResourceElement, span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))
+            Diagnostic::error_at(Code::ResourceElement, span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))
                 .label("of this type")
                 .help("fields are f32, i32, u32, vectors, matrices, structures of these, and arrays of numbers, vectors or structures")
                 .into()
@@ -116,11 +116,11 @@ Code::ResourceElement,
                     self.fields_of(of, &inner(field), ty, *at, fields)?;
                 }
             }
-            SourceType::Name(type_name, _) => match (value_named(type_name), super::matrix::size(type_name)) {
+            SourceType::Name(type_name, _) => match (value_named(type_name), super::matrix::column_count(type_name)) {
                 (Some(ty), _) => fields.push((name.to_owned(), ty)),
                 (None, Some(n)) => {
                     let column = Type::value(Scalar::F32, n);
-                    fields.extend(super::matrix::axes(n).iter().map(|axis| (inner(axis), column)));
+                    fields.extend(super::matrix::axis_names(n).iter().map(|axis| (inner(axis), column)));
                 }
                 (None, None) => return Err(refused()),
             },
@@ -134,7 +134,7 @@ Code::ResourceElement,
                     }
                     if fields.len() > LONGEST as usize {
                         let message = format!("an element of a buffer has more than {LONGEST} fields");
-                        return Err(Diagnostic::at(Code::ResourceElement, span, message)
+                        return Err(Diagnostic::error_at(Code::ResourceElement, span, message)
                             .label("with those of this array")
                             .help("keep the array in a buffer of its own")
                             .into());
@@ -165,10 +165,10 @@ Code::ResourceElement,
 
     /// The length of an array that a host fills.
     pub(super) fn known_length(&mut self, len: &Expr) -> Eval<u32> {
-        let count = self.expr(len)?;
+        let count = self.eval_expr(len)?;
         match self.known_int(&count) {
             Some(n) if (1..=LONGEST).contains(&n) => Ok(n as u32),
-            _ => Err(Diagnostic::at(
+            _ => Err(Diagnostic::error_at(
                 Code::ResourceElement,
                 len.span,
                 format!("an array that a host fills has 1 to {LONGEST} elements"),
@@ -180,14 +180,14 @@ Code::ResourceElement,
     }
 
     /// A method of a buffer.
-    pub fn buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+    pub fn eval_buffer_method(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         if self.builder.graph().buffers[index as usize].access != Access::Read {
             return self.written_buffer(index, name, args, span);
         }
         match (name, args) {
             ("len", []) => {
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
-                Ok(self.sized(len))
+                Ok(self.as_usize(len))
             }
             ("load", [at]) => {
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
@@ -201,7 +201,7 @@ Code::ResourceElement,
                 }
             }
             _ => Err(
-                Diagnostic::at(Code::UnknownMethod, span, format!("a buffer has no method `{name}`"))
+                Diagnostic::error_at(Code::UnknownMethod, span, format!("a buffer has no method `{name}`"))
                     .label("not supported")
                     .help("buffers have `load` and `len`")
                     .into(),
@@ -220,10 +220,10 @@ Code::ResourceElement,
                 }
                 Ok(Value::structure(of.clone(), fields))
             }
-            SourceType::Name(of, _) => match super::matrix::size(of) {
+            SourceType::Name(of, _) => match super::matrix::column_count(of) {
                 Some(n) => {
                     let columns: Vec<NodeId> = (0..n).map(|_| self.read_field(buffer, index, next, None)).collect();
-                    Ok(super::matrix::matrix(&columns))
+                    Ok(super::matrix::matrix_value(&columns))
                 }
                 None => Ok(Value::Node(self.read_field(buffer, index, next, None))),
             },
@@ -237,8 +237,8 @@ Code::ResourceElement,
             }
             SourceType::Array(..) => {
                 let field = *next;
-                let of = self.builder.graph().buffers[buffer as usize].element.field(field);
-                let parts = (0..of.map_or(1, Type::parts)).map(|k| {
+                let of = self.builder.graph().buffers[buffer as usize].element.field_type(field);
+                let parts = (0..of.map_or(1, Type::part_count)).map(|k| {
                     *next = field;
                     Value::Node(self.read_field(buffer, index, next, Some(k)))
                 });
@@ -253,14 +253,14 @@ Code::ResourceElement,
     fn read_field(&mut self, buffer: u32, element: NodeId, next: &mut u32, part: Option<u32>) -> NodeId {
         let field = *next;
         *next += 1;
-        let ty = self.builder.graph().buffers[buffer as usize].element.field(field);
+        let ty = self.builder.graph().buffers[buffer as usize].element.field_type(field);
         let part = part.map(|k| self.builder.i32(k as i32));
         let op = Op::BufferLoad {
             buffer,
             field,
-            site: self.site(),
+            site: self.next_site(),
         };
-        let ty = ty.map_or(Type::F32, Type::element);
+        let ty = ty.map_or(Type::F32, Type::element_type);
         self.builder
             .add(op, std::iter::once(element).chain(part).collect::<Vec<_>>(), ty)
     }

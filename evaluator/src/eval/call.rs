@@ -1,7 +1,7 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
 use super::departures::Tail;
-use super::value::{Eval, Exit, Need, Value, Way};
+use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
@@ -12,26 +12,26 @@ use std::rc::Rc;
 pub use crate::front::tree::vector_named as vector_type;
 
 impl<'a> Evaluator<'a> {
-    pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
+    pub fn eval_call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let constants = self.generic_constants(path, constants)?;
-        let values = self.all(args)?;
+        let values = self.eval_all(args)?;
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
-        let resolved = self.resolved(path, &values, span)?;
+        let resolved = self.resolve_path(path, &values, span)?;
         let path = resolved.as_deref().unwrap_or(path);
         if let [name] = path
             && let Some(callee) = self.scope.get(name).cloned()
         {
             let callee = match callee {
-                Value::Alias(place) => self.read(&place, span)?,
-                other => self.loaded(other, span)?,
+                Value::Alias(place) => self.read_place(&place, span)?,
+                other => self.deref_value(other, span)?,
             };
             if callee.is_called() {
-                return self.invoke(&callee, values, span);
+                return self.call_value(&callee, values, span);
             }
         }
-        self.apply(path, &constants, values, span)
+        self.call_path(path, &constants, values, span)
     }
 
     /// What stands in `::<>` of a call: the constants; types are found by inference.
@@ -65,29 +65,29 @@ impl<'a> Evaluator<'a> {
             false if matches!(&expr.kind, ExprKind::Path(path) if path == &[crate::front::INFERRED]) => {
                 Ok(Value::unit())
             }
-            false => self.expr(expr),
+            false => self.eval_expr(expr),
         });
         each.collect()
     }
 
     /// Calls a function by its path.
-    pub fn apply(&mut self, path: &[String], constants: &[Value], values: Vec<Value>, span: Span) -> Eval {
+    pub fn call_path(&mut self, path: &[String], constants: &[Value], values: Vec<Value>, span: Span) -> Eval {
         let last = path.last().map(String::as_str).unwrap_or_default();
         if let [ty, name] = path {
             let method = format!("{ty}::{name}");
             if self.library.functions.contains_key(&method) {
-                return self.inline(&method, constants, values, span);
+                return self.inline_function(&method, constants, values, span);
             }
         }
         if crate::front::is_by_last(path) && self.library.functions.contains_key(last) {
-            return self.inline(last, constants, values, span);
+            return self.inline_function(last, constants, values, span);
         }
-        if let Some(value) = self.exchange(path, &values, span)? {
+        if let Some(value) = self.eval_mem_call(path, &values, span)? {
             return Ok(value);
         }
         let values = values
             .into_iter()
-            .map(|v| self.loaded(v, span))
+            .map(|v| self.deref_value(v, span))
             .collect::<Eval<Vec<_>>>()?;
         if let ([.., name], [f]) = (path, values.as_slice())
             && name == "from_fn"
@@ -98,10 +98,10 @@ impl<'a> Evaluator<'a> {
         if let ([name], [items]) = (path, values.as_slice())
             && let Some(name @ ("sum" | "product")) = name.strip_suffix("_of_some")
         {
-            let items = self.listed(items, span)?;
+            let items = self.collect_items(items, span)?;
             return self.reduced_some(name, &items, span);
         }
-        if self.library.variant(path).is_some() {
+        if self.library.find_variant(path).is_some() {
             return Ok(self.variant_of(path, values, span)?.unwrap_or(Value::Poison));
         }
         if let Some(value) = self.tuple_struct(last, &values, span)? {
@@ -113,8 +113,8 @@ impl<'a> Evaluator<'a> {
         if let Some(value) = self.quad_function(path, &values, span)? {
             return Ok(value);
         }
-        if let Some((kind, lanes)) = constructor(path) {
-            return self.compose(kind, lanes, &values, span);
+        if let Some((kind, lanes)) = parse_constructor(path) {
+            return self.compose_vector(kind, lanes, &values, span);
         }
         if let ([.., ty, from], [value]) = (path, values.as_slice())
             && from == "from"
@@ -125,19 +125,21 @@ impl<'a> Evaluator<'a> {
         match (path, values.as_slice()) {
             ([.., ty, splat], [value]) if splat == "splat" => {
                 let Some((kind, lanes)) = vector_type(ty) else {
-                    return Err(Diagnostic::at(Code::UnknownFunction, span, format!("`{ty}` is not a vector")).into());
+                    return Err(
+                        Diagnostic::error_at(Code::UnknownFunction, span, format!("`{ty}` is not a vector")).into(),
+                    );
                 };
                 let value = self.lane_node(value, kind, span)?;
-                Ok(Value::Node(self.splat(value, lanes)))
+                Ok(Value::Node(self.build_splat(value, lanes)))
             }
             ([.., ty, from], [array]) if from == "from_array" && vector_type(ty).is_some() => {
                 let Some((kind, lanes)) = vector_type(ty) else {
                     unreachable!("just asked")
                 };
-                let values = self.elements(array, usize::from(lanes), span)?;
-                self.compose(kind, lanes, &values, span)
+                let values = self.array_elements(array, usize::from(lanes), span)?;
+                self.compose_vector(kind, lanes, &values, span)
             }
-            ([.., name], [Value::Str(tally), value]) if name == "tally" => self.tally(tally, value, span),
+            ([.., name], [Value::Str(tally), value]) if name == "tally" => self.eval_tally(tally, value, span),
             ([.., ty, from], [value]) if ty == "f32" && from == "from_bits" => {
                 let bits = self.int_or_node(value, Scalar::U32, span)?;
                 Ok(Value::Node(self.builder.add(Op::Bitcast, [bits], Type::F32)))
@@ -145,9 +147,9 @@ impl<'a> Evaluator<'a> {
             ([.., ty, name], [receiver, rest @ ..])
                 if matches!(ty.as_str(), "f32" | "i32" | "u32") || vector_type(ty).is_some() =>
             {
-                self.math(receiver, name, rest, span)
+                self.eval_math_method(receiver, name, rest, span)
             }
-            ([.., name], _) => match self.function(name, &values, span)? {
+            ([.., name], _) => match self.eval_prelude_call(name, &values, span)? {
                 Some(value) => Ok(value),
                 None => Err(self.unknown_function(path, span)),
             },
@@ -178,26 +180,28 @@ impl<'a> Evaluator<'a> {
             Some(close) => format!("did you mean `{close}`?"),
             None => "define it in one of the kernel's files, or use a function of the prelude".to_owned(),
         };
-        Diagnostic::at(Code::UnknownFunction, span, format!("there is no function `{name}`"))
+        Diagnostic::error_at(Code::UnknownFunction, span, format!("there is no function `{name}`"))
             .label("not found in the kernel's files")
             .help(help)
             .into()
     }
 
     /// Evaluates a function's body with its parameters bound.
-    pub fn inline(&mut self, name: &str, constants: &[Value], args: Vec<Value>, span: Span) -> Eval {
+    pub fn inline_function(&mut self, name: &str, constants: &[Value], args: Vec<Value>, span: Span) -> Eval {
         let library = self.library;
         let Some((name, function)) = library.functions.get_key_value(name) else {
-            return Err(Diagnostic::at(Code::UnknownFunction, span, format!("there is no function `{name}`")).into());
+            return Err(
+                Diagnostic::error_at(Code::UnknownFunction, span, format!("there is no function `{name}`")).into(),
+            );
         };
         match name == Self::PHASE && function.span.file == crate::front::std::FILE {
-            true => self.phase(function, args, span),
-            false => self.inlined(name, function, constants, args, span),
+            true => self.eval_phase(function, args, span),
+            false => self.inline_known(name, function, constants, args, span),
         }
     }
 
     /// The same of a function that is known to be there, and is no phase of a workgroup.
-    pub(super) fn inlined(
+    pub(super) fn inline_known(
         &mut self,
         name: &'a str,
         function: &Function,
@@ -206,7 +210,7 @@ impl<'a> Evaluator<'a> {
         span: Span,
     ) -> Eval {
         if args.len() != function.params.len() {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ArgumentCount,
                 span,
                 format!(
@@ -217,11 +221,11 @@ impl<'a> Evaluator<'a> {
                 ),
             )
             .label("called here")
-            .other(function.span, "defined here")
+            .label_at(function.span, "defined here")
             .into());
         }
         if self.calls.len() >= MAX_CALLS {
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::Recursion,
                 span,
                 format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
@@ -230,7 +234,7 @@ impl<'a> Evaluator<'a> {
             .help(
                 "let it end by a condition that is a compile-time constant; where runtime values decide, write a loop",
             );
-            return Err(self.demand(&self.decides_within(name), error));
+            return Err(self.demand_constants(&self.decides_within(name), error));
         }
         let mut bound = self.constants_of(function, constants, &args, span)?;
         bound.extend(self.types_of(function, constants, &args, span)?);
@@ -240,13 +244,13 @@ impl<'a> Evaluator<'a> {
             self.scope.bind(name, value.clone());
         }
         for (param, value) in function.params.iter().zip(args) {
-            let value = match self.ascribe(value, Some(&param.ty), span) {
+            let value = match self.ascribe_type(value, Some(&param.ty), span) {
                 Ok(value) => value,
                 Err(exit) => {
                     self.scope.leave_function(outer);
                     return Err(match exit {
                         Exit::Error(error) => error
-                            .other(param.span, format!("`{}` is stated here", param.name))
+                            .label_at(param.span, format!("`{}` is stated here", param.name))
                             .into(),
                         other => other,
                     });
@@ -260,9 +264,9 @@ impl<'a> Evaluator<'a> {
         self.calls.push(name.into());
         let unroll = self.policy.unroll;
         self.policy.unroll = function.unroll.unwrap_or(unroll);
-        let result = self.called_by_others(|e| {
+        let result = self.eval_without_exits(|e| {
             let result = e.block_in(&function.body, Tail::Function);
-            e.arrive(0, result, outer.1, &|way| matches!(way, Way::Return(_)), function.span)
+            e.merge_exits(0, result, outer.1, &|way| matches!(way, Jump::Return(_)), function.span)
         });
         self.policy.unroll = unroll;
         self.calls.pop();
@@ -270,14 +274,14 @@ impl<'a> Evaluator<'a> {
         for (name, value) in &bound {
             self.scope.bind(name, value.clone());
         }
-        let result = result.and_then(|value| self.ascribe(value, Some(&function.result), function.span));
+        let result = result.and_then(|value| self.ascribe_type(value, Some(&function.result), function.span));
         self.scope.leave_function(outer);
         if let Ok(value) = &result {
             // The kernel's own name says nothing of its result.
             let result = if self.calls.is_empty() {
                 Cow::Borrowed("result")
             } else {
-                called(name)
+                result_name(name)
             };
             self.name_as(value, &result, Naming::Function, span);
         }
@@ -286,7 +290,10 @@ impl<'a> Evaluator<'a> {
             Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
             Err(Exit::Demand(needs)) if of_library => Err(Exit::Demand(called_at(needs, span, name))),
             Err(Exit::Left(_)) => {
-                Err(Diagnostic::at(Code::Leaving, function.span, "`break` or `continue` outside of a loop").into())
+                Err(
+                    Diagnostic::error_at(Code::Leaving, function.span, "`break` or `continue` outside of a loop")
+                        .into(),
+                )
             }
             other => other,
         }
@@ -305,7 +312,7 @@ impl<'a> Evaluator<'a> {
             let Generic::Const(name, ty) = generic else { continue };
             let from_array = || {
                 function.params.iter().zip(args).find_map(|(param, value)| {
-                    let SourceType::Array(_, Some(stated)) = param.ty.bare() else {
+                    let SourceType::Array(_, Some(stated)) = param.ty.peel_refs() else {
                         return None;
                     };
                     let len = self.array_length(value)?;
@@ -318,17 +325,17 @@ impl<'a> Evaluator<'a> {
             let stated = given.get(k).filter(|value| **value != Value::unit());
             match stated.cloned().or_else(from_array) {
                 Some(value) => {
-                    let value = self.ascribe(value, Some(ty), span)?;
+                    let value = self.ascribe_type(value, Some(ty), span)?;
                     bound.push((name.clone(), value));
                 }
                 None => {
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::TypeNeeded,
                         span,
                         format!("the constant `{name}` of this call is not known"),
                     )
                     .label("called here")
-                    .other(function.span, "defined here")
+                    .label_at(function.span, "defined here")
                     .help(format!("state it: `::<{name}>`"))
                     .into());
                 }
@@ -341,7 +348,7 @@ impl<'a> Evaluator<'a> {
     fn array_length(&mut self, value: &Value) -> Option<usize> {
         match value {
             Value::Ref(place) => {
-                let value = self.read(&place.clone(), Span::default()).ok()?;
+                let value = self.read_place(&place.clone(), Span::default()).ok()?;
                 self.array_length(&value)
             }
             Value::Array(elements) => Some(elements.len()),
@@ -368,7 +375,7 @@ impl<'a> Evaluator<'a> {
         }
         if definition.fields.len() != values.len() {
             let (wanted, found) = (definition.fields.len(), values.len());
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ArgumentCount,
                 span,
                 format!("`{name}` has {wanted} fields, not {found}"),
@@ -377,20 +384,20 @@ impl<'a> Evaluator<'a> {
         }
         let mut fields = Vec::new();
         for ((field, ty, _), value) in definition.fields.iter().zip(values) {
-            fields.push((field.clone(), self.ascribe(value.clone(), Some(ty), span)?));
+            fields.push((field.clone(), self.ascribe_type(value.clone(), Some(ty), span)?));
         }
         Ok(Some(Value::structure(name, fields)))
     }
 
     /// A vector from its components, or from shorter vectors and components.
-    pub fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
+    pub fn compose_vector(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
         let mut parts: Vec<NodeId> = Vec::new();
         for value in values {
             let id = self.lane_node(value, kind, span)?;
-            parts.extend(self.lanes(id));
+            parts.extend(self.vector_components(id));
         }
         if parts.len() != lanes as usize {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ArgumentCount,
                 span,
                 format!("a vector of {lanes} components from {}", parts.len()),
@@ -409,12 +416,12 @@ impl<'a> Evaluator<'a> {
     fn lane_node(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
         let id = match value {
             Value::Int(n) => self.int_node(*n, kind, span)?,
-            other => self.node(other, span)?,
+            other => self.value_node(other, span)?,
         };
-        if self.ty(id).kind() == Some(kind) && !self.ty(id).is_array() {
+        if self.ty(id).scalar_kind() == Some(kind) && !self.ty(id).is_array() {
             return Ok(id);
         }
-        Err(Diagnostic::at(
+        Err(Diagnostic::error_at(
             Code::MismatchedTypes,
             span,
             format!("{} where {kind} is needed", self.ty(id).in_rust()),
@@ -429,8 +436,8 @@ impl<'a> Evaluator<'a> {
         self.lane_node(value, kind, span)
     }
 
-    fn tally(&mut self, name: &str, value: &Value, span: Span) -> Eval {
-        let id = self.node(value, span)?;
+    fn eval_tally(&mut self, name: &str, value: &Value, span: Span) -> Eval {
+        let id = self.value_node(value, span)?;
         let tallies = &mut self.builder.graph_mut().tallies;
         let index = tallies.iter().position(|known| known == name).unwrap_or_else(|| {
             tallies.push(name.to_owned());
@@ -442,8 +449,8 @@ impl<'a> Evaluator<'a> {
 }
 
 /// Needs of a function of the library, whose text nobody sees.
-fn called_at(needs: Vec<Need>, span: Span, name: &str) -> Vec<Need> {
-    let each = needs.into_iter().map(|need| Need {
+fn called_at(needs: Vec<ConstantDemand>, span: Span, name: &str) -> Vec<ConstantDemand> {
+    let each = needs.into_iter().map(|need| ConstantDemand {
         error: need.error.called_at(span, name),
         ..need
     });
@@ -451,7 +458,7 @@ fn called_at(needs: Vec<Need>, span: Span, name: &str) -> Vec<Need> {
 }
 
 /// `vec3`, `Vec3::new`, ...
-fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
+fn parse_constructor(path: &[String]) -> Option<(Scalar, u8)> {
     match path {
         [.., ty, new] if new == "new" => vector_type(ty),
         [.., name] => {
@@ -471,7 +478,7 @@ fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
 }
 
 /// What a function's result may be called: by the function, of a constructor by its type.
-fn called(function: &str) -> Cow<'_, str> {
+fn result_name(function: &str) -> Cow<'_, str> {
     match function.rsplit_once("::") {
         Some((ty, "new" | "default" | "from" | "make")) => {
             let mut name = String::new();

@@ -4,11 +4,11 @@
 //! closure lives. One that writes a variable has its place.
 
 use super::departures::Tail;
-use super::value::{Captured, Closed, Eval, Exit, Value, Way};
+use super::value::{Captured, ClosureValue, Eval, Exit, Jump, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Closure};
-use crate::front::{assigned, mentioned_in};
+use crate::front::{mentioned_in, scan_effects};
 use crate::ir::{BinaryOp, NodeId, Op, Type};
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -16,25 +16,27 @@ use std::sync::Arc;
 
 impl Evaluator<'_> {
     /// A closure, with the variables that it mentions.
-    pub fn closure(&mut self, code: &Arc<Closure>, span: Span) -> Eval {
+    pub fn eval_closure(&mut self, code: &Arc<Closure>, span: Span) -> Eval {
         let body = Block {
             statements: Vec::new(),
             value: Some(Box::new(code.body.clone())),
             exact: false,
         };
-        let written = assigned(&body, &self.library.mutating).assigned;
+        let written = scan_effects(&body, &self.library.mutating).assigned;
         let mut names = BTreeSet::new();
         mentioned_in(&code.body, &mut names);
         let mut captured = Vec::new();
         for name in names {
-            let Some(slot) = self.scope.slot(&name) else { continue };
-            let value = self.scope.at(slot).1.clone();
+            let Some(slot) = self.scope.find_slot(&name) else {
+                continue;
+            };
+            let value = self.scope.name_and_value(slot).1.clone();
             let is_written = written.contains(&name) && !matches!(value, Value::Ref(_));
             let capture = match value {
                 Value::Alias(place) if is_written => Captured::Place(place),
-                Value::Alias(place) => Captured::Value(self.read(&place, span)?),
+                Value::Alias(place) => Captured::Value(self.read_place(&place, span)?),
                 _ if is_written && code.moves => {
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::NotInLanguage,
                         span,
                         format!("a `move` closure that changes its own `{name}`"),
@@ -43,12 +45,12 @@ impl Evaluator<'_> {
                     .help("leave out `move`, so that it changes the variable around it")
                     .into());
                 }
-                _ if is_written => Captured::Place(Rc::new(self.scope.place(slot))),
+                _ if is_written => Captured::Place(Rc::new(self.scope.slot_place(slot))),
                 value => Captured::Value(value),
             };
             captured.push((name, capture));
         }
-        Ok(Value::Closure(Rc::new(Closed {
+        Ok(Value::Closure(Rc::new(ClosureValue {
             code: Arc::clone(code),
             captured,
             function: self.calls.last().cloned().unwrap_or_default().into_owned(),
@@ -56,14 +58,14 @@ impl Evaluator<'_> {
     }
 
     /// Calls what a variable holds: a closure, or a function by its path.
-    pub fn invoke(&mut self, callee: &Value, args: Vec<Value>, span: Span) -> Eval {
+    pub fn call_value(&mut self, callee: &Value, args: Vec<Value>, span: Span) -> Eval {
         let closed = match callee {
             Value::Closure(closed) => Rc::clone(closed),
-            Value::Function(path) => return self.apply(path, &[], args, span),
+            Value::Function(path) => return self.call_path(path, &[], args, span),
             Value::OneOf(number, all) => return self.invoke_one(*number, all, 0, args, span),
             Value::Poison => return Err(Exit::Noted),
             other => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::NotAFunction,
                     span,
                     format!("{} cannot be called", other.describe()),
@@ -75,7 +77,7 @@ impl Evaluator<'_> {
         let (wanted, given) = (closed.code.params.len(), args.len());
         if wanted != given {
             let plural = if wanted == 1 { "" } else { "s" };
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ArgumentCount,
                 span,
                 format!("this closure takes {wanted} argument{plural}, not {given}"),
@@ -84,7 +86,7 @@ impl Evaluator<'_> {
             .into());
         }
         if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::Recursion,
                 span,
                 format!("calls are nested more than {MAX_CALLS} deep"),
@@ -94,12 +96,12 @@ impl Evaluator<'_> {
         }
         let outer = self.scope.enter_function();
         self.calls.push(closed.function.clone().into());
-        let result = self.called_by_others(|e| e.closed_body(&closed, args, outer.1, span));
+        let result = self.eval_without_exits(|e| e.closed_body(&closed, args, outer.1, span));
         self.calls.pop();
         self.scope.leave_function(outer);
         match result {
             Err(Exit::Left(_)) => {
-                Err(Diagnostic::at(Code::Leaving, span, "`break` or `continue` outside of a loop").into())
+                Err(Diagnostic::error_at(Code::Leaving, span, "`break` or `continue` outside of a loop").into())
             }
             other => other,
         }
@@ -108,20 +110,20 @@ impl Evaluator<'_> {
     /// Calls one of several functions, from the one at a position on: a chain of conditions, as of an `if`.
     fn invoke_one(&mut self, number: NodeId, all: &[Value], k: usize, args: Vec<Value>, span: Span) -> Eval {
         if k + 1 == all.len() {
-            return self.invoke(&all[k], args, span);
+            return self.call_value(&all[k], args, span);
         }
         let is = self.is_number(number, all.len(), k);
         match self.known_bool(is) {
-            Some(true) => self.invoke(&all[k], args, span),
+            Some(true) => self.call_value(&all[k], args, span),
             Some(false) => self.invoke_one(number, all, k + 1, args, span),
             None => {
-                let (keep, same) = (self.policy.keeps(None), args.clone());
-                self.branch(
+                let (keep, same) = (self.policy.keeps_branch(None), args.clone());
+                self.eval_branch(
                     Tail::Open,
                     is,
                     keep,
                     span,
-                    |e| e.invoke(&all[k], args, span),
+                    |e| e.call_value(&all[k], args, span),
                     |e| e.invoke_one(number, all, k + 1, same, span),
                 )
             }
@@ -204,7 +206,7 @@ impl Evaluator<'_> {
         }
     }
 
-    fn closed_body(&mut self, closed: &Closed, args: Vec<Value>, mark: usize, span: Span) -> Eval {
+    fn closed_body(&mut self, closed: &ClosureValue, args: Vec<Value>, mark: usize, span: Span) -> Eval {
         for (name, captured) in &closed.captured {
             let value = match captured {
                 Captured::Value(value) => value.clone(),
@@ -213,14 +215,14 @@ impl Evaluator<'_> {
             self.scope.bind(name, value);
         }
         for ((pattern, ty), value) in closed.code.params.iter().zip(args) {
-            let value = self.ascribe(value, ty.as_ref(), span)?;
-            self.bind(pattern, value, span)?;
+            let value = self.ascribe_type(value, ty.as_ref(), span)?;
+            self.bind_pattern(pattern, value, span)?;
         }
         let outcome = self.expr_in(&closed.code.body, Tail::Function);
-        let value = self.arrive(0, outcome, mark, &|way| matches!(way, Way::Return(_)), span)?;
+        let value = self.merge_exits(0, outcome, mark, &|way| matches!(way, Jump::Return(_)), span)?;
         // A reference to a variable of the closure's own would lead nowhere.
         match &closed.code.result {
-            Some(ty) => self.ascribe(value, Some(ty), closed.code.body.span),
+            Some(ty) => self.ascribe_type(value, Some(ty), closed.code.body.span),
             None => Ok(value),
         }
     }
@@ -228,7 +230,7 @@ impl Evaluator<'_> {
     /// Refuses a closure that changes variables, where it is called in another order than natively or not as often.
     pub fn only_reads(&self, callee: &Value, method: &str, span: Span) -> Eval<()> {
         match callee.changes_variables() {
-            true => Err(Diagnostic::at(
+            true => Err(Diagnostic::error_at(
                 Code::MisplacedWrite,
                 span,
                 format!("a closure that changes variables, in `{method}`"),

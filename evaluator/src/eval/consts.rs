@@ -17,7 +17,7 @@ impl Evaluator<'_> {
         if let Some((kind, lanes)) = vector_type(ty) {
             return self.vector_constant(kind, lanes, name);
         }
-        if let Some(n) = super::matrix::size(ty) {
+        if let Some(n) = super::matrix::column_count(ty) {
             let one = self.builder.f32(1.0);
             let zero = self.builder.f32(0.0);
             let diagonal = match name {
@@ -31,10 +31,10 @@ impl Evaluator<'_> {
                     self.builder.add(Op::Compose, parts, Type::value(Scalar::F32, n))
                 })
                 .collect();
-            return Some(super::matrix::matrix(&columns));
+            return Some(super::matrix::matrix_value(&columns));
         }
         let float = match (ty, name) {
-            ("consts", _) => named(name)?,
+            ("consts", _) => named_constant(name)?,
             ("f32", "MAX") => f32::MAX,
             ("f32", "MIN") => f32::MIN,
             ("f32", "MIN_POSITIVE") => f32::MIN_POSITIVE,
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
     }
 }
 
-fn named(name: &str) -> Option<f32> {
+fn named_constant(name: &str) -> Option<f32> {
     Some(match name {
         "PI" => consts::PI,
         "TAU" => consts::TAU,

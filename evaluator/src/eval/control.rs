@@ -1,7 +1,7 @@
 //! `if`, and joining what two sides did.
 
 use super::Evaluator;
-use super::departures::{Departure, Side, Tail};
+use super::departures::{EarlyExit, Side, Tail};
 use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -16,7 +16,7 @@ const MAX_NESTED: usize = 100;
 
 impl Evaluator<'_> {
     /// An `if`, and what ends with it.
-    pub fn if_(
+    pub fn eval_if(
         &mut self,
         condition: &Expr,
         then: &Block,
@@ -25,14 +25,14 @@ impl Evaluator<'_> {
         tail: Tail<'_>,
         span: Span,
     ) -> Eval {
-        let id = self.condition(condition)?;
+        let id = self.eval_condition(condition)?;
         let other = |e: &mut Self| otherwise.map_or(Ok(Value::unit()), |o| e.expr_in(o, tail));
         match self.known_bool(id) {
             Some(true) => self.block_in(then, tail),
             Some(false) => other(self),
             None => {
-                let keep = self.policy.keeps(attribute);
-                self.branch(tail, id, keep, span, |e| e.block_in(then, tail), other)
+                let keep = self.policy.keeps_branch(attribute);
+                self.eval_branch(tail, id, keep, span, |e| e.block_in(then, tail), other)
             }
         }
     }
@@ -43,12 +43,12 @@ impl Evaluator<'_> {
     }
 
     /// A condition, as a boolean.
-    pub fn condition(&mut self, condition: &Expr) -> Eval<NodeId> {
-        let value = self.value(condition)?;
-        let id = self.node(&value, condition.span)?;
+    pub fn eval_condition(&mut self, condition: &Expr) -> Eval<NodeId> {
+        let value = self.eval_value(condition)?;
+        let id = self.value_node(&value, condition.span)?;
         if self.ty(id) != Type::BOOL {
             return Err(
-                Diagnostic::at(Code::MismatchedTypes, condition.span, "a condition must be a boolean")
+                Diagnostic::error_at(Code::MismatchedTypes, condition.span, "a condition must be a boolean")
                     .label(format!("of type {}", self.ty(id).in_rust()))
                     .help("compare it: `!= 0`")
                     .into(),
@@ -58,26 +58,26 @@ impl Evaluator<'_> {
     }
 
     /// `assert!`: a compile-time constant that must hold.
-    pub fn assert(&mut self, condition: &Expr, message: &str) -> Eval {
-        let value = self.expr(condition)?;
-        let id = self.node(&value, condition.span)?;
+    pub fn eval_assert(&mut self, condition: &Expr, message: &str) -> Eval {
+        let value = self.eval_expr(condition)?;
+        let id = self.value_node(&value, condition.span)?;
         match self.known_bool(id) {
             Some(true) => Ok(Value::unit()),
-            Some(false) => Err(Diagnostic::at(Code::Assertion, condition.span, message)
+            Some(false) => Err(Diagnostic::error_at(Code::Assertion, condition.span, message)
                 .label("does not hold")
                 .into()),
             None => {
-                let error = Diagnostic::at(Code::Assertion, condition.span, "an assertion about a runtime value")
+                let error = Diagnostic::error_at(Code::Assertion, condition.span, "an assertion about a runtime value")
                     .label("not a compile-time constant")
                     .note("a shader has no way to fail")
                     .help("assert what follows from options and counters, and let run-time values choose with `if`");
-                Err(self.demand(&[id], error))
+                Err(self.demand_constants(&[id], error))
             }
         }
     }
 
     /// A condition that is a runtime value: both sides are evaluated, and what differs is selected, or a branch is kept.
-    pub fn branch(
+    pub fn eval_branch(
         &mut self,
         tail: Tail<'_>,
         condition: NodeId,
@@ -86,26 +86,26 @@ impl Evaluator<'_> {
         then: impl FnOnce(&mut Self) -> Eval,
         otherwise: impl FnOnce(&mut Self) -> Eval,
     ) -> Eval {
-        let pending = std::mem::take(&mut self.departed);
+        let pending = std::mem::take(&mut self.early_exits);
         let before = self.scope.clone();
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
         let keep = keep && self.may_nest();
-        self.deciding.push((self.calls.len(), condition));
-        let joined = self.narrowed(&gone, |e| match keep {
-            true => e.kept_branch(tail, condition, span, then, otherwise),
-            false => e.selected(tail, condition, span, then, otherwise),
+        self.branch_conditions.push((self.calls.len(), condition));
+        let joined = self.eval_under(&gone, |e| match keep {
+            true => e.structured_branch(tail, condition, span, then, otherwise),
+            false => e.selected_branch(tail, condition, span, then, otherwise),
         });
-        self.deciding.pop();
+        self.branch_conditions.pop();
         if matches!(&joined, Err(exit) if exit.is_failure()) {
             // Values made inside belong to no place outside.
             self.scope = before;
-            self.departed.clear();
+            self.early_exits.clear();
         }
-        self.departed.splice(0..0, pending);
+        self.early_exits.splice(0..0, pending);
         joined
     }
 
-    fn selected(
+    fn selected_branch(
         &mut self,
         tail: Tail<'_>,
         condition: NodeId,
@@ -114,42 +114,43 @@ impl Evaluator<'_> {
         otherwise: impl FnOnce(&mut Self) -> Eval,
     ) -> Eval {
         let before = self.scope.clone();
-        let left = self.narrowed(&[(condition, true)], |e| e.side(tail, span, then));
+        let left = self.eval_under(&[(condition, true)], |e| e.eval_side(tail, span, then));
         if matches!(left, Err(Exit::Demand(_))) {
             return left;
         }
         let after_left = std::mem::replace(&mut self.scope, before);
-        let departed_left = std::mem::take(&mut self.departed);
-        let right = self.narrowed(&[(condition, false)], |e| e.side(tail, span, otherwise));
-        let departed_right = std::mem::take(&mut self.departed);
+        let departed_left = std::mem::take(&mut self.early_exits);
+        let right = self.eval_under(&[(condition, false)], |e| e.eval_side(tail, span, otherwise));
+        let departed_right = std::mem::take(&mut self.early_exits);
         let negated = self.not(condition);
         for (side, departed) in [(condition, departed_left), (negated, departed_right)] {
             for departure in departed {
                 let condition = self.and(side, departure.condition);
-                self.departed
-                    .push(Departure::of(condition, departure.way, departure.scope));
+                self.early_exits
+                    .push(EarlyExit::from_parts(condition, departure.jump, departure.scope));
             }
         }
         match (left, right) {
-            (Ok(left), Ok(right)) => self.join(condition, None, (after_left, left), right, span),
+            (Ok(left), Ok(right)) => self.join_sides(condition, None, (after_left, left), right, span),
             (Err(Exit::Left(way)), Ok(right)) => {
-                self.departed.push(Departure::of(condition, way, after_left));
+                self.early_exits.push(EarlyExit::from_parts(condition, way, after_left));
                 Ok(right)
             }
             (Ok(left), Err(Exit::Left(way))) => {
                 let scope = std::mem::replace(&mut self.scope, after_left);
-                self.departed.push(Departure::of(negated, way, scope));
+                self.early_exits.push(EarlyExit::from_parts(negated, way, scope));
                 Ok(left)
             }
             (Err(Exit::Left(left)), Err(Exit::Left(right))) => {
-                self.departed.push(Departure::of(condition, left, after_left));
+                self.early_exits
+                    .push(EarlyExit::from_parts(condition, left, after_left));
                 Err(Exit::Left(right))
             }
             (Err(error), _) | (_, Err(error)) => Err(error),
         }
     }
 
-    fn kept_branch(
+    fn structured_branch(
         &mut self,
         tail: Tail<'_>,
         condition: NodeId,
@@ -175,45 +176,45 @@ impl Evaluator<'_> {
     /// One side of a branch that is kept, with all who leave it in one state.
     fn flat_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval<Side> {
         let mark = self.scope.enter();
-        let outcome = self.side(tail, span, evaluate);
-        let departed = std::mem::take(&mut self.departed);
+        let outcome = self.eval_side(tail, span, evaluate);
+        let departed = std::mem::take(&mut self.early_exits);
         self.side_of(outcome, departed, mark, span)
     }
 
     /// Evaluates what is only looked at where a run-time condition holds.
-    fn side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
-        let (mark, since) = (self.scope.enter(), self.departed.len());
+    fn eval_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
+        let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = evaluate(self);
-        let outcome = self.arrive(since, outcome, mark, &|way| tail.takes(way), span);
+        let outcome = self.merge_exits(since, outcome, mark, &|way| tail.is_target_of(way), span);
         self.scope.leave(mark);
         outcome
     }
 
     /// The right side of `&&` or `||` after `condition`, which nobody leaves.
     pub fn lazy_side(&mut self, condition: NodeId, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
-        let (mark, since) = (self.scope.enter(), self.departed.len());
+        let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = right(self);
         self.scope.leave(mark);
-        let left = self.departed.len() > since;
-        self.departed.truncate(since);
+        let left = self.early_exits.len() > since;
+        self.early_exits.truncate(since);
         match outcome {
             Ok(value) if !left => Ok(value),
             Ok(_) | Err(Exit::Left(_)) => {
-                let error = Diagnostic::at(
+                let error = Diagnostic::error_at(
                     Code::Leaving,
                     span,
                     "`break`, `continue` or `return` on the right side of `&&` or `||`",
                 )
                 .label("whether it is reached is a runtime value")
                 .help("write an `if`");
-                Err(self.demand(&[condition], error))
+                Err(self.demand_constants(&[condition], error))
             }
             error => error,
         }
     }
 
     /// Joins the two sides: variables and values that differ are selected, or become the branch's results.
-    pub fn join(
+    pub fn join_sides(
         &mut self,
         condition: NodeId,
         regions: Option<(RegionId, RegionId)>,
@@ -238,7 +239,7 @@ impl Evaluator<'_> {
         let mut compared = 0;
         // Who left before a variable was made never comes to where it can be seen.
         for slot in 0..self.scope.len().min(left_scope.len()) {
-            let (a, b) = (left_scope.at(slot).1, self.scope.at(slot).1);
+            let (a, b) = (left_scope.name_and_value(slot).1, self.scope.name_and_value(slot).1);
             if let (Value::Array(x), Value::Array(y)) = (a, b) {
                 if Rc::ptr_eq(x, y) {
                     continue;
@@ -246,22 +247,22 @@ impl Evaluator<'_> {
                 compared += x.len();
             }
             if a == b {
-                if left_scope.shared(slot) != self.scope.shared(slot) {
-                    self.scope.unshare(slot);
+                if left_scope.shared_value(slot) != self.scope.shared_value(slot) {
+                    self.scope.clear_shared(slot);
                 }
-            } else if let Some(common) = self.scope.common(left_scope, slot) {
+            } else if let Some(common) = self.scope.common_value(left_scope, slot) {
                 let common = common.clone();
-                self.scope.set(slot, common);
+                self.scope.set_value(slot, common);
             } else {
                 pairs.push((Some(slot), a.clone(), b.clone()));
             }
         }
-        self.copied(4 * compared, span)?;
+        self.count_copy(4 * compared, span)?;
         let mut joined = Vec::new();
         let (mut lefts, mut rights) = (Vec::new(), Vec::new());
         for (slot, a, b) in pairs {
-            let unified = self.unify(&a, &b, span);
-            let (a, b) = self.demanding(&[condition], unified)?;
+            let unified = self.unify_values(&a, &b, span);
+            let (a, b) = self.demand_on_error(&[condition], unified)?;
             a.flatten(&mut lefts);
             b.flatten(&mut rights);
             joined.push((slot, a));
@@ -274,9 +275,9 @@ impl Evaluator<'_> {
             match slot {
                 None => results.push(value),
                 Some(slot) => {
-                    let name = self.scope.at(slot).0.to_owned();
-                    self.name(&value, &name, span);
-                    self.scope.set(slot, value);
+                    let name = self.scope.name_and_value(slot).0.to_owned();
+                    self.name_value(&value, &name, span);
+                    self.scope.set_value(slot, value);
                 }
             }
         }
@@ -292,7 +293,7 @@ impl Evaluator<'_> {
     ) -> Vec<NodeId> {
         let pairs = lefts.iter().zip(rights);
         let Some((first, second)) = regions else {
-            return pairs.map(|(a, b)| self.select(condition, *a, *b)).collect();
+            return pairs.map(|(a, b)| self.build_select(condition, *a, *b)).collect();
         };
         // Only what differs leaves the branch.
         let differing: Vec<(NodeId, NodeId)> = pairs.clone().filter(|(a, b)| a != b).map(|(a, b)| (*a, *b)).collect();
@@ -321,7 +322,7 @@ impl Evaluator<'_> {
     }
 
     /// One of two values; of arrays, element by element.
-    fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
+    fn build_select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
         let ty = self.ty(a);
         let Type::Array { len, .. } = ty else {
             return self.builder.add(Op::Select, [condition, a, b], ty);
@@ -329,7 +330,7 @@ impl Evaluator<'_> {
         if a == b {
             return a;
         }
-        let element = ty.element();
+        let element = ty.element_type();
         let elements = (0..len as i32).map(|k| {
             let k = self.builder.i32(k);
             let [a, b] = [a, b].map(|array| self.builder.add(Op::ArrayGet, [array, k], element));

@@ -29,7 +29,7 @@ pub const ATOMIC_METHODS: &str =
 
 /// What is done to memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effects {
+pub enum MemoryEffect {
     /// An element is changed at once.
     Atomic(AtomicOp),
     /// An element is written.
@@ -44,27 +44,27 @@ pub fn atomic_named(name: &str, arguments: usize) -> Option<AtomicOp> {
 
 impl Evaluator<'_> {
     /// Evaluates what happens only for those for whom all of `conditions` are as stated, and who have not left.
-    pub fn narrowed<T>(&mut self, conditions: &[(NodeId, bool)], evaluate: impl FnOnce(&mut Self) -> T) -> T {
-        let mark = self.reach.len();
-        self.reach.extend(conditions);
+    pub fn eval_under<T>(&mut self, conditions: &[(NodeId, bool)], evaluate: impl FnOnce(&mut Self) -> T) -> T {
+        let mark = self.path_conditions.len();
+        self.path_conditions.extend(conditions);
         let outcome = evaluate(self);
-        self.reach.truncate(mark);
+        self.path_conditions.truncate(mark);
         outcome
     }
 
     /// Evaluates what is called, where nobody has left yet; it is reached by those who have not left where it is called.
-    pub fn called_by_others<T>(&mut self, evaluate: impl FnOnce(&mut Self) -> T) -> T {
-        let pending = std::mem::take(&mut self.departed);
+    pub fn eval_without_exits<T>(&mut self, evaluate: impl FnOnce(&mut Self) -> T) -> T {
+        let pending = std::mem::take(&mut self.early_exits);
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
-        let outcome = self.narrowed(&gone, evaluate);
-        self.departed = pending;
+        let outcome = self.eval_under(&gone, evaluate);
+        self.early_exits = pending;
         outcome
     }
 
     /// For whom the place that is being evaluated is reached, as far as no region says it.
-    pub(super) fn reached(&mut self) -> NodeId {
-        let mut conditions = self.reach.clone();
-        conditions.extend(self.departed.iter().map(|departure| (departure.condition, false)));
+    pub(super) fn reach_condition(&mut self) -> NodeId {
+        let mut conditions = self.path_conditions.clone();
+        conditions.extend(self.early_exits.iter().map(|departure| (departure.condition, false)));
         let mut all = self.builder.bool(true);
         for (condition, holds) in conditions {
             let holds = if holds { condition } else { self.not(condition) };
@@ -79,8 +79,8 @@ impl Evaluator<'_> {
             [SourceType::Name(of, _)] => value_named(of),
             _ => None,
         };
-        let Some(ty) = ty.filter(|ty| ty.kind() != Some(Scalar::Bool)) else {
-            return Err(Diagnostic::at(
+        let Some(ty) = ty.filter(|ty| ty.scalar_kind() != Some(Scalar::Bool)) else {
+            return Err(Diagnostic::error_at(
                 Code::ResourceElement,
                 span,
                 format!("the picture `{name}` has no texels that a shader can write"),
@@ -99,18 +99,18 @@ impl Evaluator<'_> {
     }
 
     /// A method of a picture that the kernel writes.
-    pub fn image(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+    pub fn eval_image_method(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let image = self.builder.graph().images[index as usize].name.clone();
         match (name, args) {
             ("size", []) => {
                 let size = self.builder.add(Op::FrameSize, Vec::new(), Type::value(Scalar::I32, 2));
-                Ok(Value::Node(self.convert(size, Scalar::U32)))
+                Ok(Value::Node(self.convert_node(size, Scalar::U32)))
             }
             ("store", [_, _]) => {
-                self.alone(&image, span)?;
-                self.effect_on(Memory::Image(index), Effects::Store, args, span)
+                self.check_write_allowed(&image, span)?;
+                self.effect_on(Memory::Image(index), MemoryEffect::Store, args, span)
             }
-            _ => Err(Diagnostic::at(
+            _ => Err(Diagnostic::error_at(
                 Code::UnknownMethod,
                 span,
                 format!("`{image}` is a `StorageTexture`, which has no method `{name}` with such arguments"),
@@ -127,33 +127,33 @@ impl Evaluator<'_> {
         let effect = match (buffer.access, atomic_named(name, args.len()), args) {
             (_, _, []) if name == "len" => {
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
-                return Ok(self.sized(len));
+                return Ok(self.as_usize(len));
             }
-            (Access::Atomic, Some(op), _) => Effects::Atomic(op),
-            (Access::Write, _, [_, _]) if name == "store" => Effects::Store,
+            (Access::Atomic, Some(op), _) => MemoryEffect::Atomic(op),
+            (Access::Write, _, [_, _]) if name == "store" => MemoryEffect::Store,
             _ => return Err(no_such_method(&buffer.name, buffer.access, name, span)),
         };
-        self.alone(&buffer.name, span)?;
+        self.check_write_allowed(&buffer.name, span)?;
         self.effect_on(Memory::Buffer(index), effect, args, span)
     }
 
     /// Writes to memory at an index, the first of `args`, what the second is.
-    pub fn effect_on(&mut self, memory: Memory, effect: Effects, args: &[Value], span: Span) -> Eval {
+    pub fn effect_on(&mut self, memory: Memory, effect: MemoryEffect, args: &[Value], span: Span) -> Eval {
         let (element, name) = self.builder.graph().memory(memory);
         let name = name.to_owned();
         let at = match memory {
-            Memory::Image(_) => self.node(&args[0], span)?,
+            Memory::Image(_) => self.value_node(&args[0], span)?,
             Memory::Buffer(_) | Memory::Shared(_) => self.index_node(&args[0], span)?,
         };
         let mut given = vec![at];
         if let Some(value) = args.get(1) {
             let value = match element {
                 Type::Value { scalar, components: 1 } => self.int_or_node(value, scalar, span)?,
-                _ => self.node(value, span)?,
+                _ => self.value_node(value, span)?,
             };
             if self.ty(value) != element {
                 let (wanted, found) = (element.in_rust(), self.ty(value).in_rust());
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::MismatchedTypes,
                     span,
                     format!("`{name}` holds {wanted}, not {found}"),
@@ -166,29 +166,29 @@ impl Evaluator<'_> {
         }
         let inside = match memory {
             Memory::Image(_) => self.inside_frame(at),
-            _ => self.inside(memory, &args[0], span)?,
+            _ => self.index_in_bounds(memory, &args[0], span)?,
         };
-        let reached = self.reached();
+        let reached = self.reach_condition();
         let condition = self.and(reached, inside);
         let args = [&[condition], &given[..]].concat();
         Ok(match effect {
-            Effects::Atomic(op) => Value::Node(self.builder.effect(Op::Atomic { memory, op }, args, element)),
-            Effects::Store => {
-                self.builder.effect(Op::Store(memory), args, Type::Results);
+            MemoryEffect::Atomic(op) => Value::Node(self.builder.add_effect(Op::Atomic { memory, op }, args, element)),
+            MemoryEffect::Store => {
+                self.builder.add_effect(Op::Store(memory), args, Type::Results);
                 Value::unit()
             }
         })
     }
 
     /// Whether an index is inside of memory.
-    fn inside(&mut self, memory: Memory, index: &Value, span: Span) -> Eval<NodeId> {
-        let index = self.node(index, span)?;
+    fn index_in_bounds(&mut self, memory: Memory, index: &Value, span: Span) -> Eval<NodeId> {
+        let index = self.value_node(index, span)?;
         let len = match memory {
             Memory::Image(_) => return Ok(self.inside_frame(index)),
             Memory::Buffer(buffer) => self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32),
             Memory::Shared(shared) => {
                 let len = self.builder.graph().shared[shared as usize].len;
-                let bounds = crate::passes::bounds(self.builder.graph(), index);
+                let bounds = crate::passes::integer_bounds(self.builder.graph(), index);
                 if bounds.is_some_and(|(low, high)| low >= 0 && high < i64::from(len)) {
                     return Ok(self.builder.bool(true));
                 }
@@ -200,10 +200,10 @@ impl Evaluator<'_> {
             Type::USIZE => Scalar::Usize,
             _ => Scalar::U32,
         };
-        let [at, len] = [index, len].map(|id| self.convert(id, kind));
+        let [at, len] = [index, len].map(|id| self.convert_node(id, kind));
         if let Memory::Buffer(_) = memory {
             let name = self.builder.graph().memory(memory).1.to_owned();
-            self.name(&Value::Node(len), &format!("{name}_len"), span);
+            self.name_value(&Value::Node(len), &format!("{name}_len"), span);
         }
         Ok(self.builder.add(Op::Binary(BinaryOp::Lt), [at, len], Type::BOOL))
     }
@@ -215,11 +215,11 @@ impl Evaluator<'_> {
             return self.builder.bool(true);
         }
         let frame = self.builder.add(Op::FrameSize, Vec::new(), Type::value(Scalar::I32, 2));
-        let [at, frame] = [at, frame].map(|id| self.lanes(id));
+        let [at, frame] = [at, frame].map(|id| self.vector_components(id));
         let mut inside = self.builder.bool(true);
         for (at, side) in at.into_iter().zip(frame) {
             // A negative coordinate is a large one.
-            let [at, side] = [at, side].map(|id| self.convert(id, Scalar::U32));
+            let [at, side] = [at, side].map(|id| self.convert_node(id, Scalar::U32));
             let within = self.builder.add(Op::Binary(BinaryOp::Lt), [at, side], Type::BOOL);
             inside = self.and(inside, within);
         }
@@ -227,7 +227,7 @@ impl Evaluator<'_> {
     }
 
     /// Effects are of invocations that compute one pixel, inside the frame.
-    fn alone(&mut self, name: &str, span: Span) -> Eval<()> {
+    fn check_write_allowed(&mut self, name: &str, span: Span) -> Eval<()> {
         let (what, help) = match self.builder.graph().invocation {
             Invocation::Pixel => return Ok(()),
             Invocation::Group(_) if self.in_phase => return Ok(()),
@@ -245,7 +245,7 @@ impl Evaluator<'_> {
             ),
         };
         Err(
-            Diagnostic::at(Code::MisplacedWrite, span, format!("{what} writes to `{name}`"))
+            Diagnostic::error_at(Code::MisplacedWrite, span, format!("{what} writes to `{name}`"))
                 .label("not supported")
                 .help(help)
                 .into(),
@@ -262,7 +262,7 @@ fn no_such_method(buffer: &str, access: Access, name: &str, span: Span) -> Exit 
             "; take a `&Buffer` to read, or an `&AtomicBuffer` for both",
         ),
     };
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::UnknownMethod,
         span,
         format!("`{buffer}` is {ty}, which has no method `{name}` with such arguments"),

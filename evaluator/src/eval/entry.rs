@@ -1,20 +1,20 @@
 //! The kernel's own parameters and result.
 
 use super::Evaluator;
-use super::options::unknown;
+use super::options::unknown_settings;
 // Booleans are in no buffer.
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
 use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
-use crate::ir::{BinaryOp, Invocation, NodeId, Op, Part, Scalar, Type};
+use crate::ir::{BinaryOp, Invocation, NodeId, Op, Scalar, Type, UniformPart};
 use std::collections::BTreeMap;
 use straightline_kernels::{OptionText, OptionValues};
 
 impl Evaluator<'_> {
     /// Evaluates the kernel `entry`: its results, the options chosen, its documentation.
-    pub fn kernel(&mut self, entry: &str, settings: &[OptionText]) -> Eval<(Vec<NodeId>, OptionValues, String)> {
+    pub fn eval_kernel(&mut self, entry: &str, settings: &[OptionText]) -> Eval<(Vec<NodeId>, OptionValues, String)> {
         let library = self.library;
         let Some(function) = library.functions.get(entry) else {
             let mut names: Vec<&str> = library
@@ -36,40 +36,40 @@ impl Evaluator<'_> {
         let mut args = Vec::new();
         for Param { name, ty, span, .. } in &function.params {
             if ty.is_mutable_reference() {
-                self.note(by_reference(name, *span));
+                self.record_error(by_reference(name, *span));
                 continue;
             }
-            match self.parameter(name, ty.bare(), *span, settings, &mut options) {
+            match self.eval_parameter(name, ty.peel_refs(), *span, settings, &mut options) {
                 Ok(value) => args.push(value),
-                Err(exit) => drop(self.note(exit)),
+                Err(exit) => drop(self.record_error(exit)),
             }
         }
         let of_group = matches!(self.builder.graph().invocation, Invocation::Group(_));
         let is_pixel = |param: &&Param| {
-            param.name == "pixel" && matches!(param.ty.bare(), SourceType::Name(of, _) if of == "IVec2")
+            param.name == "pixel" && matches!(param.ty.peel_refs(), SourceType::Name(of, _) if of == "IVec2")
         };
         let pixel = function.params.iter().find(is_pixel);
         if let (true, Some(pixel)) = (of_group, pixel) {
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::KernelParameter,
                 pixel.span,
                 "a kernel of workgroups has a pixel for each thread",
             )
             .label("of which thread?")
             .help("leave it out, and take `thread.pixel` in a `group.each(|thread| ...)`");
-            self.note(error.into());
+            self.record_error(error.into());
         }
         let names: Vec<&str> = options.iter().map(|(name, _)| name.as_str()).collect();
-        for error in unknown(entry, &names, settings) {
-            self.note(error.into());
+        for error in unknown_settings(entry, &names, settings) {
+            self.record_error(error.into());
         }
         if !self.errors.is_empty() {
             return Err(Exit::Noted);
         }
         let outputs = self.meeting_demands(|e| {
-            let value = e.inline(entry, &[], args.clone(), function.span)?;
-            let value = e.loaded(value, function.span)?;
-            e.results(&value, function)
+            let value = e.inline_function(entry, &[], args.clone(), function.span)?;
+            let value = e.deref_value(value, function.span)?;
+            e.split_results(&value, function)
         })?;
         Ok((outputs, options, function.docs.clone()))
     }
@@ -81,13 +81,13 @@ impl Evaluator<'_> {
         };
         self.parameters = self.names_of_parameters(&function.params);
         for Param { name, ty, span, .. } in &function.params {
-            let is_options = matches!(ty.bare(), SourceType::Name(of, _) if self.library.options.contains_key(of));
+            let is_options = matches!(ty.peel_refs(), SourceType::Name(of, _) if self.library.options.contains_key(of));
             if ty.is_mutable_reference() {
-                self.note(by_reference(name, *span));
+                self.record_error(by_reference(name, *span));
             } else if !is_options
-                && let Err(exit) = self.parameter(name, ty.bare(), *span, &[], &mut OptionValues::default())
+                && let Err(exit) = self.eval_parameter(name, ty.peel_refs(), *span, &[], &mut OptionValues::default())
             {
-                self.note(exit);
+                self.record_error(exit);
             }
         }
         self.errors.retain(|error| error.code() == Some(Code::KernelParameter));
@@ -100,7 +100,7 @@ impl Evaluator<'_> {
         let mut names = BTreeMap::new();
         let mut add = |name: &str| *names.entry(unraw(name).to_owned()).or_default() += 1;
         for param in params {
-            let of = match param.ty.bare() {
+            let of = match param.ty.peel_refs() {
                 SourceType::Name(of, _) => of.as_str(),
                 _ => "",
             };
@@ -113,7 +113,7 @@ impl Evaluator<'_> {
         names
     }
 
-    fn parameter(
+    fn eval_parameter(
         &mut self,
         name: &str,
         ty: &SourceType,
@@ -122,7 +122,7 @@ impl Evaluator<'_> {
         options: &mut OptionValues,
     ) -> Eval {
         self.inputs.push((name.to_owned(), span));
-        if let Some(resource) = self.resource(name, ty, span)? {
+        if let Some(resource) = self.resource_parameter(name, ty, span)? {
             return Ok(resource);
         }
         if let Some(group) = self.workgroup_parameter(name, ty, span)? {
@@ -139,7 +139,7 @@ impl Evaluator<'_> {
             return Err(bad_parameter(name, span));
         };
         if self.library.options.contains_key(type_name) {
-            return self.configure(type_name, settings, options);
+            return self.configure_options(type_name, settings, options);
         }
         let library = self.library;
         let Some(structure) = library.structs.get(type_name) else {
@@ -147,7 +147,7 @@ impl Evaluator<'_> {
         };
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
-            let ty = ty.bare();
+            let ty = ty.peel_refs();
             // Where several structures have such a field, it is called by both names.
             let is_one = self.parameters.get(unraw(field)).is_none_or(|times| *times == 1);
             let known = match is_one {
@@ -155,13 +155,13 @@ impl Evaluator<'_> {
                 false => self.part_name(name, field),
             };
             self.inputs.push((known.clone(), *at));
-            let value = match self.resource(&known, ty, *at)? {
+            let value = match self.resource_parameter(&known, ty, *at)? {
                 Some(value) => Some(value),
                 None => self.uniform_part(&known, ty, *at)?,
             };
             let Some(value) = value else {
                 return Err(
-                    Diagnostic::at(Code::KernelParameter, *at, format!("`{field}` is neither a resource nor a number"))
+                    Diagnostic::error_at(Code::KernelParameter, *at, format!("`{field}` is neither a resource nor a number"))
                         .label("not supported")
                         .help(
                             "a structure that a kernel takes holds textures, samplers, buffers, numbers, vectors and matrices, and arrays \
@@ -192,7 +192,7 @@ impl Evaluator<'_> {
                     // Of structures and matrices, what was added has longer names.
                     let added = self.builder.graph_mut().uniforms.last_mut();
                     if let Some(uniform) = added.filter(|uniform| uniform.name == own) {
-                        uniform.part = Some(Part {
+                        uniform.part = Some(UniformPart {
                             of: unraw(name).to_owned(),
                             index: k,
                             count,
@@ -231,46 +231,46 @@ impl Evaluator<'_> {
             }
             "UVec2" if name == "resolution" => {
                 let size = self.builder.add(Op::FrameSize, Vec::new(), pair);
-                return Ok(Some(Value::Node(self.convert(size, Scalar::U32))));
+                return Ok(Some(Value::Node(self.convert_node(size, Scalar::U32))));
             }
             "f32" => Type::F32,
             "i32" => Type::I32,
             "u32" => Type::U32,
             "bool" => {
-                let set = self.uniform(&self.input_name(name), Type::U32, None);
+                let set = self.add_uniform(&self.input_name(name), Type::U32, None);
                 let zero = Value::Node(self.builder.constant(Type::U32, [0; 4]));
-                return self.binary(BinaryOp::Ne, &set, &zero, span).map(Some);
+                return self.eval_binary(BinaryOp::Ne, &set, &zero, span).map(Some);
             }
-            other => match (vector_type(other), super::matrix::size(other)) {
+            other => match (vector_type(other), super::matrix::column_count(other)) {
                 (Some((kind, lanes)), _) => Type::value(kind, lanes),
                 (None, Some(n)) => {
                     // Columns in a row are a matrix in memory, in WGSL and in GLSL.
                     let mut columns = Vec::new();
-                    for (index, axis) in (0..).zip(super::matrix::axes(n)) {
+                    for (index, axis) in (0..).zip(super::matrix::axis_names(n)) {
                         let own = self.part_name(name, axis);
-                        let column = self.uniform(&own, Type::value(Scalar::F32, n), None);
+                        let column = self.add_uniform(&own, Type::value(Scalar::F32, n), None);
                         if let Some(uniform) = self.builder.graph_mut().uniforms.last_mut() {
-                            uniform.part = Some(Part {
+                            uniform.part = Some(UniformPart {
                                 of: unraw(name).to_owned(),
                                 index,
                                 count: n.into(),
                                 columns: true,
                             });
                         }
-                        columns.push(self.node(&column, span)?);
+                        columns.push(self.value_node(&column, span)?);
                     }
-                    return Ok(Some(super::matrix::matrix(&columns)));
+                    return Ok(Some(super::matrix::matrix_value(&columns)));
                 }
                 (None, None) => return Ok(None),
             },
         };
         let name = &*self.input_name(name);
-        Ok(Some(self.uniform(name, ty, None)))
+        Ok(Some(self.add_uniform(name, ty, None)))
     }
 }
 
 fn by_reference(name: &str, span: Span) -> Exit {
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::KernelParameter,
         span,
         format!("a kernel cannot take `{name}` by `&mut`"),
@@ -281,7 +281,7 @@ fn by_reference(name: &str, span: Span) -> Exit {
 }
 
 fn bad_parameter(name: &str, span: Span) -> Exit {
-    Diagnostic::at(Code::KernelParameter, span, format!("a kernel cannot take `{name}` of this type"))
+    Diagnostic::error_at(Code::KernelParameter, span, format!("a kernel cannot take `{name}` of this type"))
         .label("not supported")
         .help(
             "a kernel takes options (`options!`), textures, samplers and buffers of the prelude, numbers, vectors and matrices, \

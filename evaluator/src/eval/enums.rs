@@ -3,7 +3,7 @@
 
 use super::Evaluator;
 use super::departures::Tail;
-use super::value::{Eval, Exit, Value, Way};
+use super::value::{Eval, Exit, Jump, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{Enum, Expr};
@@ -13,13 +13,13 @@ use std::rc::Rc;
 
 /// A value of an enum.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
+pub struct EnumValue {
     /// The enum.
     pub ty: Name,
     /// Which variant it is.
     pub tag: Tag,
     /// What each variant holds, by the names of its fields; `None` of those that it is known not to be.
-    pub held: Vec<Option<Vec<(Name, Value)>>>,
+    pub variants: Vec<Option<Vec<(Name, Value)>>>,
 }
 
 /// Which variant a value is.
@@ -31,81 +31,81 @@ pub enum Tag {
     Node(NodeId),
 }
 
-impl Choice {
+impl EnumValue {
     /// A variant that is known.
-    pub fn known(ty: impl Into<Name>, definition: &Enum, variant: usize, fields: Vec<(Name, Value)>) -> Value {
+    pub fn with_variant(ty: impl Into<Name>, definition: &Enum, variant: usize, fields: Vec<(Name, Value)>) -> Value {
         let mut held = vec![None; definition.variants.len()];
         held[variant] = Some(fields);
-        Value::Enum(Rc::new(Choice {
+        Value::Enum(Rc::new(EnumValue {
             ty: ty.into(),
             tag: Tag::Known(variant),
-            held,
+            variants: held,
         }))
     }
 
     /// What it holds if it is the variant at a position.
-    pub fn fields(&self, variant: usize) -> Option<&[(Name, Value)]> {
-        self.held.get(variant)?.as_deref()
+    pub fn variant_fields(&self, variant: usize) -> Option<&[(Name, Value)]> {
+        self.variants.get(variant)?.as_deref()
     }
 
     /// All fields of all variants that it may be.
-    pub fn all(&self) -> impl Iterator<Item = &(Name, Value)> {
-        self.held.iter().flatten().flatten()
+    pub fn all_fields(&self) -> impl Iterator<Item = &(Name, Value)> {
+        self.variants.iter().flatten().flatten()
     }
 
     /// Whether there are numbers or other values in it: it is more than a variant that is known.
     pub fn names_something(&self) -> bool {
-        matches!(self.tag, Tag::Node(_)) || self.all().next().is_some()
+        matches!(self.tag, Tag::Node(_)) || self.all_fields().next().is_some()
     }
 
     /// The same with other fields.
-    pub fn with_fields(&self, mut change: impl FnMut(&Value) -> Value) -> Choice {
+    pub fn with_fields(&self, mut change: impl FnMut(&Value) -> Value) -> EnumValue {
         let one = |(name, value): &(Name, Value)| (name.clone(), change(value));
         let mut one = one;
         let held = self
-            .held
+            .variants
             .iter()
             .map(|fields| fields.as_ref().map(|fields| fields.iter().map(&mut one).collect()));
-        Choice {
+        EnumValue {
             ty: self.ty.clone(),
             tag: self.tag,
-            held: held.collect(),
+            variants: held.collect(),
         }
     }
 }
 
 impl Evaluator<'_> {
     /// The variant that a value is, if that is known.
-    pub fn known_variant(&self, choice: &Choice) -> Option<usize> {
+    pub fn known_variant(&self, choice: &EnumValue) -> Option<usize> {
         let known = match choice.tag {
             Tag::Known(k) => Some(k),
-            Tag::Node(id) => self.builder.graph().constant(id).map(|bits| bits[0] as usize),
+            Tag::Node(id) => self.builder.graph().constant_bits(id).map(|bits| bits[0] as usize),
         };
         known.or_else(|| {
-            let mut possible = (0..choice.held.len()).filter(|k| choice.held[*k].is_some());
+            let mut possible = (0..choice.variants.len()).filter(|k| choice.variants[*k].is_some());
             possible.next().filter(|_| possible.next().is_none())
         })
     }
 
     /// The tag as a node.
-    pub fn tag_node(&mut self, choice: &Choice) -> NodeId {
+    pub fn tag_node(&mut self, choice: &EnumValue) -> NodeId {
         match choice.tag {
             Tag::Node(id) => id,
-            Tag::Known(k) if choice.held.len() == 2 => self.builder.bool(k == 1),
+            Tag::Known(k) if choice.variants.len() == 2 => self.builder.bool(k == 1),
             Tag::Known(k) => self.builder.i32(k as i32),
         }
     }
 
     /// Whether a value is the variant at a position.
-    pub fn is_variant(&mut self, choice: &Choice, variant: usize) -> NodeId {
+    pub fn is_variant(&mut self, choice: &EnumValue, variant: usize) -> NodeId {
         if let Some(known) = self.known_variant(choice) {
             return self.builder.bool(known == variant);
         }
-        if choice.held.get(variant).is_none_or(Option::is_none) {
+        if choice.variants.get(variant).is_none_or(Option::is_none) {
             return self.builder.bool(false);
         }
         let tag = self.tag_node(choice);
-        if choice.held.len() == 2 {
+        if choice.variants.len() == 2 {
             return if variant == 1 { tag } else { self.not(tag) };
         }
         let wanted = self.builder.i32(variant as i32);
@@ -115,13 +115,13 @@ impl Evaluator<'_> {
     /// The variant that a path names, with what it holds; `None` of a path that is none. Errors are of the number of values.
     pub fn variant_of(&mut self, path: &[String], values: Vec<Value>, span: Span) -> Eval<Option<Value>> {
         let library = self.library;
-        let Some((ty, k, variant)) = library.variant(path) else {
+        let Some((ty, k, variant)) = library.find_variant(path) else {
             return Ok(None);
         };
         if variant.fields.len() != values.len() {
             let (wanted, found) = (variant.fields.len(), values.len());
             let plural = if wanted == 1 { "" } else { "s" };
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::ArgumentCount,
                 span,
                 format!("`{}` takes {wanted} argument{plural}, not {found}", path.join("::")),
@@ -131,23 +131,23 @@ impl Evaluator<'_> {
         }
         let mut fields = Vec::new();
         for ((name, ty, _), value) in variant.fields.iter().zip(values) {
-            fields.push((name.clone(), self.ascribe(value, Some(ty), span)?));
+            fields.push((name.clone(), self.ascribe_type(value, Some(ty), span)?));
         }
-        Ok(Some(Choice::known(ty, &library.enums[ty], k, fields)))
+        Ok(Some(EnumValue::with_variant(ty, &library.enums[ty], k, fields)))
     }
 
     /// Two values of one enum in one shape: both may be what either may be.
-    pub fn agree_choices(&mut self, a: &Choice, b: &Choice, span: Span) -> Eval<(Value, Value)> {
+    pub fn agree_choices(&mut self, a: &EnumValue, b: &EnumValue, span: Span) -> Eval<(Value, Value)> {
         let (mut left, mut right) = (a.clone(), b.clone());
         if a.tag != b.tag {
             left.tag = Tag::Node(self.tag_node(a));
             right.tag = Tag::Node(self.tag_node(b));
         }
-        for (x, y) in left.held.iter_mut().zip(&mut right.held) {
+        for (x, y) in left.variants.iter_mut().zip(&mut right.variants) {
             match (x.as_mut(), y.as_mut()) {
                 (Some(x), Some(y)) => {
                     for ((_, x), (_, y)) in x.iter_mut().zip(y) {
-                        (*x, *y) = self.unify(x, y, span)?;
+                        (*x, *y) = self.unify_values(x, y, span)?;
                     }
                 }
                 (Some(x), None) => *y = Some(self.blank_fields(x)),
@@ -159,13 +159,15 @@ impl Evaluator<'_> {
     }
 
     fn blank_fields(&mut self, fields: &[(Name, Value)]) -> Vec<(Name, Value)> {
-        let each = fields.iter().map(|(name, value)| (name.clone(), self.blank(value)));
+        let each = fields
+            .iter()
+            .map(|(name, value)| (name.clone(), self.undef_like(value)));
         each.collect()
     }
 
     /// Whether two values of one type are equal, part by part, as `#[derive(PartialEq)]` has it; `None` if they are no
     /// structures, tuples, arrays or enums.
-    pub fn equal(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Option<NodeId>> {
+    pub fn values_equal(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Option<NodeId>> {
         let pairs: Vec<(Value, Value)> = match (a, b) {
             (Value::Enum(a), Value::Enum(b)) if a.ty == b.ty => return self.equal_choices(a, b, span).map(Some),
             (
@@ -203,17 +205,17 @@ impl Evaluator<'_> {
             if self.known_bool(all) == Some(false) {
                 break;
             }
-            let same = self.binary(BinaryOp::Eq, &a, &b, span)?;
-            let same = self.node(&same, span)?;
+            let same = self.eval_binary(BinaryOp::Eq, &a, &b, span)?;
+            let same = self.value_node(&same, span)?;
             all = self.and(all, same);
         }
         Ok(all)
     }
 
-    fn equal_choices(&mut self, a: &Choice, b: &Choice, span: Span) -> Eval<NodeId> {
+    fn equal_choices(&mut self, a: &EnumValue, b: &EnumValue, span: Span) -> Eval<NodeId> {
         let mut any = self.builder.bool(false);
-        for k in 0..a.held.len() {
-            let (Some(x), Some(y)) = (a.fields(k), b.fields(k)) else {
+        for k in 0..a.variants.len() {
+            let (Some(x), Some(y)) = (a.variant_fields(k), b.variant_fields(k)) else {
                 continue;
             };
             let (of_a, of_b) = (self.is_variant(a, k), self.is_variant(b, k));
@@ -238,16 +240,16 @@ impl Evaluator<'_> {
             },
             _ => 0,
         };
-        self.elements(value, len, span)
+        self.array_elements(value, len, span)
     }
 
     /// `value?`.
-    pub fn tried(&mut self, value: &Expr, span: Span) -> Eval {
-        let found = self.value(value)?;
+    pub fn eval_try(&mut self, value: &Expr, span: Span) -> Eval {
+        let found = self.eval_value(value)?;
         let Value::Enum(choice) = &found else {
             return match found {
                 Value::Poison => Err(Exit::Noted),
-                other => Err(Diagnostic::at(
+                other => Err(Diagnostic::error_at(
                     Code::QuestionMark,
                     span,
                     format!(
@@ -263,45 +265,47 @@ impl Evaluator<'_> {
         let good = usize::from(choice.ty == "Option");
         let holds = self.is_variant(choice, good);
         let inside = choice
-            .fields(good)
+            .variant_fields(good)
             .and_then(<[_]>::first)
             .map(|(_, value)| value.clone());
         let library = self.library;
-        let other = Choice::known(
+        let other = EnumValue::with_variant(
             &choice.ty,
             &library.enums[&*choice.ty],
             1 - good,
-            choice.fields(1 - good).unwrap_or_default().to_vec(),
+            choice.variant_fields(1 - good).unwrap_or_default().to_vec(),
         );
         match (self.known_bool(holds), inside) {
             (Some(true), Some(inside)) => Ok(inside),
             (None, Some(inside)) => {
                 let keep = self.keeps_exits(None::<Branches>);
-                let leave = |_: &mut Self| Err(Exit::Left(Way::Return(other)));
-                self.branch(Tail::Open, holds, keep, span, |_| Ok(inside), leave)
+                let leave = |_: &mut Self| Err(Exit::Left(Jump::Return(other)));
+                self.eval_branch(Tail::Open, holds, keep, span, |_| Ok(inside), leave)
             }
-            _ => Err(Exit::Left(Way::Return(other))),
+            _ => Err(Exit::Left(Jump::Return(other))),
         }
     }
 
     /// `unwrap()` and `expect(..)` of a value that is known to hold something.
-    pub fn unwrapped(&mut self, choice: &Choice, name: &str, span: Span) -> Eval {
+    pub fn eval_unwrap(&mut self, choice: &EnumValue, name: &str, span: Span) -> Eval {
         let good = usize::from(choice.ty == "Option");
         let empty = if choice.ty == "Option" { "None" } else { "Err" };
         let inside = choice
-            .fields(good)
+            .variant_fields(good)
             .and_then(<[_]>::first)
             .map(|(_, value)| value.clone());
         match (self.known_variant(choice), inside) {
             (Some(k), Some(inside)) if k == good => Ok(inside),
-            (Some(_), _) => Err(
-                Diagnostic::at(Code::Unwrap, span, format!("`{name}` of what is always `{empty}`"))
-                    .label("Rust panics here")
-                    .help("give what is to be there instead: `unwrap_or(..)`")
-                    .into(),
-            ),
+            (Some(_), _) => {
+                Err(
+                    Diagnostic::error_at(Code::Unwrap, span, format!("`{name}` of what is always `{empty}`"))
+                        .label("Rust panics here")
+                        .help("give what is to be there instead: `unwrap_or(..)`")
+                        .into(),
+                )
+            }
             (None, _) => {
-                let error = Diagnostic::at(
+                let error = Diagnostic::error_at(
                     Code::Unwrap,
                     span,
                     format!("`{name}` of what may be `{empty}` at run time"),
@@ -312,13 +316,13 @@ impl Evaluator<'_> {
                     Tag::Node(tag) => vec![tag],
                     Tag::Known(_) => Vec::new(),
                 };
-                Err(self.demand(&tag, error))
+                Err(self.demand_constants(&tag, error))
             }
         }
     }
 
     /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
-    pub fn choice_names(&self, choice: &Choice, name: &str) -> ChoiceNames {
+    pub fn choice_names(&self, choice: &EnumValue, name: &str) -> EnumNames {
         let library = self.library;
         let variants = library.enums.get(&*choice.ty).map_or(&[][..], |e| &e.variants);
         let tag = match choice.tag {
@@ -326,20 +330,26 @@ impl Evaluator<'_> {
             Tag::Node(id) => Some((
                 id,
                 match variants {
-                    [_, second] => format!("{name}_is_{}", snake(&second.name)),
+                    [_, second] => format!("{name}_is_{}", to_snake_case(&second.name)),
                     _ => format!("{name}_kind"),
                 },
             )),
         };
         let mut inside = Vec::new();
-        for (variant, fields) in variants.iter().zip(&choice.held) {
+        for (variant, fields) in variants.iter().zip(&choice.variants) {
             for (field, value) in fields.iter().flatten() {
-                let only = choice.held.iter().flatten().filter(|fields| !fields.is_empty()).count() == 1
+                let only = choice
+                    .variants
+                    .iter()
+                    .flatten()
+                    .filter(|fields| !fields.is_empty())
+                    .count()
+                    == 1
                     && fields.iter().flatten().count() == 1;
                 let name = match (only, field.parse::<usize>().is_ok(), fields.iter().flatten().count()) {
                     (true, ..) => name.to_owned(),
-                    (false, true, 1) => format!("{name}_{}", snake(&variant.name)),
-                    (false, _, _) => format!("{name}_{}_{field}", snake(&variant.name)),
+                    (false, true, 1) => format!("{name}_{}", to_snake_case(&variant.name)),
+                    (false, _, _) => format!("{name}_{}_{field}", to_snake_case(&variant.name)),
                 };
                 inside.push((value.clone(), name));
             }
@@ -349,10 +359,10 @@ impl Evaluator<'_> {
 }
 
 /// A tag with its name, if it is a number, and values with their names.
-type ChoiceNames = (Option<(NodeId, String)>, Vec<(Value, String)>);
+type EnumNames = (Option<(NodeId, String)>, Vec<(Value, String)>);
 
 /// `TwoWords` as `two_words`.
-fn snake(name: &str) -> String {
+fn to_snake_case(name: &str) -> String {
     let mut out = String::new();
     for c in name.chars() {
         if c.is_ascii_uppercase() && !out.is_empty() {

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 /// Methods that count or turn bits.
-pub fn bits(name: &str) -> Option<UnaryOp> {
+pub fn bit_method(name: &str) -> Option<UnaryOp> {
     Some(match name {
         "count_ones" => UnaryOp::CountOneBits,
         "reverse_bits" => UnaryOp::ReverseBits,
@@ -38,13 +38,13 @@ impl Evaluator<'_> {
                     Some(n @ 0..=31) => {
                         let one = self
                             .builder
-                            .constant(Type::scalar(ty.kind().unwrap_or(Scalar::I32)), [1, 0, 0, 0]);
-                        let one = self.splat(one, ty.components());
+                            .constant(Type::scalar(ty.scalar_kind().unwrap_or(Scalar::I32)), [1, 0, 0, 0]);
+                        let one = self.build_splat(one, ty.component_count());
                         let times = |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), [power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
                     _ => {
-                        let error = Diagnostic::at(
+                        let error = Diagnostic::error_at(
                             Code::RuntimeValue,
                             span,
                             "the power of `pow` must be a compile-time constant from 0 to 31",
@@ -55,15 +55,15 @@ impl Evaluator<'_> {
                     }
                 };
             }
-            _ => return self.euclid(receiver, x, name, a, span).map(Some),
+            _ => return self.build_euclid(receiver, x, name, a, span).map(Some),
         };
         // A known receiver is a node by now: known integers do not wrap.
         let receiver = match receiver {
             Value::Int(_) => Value::Node(x),
             other => other.clone(),
         };
-        let value = self.binary(op, &receiver, a, span)?;
-        let found = self.node(&value, span)?;
+        let value = self.eval_binary(op, &receiver, a, span)?;
+        let found = self.value_node(&value, span)?;
         if op == BinaryOp::Sub {
             self.wrapping.insert(found);
         }
@@ -71,14 +71,14 @@ impl Evaluator<'_> {
     }
 
     /// `rem_euclid` and `div_euclid`, of vectors component by component.
-    fn euclid(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<NodeId> {
+    fn build_euclid(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<NodeId> {
         let (x, n) = match receiver {
             Value::Int(_) => self.same_type(&Value::Node(x), a, span)?,
             _ => self.same_type(receiver, a, span)?,
         };
         let ty = self.ty(x);
         let op = |op: BinaryOp| Op::Binary(op);
-        if ty.kind() != Some(Scalar::I32) {
+        if ty.scalar_kind() != Some(Scalar::I32) {
             let by = if name == "rem_euclid" {
                 BinaryOp::Rem
             } else {
@@ -86,10 +86,10 @@ impl Evaluator<'_> {
             };
             return Ok(self.builder.add(op(by), [x, n], ty));
         }
-        let lanes = usize::from(ty.components());
+        let lanes = usize::from(ty.component_count());
         let positive = |bits: [u32; 4]| bits[..lanes].iter().all(|n| *n as i32 > 0);
         let rest = self.builder.add(op(BinaryOp::Rem), [x, n], ty);
-        if name == "rem_euclid" && self.builder.graph().constant(n).is_some_and(positive) {
+        if name == "rem_euclid" && self.builder.graph().constant_bits(n).is_some_and(positive) {
             // ((x % n) + n) % n, which for a positive n is what Rust computes.
             let up = self.builder.add(op(BinaryOp::Add), [rest, n], ty);
             return Ok(self.builder.add(op(BinaryOp::Rem), [up, n], ty));
@@ -97,7 +97,7 @@ impl Evaluator<'_> {
         // Where the remainder is below 0, it is moved up by |n|, and the quotient one away from where n points.
         let whole = self.builder.add(op(BinaryOp::Div), [x, n], ty);
         let mut found = Vec::new();
-        for k in 0..ty.components() {
+        for k in 0..ty.component_count() {
             let [rest, n, whole] = [rest, n, whole].map(|id| match lanes {
                 1 => id,
                 _ => self.builder.add(Op::Extract(k), [id], Type::I32),

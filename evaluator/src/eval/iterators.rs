@@ -31,13 +31,13 @@ pub const METHODS: [&str; 20] = [
 
 impl Evaluator<'_> {
     /// The values that an iterator gives.
-    pub(super) fn listed(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
+    pub(super) fn collect_items(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
         match value {
             Value::Array(elements) => Ok(elements.to_vec()),
             Value::Range(range) => match self.range_values(range, span)? {
                 Some(values) => Ok(values),
                 None => {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeValue,
                         span,
                         "an iterator over a range whose bounds are runtime values",
@@ -52,14 +52,14 @@ impl Evaluator<'_> {
                     return Err(Exit::Noted);
                 };
                 (0..i64::from(len))
-                    .map(|k| self.element(value, &Value::Int(k), span))
+                    .map(|k| self.array_element(value, &Value::Int(k), span))
                     .collect()
             }
             Value::Ref(_) => match self.elements_mut(value, span)? {
                 Value::Array(elements) => Ok(elements.to_vec()),
                 _ => Err(Exit::Noted),
             },
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 format!("{} is no iterator", other.describe()),
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
 
     /// A method of an iterator over an array or a range.
     pub fn iterator_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval {
-        let mut items = self.listed(value, span)?;
+        let mut items = self.collect_items(value, span)?;
         match (name, args) {
             ("len" | "count", []) => Ok(Value::Int(items.len() as i64)),
             ("iter" | "into_iter" | "copied" | "cloned", []) => Ok(Value::array(items)),
@@ -84,7 +84,7 @@ impl Evaluator<'_> {
             }
             ("skip" | "take" | "step_by", [count]) => {
                 let Some(n) = self.known_int(count).and_then(|n| usize::try_from(n).ok()) else {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeValue,
                         span,
                         format!("`{name}` needs a compile-time constant"),
@@ -97,12 +97,16 @@ impl Evaluator<'_> {
                     "skip" => items.into_iter().skip(n).collect(),
                     "take" => items.into_iter().take(n).collect(),
                     _ if n > 0 => items.into_iter().step_by(n).collect(),
-                    _ => return Err(Diagnostic::at(Code::Panic, span, "`step_by` needs a step of at least 1").into()),
+                    _ => {
+                        return Err(
+                            Diagnostic::error_at(Code::Panic, span, "`step_by` needs a step of at least 1").into(),
+                        );
+                    }
                 };
                 Ok(Value::array(items))
             }
             ("zip" | "chain", [other]) => {
-                let others = self.listed(other, span)?;
+                let others = self.collect_items(other, span)?;
                 let both = match name {
                     "zip" => {
                         let pairs = items.into_iter().zip(others);
@@ -115,54 +119,56 @@ impl Evaluator<'_> {
             ("map", [f]) => {
                 self.only_reads(f, name, span)?;
                 self.at_once(name, span, |this| {
-                    let mapped = items.into_iter().map(|item| this.called(f, vec![item], span));
+                    let mapped = items
+                        .into_iter()
+                        .map(|item| this.call_item_closure(f, vec![item], span));
                     Ok(Value::array(mapped.collect::<Eval<_>>()?))
                 })
             }
             ("for_each", [f]) => {
                 for item in items {
-                    self.called(f, vec![item], span)?;
+                    self.call_item_closure(f, vec![item], span)?;
                 }
                 Ok(Value::unit())
             }
             ("fold", [first, f]) => {
                 let mut sum = first.clone();
                 for item in items {
-                    sum = self.called(f, vec![sum, item], span)?;
+                    sum = self.call_item_closure(f, vec![sum, item], span)?;
                 }
                 Ok(sum)
             }
             ("all" | "any", [f]) => {
                 self.only_reads(f, name, span)?;
                 let op = if name == "all" { BinaryOp::And } else { BinaryOp::Or };
-                let before = self.checkpoint();
-                let effects = self.builder.effects();
+                let before = self.take_checkpoint();
+                let effects = self.builder.effect_counts();
                 let mut all = Value::Node(self.builder.bool(name == "all"));
                 for item in &items {
-                    let holds = self.called(f, vec![item.clone()], span)?;
-                    let holds = self.loaded(holds, span)?;
-                    all = self.binary(op, &all, &holds, span)?;
+                    let holds = self.call_item_closure(f, vec![item.clone()], span)?;
+                    let holds = self.deref_value(holds, span)?;
+                    all = self.eval_binary(op, &all, &holds, span)?;
                 }
-                if self.builder.effects() == effects {
+                if self.builder.effect_counts() == effects {
                     return Ok(all);
                 }
                 // What is behind the first that decides is not to happen.
                 self.return_to(before);
-                self.inline(
+                self.inline_function(
                     &format!("Iterator::{name}"),
                     &[],
                     vec![Value::array(items), f.clone()],
                     span,
                 )
             }
-            ("sum" | "product", []) => self.reduced(name, items, span),
+            ("sum" | "product", []) => self.reduce_items(name, items, span),
             ("windows" | "chunks" | "chunks_exact", [count]) => {
                 let Some(n) = self
                     .known_int(count)
                     .and_then(|n| usize::try_from(n).ok())
                     .filter(|n| *n > 0)
                 else {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeValue,
                         span,
                         format!("`{name}` needs a compile-time constant above 0"),
@@ -184,19 +190,19 @@ impl Evaluator<'_> {
                 let all: Vec<Value> = std::iter::once(Value::array(items))
                     .chain(args.iter().cloned())
                     .collect();
-                let inlined = |this: &mut Self| this.inline(&format!("Iterator::{name}"), &[], all, span);
+                let inlined = |this: &mut Self| this.inline_function(&format!("Iterator::{name}"), &[], all, span);
                 match name {
                     "take_while" | "skip_while" => self.at_once(name, span, inlined),
                     _ => inlined(self),
                 }
             }
-            _ => Err(Diagnostic::at(
+            _ => Err(Diagnostic::error_at(
                 Code::UnknownMethod,
                 span,
                 format!("an iterator has no method `{name}` here"),
             )
             .label("not supported")
-            .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
+            .help(crate::suggest::suggest_name(name, &METHODS, "iterators have"))
             .into()),
         }
     }
@@ -204,11 +210,11 @@ impl Evaluator<'_> {
     /// What a method gives whose closure Rust calls for one value at a time, between what takes the values. Here it is called for
     /// all values first, which is the same but where memory is changed.
     fn at_once(&mut self, method: &str, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
-        let before = self.builder.effects();
+        let before = self.builder.effect_counts();
         let value = evaluate(self)?;
-        match self.builder.effects() == before {
+        match self.builder.effect_counts() == before {
             true => Ok(value),
-            false => Err(Diagnostic::at(
+            false => Err(Diagnostic::error_at(
                 Code::MisplacedWrite,
                 span,
                 format!("a closure that uses memory which the kernel changes, in `{method}`"),
@@ -220,10 +226,10 @@ impl Evaluator<'_> {
         }
     }
 
-    fn called(&mut self, f: &Value, args: Vec<Value>, span: Span) -> Eval {
-        self.step(span)?;
-        let value = self.invoke(f, args, span)?;
-        self.loaded(value, span)
+    fn call_item_closure(&mut self, f: &Value, args: Vec<Value>, span: Span) -> Eval {
+        self.count_step(span)?;
+        let value = self.call_value(f, args, span)?;
+        self.deref_value(value, span)
     }
 
     /// `sum` and `product` of those that there are of some options. The others add -0, which changes no sum, or multiply by 1.
@@ -235,12 +241,12 @@ impl Evaluator<'_> {
             };
             let is_some = self.is_variant(choice, 1);
             let held = choice
-                .fields(1)
+                .variant_fields(1)
                 .and_then(|fields| fields.first())
                 .map(|(_, value)| value.clone());
             // It is known to be nothing.
             let Some(held) = held else { continue };
-            let value = self.node(&held, span)?;
+            let value = self.value_node(&held, span)?;
             let ty = self.ty(value);
             let unit = match (ty.is_float(), name) {
                 (true, "sum") => (-0.0f32).to_bits(),
@@ -250,43 +256,45 @@ impl Evaluator<'_> {
             };
             let unit = self.builder.constant(
                 ty,
-                std::array::from_fn(|k| if k < ty.components() as usize { unit } else { 0 }),
+                std::array::from_fn(|k| if k < ty.component_count() as usize { unit } else { 0 }),
             );
             terms.push(Value::Node(self.builder.add(Op::Select, [is_some, value, unit], ty)));
         }
-        self.reduced(name, terms, span)
+        self.reduce_items(name, terms, span)
     }
 
     /// `sum` and `product`, in order: of numbers from the first, which is what Rust's `-0.0 + x`, `0 + x` and `1 * x` are; of
     /// vectors from glam's zero.
-    fn reduced(&mut self, name: &str, items: Vec<Value>, span: Span) -> Eval {
+    fn reduce_items(&mut self, name: &str, items: Vec<Value>, span: Span) -> Eval {
         if let Some(Value::Struct { ty, .. }) = items.first()
-            && let [key, ..] = self.library.methods(ty, name).as_slice()
+            && let [key, ..] = self.library.method_keys(ty, name).as_slice()
         {
             let key = (*key).to_owned();
-            return self.inline(&key, &[], vec![Value::array(items)], span);
+            return self.inline_function(&key, &[], vec![Value::array(items)], span);
         }
         let op = if name == "sum" { BinaryOp::Add } else { BinaryOp::Mul };
         let mut items = items.into_iter();
         let Some(first) = items.next() else {
-            return Err(Diagnostic::at(Code::Panic, span, format!("the {name} of no values"))
-                .label("empty")
-                .help("give the iterator a value, or write out what it is to be")
-                .into());
+            return Err(
+                Diagnostic::error_at(Code::Panic, span, format!("the {name} of no values"))
+                    .label("empty")
+                    .help("give the iterator a value, or write out what it is to be")
+                    .into(),
+            );
         };
-        let mut all = self.loaded(first, span)?;
+        let mut all = self.deref_value(first, span)?;
         if let Value::Node(id) = &all
             && name == "sum"
             && self.ty(*id).is_float()
-            && self.ty(*id).components() > 1
+            && self.ty(*id).component_count() > 1
         {
             let zero = self.builder.f32(0.0);
             let zero = self.builder.add(Op::Splat, [zero], self.ty(*id));
-            all = self.binary(op, &Value::Node(zero), &all, span)?;
+            all = self.eval_binary(op, &Value::Node(zero), &all, span)?;
         }
         for item in items {
-            let item = self.loaded(item, span)?;
-            all = self.binary(op, &all, &item, span)?;
+            let item = self.deref_value(item, span)?;
+            all = self.eval_binary(op, &all, &item, span)?;
         }
         Ok(all)
     }

@@ -1,27 +1,27 @@
 //! Loops that are left in the shader: what they carry from one iteration to the next, and how they are left.
 
 use super::Evaluator;
-use super::departures::{Departure, Side};
-use super::loops::Body;
+use super::departures::{EarlyExit, Side};
+use super::loops::LoopBody;
 use super::shape::same_shape;
-use super::value::{Eval, Exit, Value, Way};
+use super::value::{Eval, Exit, Jump, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::assigned;
+use crate::front::scan_effects;
 use crate::ir::{Naming, NodeId, Op, Origin, RegionId, Type};
 use std::sync::Arc;
 
 impl Evaluator<'_> {
     /// A loop of the graph that goes from `start` to `end` by one, both of type `i32` or `u32`: variables that its body
     /// assigns are carried from one iteration to the next. `iteration` is given the counter.
-    pub fn kept(
+    pub fn build_loop(
         &mut self,
-        body: &Body<'_>,
+        body: &LoopBody<'_>,
         bounds: (NodeId, NodeId),
         iteration: impl Fn(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
         if !self.may_nest() {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::CannotStay,
                 span,
                 "loops and branches of the shader are nested more than 100 deep",
@@ -31,17 +31,17 @@ impl Evaluator<'_> {
             .into());
         }
         let before = self.scope.clone();
-        let pending = std::mem::take(&mut self.departed);
+        let pending = std::mem::take(&mut self.early_exits);
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
-        self.kept_loops += 1;
-        let outcome = self.narrowed(&gone, |e| e.carry_widened(body, bounds, iteration, span));
-        self.kept_loops -= 1;
+        self.loop_depth += 1;
+        let outcome = self.eval_under(&gone, |e| e.carry_widened(body, bounds, iteration, span));
+        self.loop_depth -= 1;
         if outcome.is_err() {
             // Values made inside belong to no place outside.
             self.scope = before;
-            self.departed.clear();
+            self.early_exits.clear();
         }
-        self.departed.splice(0..0, pending);
+        self.early_exits.splice(0..0, pending);
         outcome
     }
 
@@ -49,18 +49,18 @@ impl Evaluator<'_> {
     /// evaluated again with what it has assigned, until it assigns nothing new.
     fn carry_widened(
         &mut self,
-        body: &Body<'_>,
+        body: &LoopBody<'_>,
         bounds: (NodeId, NodeId),
         iteration: impl Fn(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
-        let before = self.checkpoint();
+        let before = self.take_checkpoint();
         let mut wider = Vec::new();
         for _ in 0..MAX_WIDENED {
             for (slot, value) in wider {
-                self.scope.set(slot, value);
+                self.scope.set_value(slot, value);
             }
-            wider = self.carry(body, bounds, &iteration, span)?;
+            wider = self.try_build_loop(body, bounds, &iteration, span)?;
             if wider.is_empty() {
                 return Ok(());
             }
@@ -68,66 +68,71 @@ impl Evaluator<'_> {
             let values = self.return_with(before.clone(), values);
             wider = slots.into_iter().zip(values).collect();
         }
-        Err(changes("a variable", span))
+        Err(type_change_error("a variable", span))
     }
 
     /// One attempt; gives the variables that have to be carried as more than they are, with the values to begin with.
-    fn carry(
+    fn try_build_loop(
         &mut self,
-        body: &Body<'_>,
+        body: &LoopBody<'_>,
         (start, end): (NodeId, NodeId),
         iteration: &impl Fn(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<Vec<(usize, Value)>> {
-        let carried = self.carried(body);
+        let carried = self.carried_slots(body);
         let mark = self.scope.enter();
         let mut initial = Vec::new();
         let mut types = vec![self.ty(start)];
         for slot in &carried {
-            let value = self.scope.at(*slot).1.clone();
-            let value = self.settle(&value, span)?;
+            let value = self.scope.name_and_value(*slot).1.clone();
+            let value = self.make_runtime_form(&value, span)?;
             value.flatten(&mut initial);
-            self.scope.set(*slot, value);
+            self.scope.set_value(*slot, value);
         }
         types.extend(initial.iter().map(|id| self.ty(*id)));
         let settled = self.scope.clone();
 
         let region = self.builder.open_region(&types);
-        self.kept.enter(region, span, [&[start, end], &initial[..]].concat());
+        self.structured_loops
+            .push_loop(region, span, [&[start, end], &initial[..]].concat());
         let params = self.builder.graph().region(region).params.clone();
         let mut inner = params[1..].iter().copied();
         for slot in &carried {
-            let (name, template) = self.scope.at(*slot);
+            let (name, template) = self.scope.name_and_value(*slot);
             let name = name.to_owned();
             let value = template.clone().unflatten(&mut inner);
             self.name_params(&value, &name, span);
-            self.scope.set(*slot, value);
+            self.scope.set_value(*slot, value);
         }
         if let Some((name, at)) = body.counter {
             self.name_params(&Value::Node(params[0]), name, at);
         }
-        self.loops.round();
+        self.loops.record_iteration();
         let outcome = iteration(self, params[0]).map(|()| Value::unit());
-        let departed = std::mem::take(&mut self.departed);
+        let departed = std::mem::take(&mut self.early_exits);
         let side = self.side_of(outcome, departed, mark, span);
         let mut results = Vec::new();
         let mut changed = None;
         let mut wider = Vec::new();
         for slot in &carried {
-            let value = self.scope.at(*slot).1.clone();
-            match self.settle(&value, span) {
+            let value = self.scope.name_and_value(*slot).1.clone();
+            match self.make_runtime_form(&value, span) {
                 // It gets its value in the loop: in the first iteration it has any.
-                Ok(value) if *settled.at(*slot).1 == Value::Unset && value != Value::Unset => {
-                    wider.push((*slot, self.blank(&value)));
+                Ok(value) if *settled.name_and_value(*slot).1 == Value::Unset && value != Value::Unset => {
+                    wider.push((*slot, self.undef_like(&value)));
                 }
-                Ok(value) if same_shape(&value, settled.at(*slot).1) => value.flatten(&mut results),
-                Ok(value) => match self.unify(settled.at(*slot).1, &value, span) {
+                Ok(value) if same_shape(&value, settled.name_and_value(*slot).1) => value.flatten(&mut results),
+                Ok(value) => match self.unify_values(settled.name_and_value(*slot).1, &value, span) {
                     // It is less than what is carried, or what is carried has to be more.
-                    Ok((first, value)) if same_shape(&first, settled.at(*slot).1) && same_shape(&first, &value) => {
+                    Ok((first, value))
+                        if same_shape(&first, settled.name_and_value(*slot).1) && same_shape(&first, &value) =>
+                    {
                         value.flatten(&mut results);
                     }
-                    Ok((first, _)) if !same_shape(&first, settled.at(*slot).1) => wider.push((*slot, first)),
-                    _ => changed = Some(changes(settled.at(*slot).0, span)),
+                    Ok((first, _)) if !same_shape(&first, settled.name_and_value(*slot).1) => {
+                        wider.push((*slot, first))
+                    }
+                    _ => changed = Some(type_change_error(settled.name_and_value(*slot).0, span)),
                 },
                 Err(error) => changed = Some(error),
             }
@@ -152,7 +157,7 @@ impl Evaluator<'_> {
             return Err(error);
         }
         if !same {
-            return Err(changes("a variable", span));
+            return Err(type_change_error("a variable", span));
         }
 
         let args = [vec![start, end], initial].concat();
@@ -165,23 +170,23 @@ impl Evaluator<'_> {
         let (outs, mut left) = (outs[..count].to_vec(), outs[count..].iter().copied());
         let mut outs = outs.into_iter();
         for slot in &carried {
-            let (name, template) = settled.at(*slot);
+            let (name, template) = settled.name_and_value(*slot);
             let value = template.unflatten(&mut outs);
-            self.name(&value, name, span);
-            self.scope.set(*slot, value);
+            self.name_value(&value, name, span);
+            self.scope.set_value(*slot, value);
         }
         for way in exits {
             let Some(condition) = left.next() else { break };
             let way = match way {
-                Way::Return(value) => Way::Return(value.unflatten(&mut left)),
+                Jump::Return(value) => Jump::Return(value.unflatten(&mut left)),
                 other => other,
             };
             let scope = self.in_state(&self.scope, &side.states, Some(&way));
             self.name_exit(condition, &way, span);
             let group = Some(region);
-            self.departed.push(Departure {
+            self.early_exits.push(EarlyExit {
                 condition,
-                way,
+                jump: way,
                 scope,
                 group,
             });
@@ -194,26 +199,26 @@ impl Evaluator<'_> {
     fn exits_of_loop(
         &mut self,
         region: RegionId,
-        body: &Body<'_>,
+        body: &LoopBody<'_>,
         side: &Side,
         initial: &mut Vec<NodeId>,
         results: &mut Vec<NodeId>,
         span: Span,
-    ) -> Eval<Vec<Way>> {
+    ) -> Eval<Vec<Jump>> {
         let never = self.builder.bool(false);
         let mut stop = self.builder.bool(side.value.is_none());
         let mut ways = Vec::new();
         for (way, flag) in &side.exits {
             stop = self.or(stop, *flag);
-            if way.breaks(body.label) && body.breaks_here {
+            if way.breaks_loop(body.label) && body.breaks_here {
                 continue;
             }
             let mut leaves = vec![*flag];
             let way = match way {
-                Way::Return(value) => {
-                    let value = self.settle(value, span)?;
+                Jump::Return(value) => {
+                    let value = self.make_runtime_form(value, span)?;
                     value.flatten(&mut leaves);
-                    Way::Return(value)
+                    Jump::Return(value)
                 }
                 other => other.clone(),
             };
@@ -221,13 +226,13 @@ impl Evaluator<'_> {
             for leaf in leaves {
                 let ty = self.ty(leaf);
                 params.push(self.builder.add_param(region, ty));
-                initial.push(if leaf == *flag { never } else { self.unused(ty) });
+                initial.push(if leaf == *flag { never } else { self.undef_node(ty) });
                 results.push(leaf);
             }
             let mut params = params.into_iter();
             if let Some(flag) = params.next() {
                 let way = match &way {
-                    Way::Return(value) => Way::Return(value.unflatten(&mut params)),
+                    Jump::Return(value) => Jump::Return(value.unflatten(&mut params)),
                     other => other.clone(),
                 };
                 self.name_exit(flag, &way, span);
@@ -240,19 +245,19 @@ impl Evaluator<'_> {
 
     /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
     /// variables that it mentions lead to.
-    fn carried(&self, body: &Body<'_>) -> Vec<usize> {
-        let effects = assigned(body.block, &self.library.mutating);
+    fn carried_slots(&self, body: &LoopBody<'_>) -> Vec<usize> {
+        let effects = scan_effects(body.block, &self.library.mutating);
         let mut carried = body.written.clone();
-        for slot in effects.assigned.iter().filter_map(|name| self.scope.slot(name)) {
+        for slot in effects.assigned.iter().filter_map(|name| self.scope.find_slot(name)) {
             if !carried.contains(&slot) {
                 carried.push(slot);
             }
         }
-        for slot in effects.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
-            self.targets(self.scope.at(slot).1, &mut carried);
+        for slot in effects.mentioned.iter().filter_map(|name| self.scope.find_slot(name)) {
+            self.collect_ref_slots(self.scope.name_and_value(slot).1, &mut carried);
         }
         // A reference itself stays what it is.
-        carried.retain(|slot| !matches!(self.scope.at(*slot).1, Value::Ref(_)));
+        carried.retain(|slot| !matches!(self.scope.name_and_value(*slot).1, Value::Ref(_)));
         carried
     }
 
@@ -261,7 +266,7 @@ impl Evaluator<'_> {
         match value {
             Value::Node(id) => {
                 let origin = Origin {
-                    name: readable(name).into(),
+                    name: readable_name(name).into(),
                     naming: Naming::Let,
                     file: span.file,
                     line: span.line,
@@ -297,7 +302,7 @@ impl Evaluator<'_> {
 }
 
 /// A variable's name; of one that no kernel can name, `value`.
-fn readable(name: &str) -> String {
+fn readable_name(name: &str) -> String {
     match name.strip_prefix('#') {
         Some(hidden) => format!("value{}", &hidden[hidden.find('_').unwrap_or(hidden.len())..]),
         None => name.to_owned(),
@@ -307,8 +312,8 @@ fn readable(name: &str) -> String {
 /// Attempts after which a variable is taken to change without end.
 const MAX_WIDENED: usize = 16;
 
-fn changes(name: &str, span: Span) -> Exit {
-    Diagnostic::at(
+fn type_change_error(name: &str, span: Span) -> Exit {
+    Diagnostic::error_at(
         Code::CannotStay,
         span,
         format!("`{name}` changes its type, or what it stands for, in a loop that is left in the shader"),

@@ -8,21 +8,24 @@ use crate::ir::{Op, Scalar, Type};
 
 impl Evaluator<'_> {
     /// `mem::swap(&mut a, &mut b)` and `mem::replace(&mut a, b)`; `None` of any other function.
-    pub fn exchange(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
+    pub fn eval_mem_call(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let name = path.last().map(String::as_str).unwrap_or_default();
         match (name, values) {
             ("swap", [Value::Ref(a), Value::Ref(b)]) => {
-                let (a, b) = (self.followed((**a).clone(), span)?, self.followed((**b).clone(), span)?);
-                let (of_a, of_b) = (self.read(&a, span)?, self.read(&b, span)?);
-                self.write(&a, of_b, span)?;
-                self.write(&b, of_a, span)?;
+                let (a, b) = (
+                    self.follow_references((**a).clone(), span)?,
+                    self.follow_references((**b).clone(), span)?,
+                );
+                let (of_a, of_b) = (self.read_place(&a, span)?, self.read_place(&b, span)?);
+                self.write_place(&a, of_b, span)?;
+                self.write_place(&b, of_a, span)?;
                 Ok(Some(Value::unit()))
             }
             ("replace", [Value::Ref(place), value]) => {
-                let place = self.followed((**place).clone(), span)?;
-                let old = self.read(&place, span)?;
-                let value = self.loaded(value.clone(), span)?;
-                self.write(&place, value, span)?;
+                let place = self.follow_references((**place).clone(), span)?;
+                let old = self.read_place(&place, span)?;
+                let value = self.deref_value(value.clone(), span)?;
+                self.write_place(&place, value, span)?;
                 Ok(Some(old))
             }
             _ => Ok(None),
@@ -36,9 +39,9 @@ impl Evaluator<'_> {
             let parts = match value {
                 Value::Tuple(parts) => parts.clone(),
                 Value::Node(id) if self.ty(*id) == Type::value(kind, lanes) => return Ok(Some(value.clone())),
-                array => self.elements(array, usize::from(lanes), span)?,
+                array => self.array_elements(array, usize::from(lanes), span)?,
             };
-            return self.compose(kind, lanes, &parts, span).map(Some);
+            return self.compose_vector(kind, lanes, &parts, span).map(Some);
         }
         let to = match ty {
             "f32" => Scalar::F32,
@@ -50,13 +53,13 @@ impl Evaluator<'_> {
         if let (Value::Int(_), "usize") = (value, ty) {
             return Ok(Some(value.clone()));
         }
-        let id = self.node(value, span)?;
+        let id = self.value_node(value, span)?;
         let from = self.ty(id);
         if from == Type::scalar(to) {
             return Ok(Some(Value::Node(id)));
         }
         if from != Type::BOOL {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::Cast,
                 span,
                 format!("`{ty}::from` takes no {}, whose values it may not hold", from.in_rust()),
@@ -66,6 +69,6 @@ impl Evaluator<'_> {
             .into());
         }
         let whole = self.builder.add(Op::Convert, [id], Type::U32);
-        Ok(Some(Value::Node(self.convert(whole, to))))
+        Ok(Some(Value::Node(self.convert_node(whole, to))))
     }
 }

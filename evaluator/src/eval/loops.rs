@@ -1,9 +1,9 @@
 //! `for`, and what all loops have in common: a loop is left in the shader where that is asked for and can be done.
 
 use super::Evaluator;
-use super::demand::Why;
+use super::demand::UnrollReason;
 use super::departures::Tail;
-use super::partial::Count;
+use super::partial::LoopCount;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, ForLoop, Pattern};
@@ -12,7 +12,7 @@ use crate::policy::{Asked, Unroll};
 use std::sync::Arc;
 
 /// What a loop does in each iteration.
-pub struct Body<'a> {
+pub struct LoopBody<'a> {
     /// Its statements.
     pub block: &'a Block,
     /// What takes each value; `None` of a `while`.
@@ -28,7 +28,7 @@ pub struct Body<'a> {
 }
 
 /// A loop of which the number of iterations is known, and what is asked of it.
-pub struct Wish {
+pub struct LoopRequest {
     /// What is asked.
     pub asked: Asked,
     /// How often its body is evaluated.
@@ -40,7 +40,7 @@ pub struct Wish {
 }
 
 /// What became of a wish.
-pub enum Granted {
+pub enum LoopOutcome {
     /// It is left in the shader.
     Kept(Unroll),
     /// It is to be unrolled. If it was asked for by name, the error that this is.
@@ -48,27 +48,27 @@ pub enum Granted {
 }
 
 impl Evaluator<'_> {
-    pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
-        let items = self.expr(&f.over)?;
+    pub fn eval_for(&mut self, f: &ForLoop, span: Span) -> Eval {
+        let items = self.eval_expr(&f.over)?;
         let function = self.calls.last().cloned().unwrap_or_default();
         let counter = counter_of(f);
-        let asked = self.policy.asked(&function, &counter, f.unroll);
+        let asked = self.policy.requested_unroll(&function, &counter, f.unroll);
         let made = self.builder.graph().nodes.len();
-        self.loops.enter(&function, &counter, span, made);
-        let outcome = self.run(f, items, asked, span);
+        self.loops.enter_loop(&function, &counter, span, made);
+        let outcome = self.run_for(f, items, asked, span);
         let made = self.builder.graph().nodes.len();
         let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
-        self.loops.leave(became, made);
+        self.loops.leave_loop(became, made);
         outcome.map(|_| Value::unit())
     }
 
     /// Runs a loop as asked, or as it can be; gives what became of it.
-    fn run(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
+    fn run_for(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
         let counter = match (&f.pattern, &items) {
             (Pattern::Name(name, _, at), Value::Range(_)) => Some((name.as_str(), *at)),
             _ => None,
         };
-        let mut body = Body {
+        let mut body = LoopBody {
             block: &f.body,
             pattern: Some(&f.pattern),
             counter,
@@ -84,7 +84,7 @@ impl Evaluator<'_> {
                     values
                 }
                 None if asked.by_name && asked.unroll == Unroll::Full => {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::CannotUnroll,
                         f.over.span,
                         "a loop whose bounds are runtime values cannot be unrolled",
@@ -94,10 +94,10 @@ impl Evaluator<'_> {
                     return Err(self.demand_of(&[&Value::Range(items)], error));
                 }
                 None => {
-                    let course = self.course(&items, f.over.span)?;
+                    let course = self.plan_loop(&items, f.over.span)?;
                     let bounds = course.bounds();
-                    let outcome = self.keep(&body, &Count::Range(course), asked.unroll, span);
-                    return self.demanding(&bounds, outcome);
+                    let outcome = self.keep_loop(&body, &LoopCount::Range(course), asked.unroll, span);
+                    return self.demand_on_error(&bounds, outcome);
                 }
             },
             Value::Array(elements) => elements.to_vec(),
@@ -111,13 +111,13 @@ impl Evaluator<'_> {
                 };
                 let mut elements = Vec::new();
                 for k in 0..len {
-                    elements.push(self.element(&items, &Value::Int(i64::from(k)), span)?);
+                    elements.push(self.array_element(&items, &Value::Int(i64::from(k)), span)?);
                 }
                 elements
             }
             Value::Poison => return Err(Exit::Noted),
             other => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::MismatchedTypes,
                     f.over.span,
                     format!("`for` cannot run over {}", other.describe()),
@@ -127,39 +127,41 @@ impl Evaluator<'_> {
                 .into());
             }
         };
-        values.iter().for_each(|value| self.targets(value, &mut body.written));
-        let wish = Wish {
+        values
+            .iter()
+            .for_each(|value| self.collect_ref_slots(value, &mut body.written));
+        let wish = LoopRequest {
             asked,
             iterations: values.len() as u64,
             span,
             head: f.over.span,
         };
         let count = |e: &mut Self| match &range {
-            Some(range) => e.course(range, f.over.span).map(Count::Range),
+            Some(range) => e.plan_loop(range, f.over.span).map(LoopCount::Range),
             None => match array_behind(&values) {
-                Some(array) => Ok(Count::Places(array, values.len() as u32)),
-                None => e.by_columns(&values, f.over.span).map(Count::Elements),
+                Some(array) => Ok(LoopCount::Places(array, values.len() as u32)),
+                None => e.by_columns(&values, f.over.span).map(LoopCount::Elements),
             },
         };
-        let refused = match self.attempt(&body, &wish, count)? {
-            Granted::Kept(unroll) => return Ok(unroll),
-            Granted::Unrolled(refused) => refused,
+        let refused = match self.try_keep_loop(&body, &wish, count)? {
+            LoopOutcome::Kept(unroll) => return Ok(unroll),
+            LoopOutcome::Unrolled(refused) => refused,
         };
-        self.unrolled(&body, values, span)?;
+        self.unroll_loop(&body, values, span)?;
         refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
     }
 
     /// Leaves a loop in the shader if that is asked for and can be done.
-    pub fn attempt(
+    pub fn try_keep_loop(
         &mut self,
-        body: &Body<'_>,
-        wish: &Wish,
-        count: impl FnOnce(&mut Self) -> Eval<Count>,
-    ) -> Eval<Granted> {
-        let Wish { asked, span, .. } = *wish;
+        body: &LoopBody<'_>,
+        wish: &LoopRequest,
+        count: impl FnOnce(&mut Self) -> Eval<LoopCount>,
+    ) -> Eval<LoopOutcome> {
+        let LoopRequest { asked, span, .. } = *wish;
         let least = match asked.unroll {
-            Unroll::Full => return Ok(Granted::Unrolled(None)),
-            _ if self.unrolls_all => return Ok(Granted::Unrolled(None)),
+            Unroll::Full => return Ok(LoopOutcome::Unrolled(None)),
+            _ if self.unrolls_all => return Ok(LoopOutcome::Unrolled(None)),
             Unroll::None => 1,
             Unroll::Partial(factor) => 2 * u64::from(factor),
         };
@@ -169,24 +171,25 @@ impl Evaluator<'_> {
                 1 => "it has 1 iteration".to_owned(),
                 n => format!("it has {n} iterations, fewer than {least}"),
             };
-            self.loops.because(span, reason);
-            return Ok(Granted::Unrolled(None));
+            self.loops.record_reason(span, reason);
+            return Ok(LoopOutcome::Unrolled(None));
         }
-        if let Some(needed) = self.unrolled.get(&span) {
+        if let Some(needed) = self.forced_unrolls.get(&span) {
             let why = needed.clone();
-            self.loops.because(span, why.reason);
+            self.loops.record_reason(span, why.reason);
             if asked.by_name {
-                let error = refusal(wish, &why.error).note("what the loop assigns would be a runtime value after it");
-                self.loops.defer(error);
+                let error =
+                    refusal_error(wish, &why.error).note("what the loop assigns would be a runtime value after it");
+                self.loops.defer_error(error);
             }
-            return Ok(Granted::Unrolled(None));
+            return Ok(LoopOutcome::Unrolled(None));
         }
-        let why = if let Some(why) = self.loops.given_up(span) {
+        let why = if let Some(why) = self.loops.previous_failure(span) {
             why
         } else {
-            let before = self.checkpoint();
-            self.kept.avoidable(span);
-            match count(self).and_then(|count| self.keep(body, &count, asked.unroll, span)) {
+            let before = self.take_checkpoint();
+            self.structured_loops.mark_unrollable(span);
+            match count(self).and_then(|count| self.keep_loop(body, &count, asked.unroll, span)) {
                 Err(exit) if self.exhausted => return Err(exit),
                 // All have left for good, or loops around or before this one are to be unrolled.
                 Err(exit @ Exit::Left(_)) => return Err(exit),
@@ -199,31 +202,39 @@ impl Evaluator<'_> {
                     let why = match exit {
                         Exit::Demand(needs) => {
                             let own = needs.into_iter().find(|need| need.loops.contains(&span));
-                            own.map(|need| self.why(need.error))
+                            own.map(|need| self.unroll_reason(need.error))
                         }
-                        Exit::Error(error) => Some(told(*error)),
-                        _ => noted.map(told),
+                        Exit::Error(error) => Some(one_line_reason(*error)),
+                        _ => noted.map(one_line_reason),
                     };
-                    let body = || told(Diagnostic::at(Code::CannotStay, wish.head, "its body has an error"));
+                    let body = || {
+                        one_line_reason(Diagnostic::error_at(
+                            Code::CannotStay,
+                            wish.head,
+                            "its body has an error",
+                        ))
+                    };
                     let why = why.unwrap_or_else(body);
-                    self.loops.refuse(span, &why);
+                    self.loops.record_failure(span, &why);
                     why
                 }
-                Ok(unroll) => return Ok(Granted::Kept(unroll)),
+                Ok(unroll) => return Ok(LoopOutcome::Kept(unroll)),
             }
         };
-        self.loops.because(span, why.reason);
-        Ok(Granted::Unrolled(asked.by_name.then(|| refusal(wish, &why.error))))
+        self.loops.record_reason(span, why.reason);
+        Ok(LoopOutcome::Unrolled(
+            asked.by_name.then(|| refusal_error(wish, &why.error)),
+        ))
     }
 
-    fn unrolled(&mut self, body: &Body<'_>, items: Vec<Value>, span: Span) -> Eval<()> {
-        let (mark, since) = (self.scope.enter(), self.departed.len());
+    fn unroll_loop(&mut self, body: &LoopBody<'_>, items: Vec<Value>, span: Span) -> Eval<()> {
+        let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let noted = self.errors.len();
         let mut outcome = Ok(Value::unit());
         for item in items {
-            outcome = self.unless_departed(since, Tail::Open, span, |e| {
-                e.loops.round();
-                e.body(body, item, span).map(|()| Value::unit())
+            outcome = self.eval_if_live(since, Tail::Open, span, |e| {
+                e.loops.record_iteration();
+                e.eval_body(body, item, span).map(|()| Value::unit())
             });
             if outcome.is_err() {
                 break;
@@ -233,30 +244,30 @@ impl Evaluator<'_> {
                 return Err(Exit::Noted);
             }
         }
-        self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span)?;
+        self.merge_exits(since, outcome, mark, &|way| way.breaks_loop(body.label), span)?;
         Ok(())
     }
 
     /// The body for one value of what the loop runs over.
-    pub fn body(&mut self, body: &Body<'_>, item: Value, span: Span) -> Eval<()> {
-        self.step(span)?;
-        let (mark, since) = (self.scope.enter(), self.departed.len());
+    pub fn eval_body(&mut self, body: &LoopBody<'_>, item: Value, span: Span) -> Eval<()> {
+        self.count_step(span)?;
+        let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = match body.pattern {
-            Some(pattern) => self.round(pattern, item, body, span),
+            Some(pattern) => self.eval_bound_body(pattern, item, body, span),
             None => self.block_in(body.block, Tail::Iteration(body.label)),
         };
-        self.arrive(
+        self.merge_exits(
             since,
             outcome.map(|_| Value::unit()),
             mark,
-            &|way| way.continues(body.label),
+            &|way| way.continues_loop(body.label),
             span,
         )?;
         Ok(())
     }
 
     /// The body with a value of the counter bound.
-    fn round(&mut self, pattern: &Pattern, item: Value, body: &Body<'_>, span: Span) -> Eval {
+    fn eval_bound_body(&mut self, pattern: &Pattern, item: Value, body: &LoopBody<'_>, span: Span) -> Eval {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
             (Pattern::Name(name, ..), Some(value)) => Some(Counter {
@@ -270,7 +281,7 @@ impl Evaluator<'_> {
             self.counters = around.iter().cloned().chain(counter).collect();
         }
         let outcome = self
-            .bind(pattern, item, span)
+            .bind_pattern(pattern, item, span)
             .and_then(|()| self.block_in(body.block, Tail::Iteration(body.label)));
         self.counters = around;
         self.scope.leave(mark);
@@ -288,21 +299,21 @@ fn counter_of(f: &ForLoop) -> String {
 }
 
 /// An error that is itself the reason why a loop cannot be left in the shader.
-fn told(error: Diagnostic) -> Why {
+fn one_line_reason(error: Diagnostic) -> UnrollReason {
     let reason = match error.span {
         Some(span) => format!("{} (line {})", error.message, span.line),
         None => error.message.clone(),
     };
-    Why { error, reason }
+    UnrollReason { error, reason }
 }
 
 /// The error that a loop cannot be left in the shader as it was asked by name.
-fn refusal(wish: &Wish, why: &Diagnostic) -> Diagnostic {
+fn refusal_error(wish: &LoopRequest, why: &Diagnostic) -> Diagnostic {
     let asked = match wish.asked.unroll {
         Unroll::Partial(factor) => format!("unroll({factor})"),
         other => format!("unroll({other})"),
     };
-    let mut error = Diagnostic::at(
+    let mut error = Diagnostic::error_at(
         Code::CannotStay,
         wish.head,
         format!("this loop cannot be left in the shader: {}", why.message),
@@ -315,7 +326,7 @@ fn refusal(wish: &Wish, why: &Diagnostic) -> Diagnostic {
         } else {
             why.label.as_str()
         };
-        error = error.other(at, label);
+        error = error.label_at(at, label);
     }
     error
 }

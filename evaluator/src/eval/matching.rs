@@ -23,7 +23,7 @@ struct Case<'a> {
 }
 
 impl Evaluator<'_> {
-    pub fn match_(
+    pub fn eval_match(
         &mut self,
         subject: &Expr,
         arms: &[Arm],
@@ -31,14 +31,14 @@ impl Evaluator<'_> {
         tail: Tail<'_>,
         span: Span,
     ) -> Eval {
-        let value = self.expr(subject)?;
+        let value = self.eval_expr(subject)?;
         let mut arms = arms;
         // Most arms take a value for certain, or for certain not.
         while let Some((arm, rest)) = arms.split_first()
             && arm.guard.is_none()
             && !binds_in_or(&arm.pattern)
         {
-            let takes = self.test(&arm.pattern, &value, span)?;
+            let takes = self.test_pattern(&arm.pattern, &value, span)?;
             match self.known_bool(takes) {
                 Some(true) => {
                     return self.with_bound(&arm.pattern, &value, span, |e| e.expr_in(&arm.body, tail));
@@ -54,9 +54,9 @@ impl Evaluator<'_> {
                 cases.push(Case { pattern, arm });
                 continue;
             }
-            let alternatives = alternatives(&arm.pattern);
+            let alternatives = expand_alternatives(&arm.pattern);
             if alternatives.len() > MAX_ALTERNATIVES {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::TooLarge,
                     arm.body.span,
                     format!("a pattern of more than {MAX_ALTERNATIVES} alternatives that bind names"),
@@ -70,42 +70,42 @@ impl Evaluator<'_> {
                 arm,
             }));
         }
-        let keep = self.policy.keeps(attribute);
-        self.cases(&value, &cases, keep, tail, span)
+        let keep = self.policy.keeps_branch(attribute);
+        self.eval_cases(&value, &cases, keep, tail, span)
     }
 
     /// What the first case gives that takes the value.
-    fn cases(&mut self, value: &Value, cases: &[Case<'_>], keep: bool, tail: Tail<'_>, span: Span) -> Eval {
-        self.step(span)?;
+    fn eval_cases(&mut self, value: &Value, cases: &[Case<'_>], keep: bool, tail: Tail<'_>, span: Span) -> Eval {
+        self.count_step(span)?;
         let Some((case, rest)) = cases.split_first() else {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::NonExhaustive,
                 span,
-                format!("no arm of this `match` takes {}", self.shown(value)),
+                format!("no arm of this `match` takes {}", self.describe_known(value)),
             )
             .help("add an arm for it, or `_`")
             .into());
         };
-        let mut condition = self.test(&case.pattern, value, span)?;
+        let mut condition = self.test_pattern(&case.pattern, value, span)?;
         if let Some(guard) = &case.arm.guard
             && self.known_bool(condition) != Some(false)
         {
-            let guarded = self.lazily(
+            let guarded = self.eval_short_circuit(
                 true,
                 condition,
-                |e| e.with_bound(&case.pattern, value, span, |e| e.value(guard)),
+                |e| e.with_bound(&case.pattern, value, span, |e| e.eval_value(guard)),
                 span,
             )?;
-            condition = self.node(&guarded, guard.span)?;
+            condition = self.value_node(&guarded, guard.span)?;
         }
         let body = |e: &mut Self| e.with_bound(&case.pattern, value, span, |e| e.expr_in(&case.arm.body, tail));
         match self.known_bool(condition) {
             Some(true) => body(self),
-            Some(false) => self.cases(value, rest, keep, tail, span),
+            Some(false) => self.eval_cases(value, rest, keep, tail, span),
             // The arms take all values together, so the last one takes what the others leave.
             None if case.arm.guard.is_none() && self.is_last(value, rest, span)? => body(self),
-            None => self.branch(tail, condition, keep, span, body, |e| {
-                e.cases(value, rest, keep, tail, span)
+            None => self.eval_branch(tail, condition, keep, span, body, |e| {
+                e.eval_cases(value, rest, keep, tail, span)
             }),
         }
     }
@@ -119,7 +119,7 @@ impl Evaluator<'_> {
             return Ok(false);
         }
         for case in rest {
-            let takes = self.test(&case.pattern, value, span)?;
+            let takes = self.test_pattern(&case.pattern, value, span)?;
             if self.known_bool(takes) != Some(false) {
                 return Ok(false);
             }
@@ -143,13 +143,13 @@ impl Evaluator<'_> {
     }
 
     /// Whether a pattern takes a value: a boolean, known or not. Binds nothing.
-    fn test(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<NodeId> {
+    fn test_pattern(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<NodeId> {
         match pattern {
             Pattern::Wild | Pattern::Rest | Pattern::Name(..) => Ok(self.builder.bool(true)),
-            Pattern::At(_, _, inner, _) => self.test(inner, value, span),
+            Pattern::At(_, _, inner, _) => self.test_pattern(inner, value, span),
             Pattern::Ref(inner, at) => {
-                let value = self.loaded(value.clone(), *at)?;
-                self.test(inner, &value, span)
+                let value = self.deref_value(value.clone(), *at)?;
+                self.test_pattern(inner, &value, span)
             }
             Pattern::Or(cases) => {
                 let mut any = self.builder.bool(false);
@@ -157,25 +157,28 @@ impl Evaluator<'_> {
                     if self.known_bool(any) == Some(true) {
                         break;
                     }
-                    let takes = self.test(case, value, span)?;
-                    any = self.logical(BinaryOp::Or, any, takes, span)?;
+                    let takes = self.test_pattern(case, value, span)?;
+                    any = self.build_logical(BinaryOp::Or, any, takes, span)?;
                 }
                 Ok(any)
             }
             Pattern::Tuple(parts, at) => match &self.taken_apart(value.clone(), parts, *at)? {
-                Value::Tuple(values) if Pattern::shared(parts, values.len()).is_some() => {
-                    self.test_all(tested(parts, values), span)
+                Value::Tuple(values) if Pattern::part_ranges(parts, values.len()).is_some() => {
+                    self.test_all(zip_patterns(parts, values), span)
                 }
                 other => {
-                    Err(Diagnostic::at(Code::Pattern, span, format!("a tuple pattern on {}", other.describe())).into())
+                    Err(
+                        Diagnostic::error_at(Code::Pattern, span, format!("a tuple pattern on {}", other.describe()))
+                            .into(),
+                    )
                 }
             },
             Pattern::Array(parts, at) => {
                 let elements = self.elements_of_pattern(value.clone(), parts, *at)?;
-                self.test_all(tested(parts, &elements), span)
+                self.test_all(zip_patterns(parts, &elements), span)
             }
             Pattern::Struct(path, fields, _) => {
-                let variant = self.library.variant(path).map(|(_, k, _)| k);
+                let variant = self.library.find_variant(path).map(|(_, k, _)| k);
                 let mut is = self.builder.bool(true);
                 if let Some(k) = variant {
                     is = self.test_variant(value, k, span)?;
@@ -186,47 +189,47 @@ impl Evaluator<'_> {
                 let mut pairs = Vec::new();
                 for (name, pattern) in fields {
                     let step = match variant {
-                        Some(k) => Step::Held(k, name.clone()),
+                        Some(k) => Step::VariantField(k, name.clone()),
                         None => Step::Field(name.clone()),
                     };
-                    pairs.push((pattern, self.part(value, step, span)?));
+                    pairs.push((pattern, self.part_of_value(value, step, span)?));
                 }
                 let fields = self.test_all(pairs, span)?;
                 Ok(self.and(is, fields))
             }
             Pattern::Range(low, high, inclusive) => {
-                let value = self.loaded(value.clone(), span)?;
+                let value = self.deref_value(value.clone(), span)?;
                 let mut inside = self.builder.bool(true);
                 let below = if *inclusive { BinaryOp::Le } else { BinaryOp::Lt };
                 for (op, end) in [(BinaryOp::Ge, low), (below, high)] {
                     let Some(end) = end else { continue };
-                    let bound = self.expr(end)?;
-                    let holds = self.binary(op, &value, &bound, end.span)?;
-                    let holds = self.node(&holds, end.span)?;
-                    inside = self.logical(BinaryOp::And, inside, holds, span)?;
+                    let bound = self.eval_expr(end)?;
+                    let holds = self.eval_binary(op, &value, &bound, end.span)?;
+                    let holds = self.value_node(&holds, end.span)?;
+                    inside = self.build_logical(BinaryOp::And, inside, holds, span)?;
                 }
                 Ok(inside)
             }
             Pattern::Value(expr) => {
                 if let ExprKind::Path(path) = &expr.kind
-                    && let Some((_, k, _)) = self.library.variant(path)
+                    && let Some((_, k, _)) = self.library.find_variant(path)
                 {
                     return self.test_variant(value, k, span);
                 }
-                let expected = self.expr(expr)?;
-                let value = self.loaded(value.clone(), span)?;
-                let same = self.binary(BinaryOp::Eq, &value, &expected, expr.span)?;
-                self.node(&same, expr.span)
+                let expected = self.eval_expr(expr)?;
+                let value = self.deref_value(value.clone(), span)?;
+                let same = self.eval_binary(BinaryOp::Eq, &value, &expected, expr.span)?;
+                self.value_node(&same, expr.span)
             }
         }
     }
 
     /// Whether a value is a variant.
     fn test_variant(&mut self, value: &Value, variant: usize, span: Span) -> Eval<NodeId> {
-        match self.loaded(value.clone(), span)? {
+        match self.deref_value(value.clone(), span)? {
             Value::Enum(choice) => Ok(self.is_variant(&choice, variant)),
             Value::Poison => Err(Exit::Noted),
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::Pattern,
                 span,
                 format!("a pattern of an enum for {}", other.describe()),
@@ -242,35 +245,35 @@ impl Evaluator<'_> {
             if self.known_bool(all) == Some(false) {
                 break;
             }
-            let takes = self.test(pattern, &value, span)?;
-            all = self.logical(BinaryOp::And, all, takes, span)?;
+            let takes = self.test_pattern(pattern, &value, span)?;
+            all = self.build_logical(BinaryOp::And, all, takes, span)?;
         }
         Ok(all)
     }
 
-    fn logical(&mut self, op: BinaryOp, left: NodeId, right: NodeId, span: Span) -> Eval<NodeId> {
-        let value = self.binary(op, &Value::Node(left), &Value::Node(right), span)?;
-        self.node(&value, span)
+    fn build_logical(&mut self, op: BinaryOp, left: NodeId, right: NodeId, span: Span) -> Eval<NodeId> {
+        let value = self.eval_binary(op, &Value::Node(left), &Value::Node(right), span)?;
+        self.value_node(&value, span)
     }
 }
 
 /// Patterns with the parts that they take; `..` takes any.
-fn tested<'p>(patterns: &'p [Pattern], parts: &[Value]) -> Vec<(&'p Pattern, Value)> {
-    let each = Pattern::shared(patterns, parts.len()).into_iter().flatten();
+fn zip_patterns<'p>(patterns: &'p [Pattern], parts: &[Value]) -> Vec<(&'p Pattern, Value)> {
+    let each = Pattern::part_ranges(patterns, parts.len()).into_iter().flatten();
     let each = each.filter(|(pattern, _)| !pattern.is_rest());
     each.map(|(pattern, taken)| (pattern, parts[taken.start].clone()))
         .collect()
 }
 
 /// A pattern as patterns in which no `|` binds names.
-fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
+fn expand_alternatives(pattern: &Pattern) -> Vec<Pattern> {
     if !binds_in_or(pattern) {
         return vec![pattern.clone()];
     }
     let each = |parts: &[Pattern]| {
         let mut rows: Vec<Vec<Pattern>> = vec![Vec::new()];
         for part in parts {
-            let choices = alternatives(part);
+            let choices = expand_alternatives(part);
             let longer = rows.iter().flat_map(|row| {
                 choices
                     .iter()
@@ -281,7 +284,7 @@ fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
         rows
     };
     match pattern {
-        Pattern::Or(cases) => cases.iter().flat_map(alternatives).collect(),
+        Pattern::Or(cases) => cases.iter().flat_map(expand_alternatives).collect(),
         Pattern::Tuple(parts, at) => each(parts).into_iter().map(|row| Pattern::Tuple(row, *at)).collect(),
         Pattern::Array(parts, at) => each(parts).into_iter().map(|row| Pattern::Array(row, *at)).collect(),
         Pattern::Struct(path, fields, at) => {
@@ -292,11 +295,11 @@ fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
                 .collect()
         }
         Pattern::Ref(inner, at) => {
-            let inner = alternatives(inner).into_iter();
+            let inner = expand_alternatives(inner).into_iter();
             inner.map(|p| Pattern::Ref(Box::new(p), *at)).collect()
         }
         Pattern::At(name, mutable, inner, at) => {
-            let inner = alternatives(inner).into_iter();
+            let inner = expand_alternatives(inner).into_iter();
             inner
                 .map(|p| Pattern::At(name.clone(), *mutable, Box::new(p), *at))
                 .collect()
@@ -310,7 +313,7 @@ fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
 /// Whether a `|` anywhere in a pattern binds names.
 fn binds_in_or(pattern: &Pattern) -> bool {
     match pattern {
-        Pattern::Or(cases) => cases.iter().any(binds),
+        Pattern::Or(cases) => cases.iter().any(binds_names),
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds_in_or),
         Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds_in_or(part)),
         Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => binds_in_or(inner),
@@ -318,12 +321,12 @@ fn binds_in_or(pattern: &Pattern) -> bool {
     }
 }
 
-fn binds(pattern: &Pattern) -> bool {
+fn binds_names(pattern: &Pattern) -> bool {
     match pattern {
         Pattern::Name(..) | Pattern::At(..) => true,
-        Pattern::Or(parts) | Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds),
-        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds(part)),
-        Pattern::Ref(inner, _) => binds(inner),
+        Pattern::Or(parts) | Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds_names),
+        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds_names(part)),
+        Pattern::Ref(inner, _) => binds_names(inner),
         Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => false,
     }
 }

@@ -8,17 +8,17 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
     /// A method of a number or vector.
-    pub fn math(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval {
+    pub fn eval_math_method(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval {
         if let Some(value) = self.quad_method(receiver, name, args, span)? {
             return Ok(value);
         }
-        let x = self.node(receiver, span)?;
+        let x = self.value_node(receiver, span)?;
         let vectors = ["round", "fract", "signum", "mul_add"].contains(&name);
         if self.ty(x).is_float()
             && (vectors || self.ty(x).is_scalar())
             && let Some((_, why, write)) = UNLIKE.iter().find(|(known, ..)| *known == name)
         {
-            return Err(instead(span, why, write));
+            return Err(ambiguity_error(span, why, write));
         }
         let result = match args {
             [] => self.math_one(x, name)?,
@@ -35,16 +35,16 @@ impl Evaluator<'_> {
             [to, amount] if name == "lerp" => {
                 // As glam computes it: self * (1 - s) + to * s.
                 let one = Value::Node(self.builder.f32(1.0));
-                let rest = self.binary(BinaryOp::Sub, &one, amount, span)?;
-                let from = self.binary(BinaryOp::Mul, receiver, &rest, span)?;
-                let to = self.binary(BinaryOp::Mul, to, amount, span)?;
-                return self.binary(BinaryOp::Add, &from, &to, span);
+                let rest = self.eval_binary(BinaryOp::Sub, &one, amount, span)?;
+                let from = self.eval_binary(BinaryOp::Mul, receiver, &rest, span)?;
+                let to = self.eval_binary(BinaryOp::Mul, to, amount, span)?;
+                return self.eval_binary(BinaryOp::Add, &from, &to, span);
             }
             _ => None,
         };
         match result {
             Some(id) => Ok(Value::Node(id)),
-            None => Err(Diagnostic::at(
+            None => Err(Diagnostic::error_at(
                 Code::UnknownMethod,
                 span,
                 format!(
@@ -62,35 +62,35 @@ impl Evaluator<'_> {
 
     fn math_one(&mut self, x: NodeId, name: &str) -> Eval<Option<NodeId>> {
         let ty = self.ty(x);
-        if let Some(op) = super::integers::bits(name) {
+        if let Some(op) = super::integers::bit_method(name) {
             return Ok(ty.is_integer().then(|| {
                 let counted = self.builder.add(Op::Unary(op), [x], ty);
                 // Rust counts in u32.
                 if name == "reverse_bits" {
                     counted
                 } else {
-                    self.convert(counted, Scalar::U32)
+                    self.convert_node(counted, Scalar::U32)
                 }
             }));
         }
-        if let Some(op) = unary(name) {
-            let fits = ty.is_float() || (name == "abs" && ty.kind() != Some(Scalar::Bool));
+        if let Some(op) = unary_method(name) {
+            let fits = ty.is_float() || (name == "abs" && ty.scalar_kind() != Some(Scalar::Bool));
             return Ok(fits.then(|| self.builder.add(Op::Unary(op), [x], ty)));
         }
-        if let Some((kind, lanes)) = conversion(name) {
-            return Ok((ty.components() == lanes).then(|| self.convert(x, kind)));
+        if let Some((kind, lanes)) = conversion_method(name) {
+            return Ok((ty.component_count() == lanes).then(|| self.convert_node(x, kind)));
         }
-        if let Some(swizzled) = self.swizzle(x, name) {
+        if let Some(swizzled) = self.build_swizzle(x, name) {
             return Ok(Some(swizzled));
         }
-        let vector = ty.is_float() && ty.components() > 1;
+        let vector = ty.is_float() && ty.component_count() > 1;
         Ok(match name {
             "recip" if ty.is_float() => {
                 let one = self.builder.f32(1.0);
-                let one = self.splat(one, ty.components());
+                let one = self.build_splat(one, ty.component_count());
                 Some(self.builder.add(Op::Binary(BinaryOp::Div), [one, x], ty))
             }
-            "wrapping_neg" if ty.kind() == Some(Scalar::I32) => {
+            "wrapping_neg" if ty.scalar_kind() == Some(Scalar::I32) => {
                 Some(self.builder.add(Op::Unary(UnaryOp::Neg), [x], ty))
             }
             "wrapping_neg" if ty.is_integer() => {
@@ -118,60 +118,62 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Binary(BinaryOp::Mul), [x, factor], ty))
             }
             "perp" if ty == Type::value(Scalar::F32, 2) => {
-                let lanes = self.lanes(x);
+                let lanes = self.vector_components(x);
                 let negative = self.builder.add(Op::Unary(UnaryOp::Neg), [lanes[1]], Type::F32);
                 Some(self.builder.add(Op::Compose, [negative, lanes[0]], ty))
             }
             "length_recip" if vector => {
-                let length = self.length(x);
+                let length = self.build_length(x);
                 let one = self.builder.f32(1.0);
                 Some(self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32))
             }
-            "length_squared" if vector => Some(self.dot(x, x)),
-            "length_squared" if ty.is_integer() && ty.components() > 1 => Some(self.integer_dot(x, x)),
-            "length" if vector => Some(self.length(x)),
+            "length_squared" if vector => Some(self.build_dot(x, x)),
+            "length_squared" if ty.is_integer() && ty.component_count() > 1 => Some(self.integer_dot(x, x)),
+            "length" if vector => Some(self.build_length(x)),
             "normalize" if vector => {
                 // As glam computes it: the vector times the reciprocal of its length.
-                let length = self.length(x);
+                let length = self.build_length(x);
                 let one = self.builder.f32(1.0);
                 let scale = self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32);
-                let scale = self.splat(scale, ty.components());
+                let scale = self.build_splat(scale, ty.component_count());
                 Some(self.builder.add(Op::Binary(BinaryOp::Mul), [x, scale], ty))
             }
-            "min_element" | "max_element" | "element_sum" | "element_product" if ty.components() > 1 => {
+            "min_element" | "max_element" | "element_sum" | "element_product" if ty.component_count() > 1 => {
                 let op = match name {
                     "min_element" => BinaryOp::Min,
                     "max_element" => BinaryOp::Max,
                     "element_product" => BinaryOp::Mul,
                     _ => BinaryOp::Add,
                 };
-                let lanes = self.lanes(x);
+                let lanes = self.vector_components(x);
                 let part = self.ty(lanes[0]);
                 let fold = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), [a, *b], part);
                 Some(lanes[1..].iter().fold(lanes[0], fold))
             }
-            "any" | "all" if ty.kind() == Some(Scalar::Bool) && ty.components() > 1 => {
+            "any" | "all" if ty.scalar_kind() == Some(Scalar::Bool) && ty.component_count() > 1 => {
                 let op = if name == "any" { BinaryOp::Or } else { BinaryOp::And };
-                let lanes = self.lanes(x);
+                let lanes = self.vector_components(x);
                 let join = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), [a, *b], Type::BOOL);
                 Some(lanes[1..].iter().fold(lanes[0], join))
             }
-            "truncate" if ty.components() > 2 => {
-                let lanes = self.lanes(x);
-                let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.components() - 1);
+            "truncate" if ty.component_count() > 2 => {
+                let lanes = self.vector_components(x);
+                let shorter = Type::value(ty.scalar_kind().unwrap_or(Scalar::F32), ty.component_count() - 1);
                 Some(self.builder.add(Op::Compose, &lanes[..lanes.len() - 1], shorter))
             }
-            "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), [x], ty)),
+            "signum" if ty.scalar_kind() == Some(Scalar::I32) => {
+                Some(self.builder.add(Op::Unary(UnaryOp::Sign), [x], ty))
+            }
             _ => None,
         })
     }
 
     fn math_two(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<Option<NodeId>> {
         let ty = self.ty(x);
-        let float_vector = ty.is_float() && ty.components() > 1;
-        let integer_vector = ty.is_integer() && ty.components() > 1;
+        let float_vector = ty.is_float() && ty.component_count() > 1;
+        let integer_vector = ty.is_integer() && ty.component_count() > 1;
         Ok(match name {
-            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" if ty.components() > 1 => {
+            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" if ty.component_count() > 1 => {
                 let op = match name {
                     "cmplt" => BinaryOp::Lt,
                     "cmple" => BinaryOp::Le,
@@ -181,18 +183,18 @@ impl Evaluator<'_> {
                     _ => BinaryOp::Ne,
                 };
                 let (x, y) = self.same_type(receiver, a, span)?;
-                let mask = Type::value(Scalar::Bool, ty.components());
+                let mask = Type::value(Scalar::Bool, ty.component_count());
                 Some(self.builder.add(Op::Binary(op), [x, y], mask))
             }
-            "test" if ty.kind() == Some(Scalar::Bool) && ty.components() > 1 => {
-                let component = self.element(&Value::Node(x), a, span)?;
-                Some(self.node(&component, span)?)
+            "test" if ty.scalar_kind() == Some(Scalar::Bool) && ty.component_count() > 1 => {
+                let component = self.array_element(&Value::Node(x), a, span)?;
+                Some(self.value_node(&component, span)?)
             }
             "min" | "max" => {
                 let op = if name == "min" { BinaryOp::Min } else { BinaryOp::Max };
                 return Ok(Some({
-                    let value = self.binary(op, receiver, a, span)?;
-                    self.node(&value, span)?
+                    let value = self.eval_binary(op, receiver, a, span)?;
+                    self.value_node(&value, span)?
                 }));
             }
             "wrapping_add" | "wrapping_sub" | "wrapping_mul" | "wrapping_shl" | "wrapping_shr" | "rem_euclid"
@@ -204,10 +206,10 @@ impl Evaluator<'_> {
             "reflect" if float_vector => {
                 // As glam computes it: self - 2 * self.dot(normal) * normal.
                 let (v, n) = self.same_type(receiver, a, span)?;
-                let dot = self.dot(v, n);
+                let dot = self.build_dot(v, n);
                 let two = self.builder.f32(2.0);
                 let twice = self.builder.add(Op::Binary(BinaryOp::Mul), [two, dot], Type::F32);
-                let twice = self.splat(twice, ty.components());
+                let twice = self.build_splat(twice, ty.component_count());
                 let away = self.builder.add(Op::Binary(BinaryOp::Mul), [twice, n], ty);
                 Some(self.builder.add(Op::Binary(BinaryOp::Sub), [v, away], ty))
             }
@@ -217,9 +219,9 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Binary(op), [x, y], ty))
             }
             "powi" if ty.is_float() => match self.known_int(a) {
-                Some(n) => Some(self.power(x, n)),
+                Some(n) => Some(self.build_power(x, n)),
                 None => {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeValue,
                         span,
                         "the power of `powi` must be a compile-time constant",
@@ -231,15 +233,15 @@ impl Evaluator<'_> {
             },
             "dot" if float_vector => {
                 let (x, y) = self.same_type(receiver, a, span)?;
-                Some(self.dot(x, y))
+                Some(self.build_dot(x, y))
             }
             "dot" if integer_vector => {
                 let (x, y) = self.same_type(receiver, a, span)?;
                 Some(self.integer_dot(x, y))
             }
             "distance_squared" if integer_vector => {
-                let between = self.binary(BinaryOp::Sub, receiver, a, span)?;
-                let between = self.node(&between, span)?;
+                let between = self.eval_binary(BinaryOp::Sub, receiver, a, span)?;
+                let between = self.value_node(&between, span)?;
                 Some(self.integer_dot(between, between))
             }
             "cross" if ty == Type::value(Scalar::F32, 3) => {
@@ -247,19 +249,19 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Cross, [x, y], ty))
             }
             "distance" | "distance_squared" if float_vector => {
-                let between = self.binary(BinaryOp::Sub, receiver, a, span)?;
-                let between = self.node(&between, span)?;
+                let between = self.eval_binary(BinaryOp::Sub, receiver, a, span)?;
+                let between = self.value_node(&between, span)?;
                 Some(if name == "distance" {
-                    self.length(between)
+                    self.build_length(between)
                 } else {
-                    self.dot(between, between)
+                    self.build_dot(between, between)
                 })
             }
-            "extend" if (2..4).contains(&ty.components()) => {
-                let mut lanes = self.lanes(x);
+            "extend" if (2..4).contains(&ty.component_count()) => {
+                let mut lanes = self.vector_components(x);
                 let first = Value::Node(lanes[0]);
                 lanes.push(self.same_type(a, &first, span)?.0);
-                let longer = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.components() + 1);
+                let longer = Type::value(ty.scalar_kind().unwrap_or(Scalar::F32), ty.component_count() + 1);
                 Some(self.builder.add(Op::Compose, lanes, longer))
             }
             _ => None,
@@ -267,10 +269,10 @@ impl Evaluator<'_> {
     }
 
     /// `x` to a power by squares, the lowest first, as Rust multiplies; for a negative power the reciprocal of that.
-    fn power(&mut self, x: NodeId, n: i64) -> NodeId {
+    fn build_power(&mut self, x: NodeId, n: i64) -> NodeId {
         let ty = self.ty(x);
         let one = self.builder.f32(1.0);
-        let one = self.splat(one, ty.components());
+        let one = self.build_splat(one, ty.component_count());
         let (mut square, mut power, mut left) = (x, one, n.unsigned_abs());
         while left > 0 {
             if left % 2 == 1 {
@@ -290,80 +292,81 @@ impl Evaluator<'_> {
     /// The sum of products of components, first to last.
     fn integer_dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
         let ty = self.ty(a);
-        let part = Type::scalar(ty.kind().unwrap_or(Scalar::I32));
+        let part = Type::scalar(ty.scalar_kind().unwrap_or(Scalar::I32));
         let products = self.builder.add(Op::Binary(BinaryOp::Mul), [a, b], ty);
-        let products = self.lanes(products);
+        let products = self.vector_components(products);
         let sum = |e: &mut Self, sum, next: &NodeId| e.builder.add(Op::Binary(BinaryOp::Add), [sum, *next], part);
         products[1..]
             .iter()
             .fold(products[0], |so_far, next| sum(self, so_far, next))
     }
 
-    fn dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
+    fn build_dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
         self.builder.add(Op::Dot, [a, b], Type::F32)
     }
 
     /// Bits of the largest component, its sign left out.
     fn largest_magnitude(&mut self, x: NodeId) -> NodeId {
-        let bits_type = Type::value(Scalar::U32, self.ty(x).components());
+        let bits_type = Type::value(Scalar::U32, self.ty(x).component_count());
         let bits = self.builder.add(Op::Bitcast, [x], bits_type);
         let without_sign = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
-        let mask = self.splat(without_sign, bits_type.components());
+        let mask = self.build_splat(without_sign, bits_type.component_count());
         let sizes = self.builder.add(Op::Binary(BinaryOp::And), [bits, mask], bits_type);
-        let lanes = self.lanes(sizes);
+        let lanes = self.vector_components(sizes);
         let (first, rest) = (lanes[0], &lanes[1..]);
         rest.iter().fold(first, |largest, lane| {
             self.builder.add(Op::Binary(BinaryOp::Max), [largest, *lane], Type::U32)
         })
     }
 
-    fn length(&mut self, x: NodeId) -> NodeId {
-        let squared = self.dot(x, x);
+    fn build_length(&mut self, x: NodeId) -> NodeId {
+        let squared = self.build_dot(x, x);
         self.builder.add(Op::Unary(UnaryOp::Sqrt), [squared], Type::F32)
     }
 
     /// The components of a vector as scalars.
-    pub fn lanes(&mut self, x: NodeId) -> Vec<NodeId> {
+    pub fn vector_components(&mut self, x: NodeId) -> Vec<NodeId> {
         let ty = self.ty(x);
         if ty.is_scalar() {
             return vec![x];
         }
-        let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
-        (0..ty.components())
+        let part = Type::value(ty.scalar_kind().unwrap_or(Scalar::F32), 1);
+        (0..ty.component_count())
             .map(|k| self.builder.add(Op::Extract(k), [x], part))
             .collect()
     }
 
     /// `v.xy()`, `v.zyx()`, ...
-    fn swizzle(&mut self, x: NodeId, name: &str) -> Option<NodeId> {
+    fn build_swizzle(&mut self, x: NodeId, name: &str) -> Option<NodeId> {
         let ty = self.ty(x);
         let lanes: Option<Vec<u8>> = name
             .split("")
             .filter(|c| !c.is_empty())
-            .map(super::expr::lane)
+            .map(super::expr::component_index)
             .collect();
-        let lanes = lanes
-            .filter(|l| (2..=4).contains(&l.len()) && ty.components() > 1 && l.iter().all(|k| *k < ty.components()))?;
-        let part = Type::value(ty.kind()?, 1);
+        let lanes = lanes.filter(|l| {
+            (2..=4).contains(&l.len()) && ty.component_count() > 1 && l.iter().all(|k| *k < ty.component_count())
+        })?;
+        let part = Type::value(ty.scalar_kind()?, 1);
         let parts: Vec<_> = lanes
             .iter()
             .map(|k| self.builder.add(Op::Extract(*k), [x], part))
             .collect();
         Some(
             self.builder
-                .add(Op::Compose, parts, Type::value(ty.kind()?, lanes.len() as u8)),
+                .add(Op::Compose, parts, Type::value(ty.scalar_kind()?, lanes.len() as u8)),
         )
     }
 }
 
-fn instead(span: Span, message: &str, write: &str) -> super::value::Exit {
-    Diagnostic::at(Code::DiffersFromRust, span, message)
+fn ambiguity_error(span: Span, message: &str, write: &str) -> super::value::Exit {
+    Diagnostic::error_at(Code::DiffersFromRust, span, message)
         .label("means two things")
         .help(format!("write `{write}`"))
         .into()
 }
 
-fn unary(name: &str) -> Option<UnaryOp> {
+fn unary_method(name: &str) -> Option<UnaryOp> {
     use UnaryOp::*;
     Some(match name {
         "abs" => Abs,
@@ -391,7 +394,7 @@ fn unary(name: &str) -> Option<UnaryOp> {
 }
 
 /// `as_vec2` and its like.
-fn conversion(name: &str) -> Option<(Scalar, u8)> {
+fn conversion_method(name: &str) -> Option<(Scalar, u8)> {
     let rest = name.strip_prefix("as_")?;
     let (kind, lanes) = match rest.strip_prefix("vec") {
         Some(lanes) => (Scalar::F32, lanes),

@@ -9,7 +9,7 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 const AXES: [&str; 4] = ["x_axis", "y_axis", "z_axis", "w_axis"];
 
 /// Columns of `Mat2`, `Mat3` or `Mat4`.
-pub fn size(ty: &str) -> Option<u8> {
+pub fn column_count(ty: &str) -> Option<u8> {
     match ty {
         "Mat2" => Some(2),
         "Mat3" => Some(3),
@@ -29,7 +29,7 @@ fn made_by(name: &str) -> &'static str {
 }
 
 /// Fields of a matrix: its columns.
-pub fn axes(n: u8) -> &'static [&'static str] {
+pub fn axis_names(n: u8) -> &'static [&'static str] {
     &AXES[..n as usize]
 }
 
@@ -41,15 +41,15 @@ impl Evaluator<'_> {
             [.., ty, name] => (ty.as_str(), name.as_str()),
             [] => return Ok(None),
         };
-        let Some(n) = size(ty) else { return Ok(None) };
+        let Some(n) = column_count(ty) else { return Ok(None) };
         let column = Type::value(Scalar::F32, n);
         match (name, values) {
             ("from_cols", columns) if columns.len() == n as usize => {
                 let mut nodes = Vec::new();
                 for value in columns {
-                    let id = self.node(value, span)?;
+                    let id = self.value_node(value, span)?;
                     if self.ty(id) != column {
-                        return Err(Diagnostic::at(
+                        return Err(Diagnostic::error_at(
                             Code::MismatchedTypes,
                             span,
                             format!(
@@ -62,19 +62,19 @@ impl Evaluator<'_> {
                     }
                     nodes.push(id);
                 }
-                Ok(Some(matrix(&nodes)))
+                Ok(Some(matrix_value(&nodes)))
             }
             ("from_diagonal", [diagonal]) => {
-                let id = self.node(diagonal, span)?;
+                let id = self.value_node(diagonal, span)?;
                 if self.ty(id) != column {
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::MismatchedTypes,
                         span,
                         format!("the diagonal of a {ty} is a {}", column.in_rust()),
                     )
                     .into());
                 }
-                let lanes = self.lanes(id);
+                let lanes = self.vector_components(id);
                 let zero = self.builder.f32(0.0);
                 let columns: Vec<NodeId> = (0..n as usize)
                     .map(|c| {
@@ -82,19 +82,19 @@ impl Evaluator<'_> {
                         self.builder.add(Op::Compose, parts, column)
                     })
                     .collect();
-                Ok(Some(matrix(&columns)))
+                Ok(Some(matrix_value(&columns)))
             }
             // A method called by its path.
             (_, [receiver @ Value::Struct { ty: of, .. }, rest @ ..]) if *of == ty => {
                 self.matrix_method(receiver, name, rest, span).map(Some)
             }
-            _ => Err(unknown(ty, name, span).into()),
+            _ => Err(unknown_method(ty, name, span).into()),
         }
     }
 
     /// A method of a matrix.
     pub fn matrix_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval {
-        let (ty, columns) = self.columns(value, span)?;
+        let (ty, columns) = self.matrix_columns(value, span)?;
         match (name, args) {
             ("transpose", []) => {
                 let rows: Vec<NodeId> = (0..columns.len())
@@ -106,7 +106,7 @@ impl Evaluator<'_> {
                         self.builder.add(Op::Compose, parts, self.ty(columns[0]))
                     })
                     .collect();
-                Ok(matrix(&rows))
+                Ok(matrix_value(&rows))
             }
             ("col", [index]) => match self
                 .known_int(index)
@@ -114,7 +114,7 @@ impl Evaluator<'_> {
             {
                 Some(column) => Ok(Value::Node(*column)),
                 None => {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeIndex,
                         span,
                         "the column of a matrix must be a compile-time constant, and one of its columns",
@@ -128,13 +128,15 @@ impl Evaluator<'_> {
             ("mul_mat2" | "mul_mat3" | "mul_mat4", [other]) => self.matrix_product(value, other, span),
             // As glam: a point has w 1, a direction 0, and the result's w is dropped.
             ("transform_point3" | "transform_vector3", [vector]) if columns.len() == 4 => {
-                let vector = self.node(vector, span)?;
+                let vector = self.value_node(vector, span)?;
                 if self.ty(vector) != Type::value(Scalar::F32, 3) {
-                    return Err(Diagnostic::at(Code::MismatchedTypes, span, format!("`{name}` takes a Vec3")).into());
+                    return Err(
+                        Diagnostic::error_at(Code::MismatchedTypes, span, format!("`{name}` takes a Vec3")).into(),
+                    );
                 }
-                let mut sum = self.scaled(columns[0], vector, 0);
+                let mut sum = self.scale_column(columns[0], vector, 0);
                 for k in 1..3 {
-                    let term = self.scaled(columns[k as usize], vector, k);
+                    let term = self.scale_column(columns[k as usize], vector, k);
                     sum = self
                         .builder
                         .add(Op::Binary(BinaryOp::Add), [sum, term], Type::value(Scalar::F32, 4));
@@ -143,11 +145,11 @@ impl Evaluator<'_> {
                     let whole = Type::value(Scalar::F32, 4);
                     sum = self.builder.add(Op::Binary(BinaryOp::Add), [sum, columns[3]], whole);
                 }
-                let lanes = self.lanes(sum);
+                let lanes = self.vector_components(sum);
                 let short = Type::value(Scalar::F32, 3);
                 Ok(Value::Node(self.builder.add(Op::Compose, &lanes[..3], short)))
             }
-            _ => Err(unknown(&ty, name, span).into()),
+            _ => Err(unknown_method(&ty, name, span).into()),
         }
     }
 
@@ -156,26 +158,28 @@ impl Evaluator<'_> {
         if let (Value::Node(_), Value::Struct { .. }) = (left, right) {
             return self.matrix_by_number(right, left, span);
         }
-        let (ty, columns) = self.columns(left, span)?;
+        let (ty, columns) = self.matrix_columns(left, span)?;
         match right {
             Value::Struct { .. } => {
-                let (other, others) = self.columns(right, span)?;
+                let (other, others) = self.matrix_columns(right, span)?;
                 if other != ty {
-                    return Err(Diagnostic::at(Code::OperatorTypes, span, format!("a {ty} times a {other}")).into());
+                    return Err(
+                        Diagnostic::error_at(Code::OperatorTypes, span, format!("a {ty} times a {other}")).into(),
+                    );
                 }
                 let mut products = Vec::new();
                 for column in others {
                     products.push(self.times_vector(&columns, column));
                 }
-                Ok(matrix(&products))
+                Ok(matrix_value(&products))
             }
             _ => {
-                let id = self.node(right, span)?;
+                let id = self.value_node(right, span)?;
                 if self.ty(id) == Type::F32 {
                     return self.matrix_by_number(left, right, span);
                 }
                 if self.ty(id) != self.ty(columns[0]) {
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::OperatorTypes,
                         span,
                         format!("a {ty} times a {}", self.ty(id).in_rust()),
@@ -190,40 +194,40 @@ impl Evaluator<'_> {
     }
 
     fn matrix_by_number(&mut self, left: &Value, number: &Value, span: Span) -> Eval {
-        let (_, columns) = self.columns(left, span)?;
+        let (_, columns) = self.matrix_columns(left, span)?;
         let mut products = Vec::new();
         for column in columns {
-            let product = self.binary(BinaryOp::Mul, &Value::Node(column), number, span)?;
-            products.push(self.node(&product, span)?);
+            let product = self.eval_binary(BinaryOp::Mul, &Value::Node(column), number, span)?;
+            products.push(self.value_node(&product, span)?);
         }
-        Ok(matrix(&products))
+        Ok(matrix_value(&products))
     }
 
     /// The sum of the columns times the vector's components, first to last.
     fn times_vector(&mut self, columns: &[NodeId], vector: NodeId) -> NodeId {
         let ty = self.ty(columns[0]);
-        let mut sum = self.scaled(columns[0], vector, 0);
+        let mut sum = self.scale_column(columns[0], vector, 0);
         for (k, column) in columns.iter().enumerate().skip(1) {
-            let term = self.scaled(*column, vector, k as u8);
+            let term = self.scale_column(*column, vector, k as u8);
             sum = self.builder.add(Op::Binary(BinaryOp::Add), [sum, term], ty);
         }
         sum
     }
 
-    fn scaled(&mut self, column: NodeId, vector: NodeId, lane: u8) -> NodeId {
+    fn scale_column(&mut self, column: NodeId, vector: NodeId, lane: u8) -> NodeId {
         let ty = self.ty(column);
         let lane = self.builder.add(Op::Extract(lane), [vector], Type::F32);
-        let lane = self.splat(lane, ty.components());
+        let lane = self.build_splat(lane, ty.component_count());
         self.builder.add(Op::Binary(BinaryOp::Mul), [column, lane], ty)
     }
 
-    fn columns(&mut self, value: &Value, span: Span) -> Eval<(Name, Vec<NodeId>)> {
+    fn matrix_columns(&mut self, value: &Value, span: Span) -> Eval<(Name, Vec<NodeId>)> {
         match value {
-            Value::Struct { ty, fields } if size(ty).is_some() => {
-                let nodes: Eval<Vec<NodeId>> = fields.iter().map(|(_, column)| self.node(column, span)).collect();
+            Value::Struct { ty, fields } if column_count(ty).is_some() => {
+                let nodes: Eval<Vec<NodeId>> = fields.iter().map(|(_, column)| self.value_node(column, span)).collect();
                 Ok((ty.clone(), nodes?))
             }
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 format!("{} where a matrix is needed", other.describe()),
@@ -234,14 +238,14 @@ impl Evaluator<'_> {
 }
 
 /// A matrix of its columns.
-pub fn matrix(columns: &[NodeId]) -> Value {
+pub fn matrix_value(columns: &[NodeId]) -> Value {
     let named = AXES.iter().zip(columns);
     let fields = named.map(|(name, id)| ((*name).into(), Value::Node(*id)));
     Value::structure(format!("Mat{}", columns.len()), fields.collect())
 }
 
-fn unknown(ty: &str, name: &str, span: Span) -> Diagnostic {
-    Diagnostic::at(
+fn unknown_method(ty: &str, name: &str, span: Span) -> Diagnostic {
+    Diagnostic::error_at(
         Code::UnknownMethod,
         span,
         format!("a {ty} has no `{name}` with such arguments"),

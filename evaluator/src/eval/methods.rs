@@ -19,10 +19,10 @@ const INTEGERS: [&str; 7] = [
 ];
 
 impl<'a> Evaluator<'a> {
-    pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
+    pub fn eval_method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
         let writing = name == "iter_mut" || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
-        let (value, place) = self.receiver(receiver, writing)?;
-        let args = self.all(args)?;
+        let (value, place) = self.eval_receiver(receiver, writing)?;
+        let args = self.eval_all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
@@ -33,19 +33,19 @@ impl<'a> Evaluator<'a> {
         if let Some((method, function)) = own {
             let receiver = match function.params.first() {
                 Some(own) if own.ty.is_mutable_reference() => {
-                    let place = place.unwrap_or_else(|| self.temporary(value.clone()));
+                    let place = place.unwrap_or_else(|| self.add_temporary(value.clone()));
                     Value::Ref(Rc::new(place))
                 }
                 _ => value,
             };
             let all = std::iter::once(receiver).chain(args).collect();
-            return self.inline(method, &[], all, span);
+            return self.inline_function(method, &[], all, span);
         }
         let args = args
             .into_iter()
-            .map(|v| self.loaded(v, span))
+            .map(|v| self.deref_value(v, span))
             .collect::<Eval<Vec<_>>>()?;
-        if let Some(value) = self.conversion(name, &value, span)? {
+        if let Some(value) = self.eval_conversion(name, &value, span)? {
             return Ok(value);
         }
         if name == "clone"
@@ -61,7 +61,7 @@ impl<'a> Evaluator<'a> {
             Value::Enum(choice)
                 if matches!(name, "unwrap" | "expect") && matches!(choice.ty.as_str(), "Option" | "Result") =>
             {
-                self.unwrapped(choice, name, span)
+                self.eval_unwrap(choice, name, span)
             }
             Value::Struct { .. } | Value::Enum(_) => {
                 let ty = match &value {
@@ -69,7 +69,7 @@ impl<'a> Evaluator<'a> {
                     Value::Enum(choice) => &choice.ty,
                     _ => return Err(Exit::Noted),
                 };
-                if super::matrix::size(ty).is_some() {
+                if super::matrix::column_count(ty).is_some() {
                     return self.matrix_method(&value, name, &args, span);
                 }
                 let prefix = format!("{ty}::");
@@ -78,18 +78,18 @@ impl<'a> Evaluator<'a> {
                 names.sort_unstable();
                 let help = match names.is_empty() {
                     true => format!("it has none: write it in an `impl {ty}`"),
-                    false => crate::suggest::suggest(name, &names, "it has"),
+                    false => crate::suggest::suggest_name(name, &names, "it has"),
                 };
                 Err(
-                    Diagnostic::at(Code::UnknownMethod, span, format!("`{ty}` has no method `{name}`"))
+                    Diagnostic::error_at(Code::UnknownMethod, span, format!("`{ty}` has no method `{name}`"))
                         .label("not there")
                         .help(help)
                         .into(),
                 )
             }
-            Value::Texture(index) => self.texture(*index, name, &args, span),
-            Value::Buffer(index) => self.buffer(*index, name, &args, span),
-            Value::Image(index) => self.image(*index, name, &args, span),
+            Value::Texture(index) => self.eval_texture_method(*index, name, &args, span),
+            Value::Buffer(index) => self.eval_buffer_method(*index, name, &args, span),
+            Value::Image(index) => self.eval_image_method(*index, name, &args, span),
             Value::Shared(index) => self.shared_memory(*index, name, &args, span),
             Value::Range(range) if matches!(name, "rev" | "step_by" | "contains") => {
                 self.range_method(range, name, &args, span)
@@ -98,7 +98,7 @@ impl<'a> Evaluator<'a> {
             Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
                 Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
                 None => {
-                    let place = self.temporary(value);
+                    let place = self.add_temporary(value);
                     self.elements_mut(&Value::Ref(Rc::new(place)), span)
                 }
             },
@@ -111,11 +111,11 @@ impl<'a> Evaluator<'a> {
                 }
             }
             Value::Poison => Err(Exit::Noted),
-            Value::Node(id) if name == "to_array" && args.is_empty() && self.ty(*id).components() > 1 => {
-                let lanes = self.lanes(*id);
+            Value::Node(id) if name == "to_array" && args.is_empty() && self.ty(*id).component_count() > 1 => {
+                let lanes = self.vector_components(*id);
                 Ok(Value::array(lanes.into_iter().map(Value::Node).collect()))
             }
-            _ => self.math(&value, name, &args, span),
+            _ => self.eval_math_method(&value, name, &args, span),
         }
     }
 
@@ -127,7 +127,7 @@ impl<'a> Evaluator<'a> {
             _ if name.contains("::") => name.to_owned(),
             Value::Struct { ty, .. } => [ty, "::", name].concat(),
             Value::Enum(choice) => [&choice.ty, "::", name].concat(),
-            Value::Node(id) if !crate::front::methods::has(self.ty(*id), name) => {
+            Value::Node(id) if !crate::front::methods::has_method(self.ty(*id), name) => {
                 [&self.ty(*id).in_rust(), "::", name].concat()
             }
             _ => return None,
@@ -137,18 +137,18 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The value of a method's receiver and, where it is one, the place that it stands for.
-    fn receiver(&mut self, receiver: &Expr, writing: bool) -> Eval<(Value, Option<Place>)> {
+    fn eval_receiver(&mut self, receiver: &Expr, writing: bool) -> Eval<(Value, Option<Place>)> {
         let before = std::mem::replace(&mut self.writing, writing);
-        let place = self.place(receiver);
+        let place = self.eval_place(receiver);
         self.writing = before;
         if let Some(place) = place? {
-            let place = self.followed(place, receiver.span)?;
-            return Ok((self.read(&place, receiver.span)?, Some(place)));
+            let place = self.follow_references(place, receiver.span)?;
+            return Ok((self.read_place(&place, receiver.span)?, Some(place)));
         }
-        match self.expr(receiver)? {
+        match self.eval_expr(receiver)? {
             Value::Ref(place) => {
-                let place = self.followed((*place).clone(), receiver.span)?;
-                Ok((self.read(&place, receiver.span)?, Some(place)))
+                let place = self.follow_references((*place).clone(), receiver.span)?;
+                Ok((self.read_place(&place, receiver.span)?, Some(place)))
             }
             value => Ok((value, None)),
         }
@@ -159,15 +159,15 @@ impl<'a> Evaluator<'a> {
         let Value::Ref(place) = array else {
             return Err(Exit::Noted);
         };
-        let place = self.followed((**place).clone(), span)?;
-        let len = match self.read(&place, span)? {
+        let place = self.follow_references((**place).clone(), span)?;
+        let len = match self.read_place(&place, span)? {
             Value::Array(elements) => elements.len(),
             Value::Node(id) if self.ty(id).is_array() => match self.ty(id) {
                 Type::Array { len, .. } => len as usize,
                 _ => 0,
             },
             other => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::MismatchedTypes,
                     span,
                     format!("{} has no elements to change", other.describe()),
@@ -175,7 +175,7 @@ impl<'a> Evaluator<'a> {
                 .into());
             }
         };
-        let element = |k: usize| Value::Ref(Rc::new(place.part(Step::Index(Value::Int(k as i64)))));
+        let element = |k: usize| Value::Ref(Rc::new(place.with_step(Step::Index(Value::Int(k as i64)))));
         Ok(Value::array((0..len).map(element).collect()))
     }
 
@@ -202,7 +202,7 @@ impl<'a> Evaluator<'a> {
             ("div_ceil", 1) if n >= 0 && m > 0 => n / m + i64::from(n % m > 0),
             ("min" | "max", 1) if matches!(value, Value::Int(_)) => {
                 let op = if name == "min" { BinaryOp::Min } else { BinaryOp::Max };
-                return self.binary(op, value, &args[0], span).map(Some);
+                return self.eval_binary(op, value, &args[0], span).map(Some);
             }
             ("pow", 1) if matches!(value, Value::Int(_)) => {
                 match u32::try_from(m).ok().and_then(|m| n.checked_pow(m)) {
@@ -234,8 +234,8 @@ impl<'a> Evaluator<'a> {
         let function = format!("{of}::{name}");
         if (name != "rem_euclid" || !known) && self.library.functions.contains_key(&function) {
             let all = std::iter::once(value).chain(args).collect();
-            return self.inline(&function, &[], all, span);
+            return self.inline_function(&function, &[], all, span);
         }
-        self.math(&value, name, &args, span)
+        self.eval_math_method(&value, name, &args, span)
     }
 }

@@ -55,7 +55,7 @@ use crate::front::name::Name;
 use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type, usize_value};
 use crate::limits;
 use crate::passes::Exact;
-use crate::passes::narrow::{Facts, Refusal, narrow};
+use crate::passes::narrow::{Facts, Refusal, narrow_usize};
 use crate::policy::{Math, Policy};
 use rustc_hash::FxHashSet;
 use scope::Scope;
@@ -67,7 +67,7 @@ use straightline_kernels::{OptionText, OptionValues};
 use value::{Eval, Exit, Value};
 
 pub use budget::{BUDGET_HELP, LoopReport, name_largest_loops};
-pub use options::{Numeric, OptionInfo, OptionKind, describe, parse_settings};
+pub use options::{Numeric, OptionInfo, OptionKind, describe_options, parse_settings};
 
 /// A kernel with its options decided.
 pub struct Evaluated {
@@ -87,7 +87,7 @@ pub struct Evaluated {
 
 /// Errors in the parameters of the function `entry` that do not depend on its body: for kernels in which other errors were found.
 pub fn parameter_errors(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Vec<Diagnostic> {
-    Evaluator::new(library, files, &Policy::default()).parameter_errors(&crate::front::raw(entry))
+    Evaluator::new(library, files, &Policy::default()).parameter_errors(&crate::front::raw_name(entry))
 }
 
 /// Evaluates the function `entry` with some options set, the others at their defaults.
@@ -97,7 +97,7 @@ pub fn parameter_errors(library: &Library, files: &Arc<Vec<File>>, entry: &str) 
 /// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs a constant of them, evaluation
 /// goes back to the loop and unrolls it. Only at the end is it known which values a `usize` may have: for their sake the whole is
 /// evaluated again, each time with at least one more loop unrolled.
-pub fn evaluate(
+pub fn evaluate_kernel(
     library: &Library,
     files: &Arc<Vec<File>>,
     entry: &str,
@@ -105,15 +105,15 @@ pub fn evaluate(
     policy: &Policy,
     invocation: Invocation,
 ) -> Result<Evaluated, Errors> {
-    let entry = &*crate::front::raw(entry);
-    let looping = crate::front::looping(library, entry, policy);
+    let entry = &*crate::front::raw_name(entry);
+    let looping = crate::front::looping_statements(library, entry, policy);
     let mut unrolled = HashMap::new();
     let mut steps = 0;
     loop {
         let mut evaluator = Evaluator::new(library, files, policy);
-        evaluator.looping.clone_from(&looping);
-        evaluator.unrolled.clone_from(&unrolled);
-        (evaluator.steps, evaluator.checked) = (steps, steps);
+        evaluator.loop_statements.clone_from(&looping);
+        evaluator.forced_unrolls.clone_from(&unrolled);
+        (evaluator.steps, evaluator.last_check) = (steps, steps);
         evaluator.builder.graph_mut().invocation = invocation;
         let refused = match evaluator.whole_kernel(entry, settings)? {
             Narrowed::Fits(evaluated) => return Ok(*evaluated),
@@ -126,7 +126,7 @@ pub fn evaluate(
         for (loops, error) in refused {
             evaluator.unroll_for(loops, error);
         }
-        (unrolled, steps) = (evaluator.unrolled, evaluator.steps);
+        (unrolled, steps) = (evaluator.forced_unrolls, evaluator.steps);
     }
 }
 
@@ -170,15 +170,15 @@ struct Evaluator<'a> {
     /// The kernel's files, for excerpts.
     files: Arc<Vec<File>>,
     /// Loops that are unrolled whatever the policy says, since a constant is needed that they assign.
-    unrolled: HashMap<Span, demand::Why>,
+    forced_unrolls: HashMap<Span, demand::UnrollReason>,
     /// Times that evaluation has gone back to a loop.
-    turns: usize,
+    restarts: usize,
     /// Statements that may leave a loop in the shader that could be unrolled.
-    looping: FxHashSet<Span>,
+    loop_statements: FxHashSet<Span>,
     /// Whether all loops that can be unrolled are.
     unrolls_all: bool,
-    loops: budget::Loops,
-    kept: demand::Kept,
+    loops: budget::LoopTracker,
+    structured_loops: demand::StructuredLoops,
     scope: Scope,
     /// Counters of the unrolled loops around, outermost first.
     counters: Arc<[Counter]>,
@@ -186,11 +186,11 @@ struct Evaluator<'a> {
     calls: Vec<Cow<'a, str>>,
     errors: Vec<Diagnostic>,
     /// Structures whose parts were named last, and after what: most are given on from function to function.
-    named: VecDeque<Named>,
+    named: VecDeque<NamedStruct>,
     /// Constants evaluated so far, with the number of nodes there were then.
     consts: HashMap<String, (usize, Value)>,
     /// Reads made so far.
-    sites: u32,
+    last_site: u32,
     /// Whether the threads of a workgroup run what is being evaluated.
     in_phase: bool,
     /// Names of the kernel's parameters and of the fields of those that are structures, and how often each is one.
@@ -200,7 +200,7 @@ struct Evaluator<'a> {
     /// Steps of work, those of earlier attempts at the kernel counted.
     steps: u64,
     /// Steps when time and memory were looked at last.
-    checked: u64,
+    last_check: u64,
     /// Nodes that there may be.
     most_nodes: usize,
     /// Whether a limit has been reached.
@@ -208,16 +208,16 @@ struct Evaluator<'a> {
     /// Expressions that are being evaluated, one inside of the other.
     depth: u32,
     /// Who has left the blocks that are being evaluated, first to last.
-    departed: Vec<departures::Departure>,
+    early_exits: Vec<departures::EarlyExit>,
     /// Loops around that are left in the shader.
-    kept_loops: u32,
+    loop_depth: u32,
     /// Whether the place that is being found is to be written.
     writing: bool,
     /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
     /// selected, and of those who left before the branches and loops around.
-    reach: Vec<(NodeId, bool)>,
+    path_conditions: Vec<(NodeId, bool)>,
     /// Runtime conditions of the branches around, with the number of calls around each.
-    deciding: Vec<(usize, NodeId)>,
+    branch_conditions: Vec<(usize, NodeId)>,
     /// Counters of type `usize` that are computed, with the start and the end of their ranges.
     counters_of_usize: HashMap<NodeId, (NodeId, NodeId)>,
     /// Differences of `usize` that wrap by intention.
@@ -229,7 +229,7 @@ struct Evaluator<'a> {
 }
 
 /// A structure whose parts have been named.
-struct Named {
+struct NamedStruct {
     fields: Rc<Vec<(Name, Value)>>,
     /// The parameter that they are named after.
     after: Name,
@@ -246,13 +246,13 @@ impl<'a> Evaluator<'a> {
             builder,
             policy: policy.clone(),
             files: Arc::clone(files),
-            unrolled: HashMap::new(),
-            turns: 0,
-            looping: FxHashSet::default(),
-            deciding: Vec::new(),
+            forced_unrolls: HashMap::new(),
+            restarts: 0,
+            loop_statements: FxHashSet::default(),
+            branch_conditions: Vec::new(),
             unrolls_all: false,
-            loops: budget::Loops::default(),
-            kept: demand::Kept::default(),
+            loops: budget::LoopTracker::default(),
+            structured_loops: demand::StructuredLoops::default(),
             scope: Scope::default(),
             counters: Arc::default(),
             calls: Vec::new(),
@@ -260,18 +260,18 @@ impl<'a> Evaluator<'a> {
             errors: Vec::new(),
             named: VecDeque::new(),
             consts: HashMap::new(),
-            sites: 0,
+            last_site: 0,
             in_phase: false,
             elements: Vec::new(),
             steps: 0,
-            checked: 0,
+            last_check: 0,
             most_nodes: MAX_NODES,
             exhausted: false,
             depth: 0,
-            departed: Vec::new(),
-            kept_loops: 0,
+            early_exits: Vec::new(),
+            loop_depth: 0,
             writing: false,
-            reach: Vec::new(),
+            path_conditions: Vec::new(),
             counters_of_usize: HashMap::new(),
             wrapping: HashSet::new(),
             places: Vec::new(),
@@ -283,23 +283,23 @@ impl<'a> Evaluator<'a> {
 impl Evaluator<'_> {
     /// Evaluates a kernel, and narrows its `usize`s.
     fn whole_kernel(&mut self, entry: &str, settings: &[OptionText]) -> Result<Narrowed, Errors> {
-        let result = self.kernel(entry, settings);
+        let result = self.eval_kernel(entry, settings);
         if result.is_ok() && self.errors.is_empty() {
             self.check_loop_paths();
-            let deferred = self.loops.deferred();
+            let deferred = self.loops.take_deferred();
             self.errors.extend(deferred);
         }
         let (outputs, options, docs) = match result {
             Ok(parts) if self.errors.is_empty() => parts,
             Ok(_) => return Err(self.all_errors()),
             Err(Exit::Left(_)) => {
-                return Err(Errors::of(Diagnostic::new(
+                return Err(Errors::from_diagnostic(Diagnostic::new(
                     Code::KernelResult,
                     format!("`{}` does not end with a value", crate::front::unraw(entry)),
                 )));
             }
             Err(exit) => {
-                self.note(exit);
+                self.record_error(exit);
                 return Err(self.all_errors());
             }
         };
@@ -310,20 +310,20 @@ impl Evaluator<'_> {
             places: std::mem::take(&mut self.places),
         };
         let whole = std::mem::replace(&mut self.builder, Builder::new(&Exact)).finish(outputs);
-        let narrowed = match narrow(&whole, &facts) {
+        let narrowed = match narrow_usize(&whole, &facts) {
             Ok(narrowed) => narrowed,
             Err(refused) => {
                 let each = refused.into_iter().map(|Refusal { node, mut error }| {
                     if error.span == Some(Span::default()) {
                         error.span = Some(span);
                     }
-                    (self.kept.behind(&whole, &[node]), error)
+                    (self.structured_loops.loops_feeding(&whole, &[node]), error)
                 });
                 return Ok(Narrowed::Refused(each.collect()));
             }
         };
         Ok(Narrowed::Fits(Box::new(Evaluated {
-            loops: self.loops.reports(),
+            loops: self.loops.sorted_reports(),
             span,
             inputs: std::mem::take(&mut self.inputs),
             graph: narrowed.unwrap_or(whole),
@@ -337,9 +337,9 @@ impl Evaluator<'_> {
     }
 
     /// Counts a step of work, so that nothing runs for ever.
-    fn step(&mut self, span: Span) -> Eval<()> {
+    fn count_step(&mut self, span: Span) -> Eval<()> {
         self.steps += 1;
-        limits::spend(1);
+        limits::count_work(1);
         let made = self.builder.graph().nodes.len();
         let (code, what, help) = if self.steps > MAX_STEPS {
             let what = format!("evaluation takes more than {MAX_STEPS} steps");
@@ -348,23 +348,23 @@ impl Evaluator<'_> {
             let what = format!("the kernel unrolls to more than {} operations", self.most_nodes);
             (Code::Budget, what, budget::BUDGET_HELP)
         } else {
-            let due = self.steps >= self.checked + STEPS_BETWEEN_CHECKS;
-            let Some(excess) = due.then(|| limits::exceeded(made)).flatten() else {
-                self.checked = if due { self.steps } else { self.checked };
+            let due = self.steps >= self.last_check + STEPS_BETWEEN_CHECKS;
+            let Some(excess) = due.then(|| limits::exceeded_limit(made)).flatten() else {
+                self.last_check = if due { self.steps } else { self.last_check };
                 return Ok(());
             };
             (Code::Limit, format!("evaluation takes {excess}"), excess.help())
         };
         self.exhausted = true;
         let function = self.calls.last().cloned().unwrap_or_default();
-        let error = Diagnostic::at(code, span, what)
+        let error = Diagnostic::error_at(code, span, what)
             .label(format!("reached here, in `{function}`"))
             .help(help);
         Err(self.loops.name_largest(error).into())
     }
 
     /// Notes an error; one that is noted already is not noted again.
-    fn note(&mut self, exit: Exit) -> Exit {
+    fn record_error(&mut self, exit: Exit) -> Exit {
         let errors = match exit {
             Exit::Error(error) => vec![*error],
             Exit::Demand(needs) => needs.into_iter().map(|need| need.error).collect(),
@@ -381,7 +381,7 @@ impl Evaluator<'_> {
     /// Runtime conditions that decide what is evaluated inside the outermost call of a function.
     fn decides_within(&self, function: &str) -> Vec<NodeId> {
         let outermost = self.calls.iter().position(|name| *name == function).unwrap_or(0);
-        let inside = self.deciding.iter().filter(|(calls, _)| *calls > outermost);
+        let inside = self.branch_conditions.iter().filter(|(calls, _)| *calls > outermost);
         inside.map(|(_, condition)| *condition).collect()
     }
 
@@ -390,14 +390,14 @@ impl Evaluator<'_> {
         let Value::Struct { fields, .. } = value else {
             return false;
         };
-        let is_it = |named: &Named| named.after == *parameter && Rc::ptr_eq(&named.fields, fields);
+        let is_it = |named: &NamedStruct| named.after == *parameter && Rc::ptr_eq(&named.fields, fields);
         if self.named.iter().any(is_it) {
             return true;
         }
         if self.named.len() == NAMED_STRUCTURES {
             self.named.pop_front();
         }
-        self.named.push_back(Named {
+        self.named.push_back(NamedStruct {
             fields: Rc::clone(fields),
             after: parameter.clone(),
         });
@@ -405,7 +405,7 @@ impl Evaluator<'_> {
     }
 
     /// Gives nodes the name of the variable that they are assigned to.
-    fn name(&mut self, value: &Value, name: &str, span: Span) {
+    fn name_value(&mut self, value: &Value, name: &str, span: Span) {
         self.name_as(value, name, Naming::Let, span);
     }
 
@@ -413,16 +413,16 @@ impl Evaluator<'_> {
     fn name_as(&mut self, value: &Value, name: &str, naming: Naming, span: Span) {
         // Variables of the library's own are nobody's names.
         if span.file != crate::front::std::FILE && !name.starts_with('#') {
-            self.name_parts(value, &Called::Whole(name), naming, span);
+            self.name_parts(value, &LazyName::Whole(name), naming, span);
         }
     }
 
-    fn name_parts(&mut self, value: &Value, called: &Called<'_>, naming: Naming, span: Span) {
+    fn name_parts(&mut self, value: &Value, called: &LazyName<'_>, naming: Naming, span: Span) {
         match value {
             Value::Node(id) => self.name_node(*id, called, naming, span),
             Value::Struct { fields, .. } => {
                 for (field, value) in fields.iter() {
-                    self.name_parts(value, &Called::Field(called, field), naming, span);
+                    self.name_parts(value, &LazyName::Field(called, field), naming, span);
                 }
             }
             Value::Tuple(parts) => self.name_each(parts, called, naming, span),
@@ -430,27 +430,27 @@ impl Evaluator<'_> {
             Value::Enum(choice) if choice.names_something() => {
                 let (tag, inside) = self.choice_names(choice, &called.to_string());
                 if let Some((id, name)) = tag {
-                    self.name_node(id, &Called::Whole(&name), naming, span);
+                    self.name_node(id, &LazyName::Whole(&name), naming, span);
                 }
                 for (value, name) in inside {
-                    self.name_parts(&value, &Called::Whole(&name), naming, span);
+                    self.name_parts(&value, &LazyName::Whole(&name), naming, span);
                 }
             }
             _ => {}
         }
     }
 
-    fn name_each(&mut self, parts: &[Value], called: &Called<'_>, naming: Naming, span: Span) {
+    fn name_each(&mut self, parts: &[Value], called: &LazyName<'_>, naming: Naming, span: Span) {
         // Nobody reads so many names, and an array is named each time that it is copied.
         if parts.len() > MAX_NAMED {
             return;
         }
         for (k, part) in parts.iter().enumerate() {
-            self.name_parts(part, &Called::Number(called, k), naming, span);
+            self.name_parts(part, &LazyName::Number(called, k), naming, span);
         }
     }
 
-    fn name_node(&mut self, id: NodeId, called: &Called<'_>, naming: Naming, span: Span) {
+    fn name_node(&mut self, id: NodeId, called: &LazyName<'_>, naming: Naming, span: Span) {
         let op = &self.builder.graph().node(id).op;
         // Other variables may be the same constant; what a function gives is that.
         let is_constant = matches!(op, Op::Const(_));
@@ -466,13 +466,13 @@ impl Evaluator<'_> {
         let known = self.builder.graph().origin(id);
         if let Some(known) = known.filter(|origin| !origin.name.is_empty() && origin.naming <= naming) {
             // It has a name that is as good; of the same one what both agree on is kept.
-            if naming > Naming::Let || !called.is(&known.name) {
+            if naming > Naming::Let || !called.is_name(&known.name) {
                 return;
             }
         }
         let origin = Origin {
             name: match called {
-                Called::Whole(name) => (*name).into(),
+                LazyName::Whole(name) => (*name).into(),
                 parts => parts.to_string().into(),
             },
             naming,
@@ -487,7 +487,7 @@ impl Evaluator<'_> {
     }
 
     /// A value for a message: a known number itself, else its kind.
-    fn shown(&self, value: &Value) -> String {
+    fn describe_known(&self, value: &Value) -> String {
         match (self.known_int(value), value) {
             (Some(n), _) => n.to_string(),
             (None, Value::Enum(choice)) => match self.known_variant(choice) {
@@ -495,7 +495,7 @@ impl Evaluator<'_> {
                 None => value.describe(),
             },
             (None, Value::Tuple(parts)) if !parts.is_empty() => {
-                let parts: Vec<String> = parts.iter().map(|part| self.shown(part)).collect();
+                let parts: Vec<String> = parts.iter().map(|part| self.describe_known(part)).collect();
                 format!("({})", parts.join(", "))
             }
             (None, other) => other.describe(),
@@ -508,7 +508,7 @@ impl Evaluator<'_> {
 
     /// A boolean that is known.
     fn known_bool(&self, id: NodeId) -> Option<bool> {
-        self.builder.graph().constant(id).map(|bits| bits[0] != 0)
+        self.builder.graph().constant_bits(id).map(|bits| bits[0] != 0)
     }
 
     /// An integer that is known, of whichever type.
@@ -516,12 +516,12 @@ impl Evaluator<'_> {
         match value {
             Value::Int(n) => Some(*n),
             Value::Node(id) => {
-                let bits = self.builder.graph().constant(*id)?[0];
+                let bits = self.builder.graph().constant_bits(*id)?[0];
                 match self.ty(*id) {
                     Type::I32 => Some(i64::from(bits as i32)),
                     Type::U32 => Some(i64::from(bits)),
                     Type::USIZE => {
-                        let bits = self.builder.graph().constant(*id)?;
+                        let bits = self.builder.graph().constant_bits(*id)?;
                         i64::try_from(usize_value(&bits)).ok()
                     }
                     _ => None,
@@ -532,16 +532,16 @@ impl Evaluator<'_> {
     }
 
     /// A value as a node.
-    fn node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
+    fn value_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         match value {
             Value::Node(id) => Ok(*id),
             Value::Int(n) => self.int_node(*n, Scalar::Usize, span),
             Value::Ref(_) => {
-                let value = self.loaded(value.clone(), span)?;
-                self.node(&value, span)
+                let value = self.deref_value(value.clone(), span)?;
+                self.value_node(&value, span)
             }
             Value::Poison => Err(Exit::Noted),
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 format!("{} where a number is needed", other.describe()),
@@ -557,7 +557,7 @@ impl Evaluator<'_> {
             Scalar::U32 => u32::try_from(n).ok(),
             Scalar::Usize => return Ok(self.builder.usize(n as u64)),
             Scalar::F32 | Scalar::Bool => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::MismatchedTypes,
                     span,
                     format!("the integer {n} where {kind} is needed"),
@@ -570,7 +570,7 @@ impl Evaluator<'_> {
         match bits {
             Some(bits) => Ok(self.builder.constant(Type::scalar(kind), [bits, 0, 0, 0])),
             None => Err(
-                Diagnostic::at(Code::LiteralRange, span, format!("{n} does not fit into {kind}"))
+                Diagnostic::error_at(Code::LiteralRange, span, format!("{n} does not fit into {kind}"))
                     .label("too large for a shader")
                     .into(),
             ),
@@ -579,35 +579,35 @@ impl Evaluator<'_> {
 }
 
 /// The name of a part of a value, put together only where one is given.
-enum Called<'n> {
+enum LazyName<'n> {
     Whole(&'n str),
-    Field(&'n Called<'n>, &'n str),
-    Number(&'n Called<'n>, usize),
+    Field(&'n LazyName<'n>, &'n str),
+    Number(&'n LazyName<'n>, usize),
 }
 
-impl Called<'_> {
+impl LazyName<'_> {
     /// Whether this is the name.
-    fn is(&self, name: &str) -> bool {
+    fn is_name(&self, name: &str) -> bool {
         match self {
-            Called::Whole(whole) => *whole == name,
-            Called::Field(whole, field) => {
+            LazyName::Whole(whole) => *whole == name,
+            LazyName::Field(whole, field) => {
                 let rest = name.strip_suffix(field).and_then(|rest| rest.strip_suffix('_'));
-                rest.is_some_and(|rest| whole.is(rest))
+                rest.is_some_and(|rest| whole.is_name(rest))
             }
-            Called::Number(whole, k) => {
+            LazyName::Number(whole, k) => {
                 let (rest, number) = name.rsplit_once('_').unwrap_or_default();
-                number.parse() == Ok(*k) && whole.is(rest)
+                number.parse() == Ok(*k) && whole.is_name(rest)
             }
         }
     }
 }
 
-impl std::fmt::Display for Called<'_> {
+impl std::fmt::Display for LazyName<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Called::Whole(name) => f.write_str(name),
-            Called::Field(whole, field) => write!(f, "{whole}_{field}"),
-            Called::Number(whole, k) => write!(f, "{whole}_{k}"),
+            LazyName::Whole(name) => f.write_str(name),
+            LazyName::Field(whole, field) => write!(f, "{whole}_{field}"),
+            LazyName::Number(whole, k) => write!(f, "{whole}_{k}"),
         }
     }
 }

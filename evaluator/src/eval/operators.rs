@@ -7,13 +7,13 @@ use crate::front::tree::Type as SourceType;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
-    pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval {
+    pub fn eval_unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval {
         if let Some(value) = self.unary_of_trait(op, value, span)? {
             return Ok(value);
         }
-        let id = self.node(value, span)?;
+        let id = self.value_node(value, span)?;
         let ty = self.ty(id);
-        let op = match (op, ty.kind()) {
+        let op = match (op, ty.scalar_kind()) {
             (UnaryOp::Not, Some(Scalar::I32 | Scalar::U32 | Scalar::Usize)) => UnaryOp::BitNot,
             (UnaryOp::Not, Some(Scalar::Bool)) | (UnaryOp::Neg, Some(Scalar::F32 | Scalar::I32)) => op,
             _ => return Err(not_taken(ty, span)),
@@ -21,17 +21,19 @@ impl Evaluator<'_> {
         Ok(Value::Node(self.builder.add(Op::Unary(op), [id], ty)))
     }
 
-    pub fn binary(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
+    pub fn eval_binary(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
         if let Some(value) = self.operator_of_trait(op, left, right, span)? {
             return Ok(value);
         }
         match (left, right) {
-            (Value::Int(a), Value::Int(b)) => return self.integers(op, *a, *b, span),
-            (Value::Struct { ty, .. }, _) | (_, Value::Struct { ty, .. }) if super::matrix::size(ty).is_some() => {
+            (Value::Int(a), Value::Int(b)) => return self.fold_integers(op, *a, *b, span),
+            (Value::Struct { ty, .. }, _) | (_, Value::Struct { ty, .. })
+                if super::matrix::column_count(ty).is_some() =>
+            {
                 return match op {
                     BinaryOp::Mul => self.matrix_product(left, right, span),
                     BinaryOp::Add | BinaryOp::Sub => self.by_fields(op, left, right, span),
-                    _ => Err(Diagnostic::at(
+                    _ => Err(Diagnostic::error_at(
                         Code::OperatorTypes,
                         span,
                         format!("this operator does not take a `{ty}`"),
@@ -41,7 +43,7 @@ impl Evaluator<'_> {
             }
             (Value::Enum(choice), _) if !matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
                 let ty = &choice.ty;
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::OperatorTypes,
                     span,
                     format!("this operator does not take a `{ty}`"),
@@ -53,18 +55,18 @@ impl Evaluator<'_> {
             _ => {}
         }
         if matches!(op, BinaryOp::Eq | BinaryOp::Ne)
-            && let Some(same) = self.equal(left, right, span)?
+            && let Some(same) = self.values_equal(left, right, span)?
         {
             let found = if op == BinaryOp::Eq { same } else { self.not(same) };
             return Ok(Value::Node(found));
         }
         let (a, b) = match op {
             // A shift's count may be of another integer type.
-            BinaryOp::Shl | BinaryOp::Shr => (self.node(left, span)?, self.shift_count(left, right, span)?),
+            BinaryOp::Shl | BinaryOp::Shr => (self.value_node(left, span)?, self.shift_count(left, right, span)?),
             _ => self.same_type(left, right, span)?,
         };
         let ty = self.ty(a);
-        let kind = ty.kind().unwrap_or(Scalar::Bool);
+        let kind = ty.scalar_kind().unwrap_or(Scalar::Bool);
         let fits = match op {
             BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => kind != Scalar::F32,
             BinaryOp::Shl | BinaryOp::Shr => matches!(kind, Scalar::I32 | Scalar::U32 | Scalar::Usize),
@@ -75,7 +77,7 @@ impl Evaluator<'_> {
             return Err(not_taken(ty, span));
         }
         if op.is_comparison() {
-            return self.comparison(op, a, b);
+            return self.build_comparison(op, a, b);
         }
         Ok(Value::Node(self.builder.add(Op::Binary(op), [a, b], ty)))
     }
@@ -92,11 +94,11 @@ impl Evaluator<'_> {
             ) if ty == other => {
                 let mut results = Vec::new();
                 for ((name, a), (_, b)) in fields.iter().zip(others.iter()) {
-                    results.push((name.clone(), self.binary(op, a, b, span)?));
+                    results.push((name.clone(), self.eval_binary(op, a, b, span)?));
                 }
                 Ok(Value::structure(ty.clone(), results))
             }
-            _ => Err(Diagnostic::at(
+            _ => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 format!("{} and {} do not go together", left.describe(), right.describe()),
@@ -106,8 +108,8 @@ impl Evaluator<'_> {
     }
 
     /// Rust compares vectors as wholes.
-    fn comparison(&mut self, op: BinaryOp, a: NodeId, b: NodeId) -> Eval {
-        let lanes = self.ty(a).components();
+    fn build_comparison(&mut self, op: BinaryOp, a: NodeId, b: NodeId) -> Eval {
+        let lanes = self.ty(a).component_count();
         let each = self
             .builder
             .add(Op::Binary(op), [a, b], Type::value(Scalar::Bool, lanes));
@@ -128,20 +130,20 @@ impl Evaluator<'_> {
     }
 
     fn shift_count(&mut self, left: &Value, right: &Value, span: Span) -> Eval<NodeId> {
-        let value = self.node(left, span)?;
+        let value = self.value_node(left, span)?;
         let ty = self.ty(value);
-        let count = self.node(right, span)?;
-        let count = self.convert(count, ty.kind().unwrap_or(Scalar::Usize));
-        Ok(self.splat(count, ty.components()))
+        let count = self.value_node(right, span)?;
+        let count = self.convert_node(count, ty.scalar_kind().unwrap_or(Scalar::Usize));
+        Ok(self.build_splat(count, ty.component_count()))
     }
 
     /// An operation on known values of `usize`, which has 64 bits while it is known.
-    fn integers(&mut self, op: BinaryOp, a: i64, b: i64, span: Span) -> Eval {
+    fn fold_integers(&mut self, op: BinaryOp, a: i64, b: i64, span: Span) -> Eval {
         use BinaryOp::*;
         let known = match op {
             Add => a.checked_add(b),
             Sub if b > a => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::Overflow,
                     span,
                     format!("{a} - {b} is below 0, which no `usize` is"),
@@ -201,19 +203,19 @@ impl Evaluator<'_> {
                     None => (*a, *b),
                 }
             }
-            _ => (self.node(left, span)?, self.node(right, span)?),
+            _ => (self.value_node(left, span)?, self.value_node(right, span)?),
         };
         let (ta, tb) = (self.ty(a), self.ty(b));
         if ta == tb {
             return Ok((a, b));
         }
-        if ta.kind() == tb.kind() && ta.is_scalar() && !tb.is_array() {
-            return Ok((self.splat(a, tb.components()), b));
+        if ta.scalar_kind() == tb.scalar_kind() && ta.is_scalar() && !tb.is_array() {
+            return Ok((self.build_splat(a, tb.component_count()), b));
         }
-        if ta.kind() == tb.kind() && tb.is_scalar() && !ta.is_array() {
-            return Ok((a, self.splat(b, ta.components())));
+        if ta.scalar_kind() == tb.scalar_kind() && tb.is_scalar() && !ta.is_array() {
+            return Ok((a, self.build_splat(b, ta.component_count())));
         }
-        Err(Diagnostic::at(
+        Err(Diagnostic::error_at(
             Code::MismatchedTypes,
             span,
             format!("{} and {} do not go together", ta.in_rust(), tb.in_rust()),
@@ -225,32 +227,32 @@ impl Evaluator<'_> {
 
     /// A known integer of the kind of another number.
     fn int_of(&mut self, n: i64, other: NodeId, span: Span) -> Eval<NodeId> {
-        let kind = self.ty(other).kind().unwrap_or(Scalar::Usize);
+        let kind = self.ty(other).scalar_kind().unwrap_or(Scalar::Usize);
         self.int_node(n, kind, span)
     }
 
     /// A scalar in each of `lanes` components.
-    pub fn splat(&mut self, id: NodeId, lanes: u8) -> NodeId {
-        if lanes == 1 || self.ty(id).components() > 1 {
+    pub fn build_splat(&mut self, id: NodeId, lanes: u8) -> NodeId {
+        if lanes == 1 || self.ty(id).component_count() > 1 {
             return id;
         }
-        let ty = Type::value(self.ty(id).kind().unwrap_or(Scalar::F32), lanes);
+        let ty = Type::value(self.ty(id).scalar_kind().unwrap_or(Scalar::F32), lanes);
         self.builder.add(Op::Splat, [id], ty)
     }
 
     /// A node's components converted to another kind.
-    pub fn convert(&mut self, id: NodeId, kind: Scalar) -> NodeId {
+    pub fn convert_node(&mut self, id: NodeId, kind: Scalar) -> NodeId {
         let ty = self.ty(id).with_scalar(kind);
         self.builder.add(Op::Convert, [id], ty)
     }
 
     /// `value as type`.
-    pub fn cast(&mut self, value: &Value, ty: &SourceType, span: Span) -> Eval {
+    pub fn eval_cast(&mut self, value: &Value, ty: &SourceType, span: Span) -> Eval {
         let SourceType::Name(name, _) = ty else {
             if matches!(ty, SourceType::Fn(..)) && value.is_called() {
                 return Ok(value.clone());
             }
-            return Err(Diagnostic::at(Code::Cast, span, "a cast to something that is not a number").into());
+            return Err(Diagnostic::error_at(Code::Cast, span, "a cast to something that is not a number").into());
         };
         let kind = match name.as_str() {
             "f32" => Scalar::F32,
@@ -258,7 +260,7 @@ impl Evaluator<'_> {
             "usize" => Scalar::Usize,
             "u32" => Scalar::U32,
             other => {
-                return Err(Diagnostic::at(Code::Cast, span, format!("a cast to `{other}`"))
+                return Err(Diagnostic::error_at(Code::Cast, span, format!("a cast to `{other}`"))
                     .label("not supported")
                     .help("cast to f32, i32, u32 or usize")
                     .into());
@@ -275,15 +277,15 @@ impl Evaluator<'_> {
         if matches!(value, Value::Poison) {
             return Err(Exit::Noted);
         }
-        let id = self.node(value, span)?;
+        let id = self.value_node(value, span)?;
         if !self.ty(id).is_scalar() {
             return Err(
-                Diagnostic::at(Code::Cast, span, "a cast of something that is not one number")
+                Diagnostic::error_at(Code::Cast, span, "a cast of something that is not one number")
                     .help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...")
                     .into(),
             );
         }
-        let converted = Value::Node(self.convert(id, kind));
+        let converted = Value::Node(self.convert_node(id, kind));
         Ok(match self.known_int(&converted) {
             Some(known) if kind == Scalar::Usize => Value::Int(known),
             _ => converted,
@@ -291,18 +293,18 @@ impl Evaluator<'_> {
     }
 
     /// An `i32` as the `usize` that it is.
-    pub fn sized(&mut self, id: NodeId) -> Value {
-        Value::Node(self.convert(id, Scalar::Usize))
+    pub fn as_usize(&mut self, id: NodeId) -> Value {
+        Value::Node(self.convert_node(id, Scalar::Usize))
     }
 
     /// An index of what does not clamp it: an `i32` node. An index beyond is so as an `i32` too.
     pub fn index_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
-        let id = self.node(value, span)?;
+        let id = self.value_node(value, span)?;
         match self.ty(id) {
             Type::I32 => Ok(id),
-            Type::U32 => Ok(self.convert(id, Scalar::I32)),
+            Type::U32 => Ok(self.convert_node(id, Scalar::I32)),
             Type::USIZE => Ok(self.builder.add(Op::Bitcast, [id], Type::I32)),
-            other => Err(Diagnostic::at(
+            other => Err(Diagnostic::error_at(
                 Code::IndexType,
                 span,
                 format!("an index must be an integer, not {}", other.in_rust()),
@@ -317,25 +319,25 @@ impl Evaluator<'_> {
 impl Evaluator<'_> {
     /// An index that is not beyond the last of `count` elements (`count` an `i32` node): an `i32` node. `last` is the last one's name.
     pub fn held_index(&mut self, value: &Value, count: NodeId, last: &str, span: Span) -> Eval<NodeId> {
-        let id = self.node(value, span)?;
+        let id = self.value_node(value, span)?;
         let one = self.builder.i32(1);
         let end = self.builder.add(Op::Binary(BinaryOp::Sub), [count, one], Type::I32);
         if !last.is_empty() {
-            self.name(&Value::Node(end), last, span);
+            self.name_value(&Value::Node(end), last, span);
         }
         if self.ty(id) != Type::USIZE {
             let index = self.index_node(value, span)?;
             let zero = self.builder.i32(0);
             return Ok(self.builder.add(Op::Clamp, [index, zero, end], Type::I32));
         }
-        let end = self.convert(end, Scalar::Usize);
+        let end = self.convert_node(end, Scalar::Usize);
         let held = self.builder.add(Op::Binary(BinaryOp::Min), [id, end], Type::USIZE);
-        Ok(self.convert(held, Scalar::I32))
+        Ok(self.convert_node(held, Scalar::I32))
     }
 }
 
 fn too_large(span: Span) -> Exit {
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::Overflow,
         span,
         "the result does not fit into a `usize` of a shader",
@@ -346,19 +348,19 @@ fn too_large(span: Span) -> Exit {
 }
 
 fn divided_by_zero(span: Span) -> Exit {
-    Diagnostic::at(Code::DivisionByZero, span, "attempt to divide by zero")
+    Diagnostic::error_at(Code::DivisionByZero, span, "attempt to divide by zero")
         .label("the divisor is always 0")
         .help("only divide where the divisor is not 0: `if n != 0 { ... }`")
         .into()
 }
 
 fn not_taken(ty: Type, span: Span) -> Exit {
-    let help = match ty.kind() {
+    let help = match ty.scalar_kind() {
         Some(Scalar::F32) => "floats have + - * / % and comparisons; for their bits use `to_bits()`",
         Some(Scalar::Bool) => "booleans have & | ^ ! && || == and !=",
         _ => "integers have + - * / % & | ^ ! << >> and comparisons",
     };
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::OperatorTypes,
         span,
         format!("this operator does not take {}", ty.in_rust()),

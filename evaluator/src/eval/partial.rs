@@ -1,9 +1,9 @@
 //! Loops that are left in the shader: what they count, and bodies written several times in a row.
 
 use super::Evaluator;
-use super::departures::{Departure, Tail};
-use super::loops::Body;
-use super::ranges::Course;
+use super::departures::{EarlyExit, Tail};
+use super::loops::LoopBody;
+use super::ranges::LoopPlan;
 use super::scope::Scope;
 use super::sequence::Columns;
 use super::value::{Eval, Place, Step, Value};
@@ -20,32 +20,32 @@ pub struct Checkpoint {
     scope: Scope,
     counters: Arc<[Counter]>,
     errors: usize,
-    loops: super::budget::Loops,
-    departed: Vec<Departure>,
-    kept_loops: u32,
+    loops: super::budget::LoopTracker,
+    early_exits: Vec<EarlyExit>,
+    loop_depth: u32,
     /// Loops that are left in the shader.
-    kept: usize,
+    loop_count: usize,
     /// Reads made.
-    sites: u32,
+    last_site: u32,
     made: Mark,
 }
 
 impl Checkpoint {
     /// Number of loops that had been left in the shader.
-    pub fn kept(&self) -> usize {
-        self.kept
+    pub fn loop_count(&self) -> usize {
+        self.loop_count
     }
 
     /// How many errors had been noted.
-    pub fn errors(&self) -> usize {
+    pub fn error_count(&self) -> usize {
         self.errors
     }
 }
 
 /// What a loop that is left in the shader counts.
-pub enum Count {
+pub enum LoopCount {
     /// The values of a range.
-    Range(Course),
+    Range(LoopPlan),
     /// Positions in a list of values.
     Elements(Columns),
     /// Elements of an array, by mutable references to them: the array, and how many there are.
@@ -58,16 +58,16 @@ pub enum Count {
 
 impl Evaluator<'_> {
     /// A state to return to.
-    pub fn checkpoint(&self) -> Checkpoint {
+    pub fn take_checkpoint(&self) -> Checkpoint {
         Checkpoint {
             scope: self.scope.clone(),
             counters: Arc::clone(&self.counters),
             errors: self.errors.len(),
             loops: self.loops.clone(),
-            departed: self.departed.clone(),
-            kept_loops: self.kept_loops,
-            kept: self.kept.len(),
-            sites: self.sites,
+            early_exits: self.early_exits.clone(),
+            loop_depth: self.loop_depth,
+            loop_count: self.structured_loops.len(),
+            last_site: self.last_site,
             made: self.builder.mark(),
         }
     }
@@ -76,9 +76,9 @@ impl Evaluator<'_> {
     pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
         self.counters = before.counters;
-        self.departed = before.departed;
-        self.kept_loops = before.kept_loops;
-        self.kept.truncate(before.kept);
+        self.early_exits = before.early_exits;
+        self.loop_depth = before.loop_depth;
+        self.structured_loops.truncate(before.loop_count);
         self.builder.return_to(&before.made);
         let is_kept = |id: &NodeId| (id.0 as usize) < before.made.nodes;
         self.consts.retain(|_, (made, _)| *made <= before.made.nodes);
@@ -92,8 +92,8 @@ impl Evaluator<'_> {
     }
 
     /// Goes back as if nothing had been evaluated since: reads are numbered as before too.
-    pub fn undo(&mut self, before: Checkpoint) {
-        self.sites = before.sites;
+    pub fn rewind_to(&mut self, before: Checkpoint) {
+        self.last_site = before.last_site;
         self.return_to(before);
     }
 
@@ -129,86 +129,93 @@ impl Evaluator<'_> {
     }
 
     /// Leaves a loop in the shader, its body written once or several times in a row.
-    pub fn keep(&mut self, body: &Body<'_>, count: &Count, unroll: Unroll, span: Span) -> Eval<Unroll> {
+    pub fn keep_loop(&mut self, body: &LoopBody<'_>, count: &LoopCount, unroll: Unroll, span: Span) -> Eval<Unroll> {
         let (own, trips) = match count {
-            Count::Range(course) => (course.own, course.trips),
-            Count::Elements(columns) => (Type::I32, self.whole(columns.len(), Type::I32)),
-            Count::Places(_, len) => (Type::I32, self.whole(*len, Type::I32)),
-            Count::Times(times) => (Type::I32, self.whole(*times, Type::I32)),
-            Count::Unknown => (Type::I32, self.builder.i32(Graph::ENDLESS)),
+            LoopCount::Range(course) => (course.counter_type, course.trips),
+            LoopCount::Elements(columns) => (Type::I32, self.integer_constant(columns.len(), Type::I32)),
+            LoopCount::Places(_, len) => (Type::I32, self.integer_constant(*len, Type::I32)),
+            LoopCount::Times(times) => (Type::I32, self.integer_constant(*times, Type::I32)),
+            LoopCount::Unknown => (Type::I32, self.builder.i32(Graph::ENDLESS)),
         };
-        let zero = self.whole(0, own);
+        let zero = self.integer_constant(0, own);
         let unroll = match count {
-            Count::Unknown => Unroll::None,
+            LoopCount::Unknown => Unroll::None,
             _ => unroll,
         };
         let Unroll::Partial(factor) = unroll else {
-            if let Count::Range(course) = count
-                && let Some(bounds) = course.plain
+            if let LoopCount::Range(course) = count
+                && let Some(bounds) = course.plain_bounds
             {
                 let index = course.of_indices();
                 let iteration = |e: &mut Self, own| {
                     let counter = e.as_counter(own, index);
-                    e.body(body, counter, span)
+                    e.eval_body(body, counter, span)
                 };
-                self.kept(body, bounds, iteration, span)?;
+                self.build_loop(body, bounds, iteration, span)?;
             } else {
-                self.kept(body, (zero, trips), |e, own| e.iteration(body, count, own, span), span)?;
+                self.build_loop(
+                    body,
+                    (zero, trips),
+                    |e, own| e.eval_iteration(body, count, own, span),
+                    span,
+                )?;
             }
             return Ok(Unroll::None);
         };
-        let (mark, since) = (self.scope.enter(), self.departed.len());
-        let further = Body {
+        let (mark, since) = (self.scope.enter(), self.early_exits.len());
+        let further = LoopBody {
             written: body.written.clone(),
             breaks_here: false,
             ..*body
         };
-        let whole = self.integer(BinaryOp::Div, trips, factor);
+        let whole = self.build_integer_op(BinaryOp::Div, trips, factor);
         let rounds = |e: &mut Self, own| {
-            let from = e.integer(BinaryOp::Mul, own, factor);
-            let since = e.departed.len();
+            let from = e.build_integer_op(BinaryOp::Mul, own, factor);
+            let since = e.early_exits.len();
             for k in 0..factor {
-                let own = e.integer(BinaryOp::Add, from, k);
-                let round = |e: &mut Self| e.iteration(body, count, own, span).map(|()| Value::unit());
-                e.unless_departed(since, Tail::Open, span, round)?;
+                let own = e.build_integer_op(BinaryOp::Add, from, k);
+                let round = |e: &mut Self| e.eval_iteration(body, count, own, span).map(|()| Value::unit());
+                e.eval_if_live(since, Tail::Open, span, round)?;
             }
             Ok(())
         };
-        self.kept(&further, (zero, whole), rounds, span)?;
-        let done = self.integer(BinaryOp::Mul, whole, factor);
+        self.build_loop(&further, (zero, whole), rounds, span)?;
+        let done = self.build_integer_op(BinaryOp::Mul, whole, factor);
         let rest = |e: &mut Self| {
-            let since = e.departed.len();
+            let since = e.early_exits.len();
             match e.known_int(&Value::Node(trips)).zip(e.known_int(&Value::Node(done))) {
                 Some((trips, done)) => {
                     for k in done..trips {
-                        let own = e.whole(k as u32, own);
-                        let round = |e: &mut Self| e.iteration(body, count, own, span).map(|()| Value::unit());
-                        e.unless_departed(since, Tail::Open, span, round)?;
+                        let own = e.integer_constant(k as u32, own);
+                        let round = |e: &mut Self| e.eval_iteration(body, count, own, span).map(|()| Value::unit());
+                        e.eval_if_live(since, Tail::Open, span, round)?;
                     }
                 }
-                None => e.kept(
+                None => e.build_loop(
                     &further,
                     (done, trips),
-                    |e, own| e.iteration(body, count, own, span),
+                    |e, own| e.eval_iteration(body, count, own, span),
                     span,
                 )?,
             }
             Ok(Value::unit())
         };
-        let outcome = self.unless_departed(since, Tail::Open, span, rest);
-        self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span)?;
+        let outcome = self.eval_if_live(since, Tail::Open, span, rest);
+        self.merge_exits(since, outcome, mark, &|way| way.breaks_loop(body.label), span)?;
         Ok(unroll)
     }
 
     /// Iteration `own` of a loop.
-    fn iteration(&mut self, body: &Body<'_>, count: &Count, own: NodeId, span: Span) -> Eval<()> {
+    fn eval_iteration(&mut self, body: &LoopBody<'_>, count: &LoopCount, own: NodeId, span: Span) -> Eval<()> {
         let item = match count {
-            Count::Range(course) => self.counter_at(course, own),
-            Count::Elements(columns) => self.element_at(columns, own),
-            Count::Places(array, _) => Value::Ref(Rc::new(array.part(Step::Index(self.as_counter(own, true))))),
-            Count::Times(_) | Count::Unknown => Value::unit(),
+            LoopCount::Range(course) => self.counter_at(course, own),
+            LoopCount::Elements(columns) => self.element_at(columns, own),
+            LoopCount::Places(array, _) => {
+                Value::Ref(Rc::new(array.with_step(Step::Index(self.as_counter(own, true)))))
+            }
+            LoopCount::Times(_) | LoopCount::Unknown => Value::unit(),
         };
         self.name_position(body, &item, own);
-        self.body(body, item, span)
+        self.eval_body(body, item, span)
     }
 }

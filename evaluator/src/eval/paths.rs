@@ -1,7 +1,7 @@
 //! What a path stands for: a variable, a constant, a function, a variant.
 
 use super::call::vector_type;
-use super::enums::Choice;
+use super::enums::EnumValue;
 use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// A variable, a constant or a variant.
-    pub fn path(&mut self, path: &[String], span: Span) -> Eval {
+    pub fn eval_path(&mut self, path: &[String], span: Span) -> Eval {
         let of_parameter = match path {
             [of, name] => match self.scope.get(of) {
                 Some(Value::Type(ty)) => Some(vec![ty.clone(), name.clone()]),
@@ -24,10 +24,10 @@ impl Evaluator<'_> {
         {
             return match value {
                 Value::Poison => Err(Exit::Noted),
-                Value::Unset => Err(self.unset(last, span)),
+                Value::Unset => Err(self.unset_error(last, span)),
                 Value::Alias(place) => {
                     let place = Rc::clone(place);
-                    self.read(&place, span)
+                    self.read_place(&place, span)
                 }
                 other => Ok(other.clone()),
             };
@@ -37,18 +37,20 @@ impl Evaluator<'_> {
         {
             if let Some(k) = found.position(variant) {
                 return Ok(match found.variants[k].fields.is_empty() {
-                    true => Choice::known(ty, found, k, Vec::new()),
+                    true => EnumValue::with_variant(ty, found, k, Vec::new()),
                     false => Value::Function(path.to_vec()),
                 });
             }
             if !self.library.consts.contains_key(&path.join("::")) {
                 let names: Vec<&str> = found.variants.iter().map(|v| v.name.as_str()).collect();
-                return Err(
-                    Diagnostic::at(Code::UnknownVariant, span, format!("`{ty}` has no variant `{variant}`"))
-                        .label("not there")
-                        .help(crate::suggest::suggest(variant, &names, "it has"))
-                        .into(),
-                );
+                return Err(Diagnostic::error_at(
+                    Code::UnknownVariant,
+                    span,
+                    format!("`{ty}` has no variant `{variant}`"),
+                )
+                .label("not there")
+                .help(crate::suggest::suggest_name(variant, &names, "it has"))
+                .into());
             }
         }
         let joined = path.join("::");
@@ -60,21 +62,21 @@ impl Evaluator<'_> {
         if self.library.structs.get(last).is_some_and(|s| s.fields.is_empty()) {
             return Ok(Value::structure(last, Vec::new()));
         }
-        if let Some(value) = self.constant(name, span)? {
+        if let Some(value) = self.eval_constant(name, span)? {
             return Ok(value);
         }
         match self.known_constant(path) {
             Some(value) => Ok(value),
             None if self.is_function(path) => Ok(Value::Function(path.to_vec())),
             None => {
-                let names = self.scope.names();
-                Err(Diagnostic::at(
+                let names = self.scope.variable_names();
+                Err(Diagnostic::error_at(
                     Code::UnknownName,
                     span,
                     format!("there is no `{}` here", path.join("::")),
                 )
                 .label("not found")
-                .help(crate::suggest::suggest(last, &names, "variables here are"))
+                .help(crate::suggest::suggest_name(last, &names, "variables here are"))
                 .into())
             }
         }
@@ -96,7 +98,7 @@ impl Evaluator<'_> {
     }
 
     /// A constant of the kernel's files, evaluated once.
-    fn constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
+    fn eval_constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
         if let Some(value) = self.consts.get(name).map(|(_, value)| value) {
             return Ok(Some(value.clone()));
         }
@@ -105,7 +107,7 @@ impl Evaluator<'_> {
             return Ok(None);
         };
         if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::EndlessDefinition,
                 span,
                 format!("the constant `{name}` needs itself"),
@@ -116,10 +118,10 @@ impl Evaluator<'_> {
         }
         let outer = self.scope.enter_function();
         self.calls.push(name.into());
-        let value = self.expr(&constant.value);
+        let value = self.eval_expr(&constant.value);
         self.calls.pop();
         self.scope.leave_function(outer);
-        let value = self.ascribe(value?, Some(&constant.ty), constant.value.span)?;
+        let value = self.ascribe_type(value?, Some(&constant.ty), constant.value.span)?;
         let made = self.builder.graph().nodes.len();
         self.consts.insert(name.to_owned(), (made, value.clone()));
         Ok(Some(value))

@@ -9,9 +9,9 @@
 
 use super::Evaluator;
 use super::partial::Checkpoint;
-use super::value::{Eval, Exit, Need};
+use super::value::{ConstantDemand, Eval, Exit};
 use crate::diagnostic::Span;
-use crate::front::assigned;
+use crate::front::scan_effects;
 use crate::front::tree::{Block, Statement};
 use std::collections::BTreeSet;
 
@@ -20,13 +20,13 @@ const AT_ONCE: usize = 4;
 
 /// Statements of a block that evaluation may go back to, and demands that were put off to the end of the block.
 #[derive(Default)]
-pub struct Points {
-    points: Vec<Point>,
-    put_off: Vec<Need>,
+pub struct RestartPoints {
+    points: Vec<RestartPoint>,
+    deferred: Vec<ConstantDemand>,
 }
 
 /// A statement that evaluation may go back to.
-struct Point {
+struct RestartPoint {
     /// Position of the statement in its block; of the block's value, the number of statements.
     statement: usize,
     /// State before it.
@@ -35,17 +35,17 @@ struct Point {
 
 impl Evaluator<'_> {
     /// Notes that evaluation may go back to a statement, if it may leave a loop in the shader.
-    pub fn point(&mut self, points: &mut Points, statement: usize, span: Span) {
+    pub fn add_restart_point(&mut self, points: &mut RestartPoints, statement: usize, span: Span) {
         let points = &mut points.points;
         if points
             .last()
-            .is_some_and(|last| !self.kept.avoids_since(last.before.kept()))
+            .is_some_and(|last| !self.structured_loops.has_unrollable_since(last.before.loop_count()))
         {
             points.pop();
         }
-        if self.looping.contains(&span) && !self.unrolls_all {
-            let before = self.checkpoint();
-            points.push(Point { statement, before });
+        if self.loop_statements.contains(&span) && !self.unrolls_all {
+            let before = self.take_checkpoint();
+            points.push(RestartPoint { statement, before });
         }
     }
 
@@ -54,30 +54,35 @@ impl Evaluator<'_> {
     /// # Errors
     ///
     /// The demands themselves, if evaluation goes back for them at once.
-    pub fn put_off(&mut self, needs: Vec<Need>, statement: &Statement, points: &mut Points) -> Eval<()> {
-        if self.turns < AT_ONCE {
+    pub fn defer_demands(
+        &mut self,
+        needs: Vec<ConstantDemand>,
+        statement: &Statement,
+        points: &mut RestartPoints,
+    ) -> Eval<()> {
+        if self.restarts < AT_ONCE {
             return Err(Exit::Demand(needs));
         }
-        points.put_off.extend(needs);
+        points.deferred.extend(needs);
         let alone = Block {
             statements: vec![statement.clone()],
             value: None,
             exact: false,
         };
         // No later demand is to be one because of values that the statement would have replaced.
-        for name in assigned(&alone, &self.library.mutating).assigned {
-            if let Some(slot) = self.scope.slot(&name) {
-                let value = self.scope.at(slot).1.clone();
-                let blank = self.blank(&value);
-                self.scope.set(slot, blank);
+        for name in scan_effects(&alone, &self.library.mutating).assigned {
+            if let Some(slot) = self.scope.find_slot(&name) {
+                let value = self.scope.name_and_value(slot).1.clone();
+                let blank = self.undef_like(&value);
+                self.scope.set_value(slot, blank);
             }
         }
         Ok(())
     }
 
     /// The outcome of a block, with the demands that were put off.
-    pub fn with_put_off(&self, outcome: Eval, points: &mut Points) -> Eval {
-        let mut needs = std::mem::take(&mut points.put_off);
+    pub fn with_deferred(&self, outcome: Eval, points: &mut RestartPoints) -> Eval {
+        let mut needs = std::mem::take(&mut points.deferred);
         match outcome {
             Err(Exit::Demand(last)) => {
                 needs.extend(last);
@@ -94,39 +99,43 @@ impl Evaluator<'_> {
     /// # Errors
     ///
     /// The demands, if there is no such loop.
-    pub fn go_back(&mut self, needs: Vec<Need>, points: &mut Points) -> Eval<usize> {
+    pub fn go_back(&mut self, needs: Vec<ConstantDemand>, points: &mut RestartPoints) -> Eval<usize> {
         let points = &mut points.points;
-        let begin = points.first().map_or(usize::MAX, |point| point.before.kept());
-        let first = |span: &Span| self.kept.first(*span).filter(|first| *first >= begin);
+        let begin = points.first().map_or(usize::MAX, |point| point.before.loop_count());
+        let first = |span: &Span| {
+            self.structured_loops
+                .first_position(*span)
+                .filter(|first| *first >= begin)
+        };
         let here: BTreeSet<Span> = needs.iter().flat_map(|need| &need.loops).copied().collect();
         let here: BTreeSet<Span> = here.into_iter().filter(|span| first(span).is_some()).collect();
         let Some(earliest) = here.iter().filter_map(first).min() else {
             return Err(Exit::Demand(needs));
         };
-        points.truncate(points.partition_point(|point| point.before.kept() <= earliest));
+        points.truncate(points.partition_point(|point| point.before.loop_count() <= earliest));
         let Some(point) = points.pop() else {
             return Err(Exit::Demand(needs));
         };
-        self.undo(point.before);
+        self.rewind_to(point.before);
         for need in needs {
             let loops = need.loops.intersection(&here);
             self.unroll_for(loops.copied().collect(), need.error);
         }
-        self.turns += 1;
+        self.restarts += 1;
         Ok(point.statement)
     }
 
     /// Evaluates, and once more from the beginning for demands that none of the blocks inside has met.
     pub fn meeting_demands<T>(&mut self, mut evaluate: impl FnMut(&mut Self) -> Eval<T>) -> Eval<T> {
         loop {
-            let before = self.checkpoint();
+            let before = self.take_checkpoint();
             match evaluate(self) {
                 Err(Exit::Demand(needs)) => {
-                    self.undo(before);
+                    self.rewind_to(before);
                     for need in needs {
                         self.unroll_for(need.loops, need.error);
                     }
-                    self.turns += 1;
+                    self.restarts += 1;
                 }
                 outcome => return outcome,
             }

@@ -6,14 +6,14 @@ use super::Evaluator;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
-use crate::ir::{BinaryOp, Direction, Invocation, NodeId, Op, Scalar, Type, Varying};
+use crate::ir::{BinaryOp, Invocation, NodeId, Op, QuadDirection, Scalar, Type, Varying};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
 impl Evaluator<'_> {
     /// The type of a lane, of a type that may be a `Quad`.
     pub fn lane_type<'t>(&self, ty: &'t SourceType) -> Option<&'t SourceType> {
-        match ty.bare() {
+        match ty.peel_refs() {
             SourceType::Name(name, args) if name == "Quad" && !self.library.structs.contains_key("Quad") => {
                 args.first()
             }
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
             Some((Scalar::F32, lanes)) => Type::value(Scalar::F32, lanes),
             _ => {
                 return Err(
-                    Diagnostic::at(Code::KernelParameter, span, format!("`{name}` is a quad of `{lane}`, which no rasteriser interpolates"))
+                    Diagnostic::error_at(Code::KernelParameter, span, format!("`{name}` is a quad of `{lane}`, which no rasteriser interpolates"))
                         .label("not supported")
                         .help("a kernel takes `pixel: Quad<IVec2>`, and quads of f32, Vec2, Vec3 or Vec4 for what is interpolated")
                         .into(),
@@ -61,23 +61,23 @@ impl Evaluator<'_> {
             [] => return Ok(None),
         };
         match (of, name, values) {
-            (_, "lane_position", []) => Ok(Some(Value::Node(self.lane(span)?))),
+            (_, "lane_position", []) => Ok(Some(Value::Node(self.quad_lane(span)?))),
             (_, "quad_select", []) => {
-                let lane = self.lane(span)?;
-                Ok(Some(Value::Node(self.convert(lane, Scalar::F32))))
+                let lane = self.quad_lane(span)?;
+                Ok(Some(Value::Node(self.convert_node(lane, Scalar::F32))))
             }
             (_, "quad_vector", []) => {
-                let lane = self.lane(span)?;
-                let lane = Value::Node(self.convert(lane, Scalar::F32));
+                let lane = self.quad_lane(span)?;
+                let lane = Value::Node(self.convert_node(lane, Scalar::F32));
                 let (one, two) = (Value::Node(self.builder.f32(1.0)), Value::Node(self.builder.f32(2.0)));
-                let twice = self.binary(BinaryOp::Mul, &lane, &two, span)?;
-                let vector = self.binary(BinaryOp::Sub, &twice, &one, span)?;
-                self.name(&vector, "quad_vector", span);
+                let twice = self.eval_binary(BinaryOp::Mul, &lane, &two, span)?;
+                let vector = self.eval_binary(BinaryOp::Sub, &twice, &one, span)?;
+                self.name_value(&vector, "quad_vector", span);
                 Ok(Some(vector))
             }
             ("Quad", "splat" | "from", [value]) => Ok(Some(value.clone())),
             ("Quad", "new", [lanes]) => {
-                let lanes = self.elements(lanes, 4, span)?;
+                let lanes = self.array_elements(lanes, 4, span)?;
                 self.of_lanes(&lanes, span).map(Some)
             }
             ("Quad", "from_xy", [x, y]) => {
@@ -94,33 +94,33 @@ impl Evaluator<'_> {
     /// A method that only quads have; `None` if this is none of them.
     pub fn quad_method(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
         let direction = match name {
-            "swap_horizontal" => Some(Direction::Horizontal),
-            "swap_vertical" => Some(Direction::Vertical),
-            "swap_diagonal" => Some(Direction::Diagonal),
+            "swap_horizontal" => Some(QuadDirection::Horizontal),
+            "swap_vertical" => Some(QuadDirection::Vertical),
+            "swap_diagonal" => Some(QuadDirection::Diagonal),
             _ => None,
         };
         let value = match (name, args) {
             (_, []) if direction.is_some() => {
-                let x = self.node(receiver, span)?;
-                self.message(direction.unwrap_or(Direction::Horizontal), x, name, span)?
+                let x = self.value_node(receiver, span)?;
+                self.build_quad_swap(direction.unwrap_or(QuadDirection::Horizontal), x, name, span)?
             }
             ("gather", []) => {
-                let x = self.node(receiver, span)?;
-                self.gather(x, name, span)?
+                let x = self.value_node(receiver, span)?;
+                self.build_quad_gather(x, name, span)?
             }
             ("sum" | "average", []) => {
-                let x = self.node(receiver, span)?;
-                let beside = self.message(Direction::Horizontal, x, name, span)?;
-                let row = self.binary(BinaryOp::Add, receiver, &beside, span)?;
-                let row_node = self.node(&row, span)?;
-                self.name(&row, "row", span);
-                let below = self.message(Direction::Vertical, row_node, name, span)?;
-                let sum = self.binary(BinaryOp::Add, &row, &below, span)?;
+                let x = self.value_node(receiver, span)?;
+                let beside = self.build_quad_swap(QuadDirection::Horizontal, x, name, span)?;
+                let row = self.eval_binary(BinaryOp::Add, receiver, &beside, span)?;
+                let row_node = self.value_node(&row, span)?;
+                self.name_value(&row, "row", span);
+                let below = self.build_quad_swap(QuadDirection::Vertical, row_node, name, span)?;
+                let sum = self.eval_binary(BinaryOp::Add, &row, &below, span)?;
                 if name == "sum" {
                     sum
                 } else {
                     let quarter = Value::Node(self.builder.f32(0.25));
-                    self.binary(BinaryOp::Mul, &sum, &quarter, span)?
+                    self.eval_binary(BinaryOp::Mul, &sum, &quarter, span)?
                 }
             }
             ("lt" | "le" | "gt" | "ge" | "eq" | "ne", [other]) => {
@@ -132,10 +132,10 @@ impl Evaluator<'_> {
                     "eq" => BinaryOp::Eq,
                     _ => BinaryOp::Ne,
                 };
-                self.binary(op, receiver, other, span)?
+                self.eval_binary(op, receiver, other, span)?
             }
             ("select", [yes, no]) => {
-                let condition = self.node(receiver, span)?;
+                let condition = self.value_node(receiver, span)?;
                 if self.ty(condition) != Type::BOOL {
                     return Ok(None);
                 }
@@ -143,53 +143,55 @@ impl Evaluator<'_> {
                 let ty = self.ty(yes);
                 Value::Node(self.builder.add(Op::Select, [condition, yes, no], ty))
             }
-            ("x" | "y" | "z" | "w", []) => self.field(receiver, name, span)?,
+            ("x" | "y" | "z" | "w", []) => self.value_field(receiver, name, span)?,
             ("as_f32" | "as_i32", []) => {
-                let x = self.node(receiver, span)?;
+                let x = self.value_node(receiver, span)?;
                 let kind = if name == "as_f32" { Scalar::F32 } else { Scalar::I32 };
-                Value::Node(self.convert(x, kind))
+                Value::Node(self.convert_node(x, kind))
             }
             _ => return Ok(None),
         };
         Ok(Some(value))
     }
 
-    fn message(&mut self, direction: Direction, x: NodeId, name: &str, span: Span) -> Eval {
+    fn build_quad_swap(&mut self, direction: QuadDirection, x: NodeId, name: &str, span: Span) -> Eval {
         self.needs_lanes(name, span)?;
         let ty = self.ty(x);
         if ty.is_array() {
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::QuadMessage,
                 span,
                 "a message carries a number or a vector, no array",
             )
             .label("an array of a structured loop")
             .help("send its elements one by one");
-            return Err(self.demand(&[x], error));
+            return Err(self.demand_constants(&[x], error));
         }
-        Ok(Value::Node(self.builder.add(Op::Message(direction), [x], ty)))
+        Ok(Value::Node(self.builder.add(Op::QuadSwap(direction), [x], ty)))
     }
 
     /// The lane's own value, and what it receives from beside, from above or below, and from across. What fits goes in two messages:
     /// own and below together are sent to beside.
-    fn gather(&mut self, x: NodeId, name: &str, span: Span) -> Eval {
+    fn build_quad_gather(&mut self, x: NodeId, name: &str, span: Span) -> Eval {
         let own = Value::Node(x);
-        let (Some(scalar), lanes @ (1 | 2)) = (self.ty(x).kind(), self.ty(x).components()) else {
+        let (Some(scalar), lanes @ (1 | 2)) = (self.ty(x).scalar_kind(), self.ty(x).component_count()) else {
             let mut all = vec![own];
-            for direction in Direction::ALL {
-                all.push(self.message(direction, x, name, span)?);
+            for direction in QuadDirection::ALL {
+                all.push(self.build_quad_swap(direction, x, name, span)?);
             }
             return Ok(Value::array(all));
         };
-        let below = self.message(Direction::Vertical, x, name, span)?;
-        let below_node = self.node(&below, span)?;
-        let both = [x, below_node].map(|value| self.parts(value, 0..lanes)).concat();
+        let below = self.build_quad_swap(QuadDirection::Vertical, x, name, span)?;
+        let below_node = self.value_node(&below, span)?;
+        let both = [x, below_node]
+            .map(|value| self.take_components(value, 0..lanes))
+            .concat();
         let both = self.builder.add(Op::Compose, both, Type::value(scalar, 2 * lanes));
-        let heard = self.message(Direction::Horizontal, both, name, span)?;
-        self.name(&heard, "heard", span);
-        let heard = self.node(&heard, span)?;
+        let heard = self.build_quad_swap(QuadDirection::Horizontal, both, name, span)?;
+        self.name_value(&heard, "heard", span);
+        let heard = self.value_node(&heard, span)?;
         let [beside, across] = [0..lanes, lanes..2 * lanes].map(|parts| {
-            let parts = self.parts(heard, parts);
+            let parts = self.take_components(heard, parts);
             Value::Node(match parts[..] {
                 [one] => one,
                 _ => self.builder.add(Op::Compose, parts, Type::value(scalar, lanes)),
@@ -199,9 +201,9 @@ impl Evaluator<'_> {
     }
 
     /// Some lanes of a vector; the whole of a number.
-    fn parts(&mut self, value: NodeId, lanes: std::ops::Range<u8>) -> Vec<NodeId> {
+    fn take_components(&mut self, value: NodeId, lanes: std::ops::Range<u8>) -> Vec<NodeId> {
         let ty = self.ty(value);
-        match (ty.is_scalar(), ty.kind()) {
+        match (ty.is_scalar(), ty.scalar_kind()) {
             (false, Some(scalar)) => {
                 let part = |lane| self.builder.add(Op::Extract(lane), [value], Type::scalar(scalar));
                 lanes.map(part).collect()
@@ -210,10 +212,10 @@ impl Evaluator<'_> {
         }
     }
 
-    fn lane(&mut self, span: Span) -> Eval<NodeId> {
+    fn quad_lane(&mut self, span: Span) -> Eval<NodeId> {
         self.needs_lanes("lane_position", span)?;
         let lane = self.builder.add(Op::Lane, Vec::new(), PAIR);
-        self.name(&Value::Node(lane), "lane", span);
+        self.name_value(&Value::Node(lane), "lane", span);
         Ok(lane)
     }
 
@@ -221,7 +223,7 @@ impl Evaluator<'_> {
         if self.builder.graph().invocation == Invocation::Lane {
             return Ok(());
         }
-        Err(Diagnostic::at(
+        Err(Diagnostic::error_at(
             Code::QuadMessage,
             span,
             format!("`{name}` is of quads, and this kernel computes one pixel"),
@@ -233,7 +235,7 @@ impl Evaluator<'_> {
 
     /// One of four values, by the lane.
     fn of_lanes(&mut self, lanes: &[Value], span: Span) -> Eval {
-        let lane = self.lane(span)?;
+        let lane = self.quad_lane(span)?;
         let zero = self.builder.i32(0);
         let [right, below] = [0, 1].map(|axis| {
             let part = self.builder.add(Op::Extract(axis), [lane], Type::I32);

@@ -14,13 +14,13 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 const MAX_ROUNDS: i128 = 1_000_000;
 
 /// How a loop over a range runs in the graph.
-pub struct Course {
+pub struct LoopPlan {
     /// The type that iterations are counted in.
-    pub own: Type,
+    pub counter_type: Type,
     /// Number of iterations, of type `own`.
     pub trips: NodeId,
     /// First and one past the last counter, where the loop needs no count of its own.
-    pub plain: Option<(NodeId, NodeId)>,
+    pub plain_bounds: Option<(NodeId, NodeId)>,
     /// The smallest value, and the end.
     start: NodeId,
     end: NodeId,
@@ -36,7 +36,7 @@ pub struct Course {
     index: bool,
 }
 
-impl Course {
+impl LoopPlan {
     /// Nodes of the smallest value and the end.
     pub fn bounds(&self) -> [NodeId; 2] {
         [self.start, self.end]
@@ -45,8 +45,8 @@ impl Course {
 
 impl Evaluator<'_> {
     /// `start..end`, `start..=end`.
-    pub fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool) -> Eval {
-        let (start, end) = (self.value(start)?, self.value(end)?);
+    pub fn eval_range(&mut self, start: &Expr, end: &Expr, inclusive: bool) -> Eval {
+        let (start, end) = (self.eval_value(start)?, self.eval_value(end)?);
         Ok(Value::Range(Range {
             start: Box::new(start),
             end: Box::new(end),
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
             ("step_by", [step]) => match self.known_int(step) {
                 Some(step @ 1..) if !range.reversed => range.step = range.step.saturating_mul(step),
                 Some(1..) => {
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::NotInLanguage,
                         span,
                         "`step_by` of a range that is stepped and reversed",
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
                     .into());
                 }
                 _ => {
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::RuntimeValue,
                         span,
                         "`step_by` needs a step that is a constant of at least 1",
@@ -88,13 +88,13 @@ impl Evaluator<'_> {
             },
             ("contains", [x]) if plain => {
                 let below = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
-                let from = self.binary(BinaryOp::Ge, x, &range.start, span)?;
-                let to = self.binary(below, x, &range.end, span)?;
-                return self.binary(BinaryOp::And, &from, &to, span);
+                let from = self.eval_binary(BinaryOp::Ge, x, &range.start, span)?;
+                let to = self.eval_binary(below, x, &range.end, span)?;
+                return self.eval_binary(BinaryOp::And, &from, &to, span);
             }
             _ => {
                 return Err(
-                    Diagnostic::at(Code::UnknownMethod, span, format!("a range has no method `{name}`"))
+                    Diagnostic::error_at(Code::UnknownMethod, span, format!("a range has no method `{name}`"))
                         .help("ranges have `rev`, `step_by` and `contains`")
                         .into(),
                 );
@@ -111,14 +111,14 @@ impl Evaluator<'_> {
                 Value::Int(_) => {}
                 Value::Poison => return Err(Exit::Noted),
                 Value::Node(id) if matches!(self.ty(*id), Type::I32 | Type::U32 | Type::USIZE) => {
-                    kinds.extend(self.ty(*id).kind())
+                    kinds.extend(self.ty(*id).scalar_kind())
                 }
                 other => {
                     let found = match other {
                         Value::Node(id) => self.ty(*id).in_rust(),
                         other => other.describe(),
                     };
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::MismatchedTypes,
                         span,
                         format!("a range of {found} cannot be iterated"),
@@ -133,7 +133,7 @@ impl Evaluator<'_> {
             [] => Ok((Scalar::Usize, true)),
             [kind] => Ok((kind, kind == Scalar::Usize)),
             [a, b] if a == b => Ok((a, a == Scalar::Usize)),
-            _ => Err(Diagnostic::at(
+            _ => Err(Diagnostic::error_at(
                 Code::MismatchedTypes,
                 span,
                 "a range from an i32 to a u32, or the other way round",
@@ -158,16 +158,16 @@ impl Evaluator<'_> {
         let Some((start, end)) = self.known_int(&range.start).zip(self.known_int(&range.end)) else {
             return Ok(None);
         };
-        let rounds = iterations(range, start, end);
+        let rounds = iteration_count(range, start, end);
         if rounds > MAX_ROUNDS {
             return Err(
-                Diagnostic::at(Code::TooManyIterations, span, format!("a loop of {rounds} iterations"))
+                Diagnostic::error_at(Code::TooManyIterations, span, format!("a loop of {rounds} iterations"))
                     .label("too many")
                     .help(format!("a loop may have up to {MAX_ROUNDS}"))
                     .into(),
             );
         }
-        let (step, last) = (i128::from(range.step), last(range, end));
+        let (step, last) = (i128::from(range.step), last_value(range, end));
         let mut values: Vec<i128> = (0..rounds)
             .map(|k| match range.down {
                 true => last - k * step,
@@ -182,7 +182,7 @@ impl Evaluator<'_> {
     }
 
     /// How a loop over a range runs in the graph.
-    pub fn course(&mut self, range: &Range, span: Span) -> Eval<Course> {
+    pub fn plan_loop(&mut self, range: &Range, span: Span) -> Eval<LoopPlan> {
         let (kind, index) = self.counted_in(range, span)?;
         let ty = Type::scalar(kind);
         let start = self.end_of_range(&range.start, kind, span)?;
@@ -210,22 +210,22 @@ impl Evaluator<'_> {
         let from_zero = self.known_int(&Value::Node(start)) == Some(0) && !range.inclusive;
         let counted = known.is_some() || (from_zero && ty != Type::USIZE);
         let own = if counted { ty } else { Type::U32 };
-        let trips = match known.and_then(|(start, end)| u32::try_from(iterations(range, start, end)).ok()) {
+        let trips = match known.and_then(|(start, end)| u32::try_from(iteration_count(range, start, end)).ok()) {
             // Few enough, or the range would have been refused.
-            Some(trips) => self.whole(trips, own),
-            None => self.trips(range, (start, end), own),
+            Some(trips) => self.integer_constant(trips, own),
+            None => self.build_trip_count(range, (start, end), own),
         };
         let from = if range.down && !range.inclusive {
-            self.integer(BinaryOp::Sub, end, 1)
+            self.build_integer_op(BinaryOp::Sub, end, 1)
         } else if range.down {
             end
         } else {
             start
         };
-        Ok(Course {
-            own,
+        Ok(LoopPlan {
+            counter_type: own,
             trips,
-            plain,
+            plain_bounds: plain,
             start,
             end,
             from,
@@ -239,12 +239,12 @@ impl Evaluator<'_> {
     fn end_of_range(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
         match value {
             Value::Int(n) => self.int_node(*n, kind, span),
-            other => self.node(other, span),
+            other => self.value_node(other, span),
         }
     }
 
     /// Number of iterations, in the type `own`: of an empty or backwards range 0.
-    fn trips(&mut self, range: &Range, (start, end): (NodeId, NodeId), own: Type) -> NodeId {
+    fn build_trip_count(&mut self, range: &Range, (start, end): (NodeId, NodeId), own: Type) -> NodeId {
         let from_zero = self.known_int(&Value::Node(start)) == Some(0);
         if from_zero && !range.inclusive && range.step == 1 {
             // Nothing is less than 0 but an i32, of which such an end leaves the range empty.
@@ -255,7 +255,7 @@ impl Evaluator<'_> {
         }
         let holds = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
         let any = self.builder.add(Op::Binary(holds), [start, end], Type::BOOL);
-        let (zero, one) = (self.whole(0, own), self.whole(1, own));
+        let (zero, one) = (self.integer_constant(0, own), self.integer_constant(1, own));
         // The distance of two i32 fits into a u32, and wraps to it.
         let [low, high] = [start, end].map(|id| self.counted_end(id, own));
         let distance = self.builder.add(Op::Binary(BinaryOp::Sub), [high, low], own);
@@ -265,7 +265,7 @@ impl Evaluator<'_> {
                 // All values of a type are one more than it can count: the last of them is left out.
                 let all = self.may_be_all(range, start, end);
                 let distance = if all {
-                    let most = self.whole(u32::MAX - 1, own);
+                    let most = self.integer_constant(u32::MAX - 1, own);
                     self.builder.add(Op::Binary(BinaryOp::Min), [distance, most], own)
                 } else {
                     distance
@@ -279,7 +279,7 @@ impl Evaluator<'_> {
                 };
                 let steps = match u32::try_from(step) {
                     Ok(step) => {
-                        let step = self.whole(step, own);
+                        let step = self.integer_constant(step, own);
                         self.builder.add(Op::Binary(BinaryOp::Div), [last, step], own)
                     }
                     Err(_) => zero,
@@ -294,7 +294,7 @@ impl Evaluator<'_> {
     fn counted_end(&mut self, end: NodeId, own: Type) -> NodeId {
         match (self.ty(end), own) {
             (Type::USIZE, Type::U32) => self.builder.add(Op::Bitcast, [end], own),
-            _ => self.convert(end, own.kind().unwrap_or(Scalar::U32)),
+            _ => self.convert_node(end, own.scalar_kind().unwrap_or(Scalar::U32)),
         }
     }
 
@@ -311,20 +311,22 @@ impl Evaluator<'_> {
     }
 
     /// The source's counter in iteration `own`.
-    pub fn counter_at(&mut self, course: &Course, own: NodeId) -> Value {
+    pub fn counter_at(&mut self, course: &LoopPlan, own: NodeId) -> Value {
         let ty = self.ty(course.from);
         let mut at = own;
         if course.reversed {
-            let one = self.whole(1, course.own);
+            let one = self.integer_constant(1, course.counter_type);
             let last = self
                 .builder
-                .add(Op::Binary(BinaryOp::Sub), [course.trips, one], course.own);
-            at = self.builder.add(Op::Binary(BinaryOp::Sub), [last, own], course.own);
+                .add(Op::Binary(BinaryOp::Sub), [course.trips, one], course.counter_type);
+            at = self
+                .builder
+                .add(Op::Binary(BinaryOp::Sub), [last, own], course.counter_type);
         }
-        if course.own != ty {
-            at = self.convert(at, ty.kind().unwrap_or(Scalar::I32));
+        if course.counter_type != ty {
+            at = self.convert_node(at, ty.scalar_kind().unwrap_or(Scalar::I32));
         }
-        let step = self.whole(course.step, ty);
+        let step = self.integer_constant(course.step, ty);
         let far = self.builder.add(Op::Binary(BinaryOp::Mul), [at, step], ty);
         let towards = if course.down { BinaryOp::Sub } else { BinaryOp::Add };
         let counter = self.builder.add(Op::Binary(towards), [course.from, far], ty);
@@ -343,26 +345,26 @@ impl Evaluator<'_> {
     }
 
     /// A constant integer.
-    pub fn whole(&mut self, n: u32, ty: Type) -> NodeId {
+    pub fn integer_constant(&mut self, n: u32, ty: Type) -> NodeId {
         self.builder.constant(ty, [n, 0, 0, 0])
     }
 
     /// `x op n`, in the type of `x`.
-    pub fn integer(&mut self, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
+    pub fn build_integer_op(&mut self, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
         let ty = self.ty(x);
-        let n = self.whole(n, ty);
+        let n = self.integer_constant(n, ty);
         self.builder.add(Op::Binary(op), [x, n], ty)
     }
 }
 
 /// The last value of a range of which the end is known.
-fn last(range: &Range, end: i64) -> i128 {
+fn last_value(range: &Range, end: i64) -> i128 {
     i128::from(end) - i128::from(!range.inclusive)
 }
 
 /// Number of iterations of a loop over a range with known ends.
-fn iterations(range: &Range, start: i64, end: i64) -> i128 {
-    let distance = last(range, end) - i128::from(start);
+fn iteration_count(range: &Range, start: i64, end: i64) -> i128 {
+    let distance = last_value(range, end) - i128::from(start);
     if distance < 0 {
         0
     } else {
@@ -370,7 +372,7 @@ fn iterations(range: &Range, start: i64, end: i64) -> i128 {
     }
 }
 
-impl Course {
+impl LoopPlan {
     /// Whether a known counter is an integer without a type.
     pub fn of_indices(&self) -> bool {
         self.index

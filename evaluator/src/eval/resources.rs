@@ -9,7 +9,7 @@ use crate::ir::{Sampler, Uniform};
 
 impl Evaluator<'_> {
     /// A parameter that stands for a resource; `None` if its type is none.
-    pub fn resource(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
+    pub fn resource_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
         let SourceType::Name(type_name, args) = ty else {
             return Ok(None);
         };
@@ -71,8 +71,8 @@ impl Evaluator<'_> {
     }
 
     /// A number for a read of its own.
-    pub(super) fn site(&mut self) -> u32 {
-        self.sites += 1;
-        self.sites
+    pub(super) fn next_site(&mut self) -> u32 {
+        self.last_site += 1;
+        self.last_site
     }
 }

@@ -12,7 +12,7 @@ const MOST: usize = 8;
 
 impl Evaluator<'_> {
     /// Takes a kernel's value apart: gives the results, whose targets are noted in the graph.
-    pub fn results(&mut self, value: &Value, function: &Function) -> Eval<Vec<NodeId>> {
+    pub fn split_results(&mut self, value: &Value, function: &Function) -> Eval<Vec<NodeId>> {
         let span = function.span;
         let parts = self.parts_of_result(value, function)?;
         let (mut targets, mut results) = (Vec::new(), Vec::new());
@@ -33,7 +33,7 @@ impl Evaluator<'_> {
                 0 => format!("a kernel that gives {written} values for each pixel"),
                 _ => format!("a kernel that writes {written} pictures"),
             };
-            return Err(Diagnostic::at(Code::KernelResult, span, what)
+            return Err(Diagnostic::error_at(Code::KernelResult, span, what)
                 .label("the kernel")
                 .help(format!(
                     "a shader writes {MOST} targets at most: pack numbers into vectors"
@@ -62,14 +62,14 @@ impl Evaluator<'_> {
             Value::Tuple(parts) if of_group && parts.is_empty() => value,
             _ if of_group => {
                 let what = format!("a kernel of workgroups gives {}", value.describe());
-                return Err(Diagnostic::at(Code::KernelResult, span, what)
+                return Err(Diagnostic::error_at(Code::KernelResult, span, what)
                     .label("one for all threads")
                     .help("give what a phase gives, a value for each of its threads: `-> PerThread<Vec4>`")
                     .into());
             }
             _ => value,
         };
-        let numbered = |k: usize| format!("{}_{k}", Target::ALONE);
+        let numbered = |k: usize| format!("{}_{k}", Target::DEFAULT_NAME);
         match value {
             Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_lasting_effects() => Ok(Vec::new()),
             Value::Tuple(parts) if !parts.is_empty() => {
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
             }
             Value::Struct { ty, fields } => {
                 let Some(structure) = self.library.structs.get(&**ty) else {
-                    return Err(self.no_target(Target::ALONE, value, span));
+                    return Err(self.no_target(Target::DEFAULT_NAME, value, span));
                 };
                 let mut parts = Vec::new();
                 for (k, (name, part)) in fields.iter().enumerate() {
@@ -89,11 +89,11 @@ impl Evaluator<'_> {
                     parts.push((name, part.clone(), at));
                 }
                 match parts.is_empty() {
-                    true => Err(self.no_target(Target::ALONE, value, span)),
+                    true => Err(self.no_target(Target::DEFAULT_NAME, value, span)),
                     false => Ok(parts),
                 }
             }
-            other => Ok(vec![(Target::ALONE.to_owned(), other.clone(), span)]),
+            other => Ok(vec![(Target::DEFAULT_NAME.to_owned(), other.clone(), span)]),
         }
     }
 
@@ -107,7 +107,7 @@ impl Evaluator<'_> {
             Value::Int(_) => "a `usize`".to_owned(),
             other => other.describe(),
         };
-        let (what, label) = match name == Target::ALONE {
+        let (what, label) = match name == Target::DEFAULT_NAME {
             true if matches!(value, Value::Tuple(parts) if parts.is_empty()) => (
                 "a kernel that gives nothing and writes nothing".to_owned(),
                 "the kernel",
@@ -119,11 +119,13 @@ impl Evaluator<'_> {
             ),
         };
         let help = match value {
-            Value::Node(id) if self.ty(*id).kind() == Some(Scalar::Bool) => {
+            Value::Node(id) if self.ty(*id).scalar_kind() == Some(Scalar::Bool) => {
                 "a target holds numbers: choose one, `if condition { 1.0 } else { 0.0 }`"
             }
             Value::Int(_) => "convert it with `as i32` or `as u32`",
-            Value::Node(id) if self.ty(*id).kind() == Some(Scalar::Usize) => "convert it with `as i32` or `as u32`",
+            Value::Node(id) if self.ty(*id).scalar_kind() == Some(Scalar::Usize) => {
+                "convert it with `as i32` or `as u32`"
+            }
             Value::Tuple(parts) if parts.is_empty() => {
                 "give a value for each pixel, or write to an `&AtomicBuffer`, a `&StorageBuffer` or a `&StorageTexture`"
             }
@@ -132,7 +134,7 @@ impl Evaluator<'_> {
                  of its own"
             }
         };
-        Diagnostic::at(Code::KernelResult, span, what)
+        Diagnostic::error_at(Code::KernelResult, span, what)
             .label(label)
             .help(help)
             .into()

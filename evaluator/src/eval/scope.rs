@@ -79,17 +79,17 @@ impl Scope {
 
     /// The variable's value.
     pub fn get(&self, name: &str) -> Option<&Value> {
-        self.slot(name).map(|slot| &self.variables[slot].value)
+        self.find_slot(name).map(|slot| &self.variables[slot].value)
     }
 
     /// Position of the variable that a name stands for.
-    pub fn slot(&self, name: &str) -> Option<usize> {
+    pub fn find_slot(&self, name: &str) -> Option<usize> {
         let own = &self.variables[self.base..];
         own.iter().rposition(|v| &*v.name == name).map(|k| self.base + k)
     }
 
     /// The variable at a position as a place that a reference may hold.
-    pub fn place(&self, slot: usize) -> Place {
+    pub fn slot_place(&self, slot: usize) -> Place {
         Place {
             slot,
             id: self.variables[slot].id,
@@ -98,24 +98,24 @@ impl Scope {
     }
 
     /// Whether the variable that a place is a part of is still there.
-    pub fn holds(&self, place: &Place) -> bool {
+    pub fn is_alive(&self, place: &Place) -> bool {
         self.variables.get(place.slot).is_some_and(|v| v.id == place.id)
     }
 
     /// Name and value at a position.
-    pub fn at(&self, slot: usize) -> (&str, &Value) {
+    pub fn name_and_value(&self, slot: usize) -> (&str, &Value) {
         let Variable { name, value, .. } = &self.variables[slot];
         (name, value)
     }
 
     /// Changes the value at a position; gives the old one.
-    pub fn set(&mut self, slot: usize, value: Value) -> Value {
+    pub fn set_value(&mut self, slot: usize, value: Value) -> Value {
         self.variables[slot].shared = None;
         std::mem::replace(&mut self.variables[slot].value, value)
     }
 
     /// States the constants of a value at a position. The value that was there stays the form that it is joined in.
-    pub fn refine(&mut self, slot: usize, value: Value) {
+    pub fn refine_value(&mut self, slot: usize, value: Value) {
         let variable = &mut self.variables[slot];
         let general = std::mem::replace(&mut variable.value, value);
         variable.shared = Some(general);
@@ -127,32 +127,32 @@ impl Scope {
         for (a, b) in self.variables.iter_mut().zip(&mut other.variables) {
             match (&a.value, &b.value) {
                 (Value::Unset, Value::Unset) => {}
-                (Value::Unset, _) => a.value = Value::Blank,
-                (_, Value::Unset) => b.value = Value::Blank,
+                (Value::Unset, _) => a.value = Value::Undef,
+                (_, Value::Unset) => b.value = Value::Undef,
                 _ => {}
             }
         }
     }
 
     /// Forgets the form that the value at a position shares with other states.
-    pub fn unshare(&mut self, slot: usize) {
+    pub fn clear_shared(&mut self, slot: usize) {
         self.variables[slot].shared = None;
     }
 
     /// The form that the value at a position shares with other states.
-    pub fn shared(&self, slot: usize) -> Option<&Value> {
+    pub fn shared_value(&self, slot: usize) -> Option<&Value> {
         self.variables[slot].shared.as_ref()
     }
 
     /// A form of the variable at a position that both states hold: each of them may know it as another constant.
-    pub fn common<'s>(&'s self, other: &'s Scope, slot: usize) -> Option<&'s Value> {
-        let theirs = other.variables[slot].forms();
-        let mut own = self.variables[slot].forms().into_iter().flatten();
+    pub fn common_value<'s>(&'s self, other: &'s Scope, slot: usize) -> Option<&'s Value> {
+        let theirs = other.variables[slot].value_forms();
+        let mut own = self.variables[slot].value_forms().into_iter().flatten();
         own.find(|form| theirs.contains(&Some(*form)))
     }
 
     /// Names of the innermost function's variables, each once.
-    pub fn names(&self) -> Vec<&str> {
+    pub fn variable_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = self.variables[self.base..].iter().map(|v| &*v.name).collect();
         names.sort_unstable();
         names.dedup();
@@ -167,7 +167,7 @@ impl Scope {
 
 impl Variable {
     /// The value as other states hold it, and as this one knows it.
-    fn forms(&self) -> [Option<&Value>; 2] {
+    fn value_forms(&self) -> [Option<&Value>; 2] {
         [self.shared.as_ref(), Some(&self.value)]
     }
 }

@@ -5,7 +5,7 @@
 //! or a table of its own.
 
 use super::Evaluator;
-use super::loops::Body;
+use super::loops::LoopBody;
 use super::shape::same_shape;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -39,14 +39,14 @@ enum Column {
     /// The same everywhere.
     Same(NodeId),
     /// A first value, and what each has more than the one before it.
-    Even(Even, Type),
+    Even(Progression, Type),
     /// Elements of an array.
-    Of(NodeId, Even),
+    Of(NodeId, Progression),
 }
 
 /// Numbers that grow evenly, wrapping.
 #[derive(Clone, Copy)]
-struct Even {
+struct Progression {
     first: u32,
     step: u32,
 }
@@ -68,7 +68,7 @@ impl Evaluator<'_> {
         self.with_all_variants(&mut rows, span)?;
         let unlike = rows.iter().find(|row| !same_shape(row, &rows[0]));
         if let Some(unlike) = unlike {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::UnlikeValues,
                 span,
                 format!(
@@ -89,7 +89,7 @@ impl Evaluator<'_> {
             .collect();
         let width = leaves[0].len();
         if width > MAX_COLUMNS {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::TooLarge,
                 span,
                 format!("each element has {width} numbers, more than {MAX_COLUMNS}"),
@@ -99,7 +99,7 @@ impl Evaluator<'_> {
         let mut columns = Vec::new();
         for k in 0..width {
             let column: Vec<NodeId> = leaves.iter().map(|row| row[k]).collect();
-            columns.push(self.column(&column, span)?);
+            columns.push(self.build_column(&column, span)?);
         }
         Ok(Columns {
             template: rows[0].clone(),
@@ -123,7 +123,7 @@ impl Evaluator<'_> {
                     _ => return Value::Node(self.builder.usize(*n as u64)),
                 };
                 match fits {
-                    true => Value::Node(self.whole(*n as u32, ty)),
+                    true => Value::Node(self.integer_constant(*n as u32, ty)),
                     false => value.clone(),
                 }
             }
@@ -162,15 +162,15 @@ impl Evaluator<'_> {
         }
         let mut widest = rows[0].clone();
         for row in rows.iter() {
-            widest = self.unify(&widest, row, span)?.0;
+            widest = self.unify_values(&widest, row, span)?.0;
         }
         for row in rows.iter_mut() {
-            *row = self.unify(row, &widest, span)?.0;
+            *row = self.unify_values(row, &widest, span)?.0;
         }
         Ok(())
     }
 
-    fn column(&mut self, nodes: &[NodeId], span: Span) -> Eval<Column> {
+    fn build_column(&mut self, nodes: &[NodeId], span: Span) -> Eval<Column> {
         let ty = self.ty(nodes[0]);
         if nodes.iter().all(|id| *id == nodes[0]) {
             return Ok(Column::Same(nodes[0]));
@@ -180,13 +180,13 @@ impl Evaluator<'_> {
             components: lanes,
         } = ty
         else {
-            return Err(Diagnostic::at(Code::UnlikeValues, span, "its elements are arrays").into());
+            return Err(Diagnostic::error_at(Code::UnlikeValues, span, "its elements are arrays").into());
         };
         if nodes.iter().any(|id| self.ty(*id) != ty) {
-            return Err(Diagnostic::at(Code::UnlikeValues, span, "its elements have several types").into());
+            return Err(Diagnostic::error_at(Code::UnlikeValues, span, "its elements have several types").into());
         }
         if matches!(ty, Type::I32 | Type::U32 | Type::USIZE)
-            && let Some(even) = self.even(nodes)
+            && let Some(even) = self.find_progression(nodes)
         {
             return Ok(Column::Even(even, ty));
         }
@@ -200,7 +200,7 @@ impl Evaluator<'_> {
             })
         {
             let indices: Vec<NodeId> = nodes.iter().map(|id| graph.node(*id).args[1]).collect();
-            if let Some(even) = self.even(&indices) {
+            if let Some(even) = self.find_progression(&indices) {
                 return Ok(Column::Of(array, even));
             }
         }
@@ -211,20 +211,20 @@ impl Evaluator<'_> {
             len,
         };
         let array = self.builder.add(Op::MakeArray, nodes, table);
-        Ok(Column::Of(array, Even { first: 0, step: 1 }))
+        Ok(Column::Of(array, Progression { first: 0, step: 1 }))
     }
 
     /// The constants as numbers that grow evenly.
-    fn even(&self, nodes: &[NodeId]) -> Option<Even> {
+    fn find_progression(&self, nodes: &[NodeId]) -> Option<Progression> {
         let graph = self.builder.graph();
         let low = |bits: crate::ir::Bits| (bits[1] == 0).then_some(bits[0]);
-        let bits: Option<Vec<u32>> = nodes.iter().map(|id| graph.constant(*id).and_then(low)).collect();
+        let bits: Option<Vec<u32>> = nodes.iter().map(|id| graph.constant_bits(*id).and_then(low)).collect();
         let bits = bits?;
         let step = bits.get(1)?.wrapping_sub(bits[0]);
         let evenly = bits.windows(2).all(|pair| pair[1].wrapping_sub(pair[0]) == step);
         // Steps back wrap, which 64 bits do elsewhere.
         let wide = graph.ty(nodes[0]) == Type::USIZE && step > i32::MAX as u32 && step != u32::MAX;
-        (evenly && !wide).then_some(Even { first: bits[0], step })
+        (evenly && !wide).then_some(Progression { first: bits[0], step })
     }
 
     /// The value at a position, an `i32`.
@@ -234,12 +234,12 @@ impl Evaluator<'_> {
             nodes.push(match column {
                 Column::Same(id) => *id,
                 Column::Even(even, ty) => {
-                    let position = self.convert(position, ty.kind().unwrap_or(Scalar::I32));
-                    self.evenly(*even, position)
+                    let position = self.convert_node(position, ty.scalar_kind().unwrap_or(Scalar::I32));
+                    self.progression_value(*even, position)
                 }
                 Column::Of(array, even) => {
-                    let index = self.evenly(*even, position);
-                    let element = self.ty(*array).element();
+                    let index = self.progression_value(*even, position);
+                    let element = self.ty(*array).element_type();
                     self.builder.add(Op::ArrayGet, [*array, index], element)
                 }
             });
@@ -253,11 +253,11 @@ impl Evaluator<'_> {
         let Value::Array(elements) = base else { return Ok(None) };
         match elements.first() {
             Some(Value::Array(row)) if row.len() * elements.len() <= super::MAX_PARTS => {
-                if let Some(flat) = self.flat(elements) {
-                    let from = self.integer(BinaryOp::Mul, index, row.len() as u32);
-                    let element = self.ty(flat).element();
+                if let Some(flat) = self.flatten_rows(elements) {
+                    let from = self.build_integer_op(BinaryOp::Mul, index, row.len() as u32);
+                    let element = self.ty(flat).element_type();
                     let row = (0..row.len() as u32).map(|k| {
-                        let at = self.integer(BinaryOp::Add, from, k);
+                        let at = self.build_integer_op(BinaryOp::Add, from, k);
                         Value::Node(self.builder.add(Op::ArrayGet, [flat, at], element))
                     });
                     let row = row.collect();
@@ -278,7 +278,7 @@ impl Evaluator<'_> {
     }
 
     /// An array of arrays of numbers of one type as one array, row by row.
-    fn flat(&mut self, rows: &[Value]) -> Option<NodeId> {
+    fn flatten_rows(&mut self, rows: &[Value]) -> Option<NodeId> {
         let mut nodes = Vec::new();
         for row in rows {
             let (Value::Array(row), Value::Array(first)) = (row, &rows[0]) else {
@@ -322,32 +322,32 @@ impl Evaluator<'_> {
         };
         let (flat, from) = get(self, row.first()?)?;
         // Elements at known indices are left to the rules that fold them.
-        if row.len() < 2 || self.builder.graph().constant(from).is_some() {
+        if row.len() < 2 || self.builder.graph().constant_bits(from).is_some() {
             return None;
         }
         for (k, value) in row.iter().enumerate() {
-            let at = self.integer(BinaryOp::Add, from, k as u32);
+            let at = self.build_integer_op(BinaryOp::Add, from, k as u32);
             if get(self, value)? != (flat, at) {
                 return None;
             }
         }
         let at = self.builder.add(Op::Binary(BinaryOp::Add), [from, index], Type::I32);
-        let element = self.ty(flat).element();
+        let element = self.ty(flat).element_type();
         Some(Value::Node(self.builder.add(Op::ArrayGet, [flat, at], element)))
     }
 
-    fn evenly(&mut self, even: Even, position: NodeId) -> NodeId {
+    fn progression_value(&mut self, even: Progression, position: NodeId) -> NodeId {
         let ty = self.ty(position);
-        let first = self.whole(even.first, ty);
+        let first = self.integer_constant(even.first, ty);
         if even.step == u32::MAX {
             return self.builder.add(Op::Binary(BinaryOp::Sub), [first, position], ty);
         }
-        let far = self.integer(BinaryOp::Mul, position, even.step);
+        let far = self.build_integer_op(BinaryOp::Mul, position, even.step);
         self.builder.add(Op::Binary(BinaryOp::Add), [first, far], ty)
     }
 
     /// Names the count of a loop where the pattern takes it as it is: the first of `enumerate`.
-    pub fn name_position(&mut self, body: &Body<'_>, item: &Value, own: NodeId) {
+    pub fn name_position(&mut self, body: &LoopBody<'_>, item: &Value, own: NodeId) {
         if let (Some(Pattern::Tuple(parts, _)), Value::Tuple(values)) = (body.pattern, item)
             && let (Some(Pattern::Name(name, _, at)), Some(Value::Node(id))) = (parts.first(), values.first())
             && *id == own

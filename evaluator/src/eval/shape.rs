@@ -19,7 +19,7 @@ impl Value {
                 if let Tag::Node(id) = choice.tag {
                     out.push(id);
                 }
-                choice.all().for_each(|(_, value)| value.flatten(out));
+                choice.all_fields().for_each(|(_, value)| value.flatten(out));
             }
             _ => {}
         }
@@ -54,25 +54,25 @@ impl Value {
 
 impl Evaluator<'_> {
     /// The value with every integer a node and every array of numbers one node, as a structured loop needs it.
-    pub fn settle(&mut self, value: &Value, span: Span) -> Eval {
+    pub fn make_runtime_form(&mut self, value: &Value, span: Span) -> Eval {
         Ok(match value {
             Value::Int(n) => Value::Node(self.int_node(*n, Scalar::Usize, span)?),
             Value::Struct { ty, fields } => {
                 let mut settled = Vec::new();
                 for (name, field) in fields.iter() {
-                    settled.push((name.clone(), self.settle(field, span)?));
+                    settled.push((name.clone(), self.make_runtime_form(field, span)?));
                 }
                 Value::structure(ty.clone(), settled)
             }
             Value::Tuple(parts) => {
-                let parts: Eval<Vec<Value>> = parts.iter().map(|p| self.settle(p, span)).collect();
+                let parts: Eval<Vec<Value>> = parts.iter().map(|p| self.make_runtime_form(p, span)).collect();
                 Value::Tuple(parts?)
             }
             Value::Array(_) => Value::Node(self.array_node(value, span)?),
             Value::Enum(choice) => {
                 let mut settled = (**choice).clone();
-                for (_, value) in settled.held.iter_mut().flatten().flatten() {
-                    *value = self.settle(value, span)?;
+                for (_, value) in settled.variants.iter_mut().flatten().flatten() {
+                    *value = self.make_runtime_form(value, span)?;
                 }
                 settled.tag = Tag::Node(self.tag_node(choice));
                 Value::Enum(Rc::new(settled))
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
             Value::Node(id) if self.ty(*id).is_array() => return Ok(*id),
             Value::Array(elements) if !elements.is_empty() => elements.to_vec(),
             Value::Elements(_) => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::TypeNeeded,
                     span,
                     "the length of this array is not known: no type states it",
@@ -97,13 +97,16 @@ impl Evaluator<'_> {
                 .into());
             }
             other => {
-                return Err(
-                    Diagnostic::at(Code::IndexType, span, format!("{} cannot be indexed", other.describe())).into(),
-                );
+                return Err(Diagnostic::error_at(
+                    Code::IndexType,
+                    span,
+                    format!("{} cannot be indexed", other.describe()),
+                )
+                .into());
             }
         };
         if elements.len() > MAX_INDEXED {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::TooLarge,
                 span,
                 format!(
@@ -118,12 +121,12 @@ impl Evaluator<'_> {
         let mut nodes = Vec::new();
         for element in &elements {
             match element {
-                Value::Int(_) | Value::Node(_) => nodes.push(self.node(element, span)?),
+                Value::Int(_) | Value::Node(_) => nodes.push(self.value_node(element, span)?),
                 other => {
-                    return Err(Diagnostic::at(
+                    return Err(Diagnostic::error_at(
                         Code::RuntimeIndex,
                         span,
-                        format!("an array of {} cannot be indexed at run time", kind(other)),
+                        format!("an array of {} cannot be indexed at run time", element_kind(other)),
                     )
                     .label("the index is a runtime value")
                     .help("unroll the loop, or keep an array for each number in it")
@@ -144,7 +147,7 @@ impl Evaluator<'_> {
                 };
                 Ok(self.builder.add(Op::MakeArray, nodes, ty))
             }
-            _ => Err(Diagnostic::at(
+            _ => Err(Diagnostic::error_at(
                 Code::RuntimeIndex,
                 span,
                 "an array of arrays, or of unlike elements, cannot be indexed at run time",
@@ -155,7 +158,7 @@ impl Evaluator<'_> {
     }
 
     /// Two values of one shape, integers given the type of the other side.
-    pub fn unify(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
+    pub fn unify_values(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
         Ok(match (a, b) {
             _ if a == b => (a.clone(), b.clone()),
             (Value::Int(_) | Value::Node(_), Value::Int(_) | Value::Node(_)) => {
@@ -177,7 +180,7 @@ impl Evaluator<'_> {
             ) if ty == other => {
                 let (mut l, mut r) = (Vec::new(), Vec::new());
                 for ((name, a), (_, b)) in left.iter().zip(right.iter()) {
-                    let (a, b) = self.unify(a, b, span)?;
+                    let (a, b) = self.unify_values(a, b, span)?;
                     l.push((name.clone(), a));
                     r.push((name.clone(), b));
                 }
@@ -195,12 +198,12 @@ impl Evaluator<'_> {
                 return self.agree_choices(left, right, span);
             }
             (a, b) if a.is_called() && b.is_called() => self.one_of(a, b),
-            (Value::Blank, other) => (self.blank(other), other.clone()),
-            (other, Value::Blank) => (other.clone(), self.blank(other)),
+            (Value::Undef, other) => (self.undef_like(other), other.clone()),
+            (other, Value::Undef) => (other.clone(), self.undef_like(other)),
             // Given a value on one side alone, a variable has none afterwards.
             (Value::Unset, _) | (_, Value::Unset) => (Value::Unset, Value::Unset),
             (Value::Ref(_), Value::Ref(_)) => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::MutableReference,
                     span,
                     "a mutable reference to one variable or another, by a runtime condition",
@@ -211,7 +214,7 @@ impl Evaluator<'_> {
             }
             (Value::Poison, _) | (_, Value::Poison) => return Err(super::Exit::Noted),
             _ => {
-                return Err(Diagnostic::at(
+                return Err(Diagnostic::error_at(
                     Code::UnlikeValues,
                     span,
                     format!(
@@ -227,7 +230,11 @@ impl Evaluator<'_> {
     }
 
     fn agree_all(&mut self, left: &[Value], right: &[Value], span: Span) -> Eval<(Vec<Value>, Vec<Value>)> {
-        let pairs: Eval<Vec<_>> = left.iter().zip(right).map(|(a, b)| self.unify(a, b, span)).collect();
+        let pairs: Eval<Vec<_>> = left
+            .iter()
+            .zip(right)
+            .map(|(a, b)| self.unify_values(a, b, span))
+            .collect();
         Ok(pairs?.into_iter().unzip())
     }
 }
@@ -236,7 +243,7 @@ impl Evaluator<'_> {
 const MAX_INDEXED: usize = 65_000;
 
 /// What an array is of, for a message.
-fn kind(element: &Value) -> String {
+fn element_kind(element: &Value) -> String {
     match element {
         Value::Struct { ty, .. } => format!("`{ty}`"),
         Value::Enum(choice) => format!("`{}`", choice.ty),
@@ -273,7 +280,7 @@ pub fn same_shape(a: &Value, b: &Value) -> bool {
             };
             a.ty == b.ty
                 && tags
-                && a.held.iter().zip(&b.held).all(|pair| match pair {
+                && a.variants.iter().zip(&b.variants).all(|pair| match pair {
                     (Some(a), Some(b)) => a.iter().zip(b).all(|((_, a), (_, b))| same_shape(a, b)),
                     (a, b) => a.is_none() && b.is_none(),
                 })

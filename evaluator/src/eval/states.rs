@@ -5,18 +5,22 @@
 //! such constants apart is what lets an unrolled loop around the branch count its iterations.
 
 use super::Evaluator;
-use super::departures::State;
-use super::enums::{Choice, Tag};
+use super::departures::SideState;
+use super::enums::{EnumValue, Tag};
 use super::scope::Scope;
-use super::value::{Value, Way};
+use super::value::{Jump, Value};
 use crate::ir::{NodeId, Op};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// The merged scope as one state knows it: the state that takes `way`, or of `None` the one that goes on.
-    pub fn in_state(&self, merged: &Scope, states: &[State], way: Option<&Way>) -> Scope {
+    pub fn in_state(&self, merged: &Scope, states: &[SideState], way: Option<&Jump>) -> Scope {
         let mut scope = merged.clone();
-        let states: Vec<&Scope> = states.iter().filter(|s| s.goes(way)).map(|s| &s.scope).collect();
+        let states: Vec<&Scope> = states
+            .iter()
+            .filter(|s| s.matches_jump(way))
+            .map(|s| &s.scope)
+            .collect();
         if states.is_empty() {
             return scope;
         }
@@ -24,29 +28,29 @@ impl Evaluator<'_> {
             if states.iter().any(|state| state.len() <= slot) {
                 break;
             }
-            let joined = merged.at(slot).1;
-            let values: Vec<&Value> = states.iter().map(|state| state.at(slot).1).collect();
-            if let Some(value) = self.refined(joined, &values) {
-                scope.refine(slot, value);
+            let joined = merged.name_and_value(slot).1;
+            let values: Vec<&Value> = states.iter().map(|state| state.name_and_value(slot).1).collect();
+            if let Some(value) = self.refine_from_states(joined, &values) {
+                scope.refine_value(slot, value);
             }
         }
         scope
     }
 
     /// A value with the constants that all of `states` agree on; `None` if they add none.
-    pub fn refined(&self, joined: &Value, states: &[&Value]) -> Option<Value> {
+    pub fn refine_from_states(&self, joined: &Value, states: &[&Value]) -> Option<Value> {
         let (first, others) = states.split_first()?;
         match joined {
             Value::Unset => None,
             // Given a value in some of the states alone, a variable has none.
             _ if states.contains(&&Value::Unset) => Some(Value::Unset),
-            _ if shares(joined, first) && others.iter().all(|value| shares(joined, value)) => None,
+            _ if shares_storage(joined, first) && others.iter().all(|value| shares_storage(joined, value)) => None,
             Value::Node(id) => {
                 let agreed = others.iter().all(|value| value == first);
                 let known = match first {
                     Value::Int(_) => true,
                     Value::Node(node) => {
-                        self.ty(*node) == self.ty(*id) && self.builder.graph().constant(*node).is_some()
+                        self.ty(*node) == self.ty(*id) && self.builder.graph().constant_bits(*node).is_some()
                     }
                     _ => false,
                 };
@@ -93,7 +97,7 @@ impl Evaluator<'_> {
         let mut refined = Vec::with_capacity(parts.len());
         for (k, part) in parts.iter().enumerate() {
             let of_states: Option<Vec<&Value>> = states.iter().map(|value| part_of(value, k)).collect();
-            let better = of_states.and_then(|values| self.refined(part, &values));
+            let better = of_states.and_then(|values| self.refine_from_states(part, &values));
             any |= better.is_some();
             refined.push(better.unwrap_or_else(|| (*part).clone()));
         }
@@ -101,7 +105,7 @@ impl Evaluator<'_> {
     }
 
     /// A value of an enum of which the states agree on the variant.
-    fn refined_choice(&self, joined: &Choice, states: &[&Value]) -> Option<Value> {
+    fn refined_choice(&self, joined: &EnumValue, states: &[&Value]) -> Option<Value> {
         let choice_of = |value: &Value| match value {
             Value::Enum(choice) if choice.ty == joined.ty => self.known_variant(choice),
             _ => None,
@@ -111,10 +115,10 @@ impl Evaluator<'_> {
         if others.iter().any(|other| choice_of(other) != Some(variant)) {
             return None;
         }
-        let fields = joined.fields(variant)?;
+        let fields = joined.variant_fields(variant)?;
         let parts: Vec<&Value> = fields.iter().map(|(_, value)| value).collect();
         let refined = self.refined_parts(&parts, states, |value, k| match value {
-            Value::Enum(choice) => choice.fields(variant)?.get(k).map(|(_, part)| part),
+            Value::Enum(choice) => choice.variant_fields(variant)?.get(k).map(|(_, part)| part),
             _ => None,
         });
         if refined.is_none() && self.known_variant(joined) == Some(variant) {
@@ -122,26 +126,27 @@ impl Evaluator<'_> {
         }
         let refined = refined.unwrap_or_else(|| parts.into_iter().cloned().collect());
         let names = fields.iter().map(|(name, _)| name.clone());
-        let mut held = vec![None; joined.held.len()];
+        let mut held = vec![None; joined.variants.len()];
         held[variant] = Some(names.zip(refined).collect());
-        Some(Value::Enum(Rc::new(Choice {
+        Some(Value::Enum(Rc::new(EnumValue {
             ty: joined.ty.clone(),
             tag: Tag::Known(variant),
-            held,
+            variants: held,
         })))
     }
 
     /// Whether two scopes hold the same compile-time constants, and no constant where the other holds none. What is decided at
     /// compile time is decided alike in both.
     pub fn as_known(&self, a: &Scope, b: &Scope) -> bool {
-        a.len() == b.len() && (0..a.len()).all(|slot| self.value_as_known(a.at(slot).1, b.at(slot).1))
+        a.len() == b.len()
+            && (0..a.len()).all(|slot| self.value_as_known(a.name_and_value(slot).1, b.name_and_value(slot).1))
     }
 
     fn value_as_known(&self, a: &Value, b: &Value) -> bool {
         let all =
             |a: &[Value], b: &[Value]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| self.value_as_known(a, b));
         match (a, b) {
-            _ if shares(a, b) => true,
+            _ if shares_storage(a, b) => true,
             (Value::Node(a), Value::Node(b)) => self.node_as_known(*a, *b),
             (
                 Value::Struct { ty, fields },
@@ -156,8 +161,8 @@ impl Evaluator<'_> {
             (Value::Tuple(a), Value::Tuple(b)) => all(a, b),
             (Value::Array(a), Value::Array(b)) => all(a, b),
             (Value::Enum(a), Value::Enum(b)) => {
-                let held = |choice: &Choice| choice.held.iter().map(Option::is_some).collect::<Vec<_>>();
-                let mut pairs = a.all().zip(b.all());
+                let held = |choice: &EnumValue| choice.variants.iter().map(Option::is_some).collect::<Vec<_>>();
+                let mut pairs = a.all_fields().zip(b.all_fields());
                 a.ty == b.ty
                     && self.known_variant(a) == self.known_variant(b)
                     && held(a) == held(b)
@@ -184,7 +189,7 @@ impl Evaluator<'_> {
 }
 
 /// Whether two values are one and the same, as far as that is quick to say.
-fn shares(a: &Value, b: &Value) -> bool {
+fn shares_storage(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Node(a), Value::Node(b)) => a == b,
         (Value::Int(a), Value::Int(b)) => a == b,

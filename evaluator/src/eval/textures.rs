@@ -10,7 +10,7 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Texture, Type};
 
 /// What a method of a texture is called with.
 #[derive(Default)]
-struct Arguments {
+struct TextureArguments {
     /// The coordinate or place, the layer or sample, and what else a read takes, in order.
     read: Vec<NodeId>,
     /// The level, unless it is the finest.
@@ -28,7 +28,7 @@ impl Evaluator<'_> {
         args: &[SourceType],
         span: Span,
     ) -> Eval<Option<Value>> {
-        let Some(of) = TextureType::named(type_name) else {
+        let Some(of) = TextureType::from_name(type_name) else {
             return Ok(None);
         };
         let texel = match args {
@@ -53,22 +53,22 @@ impl Evaluator<'_> {
     }
 
     /// A method of a texture.
-    pub fn texture(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+    pub fn eval_texture_method(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let texture = self.builder.graph().textures[index as usize].clone();
-        let of = TextureType::of(&texture);
-        let Some(method) = of.method(name, args.len()) else {
+        let of = TextureType::from_texture(&texture);
+        let Some(method) = of.find_method(name, args.len()) else {
             return Err(no_such_method(&texture, of, name, args.len(), span));
         };
-        if method.filters() && texture.scalar != Scalar::F32 {
+        if method.is_filtered() && texture.scalar != Scalar::F32 {
             return Err(filtered_integers(&texture, name, span));
         }
-        let given = self.arguments(index, &texture, method, args, span)?;
-        let texel = texture.texel();
+        let given = self.texture_arguments(index, &texture, method, args, span)?;
+        let texel = texture.texel_type();
         let four = Type::value(Scalar::F32, 4);
         let (op, args, ty) = match (method.gives, name) {
             (Gives::Size, _) => {
                 let size = self.size_of(index, given.level);
-                return Ok(Value::Node(self.convert(size, Scalar::U32)));
+                return Ok(Value::Node(self.convert_node(size, Scalar::U32)));
             }
             (Gives::Count, _) => {
                 let op = match name {
@@ -76,14 +76,14 @@ impl Evaluator<'_> {
                     _ => Op::TextureLevels(index),
                 };
                 let count = self.builder.add(op, Vec::new(), Type::I32);
-                return Ok(self.sized(count));
+                return Ok(self.as_usize(count));
             }
             (Gives::Four, "gather") => {
                 let op = Op::Gather {
                     texture: index,
                     sampler: given.sampler,
                     component: given.component,
-                    site: self.site(),
+                    site: self.next_site(),
                 };
                 (op, given.read, four)
             }
@@ -91,7 +91,7 @@ impl Evaluator<'_> {
                 let op = Op::GatherCompare {
                     texture: index,
                     sampler: given.sampler,
-                    site: self.site(),
+                    site: self.next_site(),
                 };
                 (op, given.read, four)
             }
@@ -99,22 +99,22 @@ impl Evaluator<'_> {
                 let op = Op::Compare {
                     texture: index,
                     sampler: given.sampler,
-                    site: self.site(),
+                    site: self.next_site(),
                 };
                 (op, given.read, Type::F32)
             }
-            (Gives::Texel, _) if method.filters() => {
+            (Gives::Texel, _) if method.is_filtered() => {
                 let op = Op::Sample {
                     texture: index,
                     sampler: given.sampler,
-                    site: self.site(),
+                    site: self.next_site(),
                 };
                 (op, given.read, texel)
             }
             (Gives::Texel, _) => {
                 let op = Op::Load {
                     texture: index,
-                    site: self.site(),
+                    site: self.next_site(),
                 };
                 let args = given.read.into_iter().chain(given.level).collect();
                 (op, args, texel)
@@ -124,23 +124,23 @@ impl Evaluator<'_> {
     }
 
     /// The arguments of a method, each as what it is to be; what lies outside of the texture is taken to its border.
-    fn arguments(
+    fn texture_arguments(
         &mut self,
         index: u32,
         texture: &Texture,
         method: &TextureMethod,
         args: &[Value],
         span: Span,
-    ) -> Eval<Arguments> {
-        let mut given = Arguments::default();
+    ) -> Eval<TextureArguments> {
+        let mut given = TextureArguments::default();
         let pairs = || method.params.iter().zip(args);
         let mut which = None;
         // A coordinate is clamped to the size of its level.
         for (param, arg) in pairs() {
             match param {
-                Param::Level => given.level = self.level(index, arg, span)?,
+                Param::Level => given.level = self.clamp_level(index, arg, span)?,
                 Param::Sample => which = Some(self.index_node(arg, span)?),
-                Param::Layer => which = Some(self.layer(index, texture, method, arg, span)?),
+                Param::Layer => which = Some(self.clamp_layer(index, texture, method, arg, span)?),
                 _ => {}
             }
         }
@@ -149,7 +149,7 @@ impl Evaluator<'_> {
                 (Param::Level, _) => {}
                 (Param::Sample | Param::Layer, _) => given.read.extend(which),
                 (Param::Coordinate, coord) => {
-                    let inside = self.coordinate(index, texture, coord, given.level, span)?;
+                    let inside = self.clamp_coordinate(index, texture, coord, given.level, span)?;
                     given.read.push(inside);
                 }
                 (Param::Place, place) => {
@@ -164,7 +164,7 @@ impl Evaluator<'_> {
                     let step = self.place_in(texture, step, span)?;
                     given.read.push(step);
                 }
-                (Param::Component, component) => given.component = self.component(texture, component, span)?,
+                (Param::Component, component) => given.component = self.gather_component(texture, component, span)?,
                 (Param::Filtering | Param::Comparing, Value::Sampler(sampler)) => {
                     let compares = self.builder.graph().samplers[*sampler as usize].comparison;
                     if compares != (*param == Param::Comparing) {
@@ -175,7 +175,7 @@ impl Evaluator<'_> {
                 (Param::Filtering | Param::Comparing, _) => {
                     return Err(no_such_method(
                         texture,
-                        TextureType::of(texture),
+                        TextureType::from_texture(texture),
                         method.name,
                         args.len(),
                         span,
@@ -187,7 +187,7 @@ impl Evaluator<'_> {
     }
 
     /// A layer by its number, the last one beyond the end where nothing else sees to that.
-    fn layer(
+    fn clamp_layer(
         &mut self,
         index: u32,
         texture: &Texture,
@@ -204,30 +204,30 @@ impl Evaluator<'_> {
             return self.index_node(layer, span);
         }
         let layers = self.builder.add(Op::TextureLayers(index), Vec::new(), Type::I32);
-        self.below(layer, layers, ["last_layer", "layer"], span)
+        self.clamp_index(layer, layers, ["last_layer", "layer"], span)
     }
 
     /// A level by its number, the smallest one beyond the end; `None` for the finest.
-    fn level(&mut self, texture: u32, level: &Value, span: Span) -> Eval<Option<NodeId>> {
+    fn clamp_level(&mut self, texture: u32, level: &Value, span: Span) -> Eval<Option<NodeId>> {
         if self.known_int(level) == Some(0) {
             return Ok(None);
         }
         let levels = self.builder.add(Op::TextureLevels(texture), Vec::new(), Type::I32);
-        self.below(level, levels, ["last_level", "level"], span).map(Some)
+        self.clamp_index(level, levels, ["last_level", "level"], span).map(Some)
     }
 
     /// An index that is not beyond the last of so many; `names` are those of the last one and of the index.
-    fn below(&mut self, index: &Value, count: NodeId, names: [&str; 2], span: Span) -> Eval<NodeId> {
+    fn clamp_index(&mut self, index: &Value, count: NodeId, names: [&str; 2], span: Span) -> Eval<NodeId> {
         let inside = self.held_index(index, count, names[0], span)?;
-        self.name(&Value::Node(inside), names[1], span);
+        self.name_value(&Value::Node(inside), names[1], span);
         Ok(inside)
     }
 
-    fn component(&mut self, texture: &Texture, component: &Value, span: Span) -> Eval<u8> {
+    fn gather_component(&mut self, texture: &Texture, component: &Value, span: Span) -> Eval<u8> {
         match self.known_int(component) {
             Some(k) if (0..i64::from(texture.components)).contains(&k) => Ok(k as u8),
             _ => {
-                let error = Diagnostic::at(
+                let error = Diagnostic::error_at(
                     Code::RuntimeIndex,
                     span,
                     "the component to gather must be a compile-time constant, and one of the texture's",
@@ -240,18 +240,18 @@ impl Evaluator<'_> {
     }
 
     fn place_in(&mut self, texture: &Texture, place: &Value, span: Span) -> Eval<NodeId> {
-        let id = self.node(place, span)?;
-        let wanted = texture.kind.place();
+        let id = self.value_node(place, span)?;
+        let wanted = texture.kind.position_type();
         if self.ty(id) == wanted {
             return Ok(id);
         }
         let found = self.ty(id).in_rust();
-        let help = match (texture.kind.is_cube(), wanted.components()) {
+        let help = match (texture.kind.is_cube(), wanted.component_count()) {
             (true, _) => "it is a direction, of any length but 0",
             (_, 2) => "(0, 0) is the upper left corner and (1, 1) the lower right: `(pixel.as_vec2() + 0.5) / size`",
             _ => "(0, 0, 0) and (1, 1, 1) are opposite corners: `(coord.as_vec3() + 0.5) / size`",
         };
-        Err(Diagnostic::at(
+        Err(Diagnostic::error_at(
             Code::TextureRead,
             span,
             format!("a place in `{}` is a {}, not {found}", texture.name, wanted.in_rust()),
@@ -264,7 +264,7 @@ impl Evaluator<'_> {
     /// Width and height of a texture or of one of its levels, and depth of a volume: the frame's where it has that.
     fn size_of(&mut self, texture: u32, level: Option<NodeId>) -> NodeId {
         let entry = &self.builder.graph().textures[texture as usize];
-        let ty = entry.kind.coordinate();
+        let ty = entry.kind.coordinate_type();
         let op = match entry.framed {
             true => Op::FrameSize,
             false => Op::TextureSize(texture),
@@ -274,12 +274,12 @@ impl Evaluator<'_> {
         // Not asked of the device: some take the level of one pixel for that of its neighbours.
         let level = self.builder.add(Op::Splat, [level], ty);
         let halved = self.builder.add(Op::Binary(BinaryOp::Shr), [size, level], ty);
-        let one = self.builder.constant(ty, ones(ty));
+        let one = self.builder.constant(ty, one_bits(ty));
         self.builder.add(Op::Binary(BinaryOp::Max), [halved, one], ty)
     }
 
     /// A texel's coordinate, clamped to the texture.
-    fn coordinate(
+    fn clamp_coordinate(
         &mut self,
         index: u32,
         texture: &Texture,
@@ -287,32 +287,32 @@ impl Evaluator<'_> {
         level: Option<NodeId>,
         span: Span,
     ) -> Eval<NodeId> {
-        let coord = self.node(coord, span)?;
-        let ty = texture.kind.coordinate();
+        let coord = self.value_node(coord, span)?;
+        let ty = texture.kind.coordinate_type();
         if self.ty(coord) != ty {
             let message = format!(
                 "a texel's coordinate is an {}, not {}",
                 ty.in_rust(),
                 self.ty(coord).in_rust()
             );
-            return Err(Diagnostic::at(Code::TextureRead, span, message)
+            return Err(Diagnostic::error_at(Code::TextureRead, span, message)
                 .label("in this read")
                 .help(format!("convert it with `.as_{}()`", ty.in_rust().to_lowercase()))
                 .into());
         }
         let size = self.size_of(index, level);
-        let one = self.builder.constant(ty, ones(ty));
+        let one = self.builder.constant(ty, one_bits(ty));
         let zero = self.builder.constant(ty, [0; 4]);
         let last = self.builder.add(Op::Binary(BinaryOp::Sub), [size, one], ty);
-        self.name(&Value::Node(last), "last", span);
+        self.name_value(&Value::Node(last), "last", span);
         let inside = self.builder.add(Op::Clamp, [coord, zero, last], ty);
-        self.name(&Value::Node(inside), "at", span);
+        self.name_value(&Value::Node(inside), "at", span);
         Ok(inside)
     }
 }
 
-fn ones(ty: Type) -> [u32; 4] {
-    [0, 1, 2, 3].map(|k| u32::from(k < ty.components()))
+fn one_bits(ty: Type) -> [u32; 4] {
+    [0, 1, 2, 3].map(|k| u32::from(k < ty.component_count()))
 }
 
 fn texel_named(name: &str) -> Option<(Scalar, u8)> {
@@ -333,7 +333,7 @@ fn no_texels(name: &str, of: &TextureType, args: &[SourceType], span: Span) -> E
             .map(|ty| format!("`{}`", ty.name))
             .collect();
         let (last, first) = others.split_last().expect("some are of integers");
-        return Diagnostic::at(
+        return Diagnostic::error_at(
             Code::ResourceElement,
             span,
             format!("a `{}` has no texels of integers", of.name),
@@ -350,7 +350,7 @@ fn no_texels(name: &str, of: &TextureType, args: &[SourceType], span: Span) -> E
         true => "texels are f32, Vec2, Vec3 or Vec4, or their like of i32 or u32: u32, UVec2, IVec4",
         false => "texels are f32, Vec2, Vec3 or Vec4",
     };
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::ResourceElement,
         span,
         format!("the texture `{name}` has no texels that a shader can read"),
@@ -361,8 +361,8 @@ fn no_texels(name: &str, of: &TextureType, args: &[SourceType], span: Span) -> E
 }
 
 fn filtered_integers(texture: &Texture, name: &str, span: Span) -> Exit {
-    let ty = texture.texel().in_rust();
-    Diagnostic::at(
+    let ty = texture.texel_type().in_rust();
+    Diagnostic::error_at(
         Code::TextureRead,
         span,
         format!(
@@ -377,9 +377,9 @@ fn filtered_integers(texture: &Texture, name: &str, span: Span) -> Exit {
 
 fn wrong_sampler(method: &str, compares: bool, span: Span) -> Exit {
     match compares {
-        true => Diagnostic::at(Code::TextureRead, span, "a `ComparisonSampler` does not filter colours")
+        true => Diagnostic::error_at(Code::TextureRead, span, "a `ComparisonSampler` does not filter colours")
             .help("take a `&Sampler`"),
-        false => Diagnostic::at(
+        false => Diagnostic::error_at(
             Code::TextureRead,
             span,
             format!("`{method}` needs a `ComparisonSampler`"),
@@ -400,12 +400,12 @@ fn no_such_method(texture: &Texture, of: &TextureType, name: &str, given: usize,
             arguments(given),
             if given == 1 { "was" } else { "were" }
         );
-        return Diagnostic::at(Code::ArgumentCount, span, message)
+        return Diagnostic::error_at(Code::ArgumentCount, span, message)
             .label(format!("`{name}` of a `{}`", of.name))
-            .help(format!("write {}", of.shown(method)))
+            .help(format!("write {}", of.format_method(method)))
             .into();
     }
-    let error = Diagnostic::at(
+    let error = Diagnostic::error_at(
         Code::UnknownMethod,
         span,
         format!("there is no method `{name}` on a `{}`", of.name),
@@ -417,5 +417,7 @@ fn no_such_method(texture: &Texture, of: &TextureType, name: &str, given: usize,
         true => error,
         false => error.note(format!("it is a method of {}", others.join(", "))),
     };
-    error.help(format!("it has {}", of.described(texture.scalar))).into()
+    error
+        .help(format!("it has {}", of.describe_methods(texture.scalar)))
+        .into()
 }

@@ -31,7 +31,7 @@ impl<'a> Evaluator<'a> {
 
     /// Whether a value may be of a type that is stated. References have been followed.
     fn is_of(&self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
-        match (ty.bare(), value) {
+        match (ty.peel_refs(), value) {
             (SourceType::Name(name, _), _) if generics.iter().any(|generic| generic.name() == name) => true,
             (SourceType::Name(name, _), Value::Array(_)) => self.is_unknown_name(name),
             (SourceType::Name(name, _), _) => {
@@ -54,13 +54,13 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The function among several that takes some values.
-    pub fn taking(&mut self, keys: &[&'a str], values: &[Value], span: Span) -> Eval<Option<&'a str>> {
+    pub fn find_overload(&mut self, keys: &[&'a str], values: &[Value], span: Span) -> Eval<Option<&'a str>> {
         if keys.len() < 2 {
             return Ok(keys.first().copied());
         }
         let mut loaded = Vec::new();
         for value in values {
-            loaded.push(self.loaded(value.clone(), span)?);
+            loaded.push(self.deref_value(value.clone(), span)?);
         }
         let library = self.library;
         let fits = |key: &&&str| {
@@ -76,7 +76,7 @@ impl<'a> Evaluator<'a> {
         match found.as_slice() {
             [] => Ok(None),
             [key] => Ok(Some(**key)),
-            [first, second, ..] => Err(Diagnostic::at(
+            [first, second, ..] => Err(Diagnostic::error_at(
                 Code::TraitBound,
                 span,
                 format!("`{first}` or `{second}`: the values do not tell which"),
@@ -100,34 +100,37 @@ impl<'a> Evaluator<'a> {
         let keys: Vec<&str> = self
             .type_names(left)
             .iter()
-            .flat_map(|ty| library.operators(ty, of, name))
+            .flat_map(|ty| library.operator_keys(ty, of, name))
             .collect();
         let values = vec![left.clone(), right.clone()];
-        let Some(key) = self.taking(&keys, &values, span)? else {
+        let Some(key) = self.find_overload(&keys, &values, span)? else {
             return Ok(None);
         };
-        let value = self.inline(key, &[], values, span)?;
+        let value = self.inline_function(key, &[], values, span)?;
         match op {
-            BinaryOp::Ne => self.unary(UnaryOp::Not, &value, span).map(Some),
+            BinaryOp::Ne => self.eval_unary(UnaryOp::Not, &value, span).map(Some),
             _ => Ok(Some(value)),
         }
     }
 
     /// `place op= value` of a structure or an enum; whether there is such an operator.
     pub fn assigned_by_trait(&mut self, op: BinaryOp, place: &Place, value: &Value, span: Span) -> Eval<bool> {
-        let old = self.read(place, span)?;
+        let old = self.read_place(place, span)?;
         let (Value::Struct { .. } | Value::Enum(_), Some((of, name))) = (&old, trait_of(op)) else {
             return Ok(false);
         };
         let (of, name) = (format!("{of}Assign"), format!("{name}_assign"));
         let library = self.library;
         let names = self.type_names(&old);
-        let keys: Vec<&str> = names.iter().flat_map(|ty| library.operators(ty, &of, &name)).collect();
+        let keys: Vec<&str> = names
+            .iter()
+            .flat_map(|ty| library.operator_keys(ty, &of, &name))
+            .collect();
         let values = vec![Value::Ref(Rc::new(place.clone())), value.clone()];
-        let Some(key) = self.taking(&keys, &values, span)? else {
+        let Some(key) = self.find_overload(&keys, &values, span)? else {
             return Ok(false);
         };
-        self.inline(key, &[], values, span)?;
+        self.inline_function(key, &[], values, span)?;
         Ok(true)
     }
 
@@ -144,8 +147,8 @@ impl<'a> Evaluator<'a> {
             _ => return Ok(None),
         };
         let library = self.library;
-        match library.operators(ty, of, name).first() {
-            Some(key) => self.inline(key, &[], vec![value.clone()], span).map(Some),
+        match library.operator_keys(ty, of, name).first() {
+            Some(key) => self.inline_function(key, &[], vec![value.clone()], span).map(Some),
             None => Ok(None),
         }
     }
@@ -161,20 +164,20 @@ impl<'a> Evaluator<'a> {
         let Value::Struct { ty, .. } = base else {
             return Ok(None);
         };
-        if super::matrix::size(ty).is_some() {
+        if super::matrix::column_count(ty).is_some() {
             return Ok(None);
         }
         let library = self.library;
         let (own, keys) = match place {
             Some(place) => (
                 Value::Ref(Rc::new(place.clone())),
-                library.operators(ty, "IndexMut", "index_mut"),
+                library.operator_keys(ty, "IndexMut", "index_mut"),
             ),
-            None => (base.clone(), library.operators(ty, "Index", "index")),
+            None => (base.clone(), library.operator_keys(ty, "Index", "index")),
         };
         let values = vec![own, index.clone()];
-        match self.taking(&keys, &values, span)? {
-            Some(key) => self.inline(key, &[], values, span).map(Some),
+        match self.find_overload(&keys, &values, span)? {
+            Some(key) => self.inline_function(key, &[], values, span).map(Some),
             None => Ok(None),
         }
     }
@@ -188,7 +191,7 @@ impl<'a> Evaluator<'a> {
         span: Span,
     ) -> Eval<Option<(&'a str, &'a Function)>> {
         // What numbers have themselves goes before what a trait gives them.
-        if matches!(value, Value::Node(id) if crate::front::methods::has(self.ty(*id), name)) {
+        if matches!(value, Value::Node(id) if crate::front::methods::has_method(self.ty(*id), name)) {
             return Ok(None);
         }
         let library = self.library;
@@ -196,14 +199,14 @@ impl<'a> Evaluator<'a> {
         names.retain(|ty| !crate::front::methods::is_inherent(ty, name));
         let keys = names
             .iter()
-            .map(|ty| library.methods(ty, name))
+            .map(|ty| library.method_keys(ty, name))
             .find(|keys| !keys.is_empty());
         let Some(keys) = keys else { return Ok(None) };
         let values: Vec<Value> = std::iter::once(value.clone()).chain(args.iter().cloned()).collect();
-        match self.taking(&keys, &values, span)? {
+        match self.find_overload(&keys, &values, span)? {
             Some(key) => Ok(Some((key, &library.functions[key]))),
             None => Err(
-                Diagnostic::at(Code::TraitBound, span, format!("no `{name}` takes these values"))
+                Diagnostic::error_at(Code::TraitBound, span, format!("no `{name}` takes these values"))
                     .label("called here")
                     .into(),
             ),
@@ -211,26 +214,26 @@ impl<'a> Evaluator<'a> {
     }
 
     /// What a path of two names goes by: of a type parameter by its type, of a trait by the type of the first value.
-    pub fn resolved(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
+    pub fn resolve_path(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
         let [of, name] = path else { return Ok(None) };
         if let Some(Value::Type(ty)) = self.scope.get(of) {
             return Ok(Some(vec![ty.clone(), name.clone()]));
         }
         let library = self.library;
         if library.has_type(of)
-            || !library.functions.contains_key(&path.join("::")) && library.declared(of, name).is_none()
+            || !library.functions.contains_key(&path.join("::")) && library.declared_function(of, name).is_none()
         {
-            let keys = library.methods(of, name);
+            let keys = library.method_keys(of, name);
             if keys.len() > 1 {
-                let key = self.taking(&keys, values, span)?;
+                let key = self.find_overload(&keys, values, span)?;
                 return Ok(key.map(|key| vec![key.to_owned()]));
             }
             return Ok(None);
         }
-        let (Some(first), true) = (values.first(), library.declared(of, name).is_some()) else {
+        let (Some(first), true) = (values.first(), library.declared_function(of, name).is_some()) else {
             return Ok(None);
         };
-        let first = self.loaded(first.clone(), span)?;
+        let first = self.deref_value(first.clone(), span)?;
         let found = self.method_of_trait(&first, name, &values[1..], span)?;
         Ok(found.map(|(key, _)| vec![key.to_owned()]))
     }
@@ -251,9 +254,9 @@ impl<'a> Evaluator<'a> {
                 continue;
             }
             for (param, value) in function.params.iter().zip(args) {
-                let is_it = matches!(param.ty.bare(), SourceType::Name(of, args) if of == name && args.is_empty());
+                let is_it = matches!(param.ty.peel_refs(), SourceType::Name(of, args) if of == name && args.is_empty());
                 if is_it {
-                    let value = self.loaded(value.clone(), span)?;
+                    let value = self.deref_value(value.clone(), span)?;
                     if let Some(ty) = self.type_names(&value).into_iter().next() {
                         bound.push((name.clone(), Value::Type(ty)));
                         break;
@@ -265,12 +268,12 @@ impl<'a> Evaluator<'a> {
     }
 
     /// `into()` and `default()` of what the generator itself knows.
-    pub fn conversion(&mut self, key: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
+    pub fn eval_conversion(&mut self, key: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
         let Some(ty) = key.strip_suffix("::from") else {
             return Ok(None);
         };
         if let (Value::Node(id), "Array" | "Tuple") = (value, ty) {
-            let parts = self.lanes(*id).into_iter().map(Value::Node).collect();
+            let parts = self.vector_components(*id).into_iter().map(Value::Node).collect();
             return Ok(Some(match ty {
                 "Array" => Value::array(parts),
                 _ => Value::Tuple(parts),

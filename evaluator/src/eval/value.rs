@@ -1,6 +1,6 @@
 //! What a variable holds while a kernel is evaluated.
 
-use super::enums::Choice;
+use super::enums::EnumValue;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::Closure;
@@ -19,7 +19,7 @@ pub enum Value {
     /// A scalar or vector, or in a structured loop an array; known if the node is a constant.
     Node(NodeId),
     /// A value of an enum; shared until it is changed.
-    Enum(Rc<Choice>),
+    Enum(Rc<EnumValue>),
     /// A structure.
     Struct {
         /// Its type.
@@ -49,7 +49,7 @@ pub enum Value {
     /// change that meanwhile.
     Ref(Rc<Place>),
     /// A closure.
-    Closure(Rc<Closed>),
+    Closure(Rc<ClosureValue>),
     /// A function, by the last two segments of its path.
     Function(Vec<String>),
     /// One of several functions and closures, by a number that is a runtime value: of two a boolean, `true` for the
@@ -64,7 +64,7 @@ pub enum Value {
     /// What a variable holds that has been declared and not been given a value.
     Unset,
     /// Any value of any type: what nobody looks at before it is given another one.
-    Blank,
+    Undef,
     /// What an expression with an error gives; using it is no second error.
     Poison,
 }
@@ -99,7 +99,7 @@ impl DerefMut for Elements {
 
 /// A closure with the variables that it mentions.
 #[derive(Clone, Debug)]
-pub struct Closed {
+pub struct ClosureValue {
     /// What it computes.
     pub code: Arc<Closure>,
     /// Its variables by name.
@@ -108,7 +108,7 @@ pub struct Closed {
     pub function: String,
 }
 
-impl PartialEq for Closed {
+impl PartialEq for ClosureValue {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.code, &other.code) && self.captured == other.captured
     }
@@ -142,12 +142,12 @@ pub enum Step {
     /// An element of an array, a component of a vector; the index may be a runtime value.
     Index(Value),
     /// A field of the variant of an enum at a position.
-    Held(usize, Name),
+    VariantField(usize, Name),
 }
 
 impl Place {
     /// A part of this place.
-    pub fn part(&self, step: Step) -> Place {
+    pub fn with_step(&self, step: Step) -> Place {
         let mut place = self.clone();
         place.path.push(step);
         place
@@ -202,8 +202,8 @@ impl Value {
             Value::Struct { fields, .. } => fields.iter().all(|(_, value)| value.is_plain()),
             Value::Tuple(parts) => parts.iter().all(Value::is_plain),
             Value::Array(parts) => parts.iter().all(Value::is_plain),
-            Value::Enum(choice) => choice.all().all(|(_, value)| value.is_plain()),
-            Value::Int(_) | Value::Node(_) | Value::Unset | Value::Blank => true,
+            Value::Enum(choice) => choice.all_fields().all(|(_, value)| value.is_plain()),
+            Value::Int(_) | Value::Node(_) | Value::Unset | Value::Undef => true,
             _ => false,
         }
     }
@@ -218,17 +218,17 @@ impl Value {
     }
 
     /// Numbers and other parts in it, counted up to `limit`.
-    pub fn parts(&self, limit: usize) -> usize {
+    pub fn count_parts(&self, limit: usize) -> usize {
         let parts: Box<dyn Iterator<Item = &Value>> = match self {
             Value::Struct { fields, .. } => Box::new(fields.iter().map(|(_, value)| value)),
             Value::Tuple(parts) => Box::new(parts.iter()),
             Value::Array(parts) => Box::new(parts.iter()),
-            Value::Enum(choice) => Box::new(choice.all().map(|(_, value)| value)),
+            Value::Enum(choice) => Box::new(choice.all_fields().map(|(_, value)| value)),
             _ => return 1,
         };
         let mut sum = 1;
         for part in parts {
-            sum += part.parts(limit.saturating_sub(sum));
+            sum += part.count_parts(limit.saturating_sub(sum));
             if sum > limit {
                 break;
             }
@@ -260,7 +260,7 @@ impl Value {
             Value::Elements(_) => "an array of which no type states the length".to_owned(),
             Value::Type(ty) => format!("the type `{ty}`"),
             Value::Alias(_) => "a variable".to_owned(),
-            Value::Blank => "any value".to_owned(),
+            Value::Undef => "any value".to_owned(),
             Value::Unset => "a variable without a value".to_owned(),
             Value::Poison => "an error".to_owned(),
         }
@@ -269,7 +269,7 @@ impl Value {
 
 /// A value that had to be a compile-time constant, and is none because of loops left in the shader.
 #[derive(Debug)]
-pub struct Need {
+pub struct ConstantDemand {
     /// Loops that the value depends on and that can be unrolled.
     pub loops: BTreeSet<Span>,
     /// The error if they could not be: names the place and the need.
@@ -284,9 +284,9 @@ pub enum Exit {
     /// With an error that has been noted.
     Noted,
     /// With values that had to be compile-time constants, and may be if loops before them are unrolled.
-    Demand(Vec<Need>),
+    Demand(Vec<ConstantDemand>),
     /// By leaving the blocks around it.
-    Left(Way),
+    Left(Jump),
 }
 
 impl Exit {
@@ -298,7 +298,7 @@ impl Exit {
 
 /// How the blocks around are left.
 #[derive(Clone, Debug)]
-pub enum Way {
+pub enum Jump {
     /// `break`, of the loop with a label.
     Break(Option<String>),
     /// `continue`, of the loop with a label.
@@ -307,30 +307,30 @@ pub enum Way {
     Return(Value),
 }
 
-impl Way {
+impl Jump {
     /// Whether it ends the loop with a label, if it stands in its body.
-    pub fn breaks(&self, label: Option<&str>) -> bool {
-        matches!(self, Way::Break(of) if of.is_none() || of.as_deref() == label)
+    pub fn breaks_loop(&self, label: Option<&str>) -> bool {
+        matches!(self, Jump::Break(of) if of.is_none() || of.as_deref() == label)
     }
 
     /// Whether it ends an iteration of the loop with a label, if it stands in its body.
-    pub fn continues(&self, label: Option<&str>) -> bool {
-        matches!(self, Way::Continue(of) if of.is_none() || of.as_deref() == label)
+    pub fn continues_loop(&self, label: Option<&str>) -> bool {
+        matches!(self, Jump::Continue(of) if of.is_none() || of.as_deref() == label)
     }
 
     /// Whether both lead to one place.
-    pub fn is_like(&self, other: &Way) -> bool {
+    pub fn is_like(&self, other: &Jump) -> bool {
         match (self, other) {
-            (Way::Break(a), Way::Break(b)) | (Way::Continue(a), Way::Continue(b)) => a == b,
-            (Way::Return(_), Way::Return(_)) => true,
+            (Jump::Break(a), Jump::Break(b)) | (Jump::Continue(a), Jump::Continue(b)) => a == b,
+            (Jump::Return(_), Jump::Return(_)) => true,
             _ => false,
         }
     }
 
     /// What is taken along.
-    pub fn value(self) -> Value {
+    pub fn into_value(self) -> Value {
         match self {
-            Way::Return(value) => value,
+            Jump::Return(value) => value,
             _ => Value::unit(),
         }
     }

@@ -2,22 +2,22 @@
 
 use super::Evaluator;
 use super::departures::Tail;
-use super::loops::{Body, Granted, Wish};
-use super::partial::Count;
+use super::loops::{LoopBody, LoopOutcome, LoopRequest};
+use super::partial::LoopCount;
 use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
-use crate::front::{assigned, breaks, children, guarded};
+use crate::front::{child_exprs, guard_body, has_break, scan_effects};
 use crate::ir::NodeId;
 use crate::policy::{Asked, Unroll};
 use std::collections::BTreeSet;
 
 /// Iterations of a `while`, if they are known, and by slot the constants that variables are after them.
-type Counted = (Option<u64>, Vec<(usize, Value)>);
+type CountedWhile = (Option<u64>, Vec<(usize, Value)>);
 
 /// Extent to which a `while` can be unrolled.
-enum Rounds {
+enum WhileEnd {
     /// To its end, or to where it is left for good.
     Ended(Eval),
     /// To nowhere: the end is a runtime value, which depends on these loops that are left in the shader.
@@ -25,7 +25,7 @@ enum Rounds {
 }
 
 impl Evaluator<'_> {
-    pub fn while_(
+    pub fn eval_while(
         &mut self,
         condition: &Expr,
         block: &Block,
@@ -34,16 +34,16 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval {
         let function = self.calls.last().cloned().unwrap_or_default();
-        let asked = self.policy.asked(&function, "while", attribute);
+        let asked = self.policy.requested_unroll(&function, "while", attribute);
         let made = self.builder.graph().nodes.len();
-        self.loops.enter(&function, "while", span, made);
+        self.loops.enter_loop(&function, "while", span, made);
         let outcome = self.run_while(condition, block, label, asked, span);
         let made = self.builder.graph().nodes.len();
         let became = match &outcome {
             Ok((unroll, _)) => *unroll,
             Err(_) => Unroll::Full,
         };
-        self.loops.leave(became, made);
+        self.loops.leave_loop(became, made);
         let (_, ends) = outcome?;
         ends
     }
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
         asked: Asked,
         span: Span,
     ) -> Eval<(Unroll, Eval)> {
-        let body = Body {
+        let body = LoopBody {
             block,
             pattern: None,
             counter: None,
@@ -68,106 +68,106 @@ impl Evaluator<'_> {
             written: Vec::new(),
             breaks_here: true,
         };
-        let guarded = guarded(condition, block);
-        let until = Body {
+        let guarded = guard_body(condition, block);
+        let until = LoopBody {
             block: &guarded,
             written: Vec::new(),
             ..body
         };
         let mut refused = None;
         if asked.unroll != Unroll::Full && !self.unrolls_all {
-            let (iterations, after) = self.counted(condition, &body, span)?;
-            let wish = Wish {
+            let (iterations, after) = self.count_iterations(condition, &body, span)?;
+            let wish = LoopRequest {
                 asked,
                 iterations: iterations.unwrap_or(u64::MAX),
                 span,
                 head: condition.span,
             };
             let granted = match iterations {
-                Some(n) => self.attempt(&body, &wish, |_| Ok(Count::Times(n as u32)))?,
-                None => self.attempt(&until, &wish, |_| Ok(Count::Unknown))?,
+                Some(n) => self.try_keep_loop(&body, &wish, |_| Ok(LoopCount::Times(n as u32)))?,
+                None => self.try_keep_loop(&until, &wish, |_| Ok(LoopCount::Unknown))?,
             };
             refused = match granted {
-                Granted::Kept(unroll) => {
+                LoopOutcome::Kept(unroll) => {
                     // What the loop makes of variables is known where it is known without the loop.
                     for (slot, value) in after {
-                        if self.scope.at(slot).1 != &value {
-                            self.scope.set(slot, value);
+                        if self.scope.name_and_value(slot).1 != &value {
+                            self.scope.set_value(slot, value);
                         }
                     }
-                    return Ok((unroll, self.behind(condition, block, label)));
+                    return Ok((unroll, self.finish_loop(condition, block, label)));
                 }
-                Granted::Unrolled(refused) => refused,
+                LoopOutcome::Unrolled(refused) => refused,
             };
         }
-        let before = self.checkpoint();
-        let loops = match self.rounds(condition, &body, &mut 0, span)? {
-            Rounds::Ended(outcome) => {
+        let before = self.take_checkpoint();
+        let loops = match self.unroll_while(condition, &body, &mut 0, span)? {
+            WhileEnd::Ended(outcome) => {
                 return match refused {
                     Some(error) => Err(error.into()),
                     None => Ok((Unroll::Full, outcome.map(|_| Value::unit()))),
                 };
             }
-            Rounds::Open(loops) => loops,
+            WhileEnd::Open(loops) => loops,
         };
         self.return_to(before);
         let reason = "its end is a runtime value";
         if asked.by_name && asked.unroll == Unroll::Full {
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::CannotUnroll,
                 condition.span,
                 format!("this loop cannot be unrolled: {reason}"),
             )
             .label("its trip count is a runtime value")
             .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`");
-            return Err(self.demanded(loops, error));
+            return Err(self.demand_unrolling(loops, error));
         }
-        self.kept.ends(span, loops.clone());
-        self.keep(&until, &Count::Unknown, Unroll::None, span)
+        self.structured_loops.record_end_causes(span, loops.clone());
+        self.keep_loop(&until, &LoopCount::Unknown, Unroll::None, span)
             .map_err(|exit| match exit {
-                Exit::Error(error) => self.demanded(loops, *error),
+                Exit::Error(error) => self.demand_unrolling(loops, *error),
                 other => other,
             })?;
-        self.loops.because(span, reason.to_owned());
-        Ok((Unroll::None, self.behind(condition, block, label)))
+        self.loops.record_reason(span, reason.to_owned());
+        Ok((Unroll::None, self.finish_loop(condition, block, label)))
     }
 
     /// What comes behind a loop that was left in the shader: nothing, if only `return` or an outer loop's `break` ends it.
-    fn behind(&mut self, condition: &Expr, block: &Block, label: Option<&str>) -> Eval {
-        let endless = matches!(condition.kind, ExprKind::Bool(true)) && !breaks(block, label);
-        match endless.then(|| self.departed.pop()).flatten() {
+    fn finish_loop(&mut self, condition: &Expr, block: &Block, label: Option<&str>) -> Eval {
+        let endless = matches!(condition.kind, ExprKind::Bool(true)) && !has_break(block, label);
+        match endless.then(|| self.early_exits.pop()).flatten() {
             None => Ok(Value::unit()),
             Some(last) => {
                 self.scope = last.scope;
-                Err(Exit::Left(last.way))
+                Err(Exit::Left(last.jump))
             }
         }
     }
 
     /// How many iterations a `while` has, if that is known, and the constants that variables are after it.
-    fn counted(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<Counted> {
+    fn count_iterations(&mut self, condition: &Expr, body: &LoopBody<'_>, span: Span) -> Eval<CountedWhile> {
         let test = Block {
             statements: vec![Statement::Expr(condition.clone())],
             value: None,
             exact: false,
         };
         let mutating = &self.library.mutating;
-        let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));
+        let (test, effects) = (scan_effects(&test, mutating), scan_effects(body.block, mutating));
         let mut behind = Vec::new();
-        for slot in test.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
-            self.targets(self.scope.at(slot).1, &mut behind);
+        for slot in test.mentioned.iter().filter_map(|name| self.scope.find_slot(name)) {
+            self.collect_ref_slots(self.scope.name_and_value(slot).1, &mut behind);
         }
         let writes = !test.assigned.is_empty() || (!behind.is_empty() && has_calls(condition));
         if effects.leaves || test.leaves || writes {
             return Ok((None, Vec::new()));
         }
-        let (before, initial) = (self.checkpoint(), self.scope.clone());
+        let (before, initial) = (self.take_checkpoint(), self.scope.clone());
         let unrolls_all = std::mem::replace(&mut self.unrolls_all, true);
         let mut rounds = 0;
         let made = self.builder.graph().nodes.len();
         let most_nodes = self.most_nodes;
         self.most_nodes = most_nodes.min(made + MAX_COUNTED);
-        let counted = self.rounds(condition, body, &mut rounds, span);
+        let counted = self.unroll_while(condition, body, &mut rounds, span);
         self.unrolls_all = unrolls_all;
         let too_many = self.exhausted && self.builder.graph().nodes.len() > self.most_nodes;
         self.most_nodes = most_nodes;
@@ -176,15 +176,15 @@ impl Evaluator<'_> {
             self.return_to(before);
             return Ok((None, Vec::new()));
         }
-        let noted = self.errors.len() > before.errors();
-        let ended = matches!(counted?, Rounds::Ended(_));
+        let noted = self.errors.len() > before.error_count();
+        let ended = matches!(counted?, WhileEnd::Ended(_));
         if noted {
             return Err(Exit::Noted);
         }
         let mut after = Vec::new();
         if ended {
-            let values = (0..self.scope.len()).map(|slot| (slot, self.scope.at(slot).1.clone()));
-            let changed = values.filter(|(slot, value)| initial.at(*slot).1 != value);
+            let values = (0..self.scope.len()).map(|slot| (slot, self.scope.name_and_value(slot).1.clone()));
+            let changed = values.filter(|(slot, value)| initial.name_and_value(*slot).1 != value);
             after = changed.filter(|(_, value)| self.is_known(value)).collect();
         }
         let (slots, values): (Vec<usize>, Vec<Value>) = after.into_iter().unzip();
@@ -196,40 +196,43 @@ impl Evaluator<'_> {
     fn is_known(&self, value: &Value) -> bool {
         let mut leaves = Vec::new();
         value.flatten(&mut leaves);
-        value.is_plain() && leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
+        value.is_plain()
+            && leaves
+                .iter()
+                .all(|id| self.builder.graph().constant_bits(*id).is_some())
     }
 
     /// Unrolls a `while`, as far as its end is a compile-time constant. Counts its iterations.
-    fn rounds(&mut self, condition: &Expr, body: &Body<'_>, rounds: &mut u64, span: Span) -> Eval<Rounds> {
-        let (mark, since) = (self.scope.enter(), self.departed.len());
+    fn unroll_while(&mut self, condition: &Expr, body: &LoopBody<'_>, rounds: &mut u64, span: Span) -> Eval<WhileEnd> {
+        let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let noted = self.errors.len();
         let mut outcome = Ok(Value::unit());
-        let limit = self.loops.guesses(span);
+        let limit = self.loops.iteration_limit(span);
         let mut before: Option<Scope> = None;
         loop {
-            self.step(span)?;
-            let id = self.condition(condition)?;
+            self.count_step(span)?;
+            let id = self.eval_condition(condition)?;
             match self.known_bool(id) {
                 Some(true) => {}
                 Some(false) => break,
                 None => return Ok(self.open_end(&[id])),
             }
-            if self.departed.len() > since {
+            if self.early_exits.len() > since {
                 // With nothing new known the next iteration is decided as the last one was, and so are all that follow.
                 let repeats = before.as_ref().is_some_and(|before| self.as_known(before, &self.scope));
                 if repeats || *rounds >= limit {
                     if !repeats {
-                        self.loops.guessed(span);
+                        self.loops.record_open_end(span);
                     }
-                    let conditions: Vec<NodeId> = self.departed[since..].iter().map(|d| d.condition).collect();
+                    let conditions: Vec<NodeId> = self.early_exits[since..].iter().map(|d| d.condition).collect();
                     return Ok(self.open_end(&conditions));
                 }
                 before = Some(self.scope.clone());
             }
             *rounds += 1;
-            outcome = self.unless_departed(since, Tail::Open, span, |e| {
-                e.loops.round();
-                e.body(body, Value::unit(), span).map(|()| Value::unit())
+            outcome = self.eval_if_live(since, Tail::Open, span, |e| {
+                e.loops.record_iteration();
+                e.eval_body(body, Value::unit(), span).map(|()| Value::unit())
             });
             if outcome.is_err() {
                 break;
@@ -238,16 +241,16 @@ impl Evaluator<'_> {
                 return Err(Exit::Noted);
             }
         }
-        let arrived = self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span);
+        let arrived = self.merge_exits(since, outcome, mark, &|way| way.breaks_loop(body.label), span);
         match arrived {
             Err(exit) if exit.is_failure() => Err(exit),
-            other => Ok(Rounds::Ended(other)),
+            other => Ok(WhileEnd::Ended(other)),
         }
     }
 
     /// The end of a `while` that conditions decide at run time.
-    fn open_end(&self, conditions: &[NodeId]) -> Rounds {
-        Rounds::Open(self.kept.behind(self.builder.graph(), conditions))
+    fn open_end(&self, conditions: &[NodeId]) -> WhileEnd {
+        WhileEnd::Open(self.structured_loops.loops_feeding(self.builder.graph(), conditions))
     }
 }
 
@@ -257,5 +260,5 @@ const MAX_COUNTED: usize = 50_000;
 /// Whether an expression may call what writes through a reference that it is given.
 fn has_calls(e: &Expr) -> bool {
     matches!(e.kind, ExprKind::Call(..) | ExprKind::Method(..) | ExprKind::Block(_))
-        || children(e).into_iter().any(has_calls)
+        || child_exprs(e).into_iter().any(has_calls)
 }

@@ -6,11 +6,11 @@
 
 use super::Evaluator;
 use super::buffers::value_named;
-use super::effects::{Effects, atomic_named};
+use super::effects::{MemoryEffect, atomic_named};
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Type as SourceType};
-use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, Op, Scalar, Shared, Type};
+use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, Op, Scalar, SharedArray, Type};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
@@ -34,7 +34,7 @@ impl Evaluator<'_> {
         }
         let invocation = self.builder.graph().invocation;
         if invocation != Invocation::Pixel {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::KernelParameter,
                 span,
                 format!("`{name}` is a workgroup, in a kernel of several pixels an invocation"),
@@ -58,9 +58,9 @@ impl Evaluator<'_> {
             (inside, "inside"),
             (index, "index"),
         ] {
-            self.name(&Value::Node(id), called, span);
+            self.name_value(&Value::Node(id), called, span);
         }
-        let index = self.convert(index, Scalar::Usize);
+        let index = self.convert_node(index, Scalar::Usize);
         let fields = [("local", local), ("index", index), ("pixel", pixel), ("inside", inside)];
         let fields = fields.map(|(name, id)| (name.into(), Value::Node(id)));
         let thread = Value::structure("Thread", fields.to_vec());
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
 
     fn workgroup_size(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<[u32; 2]> {
         let refused = |what: String| -> Exit {
-            Diagnostic::at(Code::ResourceElement, span, what)
+            Diagnostic::error_at(Code::ResourceElement, span, what)
                 .label("of this type")
                 .help(format!(
                     "write `{name}: &Workgroup<16, 16>`: {MOST_THREADS} threads at most"
@@ -83,9 +83,9 @@ impl Evaluator<'_> {
         let mut sides = [0; 2];
         for (side, arg) in sides.iter_mut().zip([width, height]) {
             let value = match arg {
-                SourceType::Const(value) => self.expr(value)?,
+                SourceType::Const(value) => self.eval_expr(value)?,
                 SourceType::Name(constant, args) if args.is_empty() => {
-                    self.path(std::slice::from_ref(constant), span)?
+                    self.eval_path(std::slice::from_ref(constant), span)?
                 }
                 _ => return Err(refused(format!("`{name}` states no size"))),
             };
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
     pub(super) fn shared_parameter(&mut self, name: &str, of: &str, args: &[SourceType], span: Span) -> Eval {
         let atomic = of == "AtomicShared";
         let refused = |what: String| -> Exit {
-            Diagnostic::at(Code::ResourceElement, span, what)
+            Diagnostic::error_at(Code::ResourceElement, span, what)
                 .label("of this type")
                 .help(match atomic {
                     true => "write `&AtomicShared<[u32; 256]>`: u32 or i32",
@@ -116,7 +116,7 @@ impl Evaluator<'_> {
         };
         let element = match &**element {
             SourceType::Name(of, _) => {
-                value_named(of).filter(|ty| ty.components() != 3 && ty.kind() != Some(Scalar::Bool))
+                value_named(of).filter(|ty| ty.component_count() != 3 && ty.scalar_kind() != Some(Scalar::Bool))
             }
             _ => None,
         };
@@ -124,25 +124,25 @@ impl Evaluator<'_> {
         let Some(element) = element else {
             return Err(refused(format!("`{name}` has no elements that threads can share")));
         };
-        let count = self.expr(len)?;
+        let count = self.eval_expr(len)?;
         let count = self.known_int(&count).unwrap_or(0);
-        let bytes = |len: i64| (len as u64).saturating_mul(4 * u64::from(element.components()));
+        let bytes = |len: i64| (len as u64).saturating_mul(4 * u64::from(element.component_count()));
         if count < 1 {
             return Err(refused(format!("`{name}` is an array without elements")));
         }
         let others = self.builder.graph().shared.iter();
-        let others: u64 = others.map(Shared::bytes).sum();
+        let others: u64 = others.map(SharedArray::byte_size).sum();
         if bytes(count).saturating_add(others) > MOST_SHARED_BYTES {
             let total = bytes(count).saturating_add(others);
             let what = format!("the workgroup shares {total} bytes, and devices promise {MOST_SHARED_BYTES}");
-            return Err(Diagnostic::at(Code::ResourceElement, span, what)
+            return Err(Diagnostic::error_at(Code::ResourceElement, span, what)
                 .label("with these")
                 .help("share fewer elements, or vectors of fewer components")
                 .into());
         }
         let name = &*self.input_name(name);
         let shared = &mut self.builder.graph_mut().shared;
-        shared.push(Shared {
+        shared.push(SharedArray {
             name: name.to_owned(),
             element,
             len: count as u32,
@@ -153,30 +153,33 @@ impl Evaluator<'_> {
     }
 
     /// `group.each(f)`: what every thread does, once all of them have done what comes before.
-    pub(super) fn phase(&mut self, function: &Function, args: Vec<Value>, span: Span) -> Eval {
+    pub(super) fn eval_phase(&mut self, function: &Function, args: Vec<Value>, span: Span) -> Eval {
         if self.in_phase {
-            return Err(Diagnostic::at(Code::WorkgroupPhase, span, "a phase inside a phase")
-                .label("each thread would run all of them")
-                .help("end the `each` around it first")
-                .into());
+            return Err(
+                Diagnostic::error_at(Code::WorkgroupPhase, span, "a phase inside a phase")
+                    .label("each thread would run all of them")
+                    .help("end the `each` around it first")
+                    .into(),
+            );
         }
         if args.get(1).is_some_and(Value::changes_variables) {
-            return Err(Diagnostic::at(Code::WorkgroupPhase, span, "a phase that changes variables")
+            return Err(Diagnostic::error_at(Code::WorkgroupPhase, span, "a phase that changes variables")
                 .label("all threads would change them")
                 .help("give the value from the phase, and take it in a later one by `of(thread)`; what threads tell each other lies in a `&Shared`")
                 .into());
         }
-        if let Some(buffers) = self.awaits() {
-            self.builder.effect(Op::Barrier { buffers }, Vec::new(), Type::Results);
+        if let Some(buffers) = self.needs_barrier() {
+            self.builder
+                .add_effect(Op::Barrier { buffers }, Vec::new(), Type::Results);
         }
         self.in_phase = true;
-        let result = self.inlined(Self::PHASE, function, &[], args, span);
+        let result = self.inline_known(Self::PHASE, function, &[], args, span);
         self.in_phase = false;
         result
     }
 
     /// Whether something has been done to memory since the last barrier, and if so whether to buffers that are read too.
-    fn awaits(&self) -> Option<bool> {
+    fn needs_barrier(&self) -> Option<bool> {
         let graph = self.builder.graph();
         let atomics = graph.buffers.iter().any(|b| b.access == Access::Atomic);
         let mut found = None;
@@ -204,15 +207,15 @@ impl Evaluator<'_> {
         let effect = match (shared.atomic, name, args) {
             (_, "len", []) => return Ok(Value::Int(i64::from(shared.len))),
             (false, "load", [_]) => None,
-            (false, "store", [_, _]) => Some(Effects::Store),
+            (false, "store", [_, _]) => Some(MemoryEffect::Store),
             (true, ..) => match atomic_named(name, args.len()) {
-                Some(op) => Some(Effects::Atomic(op)),
+                Some(op) => Some(MemoryEffect::Atomic(op)),
                 None => return Err(no_such_method(&shared, name, span)),
             },
             _ => return Err(no_such_method(&shared, name, span)),
         };
         if !matches!(self.builder.graph().invocation, Invocation::Group(_)) {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::WorkgroupPhase,
                 span,
                 format!("`{}` is shared by the threads of no workgroup", shared.name),
@@ -222,7 +225,7 @@ impl Evaluator<'_> {
             .into());
         }
         if !self.in_phase {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::WorkgroupPhase,
                 span,
                 format!("`{}` is used outside of the phases", shared.name),
@@ -236,9 +239,9 @@ impl Evaluator<'_> {
             None => {
                 let len = self.builder.i32(shared.len as i32);
                 let at = self.held_index(&args[0], len, "", span)?;
-                let reached = self.reached();
+                let reached = self.reach_condition();
                 let load = Op::SharedLoad(index);
-                Ok(Value::Node(self.builder.effect(
+                Ok(Value::Node(self.builder.add_effect(
                     load,
                     vec![reached, at],
                     shared.element,
@@ -248,7 +251,7 @@ impl Evaluator<'_> {
     }
 }
 
-fn no_such_method(shared: &Shared, name: &str, span: Span) -> Exit {
+fn no_such_method(shared: &SharedArray, name: &str, span: Span) -> Exit {
     let (ty, methods) = match shared.atomic {
         true => ("AtomicShared", super::effects::ATOMIC_METHODS),
         false => (
@@ -256,7 +259,7 @@ fn no_such_method(shared: &Shared, name: &str, span: Span) -> Exit {
             "`load` of an index, `store` of an index and a value, and `len`",
         ),
     };
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::UnknownMethod,
         span,
         format!(

@@ -40,13 +40,13 @@ impl Lower {
     /// `unroll` as before a `for`, and `bound(64)`, before a `while` or a `loop`.
     pub fn loop_attributes(&mut self, attrs: &[syn::Attribute]) -> OfLoop {
         let mut said = OfLoop::default();
-        for meta in self.attributes(attrs) {
+        for meta in self.hidden_attributes(attrs) {
             match &meta {
                 syn::Meta::List(list) if list.path.is_ident("unroll") => {
-                    said.unroll = self.unroll(list).or(said.unroll);
+                    said.unroll = self.parse_unroll(list).or(said.unroll);
                 }
                 syn::Meta::List(list) if list.path.is_ident("bound") => {
-                    said.bound = self.bound(list).or(said.bound);
+                    said.bound = self.parse_bound(list).or(said.bound);
                 }
                 meta if is_exact(meta) => {}
                 _ => {
@@ -58,7 +58,7 @@ impl Lower {
         said
     }
 
-    fn bound(&mut self, list: &syn::MetaList) -> Option<(u32, proc_macro2::Span)> {
+    fn parse_bound(&mut self, list: &syn::MetaList) -> Option<(u32, proc_macro2::Span)> {
         let bound = list
             .parse_args::<syn::LitInt>()
             .and_then(|n| n.base10_parse().map(|n: u32| n));
@@ -75,15 +75,15 @@ impl Lower {
 
     /// `unroll` before a function, whose other attributes are checked elsewhere.
     pub fn unroll_of_function(&mut self, attrs: &[syn::Attribute]) -> Option<Unroll> {
-        let all = self.attributes(attrs);
+        let all = self.hidden_attributes(attrs);
         let lists = all.iter().filter_map(|meta| meta.require_list().ok());
         lists
             .filter(|list| list.path.is_ident("unroll"))
-            .filter_map(|list| self.unroll(list))
+            .filter_map(|list| self.parse_unroll(list))
             .next_back()
     }
 
-    fn unroll(&mut self, list: &syn::MetaList) -> Option<Unroll> {
+    fn parse_unroll(&mut self, list: &syn::MetaList) -> Option<Unroll> {
         let unroll = list.tokens.to_string().parse();
         unroll
             .map_err(|error| self.bad_attribute(list.span(), error, UNROLL))
@@ -93,7 +93,7 @@ impl Lower {
     /// `branch` or `select` before an `if`.
     pub fn branch_attribute(&mut self, attrs: &[syn::Attribute]) -> Option<Branches> {
         let mut found = None;
-        for meta in self.attributes(attrs) {
+        for meta in self.hidden_attributes(attrs) {
             match &meta {
                 syn::Meta::Path(path) if path.is_ident("branch") => found = Some(Branches::Keep),
                 syn::Meta::Path(path) if path.is_ident("select") => found = Some(Branches::Select),
@@ -115,13 +115,13 @@ impl Lower {
     pub fn exact_attribute(&mut self, attrs: &[syn::Attribute]) -> bool {
         // Errors in other attributes are reported where those are read, once.
         let noted = self.errors.len();
-        let exact = self.attributes(attrs).iter().any(is_exact);
+        let exact = self.hidden_attributes(attrs).iter().any(is_exact);
         self.errors.truncate(noted);
         exact
     }
 
     /// The attributes inside `cfg_attr(false, ...)`. Others are rustc's.
-    fn attributes(&mut self, attrs: &[syn::Attribute]) -> Vec<syn::Meta> {
+    fn hidden_attributes(&mut self, attrs: &[syn::Attribute]) -> Vec<syn::Meta> {
         let mut found = Vec::new();
         for attr in attrs.iter().filter(|a| a.path().is_ident("cfg_attr")) {
             let parse = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
@@ -146,9 +146,9 @@ impl Lower {
     }
 
     fn bad_attribute(&mut self, span: proc_macro2::Span, message: String, help: &str) {
-        let span = self.span(span);
+        let span = self.token_span(span);
         self.errors.push(
-            Diagnostic::at(Code::Attribute, span, message)
+            Diagnostic::error_at(Code::Attribute, span, message)
                 .label("not understood")
                 .help(help),
         );

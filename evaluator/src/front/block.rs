@@ -9,30 +9,30 @@ use syn::spanned::Spanned;
 
 impl Lower {
     /// A block.
-    pub fn block(&mut self, block: &syn::Block) -> Block {
+    pub fn lower_block(&mut self, block: &syn::Block) -> Block {
         // A constant holds in all of its block, before its line too.
         let mut constants = Vec::new();
         let mut statements = Vec::new();
         let mut value = None;
         for (k, statement) in block.stmts.iter().enumerate() {
             match statement {
-                syn::Stmt::Local(local) => match self.local(local) {
+                syn::Stmt::Local(local) => match self.lower_let(local) {
                     Statement::Let(pattern @ Pattern::Tuple(..), ty, None, span) => {
-                        deferred(pattern, ty, span, &mut statements);
+                        declare_deferred(pattern, ty, span, &mut statements);
                     }
                     statement => statements.push(statement),
                 },
                 syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => {
-                    value = Some(Box::new(self.statement(expr)));
+                    value = Some(Box::new(self.lower_statement(expr)));
                 }
                 syn::Stmt::Expr(expr, _) => {
-                    let lowered = self.statement(expr);
+                    let lowered = self.lower_statement(expr);
                     statements.push(Statement::Expr(lowered));
                 }
-                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item)),
+                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.lower_constant(item)),
                 syn::Stmt::Item(syn::Item::Use(_)) => {}
                 syn::Stmt::Item(item) => {
-                    self.unsupported(
+                    self.note_unsupported(
                         item.span(),
                         "an item inside an expression",
                         "move it to the top of the file",
@@ -40,7 +40,7 @@ impl Lower {
                 }
                 syn::Stmt::Macro(m) => {
                     let kind = self.macro_call(&m.mac);
-                    let span = self.span(m.span());
+                    let span = self.token_span(m.span());
                     statements.push(Statement::Expr(Expr { kind, span }));
                 }
             }
@@ -54,35 +54,35 @@ impl Lower {
     }
 
     /// An expression that stands where a statement does.
-    fn statement(&mut self, expr: &syn::Expr) -> Expr {
-        let exact = attributes(expr).is_some_and(|attrs| self.exact_attribute(attrs));
-        let lowered = self.expr(expr);
-        if exact { exactly(lowered) } else { lowered }
+    fn lower_statement(&mut self, expr: &syn::Expr) -> Expr {
+        let exact = statement_attributes(expr).is_some_and(|attrs| self.exact_attribute(attrs));
+        let lowered = self.lower_expr(expr);
+        if exact { wrap_exact(lowered) } else { lowered }
     }
 
-    fn local(&mut self, local: &syn::Local) -> Statement {
-        let span = self.span(local.span());
+    fn lower_let(&mut self, local: &syn::Local) -> Statement {
+        let span = self.token_span(local.span());
         let (pattern, ty) = match &local.pat {
-            syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
-            other => (self.pattern(other), None),
+            syn::Pat::Type(typed) => (self.lower_pattern(&typed.pat), Some(self.lower_type(&typed.ty))),
+            other => (self.lower_pattern(other), None),
         };
         if let Some(init) = &local.init
             && let Some((_, other)) = &init.diverge
         {
-            let mut value = self.expr(&init.expr);
+            let mut value = self.lower_expr(&init.expr);
             if self.exact_attribute(&local.attrs) {
-                value = exactly(value);
+                value = wrap_exact(value);
             }
-            let other = self.expr(other);
+            let other = self.lower_expr(other);
             return self.let_else(pattern, ty, value, other, span);
         }
         let init = local.init.as_ref().map(|init| {
-            let mut value = self.expr(&init.expr);
+            let mut value = self.lower_expr(&init.expr);
             if let ExprKind::If(_, _, _, branches) | ExprKind::Match(_, _, branches) = &mut value.kind {
                 *branches = branches.or(self.branch_attribute(&local.attrs));
             }
             match self.exact_attribute(&local.attrs) {
-                true => exactly(value),
+                true => wrap_exact(value),
                 false => value,
             }
         });
@@ -90,12 +90,12 @@ impl Lower {
     }
 
     /// A constant that belongs to no type.
-    pub fn constant(&mut self, item: &syn::ItemConst) -> Const {
-        if self.names().has(&item.ident.to_string()) {
+    pub fn lower_constant(&mut self, item: &syn::ItemConst) -> Const {
+        if self.names().is_alias(&item.ident.to_string()) {
             let name = &item.ident;
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::DefinedTwice,
-                self.span(name.span()),
+                self.token_span(name.span()),
                 format!("`{name}` is a name that stands for something else"),
             )
             .label("defined again")
@@ -104,14 +104,14 @@ impl Lower {
         }
         Const {
             name: item.ident.to_string(),
-            value: self.expr(&item.expr),
-            ty: self.ty(&item.ty),
+            value: self.lower_expr(&item.expr),
+            ty: self.lower_type(&item.ty),
         }
     }
 }
 
 /// `let (a, b);`: each of the variables, without a value.
-fn deferred(pattern: Pattern, ty: Option<Type>, span: Span, out: &mut Vec<Statement>) {
+fn declare_deferred(pattern: Pattern, ty: Option<Type>, span: Span, out: &mut Vec<Statement>) {
     let Pattern::Tuple(parts, _) = pattern else {
         if !matches!(pattern, Pattern::Wild) {
             out.push(Statement::Let(pattern, ty, None, span));
@@ -123,12 +123,12 @@ fn deferred(pattern: Pattern, ty: Option<Type>, span: Span, out: &mut Vec<Statem
         _ => vec![None; parts.len()],
     };
     for (part, ty) in parts.into_iter().zip(types.drain(..)) {
-        deferred(part, ty, span, out);
+        declare_deferred(part, ty, span, out);
     }
 }
 
 /// A value whose operations on floats are exact.
-fn exactly(value: Expr) -> Expr {
+fn wrap_exact(value: Expr) -> Expr {
     let span = value.span;
     let block = Block {
         statements: Vec::new(),
@@ -142,7 +142,7 @@ fn exactly(value: Expr) -> Expr {
 }
 
 /// The attributes of an expression that rustc lets have some where it is a statement.
-fn attributes(expr: &syn::Expr) -> Option<&[syn::Attribute]> {
+fn statement_attributes(expr: &syn::Expr) -> Option<&[syn::Attribute]> {
     match expr {
         syn::Expr::Block(e) => Some(&e.attrs),
         syn::Expr::If(e) => Some(&e.attrs),

@@ -4,7 +4,7 @@
 
 use super::expr::Lower;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::suggest::suggest;
+use crate::suggest::suggest_name;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::spanned::Spanned;
@@ -27,7 +27,7 @@ pub enum Carrier {
 impl Carrier {
     /// Returns whether one of the generator's own attributes may stand before this syntax. Attributes that only loops or only conditions
     /// accept are checked when these are lowered.
-    fn takes(self, attribute: &str) -> bool {
+    fn accepts_attribute(self, attribute: &str) -> bool {
         match self {
             Carrier::Loop | Carrier::Branch => true,
             Carrier::Function => ["unroll", EXACT].contains(&attribute),
@@ -75,7 +75,7 @@ const INERT: [&str; 26] = [
 impl Lower {
     /// Returns whether `cfg` keeps text with these attributes. Attributes that are true are removed; those that cannot be decided, or that
     /// change the text after them in other ways, are errors.
-    pub fn keeps(&mut self, attrs: &mut Vec<syn::Attribute>, carrier: Carrier) -> bool {
+    pub fn keeps_by_cfg(&mut self, attrs: &mut Vec<syn::Attribute>, carrier: Carrier) -> bool {
         let mut kept = true;
         attrs.retain(|attr| {
             if !attr.path().is_ident("cfg") {
@@ -85,19 +85,19 @@ impl Lower {
                 syn::Meta::List(list) => list.tokens.clone(),
                 _ => TokenStream::new(),
             };
-            match predicate(tokens.clone()) {
+            match eval_predicate(tokens.clone()) {
                 Some(true) => {}
                 Some(false) => kept = false,
-                None => self.undecided(attr.span(), &tokens),
+                None => self.note_undecided_cfg(attr.span(), &tokens),
             }
             false
         });
         if kept {
             for attr in attrs.iter() {
                 if attr.path().is_ident("cfg_attr") {
-                    self.conditional(attr, carrier);
+                    self.check_cfg_attr(attr, carrier);
                 } else {
-                    self.plain(attr.path(), attr.span());
+                    self.check_attribute(attr.path(), attr.span());
                 }
             }
         }
@@ -107,10 +107,10 @@ impl Lower {
     /// As [`Lower::keeps`], where nothing can be left out.
     pub fn keeps_always(&mut self, attrs: &mut Vec<syn::Attribute>, carrier: Carrier) {
         let span = attrs.first().map(Spanned::span);
-        if !self.keeps(attrs, carrier)
+        if !self.keeps_by_cfg(attrs, carrier)
             && let Some(span) = span
         {
-            self.unsupported(
+            self.note_unsupported(
                 span,
                 "`#[cfg(..)]` on a part of an expression",
                 "put it before a statement, an arm, a field or an item",
@@ -118,10 +118,10 @@ impl Lower {
         }
     }
 
-    fn undecided(&mut self, span: proc_macro2::Span, predicate: &TokenStream) {
-        let span = self.span(span);
+    fn note_undecided_cfg(&mut self, span: proc_macro2::Span, predicate: &TokenStream) {
+        let span = self.token_span(span);
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::Configuration,
                 span,
                 format!("`cfg({})` depends on how the crate is built", as_written(predicate)),
@@ -132,27 +132,27 @@ impl Lower {
     }
 
     /// `#[cfg_attr(predicate, attributes)]`.
-    fn conditional(&mut self, attr: &syn::Attribute, carrier: Carrier) {
+    fn check_cfg_attr(&mut self, attr: &syn::Attribute, carrier: Carrier) {
         let syn::Meta::List(list) = &attr.meta else {
-            return self.unsupported(attr.span(), "this `cfg_attr`", "write `cfg_attr(false, unroll(none))`");
+            return self.note_unsupported(attr.span(), "this `cfg_attr`", "write `cfg_attr(false, unroll(none))`");
         };
-        let mut parts = split(list.tokens.clone()).into_iter();
+        let mut parts = split_at_commas(list.tokens.clone()).into_iter();
         let condition = parts.next().unwrap_or_default();
-        let known = predicate(condition.clone());
+        let known = eval_predicate(condition.clone());
         let literal = condition.to_string() == "false";
         if known.is_none() && parts.len() == 0 {
-            return self.undecided(attr.span(), &condition);
+            return self.note_undecided_cfg(attr.span(), &condition);
         }
         for part in parts {
             let name = first_word(&part);
             let own = OWN.contains(&name.as_str());
             match known {
-                _ if own && !literal => self.unsupported(
+                _ if own && !literal => self.note_unsupported(
                     attr.span(),
                     &format!("`{name}` under another condition than `false`"),
                     &format!("write `#[cfg_attr(false, {})]`", as_written(&part)),
                 ),
-                Some(false) if own && !carrier.takes(&name) => {
+                Some(false) if own && !carrier.accepts_attribute(&name) => {
                     let (of, help) = match name.as_str() {
                         "unroll" => (
                             "a loop or a function",
@@ -168,37 +168,41 @@ impl Lower {
                             "put it right before an `if`, or before the `let` that takes its value",
                         ),
                     };
-                    let span = self.span(attr.span());
+                    let span = self.token_span(attr.span());
                     self.errors.push(
-                        Diagnostic::at(Code::Attribute, span, format!("`{name}` is an attribute of {of}"))
+                        Diagnostic::error_at(Code::Attribute, span, format!("`{name}` is an attribute of {of}"))
                             .label(format!("not before {of}"))
                             .help(help),
                     );
                 }
                 // Loops and conditions look at theirs where they are lowered.
-                Some(false) if literal && !own && !INERT.contains(&name.as_str()) && !carrier.takes(&name) => {
-                    let span = self.span(attr.span());
+                Some(false)
+                    if literal && !own && !INERT.contains(&name.as_str()) && !carrier.accepts_attribute(&name) =>
+                {
+                    let span = self.token_span(attr.span());
                     let what = format!("there is no attribute `{name}`");
-                    let help = suggest(&name, &OWN, "the generator has");
+                    let help = suggest_name(&name, &OWN, "the generator has");
                     self.errors.push(
-                        Diagnostic::at(Code::Attribute, span, what)
+                        Diagnostic::error_at(Code::Attribute, span, what)
                             .label("not understood")
                             .help(help),
                     );
                 }
                 Some(false) => {}
                 Some(true) => match syn::parse2::<syn::Meta>(part.clone()) {
-                    Ok(meta) => self.plain(meta.path(), attr.span()),
-                    Err(_) => self.unsupported(attr.span(), "this `cfg_attr`", "write attributes after the condition"),
+                    Ok(meta) => self.check_attribute(meta.path(), attr.span()),
+                    Err(_) => {
+                        self.note_unsupported(attr.span(), "this `cfg_attr`", "write attributes after the condition")
+                    }
                 },
                 None if INERT.contains(&name.as_str()) => {}
-                None => self.undecided(attr.span(), &condition),
+                None => self.note_undecided_cfg(attr.span(), &condition),
             }
         }
     }
 
     /// An attribute that applies.
-    fn plain(&mut self, path: &syn::Path, span: proc_macro2::Span) {
+    fn check_attribute(&mut self, path: &syn::Path, span: proc_macro2::Span) {
         let name = path.segments.first().map(|s| s.ident.to_string()).unwrap_or_default();
         match name.as_str() {
             known if INERT.contains(&known) => {}
@@ -208,7 +212,7 @@ impl Lower {
                     "bound" => "bound(64)",
                     _ => own,
                 };
-                self.unsupported(
+                self.note_unsupported(
                     span,
                     &format!("the attribute `{name}` as rustc sees it"),
                     &format!("hide it from rustc: `#[cfg_attr(false, {shown})]`"),
@@ -216,7 +220,7 @@ impl Lower {
             }
             _ => {
                 let path = as_written(path);
-                self.unsupported(
+                self.note_unsupported(
                     span,
                     &format!("the attribute `{path}`"),
                     "remove it; `doc`, `derive`, `inline` and lints may stay",
@@ -234,8 +238,8 @@ pub fn is_test(attrs: &[syn::Attribute]) -> bool {
 }
 
 /// Evaluates a `cfg` predicate as it is when a kernel is read, if the text alone decides it: `test` is false.
-fn predicate(tokens: TokenStream) -> Option<bool> {
-    let mut parts = split(tokens);
+fn eval_predicate(tokens: TokenStream) -> Option<bool> {
+    let mut parts = split_at_commas(tokens);
     let trees: Vec<TokenTree> = match parts.len() {
         1 => parts.remove(0).into_iter().collect(),
         _ => return None,
@@ -247,7 +251,10 @@ fn predicate(tokens: TokenStream) -> Option<bool> {
             _ => None,
         },
         [TokenTree::Ident(word), TokenTree::Group(group)] if group.delimiter() == Delimiter::Parenthesis => {
-            let inner: Vec<Option<bool>> = split(group.stream()).into_iter().map(predicate).collect();
+            let inner: Vec<Option<bool>> = split_at_commas(group.stream())
+                .into_iter()
+                .map(eval_predicate)
+                .collect();
             match word.to_string().as_str() {
                 "not" if inner.len() == 1 => inner[0].map(|b| !b),
                 "all" if inner.contains(&Some(false)) => Some(false),
@@ -262,7 +269,7 @@ fn predicate(tokens: TokenStream) -> Option<bool> {
 }
 
 /// Parts between commas; one after the last comma only if there is something.
-fn split(tokens: TokenStream) -> Vec<TokenStream> {
+fn split_at_commas(tokens: TokenStream) -> Vec<TokenStream> {
     let mut parts = vec![TokenStream::new()];
     for token in tokens {
         match &token {

@@ -1,6 +1,6 @@
 //! `match`, and what is written in other ways and means one: `if let`, `while let`, `let ... else`, `matches!`.
 
-use super::expr::{Lower, label};
+use super::expr::{Lower, label_name};
 use super::name::Name;
 use super::targets::Kind;
 use super::tree::{Arm, Block, Expr, ExprKind, Pattern, Statement, Type};
@@ -43,38 +43,38 @@ pub fn has_let(condition: &syn::Expr) -> bool {
 
 impl Lower {
     /// `match`.
-    pub fn match_(&mut self, e: &syn::ExprMatch) -> ExprKind {
+    pub fn lower_match(&mut self, e: &syn::ExprMatch) -> ExprKind {
         let subject = self.boxed(&e.expr);
         let mut arms = Vec::new();
         for arm in &e.arms {
-            let (pattern, guard) = self.guarded(&arm.pat);
-            let body = self.expr(&arm.body);
+            let (pattern, guard) = self.lower_arm_pattern(&arm.pat);
+            let body = self.lower_expr(&arm.body);
             arms.push(Arm { pattern, guard, body });
         }
         ExprKind::Match(subject, arms, self.branch_attribute(&e.attrs))
     }
 
     /// A pattern of an arm, and the guard after it.
-    fn guarded(&mut self, pattern: &syn::Pat) -> (Pattern, Option<Expr>) {
+    fn lower_arm_pattern(&mut self, pattern: &syn::Pat) -> (Pattern, Option<Expr>) {
         match pattern {
-            syn::Pat::Guard(p) => (self.pattern(&p.pat), Some(self.expr(&p.guard))),
-            other => (self.pattern(other), None),
+            syn::Pat::Guard(p) => (self.lower_pattern(&p.pat), Some(self.lower_expr(&p.guard))),
+            other => (self.lower_pattern(other), None),
         }
     }
 
     /// `if let pattern = value && guard { .. } else { .. }`.
     pub fn if_let(&mut self, e: &syn::ExprIf) -> ExprKind {
         let (subject, pattern, guard) = self.let_condition(&e.cond);
-        let then = ExprKind::Block(self.block(&e.then_branch));
-        let then = self.at(then, e.then_branch.span());
+        let then = ExprKind::Block(self.lower_block(&e.then_branch));
+        let then = self.expr_at(then, e.then_branch.span());
         let otherwise = match &e.else_branch {
-            Some((_, other)) => *self.link(other),
-            None => self.at(ExprKind::Tuple(Vec::new()), e.span()),
+            Some((_, other)) => *self.lower_link(other),
+            None => self.expr_at(ExprKind::Tuple(Vec::new()), e.span()),
         };
         let attribute = self.branch_attribute(&e.attrs);
         ExprKind::Match(
             Box::new(subject),
-            vec![taken(pattern, guard, then), taken(Pattern::Wild, None, otherwise)],
+            vec![make_arm(pattern, guard, then), make_arm(Pattern::Wild, None, otherwise)],
             attribute,
         )
     }
@@ -82,44 +82,44 @@ impl Lower {
     /// `while let pattern = value { .. }`: a loop that ends where the pattern does not take the value.
     pub fn while_let(&mut self, e: &syn::ExprWhile) -> ExprKind {
         let (subject, pattern, guard) = self.let_condition(&e.cond);
-        let name = label(e.label.as_ref().map(|l| &l.name));
-        let (body, _) = self.inside(name.clone(), Kind::Other("while"), |lower| lower.block(&e.body));
-        let body = self.at(ExprKind::Block(body), e.body.span());
-        let end = self.at(ExprKind::Break(None), e.while_token.span());
-        let arms = vec![taken(pattern, guard, body), taken(Pattern::Wild, None, end)];
-        let choice = self.at(ExprKind::Match(Box::new(subject), arms, None), e.span());
-        let always = self.at(ExprKind::Bool(true), e.while_token.span());
+        let name = label_name(e.label.as_ref().map(|l| &l.name));
+        let (body, _) = self.with_target(name.clone(), Kind::Other("while"), |lower| lower.lower_block(&e.body));
+        let body = self.expr_at(ExprKind::Block(body), e.body.span());
+        let end = self.expr_at(ExprKind::Break(None), e.while_token.span());
+        let arms = vec![make_arm(pattern, guard, body), make_arm(Pattern::Wild, None, end)];
+        let choice = self.expr_at(ExprKind::Match(Box::new(subject), arms, None), e.span());
+        let always = self.expr_at(ExprKind::Bool(true), e.while_token.span());
         let block = Block {
             statements: vec![Statement::Expr(choice)],
             value: None,
             exact: false,
         };
-        self.while_(always, block, name, &e.attrs)
+        self.lower_while(always, block, name, &e.attrs)
     }
 
     /// The value, the pattern and the guard of a condition that begins with `let`.
     fn let_condition(&mut self, condition: &syn::Expr) -> (Expr, Pattern, Option<Expr>) {
         match condition {
-            syn::Expr::Let(e) => (self.expr(&e.expr), self.pattern(&e.pat), None),
+            syn::Expr::Let(e) => (self.lower_expr(&e.expr), self.lower_pattern(&e.pat), None),
             syn::Expr::Binary(e) => {
                 let (subject, pattern, guard) = self.let_condition(&e.left);
-                let right = self.expr(&e.right);
+                let right = self.lower_expr(&e.right);
                 let guard = match guard {
                     Some(left) => {
                         let both = ExprKind::Lazy(true, Box::new(left), Box::new(right));
-                        self.at(both, e.span())
+                        self.expr_at(both, e.span())
                     }
                     None => right,
                 };
                 (subject, pattern, Some(guard))
             }
             other => {
-                self.unsupported(
+                self.note_unsupported(
                     other.span(),
                     "a condition before a `let`",
                     "write the `let` first, or an `if` around the `if let`",
                 );
-                let nothing = self.at(ExprKind::Tuple(Vec::new()), other.span());
+                let nothing = self.expr_at(ExprKind::Tuple(Vec::new()), other.span());
                 (nothing, Pattern::Wild, None)
             }
         }
@@ -129,7 +129,7 @@ impl Lower {
     pub fn let_else(&mut self, pattern: Pattern, ty: Option<Type>, value: Expr, other: Expr, span: Span) -> Statement {
         const VALUE: &str = "value";
         let mut names = Vec::new();
-        bound(&pattern, &mut names);
+        collect_bindings(&pattern, &mut names);
         let part = |name: &Name| Expr {
             kind: ExprKind::Path(vec![name.to_string()]),
             span,
@@ -153,8 +153,8 @@ impl Lower {
             }
         };
         let arms = vec![
-            taken(pattern, None, Expr { kind: parts, span }),
-            taken(Pattern::Wild, None, other),
+            make_arm(pattern, None, Expr { kind: parts, span }),
+            make_arm(Pattern::Wild, None, other),
         ];
         let choice = Expr {
             kind: ExprKind::Match(Box::new(subject), arms, None),
@@ -169,7 +169,7 @@ impl Lower {
     /// `matches!(value, pattern if guard)`.
     pub fn matches_macro(&mut self, call: &syn::Macro) -> ExprKind {
         let Ok(MatchesSyntax { value, pattern, guard }) = call.parse_body() else {
-            self.unsupported(
+            self.note_unsupported(
                 call.span(),
                 "this `matches!`",
                 "give a value and a pattern: `matches!(x, 1 | 2)`",
@@ -177,30 +177,30 @@ impl Lower {
             return ExprKind::Tuple(Vec::new());
         };
         let subject = self.boxed(&value);
-        let pattern = self.pattern(&pattern);
-        let guard = guard.map(|e| self.expr(&e));
+        let pattern = self.lower_pattern(&pattern);
+        let guard = guard.map(|e| self.lower_expr(&e));
         let (yes, no) = (
-            self.at(ExprKind::Bool(true), call.span()),
-            self.at(ExprKind::Bool(false), call.span()),
+            self.expr_at(ExprKind::Bool(true), call.span()),
+            self.expr_at(ExprKind::Bool(false), call.span()),
         );
-        let arms = vec![taken(pattern, guard, yes), taken(Pattern::Wild, None, no)];
+        let arms = vec![make_arm(pattern, guard, yes), make_arm(Pattern::Wild, None, no)];
         ExprKind::Match(subject, arms, None)
     }
 
-    pub fn at(&self, kind: ExprKind, span: proc_macro2::Span) -> Expr {
+    pub fn expr_at(&self, kind: ExprKind, span: proc_macro2::Span) -> Expr {
         Expr {
             kind,
-            span: self.span(span),
+            span: self.token_span(span),
         }
     }
 }
 
-fn taken(pattern: Pattern, guard: Option<Expr>, body: Expr) -> Arm {
+fn make_arm(pattern: Pattern, guard: Option<Expr>, body: Expr) -> Arm {
     Arm { pattern, guard, body }
 }
 
 /// The names that a pattern binds, each once.
-fn bound(pattern: &Pattern, out: &mut Vec<(Name, bool, Span)>) {
+fn collect_bindings(pattern: &Pattern, out: &mut Vec<(Name, bool, Span)>) {
     let mut name = |name: &Name, mutable: bool, at: Span| {
         if out.iter().all(|(known, ..)| known != name) {
             out.push((name.clone(), mutable, at));
@@ -210,13 +210,13 @@ fn bound(pattern: &Pattern, out: &mut Vec<(Name, bool, Span)>) {
         Pattern::Name(n, mutable, at) => name(n, *mutable, *at),
         Pattern::At(n, mutable, inner, at) => {
             name(n, *mutable, *at);
-            bound(inner, out);
+            collect_bindings(inner, out);
         }
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => {
-            parts.iter().for_each(|part| bound(part, out));
+            parts.iter().for_each(|part| collect_bindings(part, out));
         }
-        Pattern::Struct(_, fields, _) => fields.iter().for_each(|(_, part)| bound(part, out)),
-        Pattern::Ref(inner, _) => bound(inner, out),
+        Pattern::Struct(_, fields, _) => fields.iter().for_each(|(_, part)| collect_bindings(part, out)),
+        Pattern::Ref(inner, _) => collect_bindings(inner, out),
         Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => {}
     }
 }

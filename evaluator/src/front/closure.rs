@@ -7,27 +7,27 @@ use syn::spanned::Spanned;
 
 impl Lower {
     /// `|x: f32| x * 2.0`.
-    pub fn closure(&mut self, e: &syn::ExprClosure) -> ExprKind {
+    pub fn lower_closure(&mut self, e: &syn::ExprClosure) -> ExprKind {
         if let Some(token) = &e.asyncness {
-            self.unsupported(token.span(), "an `async` closure", "write `|x| ...` alone");
+            self.note_unsupported(token.span(), "an `async` closure", "write `|x| ...` alone");
         }
         if let Some(token) = &e.constness {
-            self.unsupported(token.span(), "a `const` closure", "write `|x| ...` alone");
+            self.note_unsupported(token.span(), "a `const` closure", "write `|x| ...` alone");
         }
         if let Some(lifetimes) = &e.lifetimes {
-            self.unsupported(lifetimes.span(), "`for<..>` before a closure", "leave it out");
+            self.note_unsupported(lifetimes.span(), "`for<..>` before a closure", "leave it out");
         }
         let params = e.inputs.iter().map(|input| match input {
-            syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
-            other => (self.pattern(other), None),
+            syn::Pat::Type(typed) => (self.lower_pattern(&typed.pat), Some(self.lower_type(&typed.ty))),
+            other => (self.lower_pattern(other), None),
         });
         let params = params.collect();
         let result = match &e.output {
             syn::ReturnType::Default => None,
-            syn::ReturnType::Type(_, ty) => Some(self.ty(ty)),
+            syn::ReturnType::Type(_, ty) => Some(self.lower_type(ty)),
         };
         let targets = std::mem::take(&mut self.targets);
-        let body = self.expr(&e.body);
+        let body = self.lower_expr(&e.body);
         self.targets = targets;
         ExprKind::Closure(Arc::new(Closure {
             params,
@@ -42,7 +42,7 @@ impl Lower {
         let mut found = Vec::new();
         for param in &generics.params {
             if let syn::GenericParam::Type(t) = param {
-                found.extend(self.called(&t.bounds).map(|ty| (t.ident.to_string(), ty)));
+                found.extend(self.fn_bound_type(&t.bounds).map(|ty| (t.ident.to_string(), ty)));
             }
         }
         for predicate in generics.where_clause.iter().flat_map(|clause| &clause.predicates) {
@@ -50,24 +50,24 @@ impl Lower {
                 && let syn::Type::Path(path) = &t.bounded_ty
                 && let Some(name) = path.path.get_ident()
             {
-                found.extend(self.called(&t.bounds).map(|ty| (name.to_string(), ty)));
+                found.extend(self.fn_bound_type(&t.bounds).map(|ty| (name.to_string(), ty)));
             }
         }
         self.functions.extend(found);
     }
 
     /// The type of functions among bounds: `Fn(A) -> B`, `FnMut`, `FnOnce`.
-    pub fn called<'b>(&mut self, bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>) -> Option<Type> {
+    pub fn fn_bound_type<'b>(&mut self, bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>) -> Option<Type> {
         for bound in bounds {
             if let syn::TypeParamBound::Trait(bound) = bound
                 && let Some(last) = bound.path.segments.last()
                 && matches!(last.ident.to_string().as_str(), "Fn" | "FnMut" | "FnOnce")
                 && let syn::PathArguments::Parenthesized(list) = &last.arguments
             {
-                let params = list.inputs.iter().map(|input| self.ty(&input.ty)).collect();
+                let params = list.inputs.iter().map(|input| self.lower_type(&input.ty)).collect();
                 let result = match &list.output {
                     syn::ReturnType::Default => Type::Tuple(Vec::new()),
-                    syn::ReturnType::Type(_, ty) => self.ty(ty),
+                    syn::ReturnType::Type(_, ty) => self.lower_type(ty),
                 };
                 return Some(Type::Fn(params, Box::new(result)));
             }

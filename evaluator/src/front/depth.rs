@@ -31,13 +31,13 @@ const NESTING: [&str; 26] = [
 ];
 
 /// Refuses a text on which a parser would run out of stack. What is no list of tokens is for the parser to refuse.
-pub fn check(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
+pub fn check_depth(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
     let Ok(tokens) = text.parse::<TokenStream>() else {
         return Ok(());
     };
     let refuse = |span: Span, what: String, help: &str| {
         Err(Box::new(
-            Diagnostic::at(Code::TooDeep, super::place(file, span), what)
+            Diagnostic::error_at(Code::TooDeep, super::token_span(file, span), what)
                 .label("here")
                 .help(help),
         ))

@@ -4,8 +4,8 @@ use super::choice::has_let;
 use super::name::Name;
 use super::names::Names;
 use super::parts::takes_apart;
-use super::place;
 use super::targets::{Kind, Target};
+use super::token_span;
 use super::tree::{Block, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
@@ -76,15 +76,15 @@ impl Lower {
     }
 
     /// The place of a token.
-    pub fn span(&self, span: proc_macro2::Span) -> Span {
-        place(self.file, span)
+    pub fn token_span(&self, span: proc_macro2::Span) -> Span {
+        token_span(self.file, span)
     }
 
     /// Notes that something is not part of the kernel language, and what to write instead.
-    pub fn unsupported(&mut self, span: proc_macro2::Span, what: &str, instead: &str) {
-        let span = self.span(span);
+    pub fn note_unsupported(&mut self, span: proc_macro2::Span, what: &str, instead: &str) {
+        let span = self.token_span(span);
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::NotInLanguage,
                 span,
                 format!("{what} is not part of the kernel language"),
@@ -96,7 +96,7 @@ impl Lower {
 
     /// `Self` by its name.
     pub fn self_name(&self, name: String) -> String {
-        match self.self_type.as_ref().map(Type::bare) {
+        match self.self_type.as_ref().map(Type::peel_refs) {
             Some(Type::Name(ty, _)) if name == "Self" => ty.clone(),
             _ => name,
         }
@@ -113,14 +113,14 @@ impl Lower {
     }
 
     /// The last two segments of a path, without generic arguments; of a name that stands for a path, that path.
-    pub fn segments(&mut self, path: &syn::Path) -> Vec<String> {
+    pub fn path_segments(&mut self, path: &syn::Path) -> Vec<String> {
         let names: Vec<String> = path
             .segments
             .iter()
             .map(|s| self.self_name(s.ident.to_string()))
             .collect();
         match names.as_slice() {
-            [name] => match self.names.path(name) {
+            [name] => match self.names.aliased_path(name) {
                 Some(path) => path.to_vec(),
                 None => vec![self.type_name(name.clone())],
             },
@@ -132,23 +132,23 @@ impl Lower {
     /// The last two segments of a path; of `<Type as Trait>::name` the type and the name. `None` if the type has no name.
     fn of_type(&mut self, e: &syn::ExprPath) -> Option<Vec<String>> {
         let Some(own) = &e.qself else {
-            return Some(self.segments(&e.path));
+            return Some(self.path_segments(&e.path));
         };
-        let Type::Name(ty, _) = self.ty(&own.ty) else {
+        let Type::Name(ty, _) = self.lower_type(&own.ty) else {
             return None;
         };
         Some(vec![ty, e.path.segments.last()?.ident.to_string()])
     }
 
     /// Generic parameters; lifetimes are dropped.
-    pub fn generics(&mut self, generics: &syn::Generics) -> Vec<Generic> {
+    pub fn lower_generics(&mut self, generics: &syn::Generics) -> Vec<Generic> {
         let types = generics.params.iter().filter_map(|p| match p {
             syn::GenericParam::Type(t) => Some(t.ident.to_string()),
             _ => None,
         });
         self.parameters.extend(types);
         let each = generics.params.iter().filter_map(|p| match p {
-            syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), self.ty(&c.ty))),
+            syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), self.lower_type(&c.ty))),
             syn::GenericParam::Type(t) => Some(Generic::Type(t.ident.to_string())),
             syn::GenericParam::Lifetime(_) => None,
         });
@@ -159,18 +159,18 @@ impl Lower {
     pub fn path_expr(&self, segments: Vec<String>, span: proc_macro2::Span) -> Expr {
         Expr {
             kind: ExprKind::Path(segments),
-            span: self.span(span),
+            span: self.token_span(span),
         }
     }
 
     /// An expression; what is not supported becomes `()` and an error.
-    pub fn expr(&mut self, expr: &syn::Expr) -> Expr {
-        let span = self.span(expr.span());
+    pub fn lower_expr(&mut self, expr: &syn::Expr) -> Expr {
+        let span = self.token_span(expr.span());
         if self.depth >= DEPTH {
             let what = format!("expressions are nested more than {DEPTH} deep");
             if self.errors.iter().all(|e| e.message != what) {
                 self.errors.push(
-                    Diagnostic::at(Code::TooDeep, span, what)
+                    Diagnostic::error_at(Code::TooDeep, span, what)
                         .label("too deep")
                         .help("give parts of it a name with `let`"),
                 );
@@ -181,17 +181,17 @@ impl Lower {
             };
         }
         self.depth += 1;
-        let kind = self.kind(expr);
+        let kind = self.lower_expr_kind(expr);
         self.depth -= 1;
         Expr { kind, span }
     }
 
     pub fn boxed(&mut self, expr: &syn::Expr) -> Box<Expr> {
-        Box::new(self.expr(expr))
+        Box::new(self.lower_expr(expr))
     }
 
     /// The part of an expression that a chain of operators, calls, fields or `else if` goes on in.
-    pub fn link(&mut self, expr: &syn::Expr) -> Box<Expr> {
+    pub fn lower_link(&mut self, expr: &syn::Expr) -> Box<Expr> {
         let depth = self.depth;
         if !COUNTS_LINKS {
             self.depth = depth.saturating_sub(1);
@@ -201,61 +201,61 @@ impl Lower {
         link
     }
 
-    fn kind(&mut self, expr: &syn::Expr) -> ExprKind {
+    fn lower_expr_kind(&mut self, expr: &syn::Expr) -> ExprKind {
         match expr {
-            syn::Expr::Paren(e) => self.kind(&e.expr),
-            syn::Expr::Group(e) => self.kind(&e.expr),
+            syn::Expr::Paren(e) => self.lower_expr_kind(&e.expr),
+            syn::Expr::Group(e) => self.lower_expr_kind(&e.expr),
             syn::Expr::Reference(e) => ExprKind::Ref(e.mutability.is_some(), self.boxed(&e.expr)),
-            syn::Expr::Lit(e) => self.literal(&e.lit, e.span()).kind,
+            syn::Expr::Lit(e) => self.lower_literal(&e.lit, e.span()).kind,
             syn::Expr::Path(e) if held_by_none(&e.path).is_some() => {
                 let held = held_by_none(&e.path)
-                    .map(|ty| self.ty(ty))
+                    .map(|ty| self.lower_type(ty))
                     .unwrap_or(Type::Tuple(Vec::new()));
                 self.typed_none(held, e.span())
             }
             syn::Expr::Path(e) => match self.of_type(e) {
                 Some(path) => ExprKind::Path(path),
-                None => self.refused(expr),
+                None => self.refuse_expr(expr),
             },
-            syn::Expr::Unary(e) => self.unary(e),
-            syn::Expr::Binary(e) => self.binary(e),
-            syn::Expr::Assign(e) if takes_apart(&e.left) => self.destructured(e),
+            syn::Expr::Unary(e) => self.lower_unary(e),
+            syn::Expr::Binary(e) => self.lower_binary(e),
+            syn::Expr::Assign(e) if takes_apart(&e.left) => self.lower_destructuring(e),
             syn::Expr::Assign(e) => ExprKind::Assign(self.boxed(&e.left), None, self.boxed(&e.right)),
-            syn::Expr::Call(e) => self.call(e),
+            syn::Expr::Call(e) => self.lower_call(e),
             syn::Expr::MethodCall(e) => {
-                let receiver = self.link(&e.receiver);
+                let receiver = self.lower_link(&e.receiver);
                 ExprKind::Method(
                     receiver,
                     e.method.to_string(),
-                    e.args.iter().map(|a| self.expr(a)).collect(),
+                    e.args.iter().map(|a| self.lower_expr(a)).collect(),
                 )
             }
             syn::Expr::Field(e) => {
-                let name = member(&e.member);
-                ExprKind::Field(self.link(&e.base), name)
+                let name = member_name(&e.member);
+                ExprKind::Field(self.lower_link(&e.base), name)
             }
-            syn::Expr::Index(e) => ExprKind::Index(self.link(&e.expr), self.boxed(&e.index)),
+            syn::Expr::Index(e) => ExprKind::Index(self.lower_link(&e.expr), self.boxed(&e.index)),
             syn::Expr::If(e) if has_let(&e.cond) => self.if_let(e),
             syn::Expr::If(e) => {
                 let condition = self.boxed(&e.cond);
-                let then = self.block(&e.then_branch);
-                let otherwise = e.else_branch.as_ref().map(|(_, other)| self.link(other));
+                let then = self.lower_block(&e.then_branch);
+                let otherwise = e.else_branch.as_ref().map(|(_, other)| self.lower_link(other));
                 ExprKind::If(condition, then, otherwise, self.branch_attribute(&e.attrs))
             }
-            syn::Expr::Match(e) => self.match_(e),
-            syn::Expr::Block(e) if e.label.is_none() => ExprKind::Block(self.block(&e.block)),
-            syn::Expr::Block(e) => self.labelled(e),
-            syn::Expr::Tuple(e) => ExprKind::Tuple(e.elems.iter().map(|e| self.expr(e)).collect()),
-            syn::Expr::Array(e) => ExprKind::Array(e.elems.iter().map(|e| self.expr(e)).collect()),
+            syn::Expr::Match(e) => self.lower_match(e),
+            syn::Expr::Block(e) if e.label.is_none() => ExprKind::Block(self.lower_block(&e.block)),
+            syn::Expr::Block(e) => self.lower_labelled(e),
+            syn::Expr::Tuple(e) => ExprKind::Tuple(e.elems.iter().map(|e| self.lower_expr(e)).collect()),
+            syn::Expr::Array(e) => ExprKind::Array(e.elems.iter().map(|e| self.lower_expr(e)).collect()),
             syn::Expr::Repeat(e) => ExprKind::Repeat(self.boxed(&e.expr), self.boxed(&e.len)),
-            syn::Expr::Struct(e) => self.struct_(e),
-            syn::Expr::Cast(e) => ExprKind::Cast(self.link(&e.expr), self.ty(&e.ty)),
-            syn::Expr::Range(e) => self.range(e),
+            syn::Expr::Struct(e) => self.lower_struct(e),
+            syn::Expr::Cast(e) => ExprKind::Cast(self.lower_link(&e.expr), self.lower_type(&e.ty)),
+            syn::Expr::Range(e) => self.lower_range(e),
             syn::Expr::ForLoop(e) => {
-                let over = self.expr(&e.expr);
-                let label = label(e.label.as_ref().map(|l| &l.name));
-                let (unroll, pattern) = (self.unroll_attribute(&e.attrs), self.pattern(&e.pat));
-                let (body, _) = self.inside(label.clone(), Kind::Other("for"), |lower| lower.block(&e.body));
+                let over = self.lower_expr(&e.expr);
+                let label = label_name(e.label.as_ref().map(|l| &l.name));
+                let (unroll, pattern) = (self.unroll_attribute(&e.attrs), self.lower_pattern(&e.pat));
+                let (body, _) = self.with_target(label.clone(), Kind::Other("for"), |lower| lower.lower_block(&e.body));
                 ExprKind::For(Box::new(ForLoop {
                     label,
                     unroll,
@@ -267,25 +267,26 @@ impl Lower {
             }
             syn::Expr::While(e) if has_let(&e.cond) => self.while_let(e),
             syn::Expr::While(e) => {
-                let label = label(e.label.as_ref().map(|l| &l.name));
-                let condition = self.expr(&e.cond);
-                let (body, _) = self.inside(label.clone(), Kind::Other("while"), |lower| lower.block(&e.body));
-                self.while_(condition, body, label, &e.attrs)
+                let label = label_name(e.label.as_ref().map(|l| &l.name));
+                let condition = self.lower_expr(&e.cond);
+                let (body, _) =
+                    self.with_target(label.clone(), Kind::Other("while"), |lower| lower.lower_block(&e.body));
+                self.lower_while(condition, body, label, &e.attrs)
             }
-            syn::Expr::Loop(e) => self.loop_(e),
-            syn::Expr::Try(e) => ExprKind::Try(self.link(&e.expr)),
+            syn::Expr::Loop(e) => self.lower_loop(e),
+            syn::Expr::Try(e) => ExprKind::Try(self.lower_link(&e.expr)),
             syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
-            syn::Expr::Break(e) => self.break_(e),
-            syn::Expr::Continue(e) => ExprKind::Continue(label(e.label.as_ref())),
+            syn::Expr::Break(e) => self.lower_break(e),
+            syn::Expr::Continue(e) => ExprKind::Continue(label_name(e.label.as_ref())),
             syn::Expr::Macro(e) => self.macro_call(&e.mac),
-            syn::Expr::Closure(e) => self.closure(e),
-            other => self.refused(other),
+            syn::Expr::Closure(e) => self.lower_closure(e),
+            other => self.refuse_expr(other),
         }
     }
 
     /// `None::<T>`: a `None` where its type is stated.
     fn typed_none(&mut self, held: Type, at: proc_macro2::Span) -> ExprKind {
-        let span = self.span(at);
+        let span = self.token_span(at);
         let none = self.path_expr(vec!["Option".to_owned(), "None".to_owned()], at);
         let ty = Type::Name("Option".to_owned(), vec![held]);
         ExprKind::Block(Block {
@@ -300,7 +301,7 @@ impl Lower {
         })
     }
 
-    fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
+    fn refuse_expr(&mut self, expr: &syn::Expr) -> ExprKind {
         let (what, instead) = match expr {
             syn::Expr::Let(_) => (
                 "a `let` here",
@@ -319,7 +320,7 @@ impl Lower {
                 "see the kernel language's documentation for what there is",
             ),
         };
-        self.unsupported(expr.span(), what, instead);
+        self.note_unsupported(expr.span(), what, instead);
         ExprKind::Tuple(Vec::new())
     }
 
@@ -329,7 +330,7 @@ impl Lower {
             return self.matches_macro(call);
         }
         if !call.path.is_ident("assert") {
-            self.unsupported(
+            self.note_unsupported(
                 call.span(),
                 "a macro other than `assert!` and `matches!`",
                 "write out what it stands for",
@@ -351,7 +352,7 @@ impl Lower {
                 ],
             ) if !message.value().contains(['{', '}']) => ExprKind::Assert(self.boxed(condition), message.value()),
             _ => {
-                self.unsupported(
+                self.note_unsupported(
                     call.span(),
                     "this `assert!`",
                     "give a condition and a message without values: `assert!(radius > 0, \"no radius\")`",
@@ -361,21 +362,21 @@ impl Lower {
         }
     }
 
-    fn unary(&mut self, e: &syn::ExprUnary) -> ExprKind {
+    fn lower_unary(&mut self, e: &syn::ExprUnary) -> ExprKind {
         match e.op {
             syn::UnOp::Neg(_) => ExprKind::Unary(UnaryOp::Neg, self.boxed(&e.expr)),
             syn::UnOp::Not(_) => ExprKind::Unary(UnaryOp::Not, self.boxed(&e.expr)),
             syn::UnOp::Deref(_) => ExprKind::Deref(self.boxed(&e.expr)),
             _ => {
-                self.unsupported(e.span(), "this operator", "use `-` or `!`");
+                self.note_unsupported(e.span(), "this operator", "use `-` or `!`");
                 ExprKind::Tuple(Vec::new())
             }
         }
     }
 
-    fn binary(&mut self, e: &syn::ExprBinary) -> ExprKind {
+    fn lower_binary(&mut self, e: &syn::ExprBinary) -> ExprKind {
         use syn::BinOp as B;
-        let (left, right) = (self.link(&e.left), self.boxed(&e.right));
+        let (left, right) = (self.lower_link(&e.left), self.boxed(&e.right));
         let op = match e.op {
             B::And(_) => return ExprKind::Lazy(true, left, right),
             B::Or(_) => return ExprKind::Lazy(false, left, right),
@@ -396,24 +397,24 @@ impl Lower {
             B::Gt(_) => BinaryOp::Gt,
             B::Ge(_) => BinaryOp::Ge,
             _ => {
-                self.unsupported(e.span(), "this operator", "use the operators of numbers and booleans");
+                self.note_unsupported(e.span(), "this operator", "use the operators of numbers and booleans");
                 return ExprKind::Tuple(Vec::new());
             }
         };
-        match assigns(&e.op) {
+        match is_assignment(&e.op) {
             false => ExprKind::Binary(op, left, right),
             true => ExprKind::Assign(left, Some(op), right),
         }
     }
 
-    fn call(&mut self, e: &syn::ExprCall) -> ExprKind {
-        let args = e.args.iter().map(|a| self.expr(a)).collect();
+    fn lower_call(&mut self, e: &syn::ExprCall) -> ExprKind {
+        let args = e.args.iter().map(|a| self.lower_expr(a)).collect();
         match &*e.func {
             syn::Expr::Path(path) if self.of_type(path).is_some() => {
                 let constants = self.generic_arguments(&path.path);
                 ExprKind::Call(self.of_type(path).unwrap_or_default(), constants, args)
             }
-            other => ExprKind::Invoke(self.link(other), args),
+            other => ExprKind::Invoke(self.lower_link(other), args),
         }
     }
 
@@ -425,13 +426,13 @@ impl Lower {
         let mut constants = Vec::new();
         for arg in &list.args {
             let kind = match arg {
-                syn::GenericArgument::Const(e) => self.expr(e).kind,
+                syn::GenericArgument::Const(e) => self.lower_expr(e).kind,
                 syn::GenericArgument::Type(syn::Type::Infer(_)) => ExprKind::Path(vec![INFERRED.to_owned()]),
                 syn::GenericArgument::Type(ty) => self.type_argument(ty),
                 // Lifetimes have no parameter to bind; the others are refused before.
                 _ => continue,
             };
-            let span = self.span(arg.span());
+            let span = self.token_span(arg.span());
             constants.push(Expr { kind, span });
         }
         constants
@@ -440,16 +441,16 @@ impl Lower {
     /// A type in `::<>`, written as what has it: a name, which may be a constant's, `[T; n]` or `(A, B)`.
     fn type_argument(&mut self, ty: &syn::Type) -> ExprKind {
         match ty {
-            syn::Type::Path(t) => ExprKind::Path(self.segments(&t.path)),
+            syn::Type::Path(t) => ExprKind::Path(self.path_segments(&t.path)),
             syn::Type::Array(t) => {
                 let kind = self.type_argument(&t.elem);
-                let span = self.span(t.elem.span());
+                let span = self.token_span(t.elem.span());
                 ExprKind::Repeat(Box::new(Expr { kind, span }), self.boxed(&t.len))
             }
             syn::Type::Tuple(t) => {
                 let parts = t.elems.iter().map(|part| Expr {
                     kind: self.type_argument(part),
-                    span: self.span(part.span()),
+                    span: self.token_span(part.span()),
                 });
                 ExprKind::Tuple(parts.collect())
             }
@@ -457,23 +458,23 @@ impl Lower {
         }
     }
 
-    fn struct_(&mut self, e: &syn::ExprStruct) -> ExprKind {
-        let path = self.segments(&e.path);
+    fn lower_struct(&mut self, e: &syn::ExprStruct) -> ExprKind {
+        let path = self.path_segments(&e.path);
         let mut fields = Vec::new();
         for field in &e.fields {
-            fields.push((member(&field.member), self.expr(&field.expr)));
+            fields.push((member_name(&field.member), self.lower_expr(&field.expr)));
         }
         ExprKind::Struct(path, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
     }
 
-    fn range(&mut self, e: &syn::ExprRange) -> ExprKind {
+    fn lower_range(&mut self, e: &syn::ExprRange) -> ExprKind {
         match (&e.start, &e.end) {
             (Some(start), Some(end)) => {
                 let inclusive = matches!(e.limits, syn::RangeLimits::Closed(_));
                 ExprKind::Range(self.boxed(start), self.boxed(end), inclusive)
             }
             _ => {
-                self.unsupported(e.span(), "a range without both ends", "write both: `0..n`");
+                self.note_unsupported(e.span(), "a range without both ends", "write both: `0..n`");
                 ExprKind::Tuple(Vec::new())
             }
         }
@@ -501,19 +502,19 @@ pub fn held_by_none(path: &syn::Path) -> Option<&syn::Type> {
 }
 
 /// The name of a field, or its number.
-pub fn member(member: &syn::Member) -> Name {
+pub fn member_name(member: &syn::Member) -> Name {
     match member {
         syn::Member::Named(name) => name.to_string().into(),
         syn::Member::Unnamed(index) => index.index.to_string().into(),
     }
 }
 
-pub fn label(label: Option<&syn::Lifetime>) -> Option<String> {
+pub fn label_name(label: Option<&syn::Lifetime>) -> Option<String> {
     label.map(|l| l.ident.to_string())
 }
 
 /// Returns whether an operator assigns its result to its left side.
-fn assigns(op: &syn::BinOp) -> bool {
+fn is_assignment(op: &syn::BinOp) -> bool {
     use syn::BinOp as B;
     matches!(
         op,

@@ -23,7 +23,7 @@ pub struct Import {
 
 impl Import {
     /// The name and why the kernel may not use it, if what it stands for is not in the kernel's files.
-    pub fn refused(self, library: &Library) -> Option<(String, Diagnostic)> {
+    pub fn missing_error(self, library: &Library) -> Option<(String, Diagnostic)> {
         let (there, here) = self.name;
         let given = library.functions.contains_key(&there)
             || library.consts.contains_key(&there)
@@ -35,7 +35,7 @@ impl Import {
         if given || known || self.prelude {
             return None;
         }
-        let error = Diagnostic::at(
+        let error = Diagnostic::error_at(
             Code::MissingFile,
             self.span,
             format!("`{there}` is not among the kernel's files"),
@@ -78,7 +78,7 @@ pub fn is_resource(name: &str) -> bool {
         "Shared",
         "AtomicShared",
     ];
-    TextureType::named(name).is_some() || others.contains(&name)
+    TextureType::from_name(name).is_some() || others.contains(&name)
 }
 
 /// Types of Rust, of glam and of the prelude, which the evaluator knows by their names.
@@ -115,7 +115,7 @@ pub fn is_prelude_type(name: &str) -> bool {
 
 impl Items {
     /// An item that no kernel may reach.
-    pub(super) fn elsewhere(&mut self, item: &mut syn::Item, mut check: Check) {
+    pub(super) fn note_foreign_item(&mut self, item: &mut syn::Item, mut check: Check) {
         macro_rules! named {
             ($item:expr, $what:literal, $instead:literal) => {{
                 if check.keeps(&mut $item.attrs) {
@@ -139,11 +139,11 @@ impl Items {
                         syn::ForeignItem::Type(t) => &t.ident,
                         // A macro, or unstable syntax.
                         _ => {
-                            self.hidden(inner.to_token_stream(), check.beside());
+                            self.refuse_definitions(inner.to_token_stream(), check.for_same_file());
                             continue;
                         }
                     };
-                    let mut check = check.beside();
+                    let mut check = check.for_same_file();
                     check.refuse(name.span(), "an item of an `extern` block", "write it in Rust");
                     self.note(&name.to_string(), TokenStream::new(), check);
                 }
@@ -151,7 +151,7 @@ impl Items {
             syn::Item::Use(i) => {
                 if check.keeps(&mut i.attrs) {
                     let mut path = Vec::new();
-                    self.import(&check, &i.tree, &mut path);
+                    self.collect_imports(&check, &i.tree, &mut path);
                 }
             }
             syn::Item::Macro(m) => {
@@ -165,28 +165,28 @@ impl Items {
                     }
                     // Calls of it are refused where they stand.
                     Some(_) => {}
-                    None => self.hidden(m.mac.tokens.clone(), check),
+                    None => self.refuse_definitions(m.mac.tokens.clone(), check),
                 }
             }
             // Another crate's name only stands before `::`.
             syn::Item::ExternCrate(_) => {}
-            other => self.hidden(other.to_token_stream(), check),
+            other => self.refuse_definitions(other.to_token_stream(), check),
         }
     }
 
     /// Text that may define anything, as a macro does: what looks like a definition in it is refused.
-    pub(super) fn hidden(&mut self, text: TokenStream, check: Check) {
+    pub(super) fn refuse_definitions(&mut self, text: TokenStream, check: Check) {
         let mut tokens = text.into_iter().peekable();
         while let Some(token) = tokens.next() {
             match (token, tokens.peek()) {
-                (TokenTree::Group(group), _) => self.hidden(group.stream(), check.beside()),
+                (TokenTree::Group(group), _) => self.refuse_definitions(group.stream(), check.for_same_file()),
                 (TokenTree::Ident(word), Some(TokenTree::Ident(name)))
                     if [
                         "fn", "const", "static", "struct", "enum", "union", "type", "trait", "ref",
                     ]
                     .contains(&word.to_string().as_str()) =>
                 {
-                    let mut check = check.beside();
+                    let mut check = check.for_same_file();
                     check.refuse(
                         name.span(),
                         &format!("`{name}`, which a macro or unstable syntax defines,"),
@@ -199,35 +199,35 @@ impl Items {
         }
     }
 
-    fn import(&mut self, check: &Check, tree: &syn::UseTree, path: &mut Vec<String>) {
+    fn collect_imports(&mut self, check: &Check, tree: &syn::UseTree, path: &mut Vec<String>) {
         match tree {
             syn::UseTree::Path(p) => {
                 path.push(p.ident.to_string());
-                self.import(check, &p.tree, path);
+                self.collect_imports(check, &p.tree, path);
                 path.pop();
             }
-            syn::UseTree::Group(g) => g.items.iter().for_each(|tree| self.import(check, tree, path)),
+            syn::UseTree::Group(g) => g.items.iter().for_each(|tree| self.collect_imports(check, tree, path)),
             syn::UseTree::Glob(_) => {}
-            syn::UseTree::Name(n) => self.imported(check, path, (&n.ident, &n.ident)),
+            syn::UseTree::Name(n) => self.import_name(check, path, (&n.ident, &n.ident)),
             syn::UseTree::Rename(r) => {
                 if r.rename != "_" {
-                    self.imported(check, path, (&r.ident, &r.rename));
+                    self.import_name(check, path, (&r.ident, &r.rename));
                 }
             }
         }
     }
 
-    fn imported(&mut self, check: &Check, path: &[String], (there, here): (&syn::Ident, &syn::Ident)) {
+    fn import_name(&mut self, check: &Check, path: &[String], (there, here): (&syn::Ident, &syn::Ident)) {
         let (there, name) = (there.to_string(), here.to_string());
         if name == "self" || there == "self" {
             return;
         }
-        self.takes(Import {
+        self.add_import(Import {
             root: path.first().cloned().unwrap_or_default(),
             of: path.last().cloned().unwrap_or_default(),
             prelude: path.iter().any(|segment| segment == "prelude"),
             name: (there, name),
-            span: check.span(here.span()),
+            span: check.token_span(here.span()),
         });
     }
 }

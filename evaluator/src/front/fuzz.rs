@@ -126,7 +126,7 @@ const NESTED: &[(&str, &str, &str)] = &[
 const STACKS: [usize; 2] = [2 << 20, 256 << 20];
 
 /// The front end on the stacks that it runs on: nothing of this may end the process.
-fn read(text: String) {
+fn run_front_end(text: String) {
     let of_parsing = text.clone();
     let find = move || drop(super::kernel_of(&text, "k", "k.rs"));
     let parse = move || {
@@ -154,7 +154,7 @@ fn texts_that_nest_without_brackets_are_refused() {
     for (before, repeated, after) in NESTED {
         for count in sizes {
             eprintln!("{count} × `{repeated}` after `{before}`");
-            read(format!("{before}{}{after}", repeated.repeat(*count)));
+            run_front_end(format!("{before}{}{after}", repeated.repeat(*count)));
         }
     }
 }
@@ -177,5 +177,5 @@ fn long_texts_are_read() {
         table.join(", "),
         compared.join(", ")
     );
-    assert_eq!(super::depth::check(0, &text).map_err(|e| e.message), Ok(()));
+    assert_eq!(super::depth::check_depth(0, &text).map_err(|e| e.message), Ok(()));
 }

@@ -84,7 +84,7 @@ fn of_block(block: &mut syn::Block, around: &[syn::ItemConst], out: &mut Vec<syn
                 | syn::Item::Type(_)
                 | syn::Item::Use(_)),
             ) => {
-                give(&mut item, constants);
+                give_constants(&mut item, constants);
                 out.push(item);
                 continue;
             }
@@ -121,19 +121,19 @@ fn of_expr(e: &mut syn::Expr, constants: &[syn::ItemConst], out: &mut Vec<syn::I
 }
 
 /// Gives the functions of an item the constants of the blocks around it.
-fn give(item: &mut syn::Item, constants: &[syn::ItemConst]) {
+fn give_constants(item: &mut syn::Item, constants: &[syn::ItemConst]) {
     match item {
-        syn::Item::Fn(f) => prepend(&mut f.block, constants),
+        syn::Item::Fn(f) => prepend_constants(&mut f.block, constants),
         syn::Item::Impl(i) => i.items.iter_mut().for_each(|inner| {
             if let syn::ImplItem::Fn(f) = inner {
-                prepend(&mut f.block, constants);
+                prepend_constants(&mut f.block, constants);
             }
         }),
         syn::Item::Trait(t) => t.items.iter_mut().for_each(|inner| {
             if let syn::TraitItem::Fn(f) = inner
                 && let Some(block) = &mut f.default
             {
-                prepend(block, constants);
+                prepend_constants(block, constants);
             }
         }),
         _ => {}
@@ -142,7 +142,7 @@ fn give(item: &mut syn::Item, constants: &[syn::ItemConst]) {
 
 /// Lets a block begin with those of some constants that it mentions, and those that they are made of; with none, where it has one
 /// of its own of such a name.
-fn prepend(block: &mut syn::Block, constants: &[syn::ItemConst]) {
+fn prepend_constants(block: &mut syn::Block, constants: &[syn::ItemConst]) {
     if constants.is_empty() {
         return;
     }
@@ -152,14 +152,14 @@ fn prepend(block: &mut syn::Block, constants: &[syn::ItemConst]) {
     });
     let own: HashSet<String> = own.collect();
     let mut mentioned = HashSet::new();
-    names(block.to_token_stream(), &mut mentioned);
+    collect_names(block.to_token_stream(), &mut mentioned);
     mentioned.retain(|name| !own.contains(name));
     let mut given: Vec<&syn::ItemConst> = Vec::new();
     while let Some(next) = constants.iter().find(|constant| {
         mentioned.contains(&constant.ident.to_string()) && given.iter().all(|known| known.ident != constant.ident)
     }) {
-        names(next.expr.to_token_stream(), &mut mentioned);
-        names(next.ty.to_token_stream(), &mut mentioned);
+        collect_names(next.expr.to_token_stream(), &mut mentioned);
+        collect_names(next.ty.to_token_stream(), &mut mentioned);
         given.push(next);
     }
     if given.iter().any(|constant| own.contains(&constant.ident.to_string())) {
@@ -170,10 +170,10 @@ fn prepend(block: &mut syn::Block, constants: &[syn::ItemConst]) {
 }
 
 /// Every name in a text.
-fn names(text: TokenStream, out: &mut HashSet<String>) {
+fn collect_names(text: TokenStream, out: &mut HashSet<String>) {
     for token in text {
         match token {
-            TokenTree::Group(group) => names(group.stream(), out),
+            TokenTree::Group(group) => collect_names(group.stream(), out),
             TokenTree::Ident(name) => {
                 out.insert(name.to_string());
             }
@@ -186,7 +186,7 @@ fn names(text: TokenStream, out: &mut HashSet<String>) {
 pub type Brought = (Vec<syn::Ident>, Option<(syn::Ident, syn::Ident)>);
 
 /// Lists the imports of a path of a `use`: the segments before, and each name with the name by which it is known here; `None` for `*`.
-pub fn imports(tree: &syn::UseTree) -> Vec<Brought> {
+pub fn list_imports(tree: &syn::UseTree) -> Vec<Brought> {
     let mut found = Vec::new();
     walk(tree, &mut Vec::new(), &mut found);
     found

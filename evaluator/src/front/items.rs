@@ -49,14 +49,14 @@ pub(super) struct Owner {
 impl Items {
     /// For files whose names are known.
     pub fn new(files: &[(u32, syn::File)]) -> Self {
-        let (names, wrong) = Names::of(files);
+        let (names, wrong) = Names::from_files(files);
         let mut items = Items {
             names: Rc::new(names),
             ..Items::default()
         };
-        for (here, there) in Rc::clone(&items.names).functions() {
+        for (here, there) in Rc::clone(&items.names).renamed_functions() {
             items.note_errors_of(&here, Vec::new());
-            items.mentions.needs(&here, &there);
+            items.mentions.add_need(&here, &there);
         }
         for (name, error) in wrong {
             items.note_errors_of(&name, vec![error]);
@@ -66,16 +66,16 @@ impl Items {
 
     /// Takes a file. Tests and what `cfg` removes are passed over; items that are not part of the kernel language are noted by their
     /// names, and refused where the kernel reaches them.
-    pub fn file(&mut self, file: u32, parsed: &mut syn::File) {
+    pub fn add_file(&mut self, file: u32, parsed: &mut syn::File) {
         let mut check = Check::new(file);
         let kept = check.keeps(&mut parsed.attrs);
-        self.duplicates.extend(check.errors());
+        self.duplicates.extend(check.into_errors());
         if kept {
-            self.collect(file, &mut parsed.items);
+            self.add_items(file, &mut parsed.items);
         }
     }
 
-    fn collect(&mut self, file: u32, items: &mut [syn::Item]) {
+    fn add_items(&mut self, file: u32, items: &mut [syn::Item]) {
         for item in items {
             let mut check = Check::new(file);
             let attrs = match item {
@@ -83,7 +83,7 @@ impl Items {
                 syn::Item::Enum(e) => &e.attrs,
                 _ => &Vec::new(),
             };
-            if derives(attrs).iter().any(|derived| derived == "Default") {
+            if derived_traits(attrs).iter().any(|derived| derived == "Default") {
                 let written = super::derived::derived_default(item);
                 self.implementations.extend(written.map(|written| (file, written)));
             }
@@ -92,9 +92,9 @@ impl Items {
                     if is_test(&f.attrs) || !check.keeps_function(&mut f.attrs) {
                         continue;
                     }
-                    check.function(&mut f.sig, &mut f.block);
+                    check.check_function(&mut f.sig, &mut f.block);
                     let name = f.sig.ident.to_string();
-                    self.function(file, &f.sig, &f.block, &f.attrs, None);
+                    self.add_function(file, &f.sig, &f.block, &f.attrs, None);
                     self.note(&name, f.to_token_stream(), check);
                 }
                 syn::Item::Const(c) => {
@@ -102,21 +102,21 @@ impl Items {
                         continue;
                     }
                     check.constant_name(&c.ident);
-                    check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                    check.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
                     let name = c.ident.to_string();
-                    self.constant(file, c);
+                    self.add_constant(file, c);
                     self.note(&name, c.to_token_stream(), check);
                 }
                 syn::Item::Static(s) => {
                     if !check.keeps(&mut s.attrs) {
                         continue;
                     }
-                    self.variable(file, s, check);
+                    self.add_static(file, s, check);
                 }
                 syn::Item::Type(t) => {
                     if check.keeps(&mut t.attrs) {
-                        check.generics(&mut t.generics);
-                        check.ty(&mut t.ty);
+                        check.check_generics(&mut t.generics);
+                        check.check_type(&mut t.ty);
                         if let Some(first) = t.generics.params.first() {
                             check.refuse(
                                 first.span(),
@@ -132,9 +132,9 @@ impl Items {
                         continue;
                     }
                     self.type_name(&mut check, &s.ident);
-                    check.structure(s);
+                    check.check_struct(s);
                     let name = s.ident.to_string();
-                    self.structure(file, s);
+                    self.add_struct(file, s);
                     self.note(&name, s.to_token_stream(), check);
                 }
                 syn::Item::Enum(e) => {
@@ -142,12 +142,12 @@ impl Items {
                         continue;
                     }
                     self.type_name(&mut check, &e.ident);
-                    check.variants(e);
+                    check.check_enum(e);
                     let name = e.ident.to_string();
                     if file == super::std::FILE && self.library.has_type(&name) {
                         continue;
                     }
-                    self.enumeration(file, e);
+                    self.add_enum(file, e);
                     self.note(&name, e.to_token_stream(), check);
                 }
                 syn::Item::Impl(i) => {
@@ -156,29 +156,29 @@ impl Items {
                     }
                     match i.trait_.is_some() {
                         true => self.implementations.push((file, i.clone())),
-                        false => self.implementation(file, i, check),
+                        false => self.add_inherent_impl(file, i, check),
                     }
                 }
                 syn::Item::Trait(t) => {
                     if check.keeps(&mut t.attrs) {
-                        self.trait_(file, t, check);
+                        self.add_trait(file, t, check);
                     }
                 }
                 syn::Item::Mod(m) => {
                     if check.keeps(&mut m.attrs)
                         && let Some((_, inner)) = &mut m.content
                     {
-                        self.duplicates.extend(check.errors());
-                        self.collect(file, inner);
+                        self.duplicates.extend(check.into_errors());
+                        self.add_items(file, inner);
                     }
                 }
                 syn::Item::Macro(m) if m.mac.path.segments.last().is_some_and(|s| s.ident == "options") => {
                     if check.keeps(&mut m.attrs) {
-                        self.duplicates.extend(check.errors());
-                        self.options(file, &m.mac);
+                        self.duplicates.extend(check.into_errors());
+                        self.add_options(file, &m.mac);
                     }
                 }
-                other => self.elsewhere(other, check),
+                other => self.note_foreign_item(other, check),
             }
         }
     }
@@ -186,7 +186,7 @@ impl Items {
     /// Notes an item's errors, and what its text mentions.
     pub(super) fn note(&mut self, name: &str, text: TokenStream, check: Check) {
         self.mentions.add(name, text);
-        self.note_errors_of(name, check.errors());
+        self.note_errors_of(name, check.into_errors());
     }
 
     /// Notes a function of an implementation of a trait.
@@ -195,13 +195,13 @@ impl Items {
     }
 
     /// Notes a name that a file imports.
-    pub(super) fn takes(&mut self, import: Import) {
+    pub(super) fn add_import(&mut self, import: Import) {
         self.imports.push(import);
     }
 
     /// Notes errors that concern every kernel of the files.
     pub(super) fn refuse_all(&mut self, check: Check) {
-        self.duplicates.extend(check.errors());
+        self.duplicates.extend(check.into_errors());
     }
 
     /// Notes errors of an item under its name: they count for the kernels that reach it.
@@ -220,11 +220,11 @@ impl Items {
             );
         }
         if self.library.has_type(&shown) {
-            check.twice(name);
+            check.note_duplicate(name);
         }
     }
 
-    fn function(
+    fn add_function(
         &mut self,
         file: u32,
         sig: &syn::Signature,
@@ -232,13 +232,13 @@ impl Items {
         attrs: &[syn::Attribute],
         of: Option<&Owner>,
     ) {
-        let name = qualified(of.map(|of| of.name.as_str()), &sig.ident);
-        let (function, errors) = self.lowered(file, sig, body, attrs, of);
+        let name = qualified_name(of.map(|of| of.name.as_str()), &sig.ident);
+        let (function, errors) = self.lower_function(file, sig, body, attrs, of);
         if file == super::std::FILE && self.library.functions.contains_key(&name) {
             return;
         }
         if self.library.functions.contains_key(&name) {
-            self.duplicate(&self.lower_of(file), sig.ident.span(), &name);
+            self.note_duplicate(&self.lower_of(file), sig.ident.span(), &name);
         }
         self.insert(&name, &sig.ident, function);
         self.note_errors_of(&name, errors);
@@ -256,7 +256,7 @@ impl Items {
     }
 
     /// A function, and what is wrong with it.
-    pub(super) fn lowered(
+    pub(super) fn lower_function(
         &self,
         file: u32,
         sig: &syn::Signature,
@@ -271,8 +271,8 @@ impl Items {
         lower.called_parameters(&sig.generics);
         let (mut params, mut parts) = (Vec::new(), Vec::new());
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
-        let mut generics = lower.generics(&sig.generics);
-        let mut bounds = lower.bounds(&sig.generics);
+        let mut generics = lower.lower_generics(&sig.generics);
+        let mut bounds = lower.trait_bounds(&sig.generics);
         for input in &sig.inputs {
             match input {
                 syn::FnArg::Receiver(receiver) => {
@@ -280,19 +280,19 @@ impl Items {
                         name: "self".into(),
                         ty: receiver_type(&mut lower, receiver),
                         mutable: receiver.mutability.is_some(),
-                        span: lower.span(receiver.span()),
+                        span: lower.token_span(receiver.span()),
                     });
                 }
                 syn::FnArg::Typed(typed) => {
                     lower.in_parameters = true;
-                    let ty = lower.ty(&typed.ty);
+                    let ty = lower.lower_type(&typed.ty);
                     lower.in_parameters = false;
                     match &*typed.pat {
                         syn::Pat::Ident(p) => params.push(Param {
                             name: p.ident.to_string().into(),
                             ty,
                             mutable: p.mutability.is_some(),
-                            span: lower.span(p.span()),
+                            span: lower.token_span(p.span()),
                         }),
                         other => {
                             let (param, taken) = lower.pattern_parameter(other, ty, params.len());
@@ -313,13 +313,13 @@ impl Items {
         }
         let result = match &sig.output {
             syn::ReturnType::Default => Type::Tuple(Vec::new()),
-            syn::ReturnType::Type(_, ty) => lower.ty(ty),
+            syn::ReturnType::Type(_, ty) => lower.lower_type(ty),
         };
-        let span = lower.span(sig.ident.span());
-        let mut body = super::parts::before(parts, lower.block(body), span);
+        let span = lower.token_span(sig.ident.span());
+        let mut body = super::parts::prepend_statements(parts, lower.lower_block(body), span);
         body.exact = lower.exact_attribute(attrs);
         let function = Function {
-            docs: docs(attrs),
+            docs: doc_text(attrs),
             unroll: lower.unroll_of_function(attrs),
             generics,
             bounds,
@@ -332,7 +332,7 @@ impl Items {
     }
 
     /// A `static`, which is a constant where nothing changes it.
-    fn variable(&mut self, file: u32, item: &mut syn::ItemStatic, mut check: Check) {
+    fn add_static(&mut self, file: u32, item: &mut syn::ItemStatic, mut check: Check) {
         if let syn::StaticMutability::Mut(token) = &item.mutability {
             check.refuse(
                 token.span(),
@@ -341,48 +341,48 @@ impl Items {
             );
         }
         check.constant_name(&item.ident);
-        check.constant(&mut syn::Generics::default(), &mut item.ty, &mut item.expr);
+        check.check_constant(&mut syn::Generics::default(), &mut item.ty, &mut item.expr);
         let (name, ty, value) = (&item.ident, &item.ty, &item.expr);
         if let Ok(constant) = syn::parse2(quote::quote!(const #name: #ty = #value;)) {
-            self.constant(file, &constant);
+            self.add_constant(file, &constant);
         }
         self.note(&name.to_string(), item.to_token_stream(), check);
     }
 
-    fn constant(&mut self, file: u32, item: &syn::ItemConst) {
+    fn add_constant(&mut self, file: u32, item: &syn::ItemConst) {
         let mut lower = self.lower_of(file);
-        let constant = lower.constant(item);
+        let constant = lower.lower_constant(item);
         if self.library.consts.contains_key(&constant.name) {
-            self.duplicate(&lower, item.ident.span(), &constant.name);
+            self.note_duplicate(&lower, item.ident.span(), &constant.name);
         }
         self.note_errors_of(&constant.name, lower.errors);
         self.library.consts.insert(constant.name.clone(), constant);
     }
 
-    fn structure(&mut self, file: u32, item: &syn::ItemStruct) {
+    fn add_struct(&mut self, file: u32, item: &syn::ItemStruct) {
         let mut lower = self.lower_of(file);
         let definition = Struct {
-            generics: lower.generics(&item.generics),
-            fields: fields(&mut lower, &item.fields),
-            derives: derives(&item.attrs),
+            generics: lower.lower_generics(&item.generics),
+            fields: lower_fields(&mut lower, &item.fields),
+            derives: derived_traits(&item.attrs),
         };
         self.library.structs.insert(item.ident.to_string(), definition);
         self.note_errors_of(&item.ident.to_string(), lower.errors);
     }
 
-    fn enumeration(&mut self, file: u32, item: &syn::ItemEnum) {
+    fn add_enum(&mut self, file: u32, item: &syn::ItemEnum) {
         let name = item.ident.to_string();
         let mut lower = self.lower_of(file);
         let variants = item.variants.iter().map(|variant| Variant {
             name: variant.ident.to_string(),
-            docs: docs(&variant.attrs),
-            fields: fields(&mut lower, &variant.fields),
+            docs: doc_text(&variant.attrs),
+            fields: lower_fields(&mut lower, &variant.fields),
         });
         let variants = variants.collect();
         let definition = Enum {
-            generics: lower.generics(&item.generics),
+            generics: lower.lower_generics(&item.generics),
             variants,
-            derives: derives(&item.attrs),
+            derives: derived_traits(&item.attrs),
         };
         self.library.enums.insert(name.clone(), definition);
         self.note_errors_of(&name, lower.errors);
@@ -393,33 +393,33 @@ impl Items {
         Lower::new(file, None, Rc::clone(&self.names))
     }
 
-    fn implementation(&mut self, file: u32, item: &mut syn::ItemImpl, mut check: Check) {
+    fn add_inherent_impl(&mut self, file: u32, item: &mut syn::ItemImpl, mut check: Check) {
         let mut lower = self.lower_of(file);
-        let ty = lower.ty(&item.self_ty);
+        let ty = lower.lower_type(&item.self_ty);
         let Type::Name(of, _) = &ty else {
             return self.duplicates.extend(lower.errors);
         };
         let of = Owner {
             name: of.clone(),
-            generics: lower.generics(&item.generics),
-            bounds: lower.bounds(&item.generics),
+            generics: lower.lower_generics(&item.generics),
+            bounds: lower.trait_bounds(&item.generics),
             ty: ty.clone(),
             stands: HashMap::new(),
         };
         if let Some(default) = &item.modifiers.defaultness {
             check.refuse(default.span(), "`default`", "leave it out");
         }
-        let of_all = check.errors();
+        let of_all = check.into_errors();
         for inner in &mut item.items {
             let mut check = Check::new(file);
-            check.generics(&mut item.generics);
+            check.check_generics(&mut item.generics);
             let name = match inner {
                 syn::ImplItem::Fn(f) => {
                     if !check.keeps_function(&mut f.attrs) {
                         continue;
                     }
-                    check.function(&mut f.sig, &mut f.block);
-                    self.function(file, &f.sig, &f.block, &f.attrs, Some(&of));
+                    check.check_function(&mut f.sig, &mut f.block);
+                    self.add_function(file, &f.sig, &f.block, &f.attrs, Some(&of));
                     &f.sig.ident
                 }
                 syn::ImplItem::Const(c) => {
@@ -427,13 +427,13 @@ impl Items {
                         continue;
                     }
                     check.constant_name(&c.ident);
-                    check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                    check.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
                     let mut lower = self.lower_within(file, &of);
                     let name = format!("{}::{}", of.name, c.ident);
-                    let value = lower.expr(&c.expr);
-                    let ty = lower.ty(&c.ty);
+                    let value = lower.lower_expr(&c.expr);
+                    let ty = lower.lower_type(&c.ty);
                     if self.library.consts.contains_key(&name) {
-                        self.duplicate(&lower, c.ident.span(), &name);
+                        self.note_duplicate(&lower, c.ident.span(), &name);
                     }
                     self.note_errors_of(&name, lower.errors);
                     self.library
@@ -449,11 +449,11 @@ impl Items {
                     &t.ident
                 }
                 other => {
-                    self.hidden(other.to_token_stream(), check);
+                    self.refuse_definitions(other.to_token_stream(), check);
                     continue;
                 }
             };
-            let name = qualified(Some(&of.name), name);
+            let name = qualified_name(Some(&of.name), name);
             let mut text = item.self_ty.to_token_stream();
             text.extend(inner.to_token_stream());
             self.note_errors_of(&name, of_all.clone());
@@ -461,10 +461,10 @@ impl Items {
         }
     }
 
-    pub(super) fn duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
-        let error = Diagnostic::at(
+    pub(super) fn note_duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
+        let error = Diagnostic::error_at(
             Code::DefinedTwice,
-            lower.span(span),
+            lower.token_span(span),
             format!("`{name}` is defined twice among the kernel's files"),
         )
         .label("second definition")
@@ -477,7 +477,7 @@ impl Items {
     /// # Errors
     ///
     /// Items that are defined twice, and types that hold themselves, with all other errors.
-    pub fn lower(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
+    pub fn lower_reached(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
         self.implement_all();
         // A method of a type itself goes before one of a trait.
         for (name, errors) in std::mem::take(&mut self.of_traits) {
@@ -486,17 +486,17 @@ impl Items {
             }
         }
         for import in std::mem::take(&mut self.imports) {
-            if let Some((name, error)) = import.refused(&self.library) {
+            if let Some((name, error)) = import.missing_error(&self.library) {
                 self.note_errors_of(&name, vec![error]);
             }
         }
-        let reached = self.mentions.reach(self.errors.keys(), entry);
+        let reached = self.mentions.reached_items(self.errors.keys(), entry);
         let mut errors = Vec::new();
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
         let mut contradictions = self.duplicates;
-        contradictions.extend(super::recursive::check(&self.library));
+        contradictions.extend(super::recursive::check_recursive_types(&self.library));
         if !contradictions.is_empty() {
             contradictions.extend(errors);
             return Err(contradictions);
@@ -533,25 +533,25 @@ fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver) -> Type {
     match &receiver.kind {
         syn::ReceiverKind::Value => own,
         syn::ReceiverKind::Reference(_, _, mutability) => Type::Ref(mutability.is_some(), Box::new(own)),
-        syn::ReceiverKind::Typed(_, ty) => lower.ty(ty),
+        syn::ReceiverKind::Typed(_, ty) => lower.lower_type(ty),
         _ => {
-            lower.unsupported(receiver.span(), "this receiver", "take `self`, `&self` or `&mut self`");
+            lower.note_unsupported(receiver.span(), "this receiver", "take `self`, `&self` or `&mut self`");
             own
         }
     }
 }
 
 /// The fields of a structure or of a variant.
-fn fields(lower: &mut Lower, fields: &syn::Fields) -> Fields {
+fn lower_fields(lower: &mut Lower, fields: &syn::Fields) -> Fields {
     let each = fields.iter().enumerate().map(|(k, field)| {
         let name = field.ident.as_ref().map_or(k.to_string(), syn::Ident::to_string);
-        (name.into(), lower.ty(&field.ty), lower.span(field.span()))
+        (name.into(), lower.lower_type(&field.ty), lower.token_span(field.span()))
     });
     each.collect()
 }
 
 /// The traits that attributes derive, by the last segments of their paths.
-fn derives(attrs: &[syn::Attribute]) -> Vec<String> {
+fn derived_traits(attrs: &[syn::Attribute]) -> Vec<String> {
     let mut names = Vec::new();
     for attr in attrs.iter().filter(|attr| attr.path().is_ident("derive")) {
         let parser = Punctuated::<syn::Path, syn::Token![,]>::parse_terminated;
@@ -563,7 +563,7 @@ fn derives(attrs: &[syn::Attribute]) -> Vec<String> {
 }
 
 /// A function's name, of a type's with the type before it.
-pub(super) fn qualified(of: Option<&str>, name: &syn::Ident) -> String {
+pub(super) fn qualified_name(of: Option<&str>, name: &syn::Ident) -> String {
     match of {
         Some(ty) => format!("{ty}::{name}"),
         None => name.to_string(),
@@ -571,7 +571,7 @@ pub(super) fn qualified(of: Option<&str>, name: &syn::Ident) -> String {
 }
 
 /// Documentation comments as one text.
-pub(super) fn docs(attrs: &[syn::Attribute]) -> String {
+pub(super) fn doc_text(attrs: &[syn::Attribute]) -> String {
     let mut lines = Vec::new();
     for attr in attrs {
         if attr.path().is_ident("doc")

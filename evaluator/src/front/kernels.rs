@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Diagnostic>> {
     let text = super::without_head(text);
     // Text that is no Rust is reported with its place when the kernel is read.
-    if super::depth::check(0, &text).is_err() {
+    if super::depth::check_depth(0, &text).is_err() {
         return Ok(wanted.to_owned());
     }
     let Ok(file) = super::raw::parse_file(&text) else {
@@ -32,7 +32,7 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
     let public = functions.iter().filter(|f| is_public(f));
     let (mut of_pixels, mut of_numbers) = (Vec::new(), Vec::new());
     for function in public {
-        match takes(&function.sig, &of_resources) {
+        match classify_inputs(&function.sig, &of_resources) {
             Takes::Pixel => of_pixels.push(&function.sig.ident),
             Takes::Numbers => of_numbers.push(&function.sig.ident),
             Takes::Other => {}
@@ -54,11 +54,11 @@ pub fn kernel_of(text: &str, wanted: &str, path: &str) -> Result<String, Box<Dia
         "`{path}` has several functions that may be its kernel: {}",
         names.join(", ")
     );
-    let mut error = Diagnostic::at(Code::UnknownKernel, super::place(0, first.span()), what)
+    let mut error = Diagnostic::error_at(Code::UnknownKernel, super::token_span(0, first.span()), what)
         .label("one of them")
         .help(format!("name one of them: `{path}::{}`", name(first)));
     for other in others {
-        error = error.other(super::place(0, other.span()), "another");
+        error = error.label_at(super::token_span(0, other.span()), "another");
     }
     Err(Box::new(error))
 }
@@ -70,11 +70,15 @@ fn no_kernel(functions: &[&syn::ItemFn], wanted: &str, path: &str) -> Diagnostic
         .iter()
         .find(|f| unraw(&f.sig.ident.to_string()) == wanted && !is_public(f));
     match private {
-        Some(function) => Diagnostic::at(Code::UnknownKernel, super::place(0, function.sig.ident.span()), what)
-            .label("private")
-            .help(format!(
-                "write `pub fn {wanted}`, or name the function: `{path}::{wanted}`"
-            )),
+        Some(function) => Diagnostic::error_at(
+            Code::UnknownKernel,
+            super::token_span(0, function.sig.ident.span()),
+            what,
+        )
+        .label("private")
+        .help(format!(
+            "write `pub fn {wanted}`, or name the function: `{path}::{wanted}`"
+        )),
         None => Diagnostic::new(Code::UnknownKernel, what)
             .help("a kernel is a function such as `pub fn NAME(color: &Frame<Vec4>, pixel: IVec2) -> Vec4`"),
     }
@@ -94,7 +98,7 @@ enum Takes {
     Other,
 }
 
-fn takes(signature: &syn::Signature, of_resources: &BTreeSet<String>) -> Takes {
+fn classify_inputs(signature: &syn::Signature, of_resources: &BTreeSet<String>) -> Takes {
     let mut of_pixel = false;
     for input in &signature.inputs {
         let syn::FnArg::Typed(input) = input else {
@@ -163,7 +167,7 @@ fn structures_of_resources(items: &[syn::Item]) -> BTreeSet<String> {
 mod tests {
     use super::kernel_of;
 
-    fn found(text: &str) -> Result<String, String> {
+    fn find_kernel(text: &str) -> Result<String, String> {
         kernel_of(text, "blur", "blur.rs")
             .map_err(|error| format!("{} | {}", error.message, error.help.unwrap_or_default()))
     }
@@ -171,18 +175,18 @@ mod tests {
     #[test]
     fn a_private_helper_of_the_files_name_is_no_kernel() {
         let text = "fn blur(c: Vec4) -> Vec4 { c }\npub fn main_pass(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { blur(color.load(pixel)) }";
-        assert_eq!(found(text), Ok("main_pass".to_owned()));
+        assert_eq!(find_kernel(text), Ok("main_pass".to_owned()));
     }
 
     #[test]
     fn public_helpers_are_no_kernels_beside_one_of_pixels() {
         let kernel = "pub fn pass(inputs: &Inputs, pixel: IVec2) -> Vec4 { todo!() }";
         let helpers = "pub fn blur(a: &mut [f32; 8]) {}\npub fn luma(c: Vec3) -> f32 { c.x }\npub fn g<T>(t: T, pixel: IVec2) -> f32 { 0.0 }";
-        assert_eq!(found(&format!("{helpers}\n{kernel}")), Ok("pass".to_owned()));
+        assert_eq!(find_kernel(&format!("{helpers}\n{kernel}")), Ok("pass".to_owned()));
         let nested = "mod inside { pub fn other(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) } }";
-        assert_eq!(found(&format!("{nested}\n{kernel}")), Ok("pass".to_owned()));
+        assert_eq!(find_kernel(&format!("{nested}\n{kernel}")), Ok("pass".to_owned()));
         assert_eq!(
-            found("pub fn solid(gain: f32) -> Vec4 { Vec4::splat(gain) }"),
+            find_kernel("pub fn solid(gain: f32) -> Vec4 { Vec4::splat(gain) }"),
             Ok("solid".to_owned())
         );
     }
@@ -190,19 +194,19 @@ mod tests {
     #[test]
     fn the_files_name_tells_kernels_apart() {
         let two = "pub fn blur(a: &Frame<f32>, pixel: IVec2) -> f32 { 0.0 }\npub fn sharp(a: &Frame<f32>, pixel: IVec2) -> f32 { 0.0 }";
-        assert_eq!(found(two), Ok("blur".to_owned()));
+        assert_eq!(find_kernel(two), Ok("blur".to_owned()));
         let others = two.replace("fn blur", "fn soft");
         let error = "`blur.rs` has several functions that may be its kernel: `soft`, `sharp` | name one of them: `blur.rs::soft`";
-        assert_eq!(found(&others), Err(error.to_owned()));
+        assert_eq!(find_kernel(&others), Err(error.to_owned()));
     }
 
     #[test]
     fn a_file_without_a_kernel_is_told_so() {
-        let private = found("fn blur(a: &Frame<f32>, pixel: IVec2) -> f32 { 0.0 }").unwrap_err();
+        let private = find_kernel("fn blur(a: &Frame<f32>, pixel: IVec2) -> f32 { 0.0 }").unwrap_err();
         assert!(private.contains("write `pub fn blur`"), "{private}");
-        let none = found("pub struct A;").unwrap_err();
+        let none = find_kernel("pub struct A;").unwrap_err();
         assert!(none.contains("no public function"), "{none}");
         // The parser says more of what is no Rust.
-        assert_eq!(found("pub fn ("), Ok("blur".to_owned()));
+        assert_eq!(find_kernel("pub fn ("), Ok("blur".to_owned()));
     }
 }

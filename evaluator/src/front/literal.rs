@@ -5,9 +5,9 @@ use super::tree::{Expr, ExprKind, IntType};
 
 impl Lower {
     /// A literal.
-    pub fn literal(&mut self, lit: &syn::Lit, span: proc_macro2::Span) -> Expr {
+    pub fn lower_literal(&mut self, lit: &syn::Lit, span: proc_macro2::Span) -> Expr {
         let kind = match lit {
-            syn::Lit::Int(lit) if matches!(lit.suffix(), "f32") => self.float(lit.base10_digits(), true, span),
+            syn::Lit::Int(lit) if matches!(lit.suffix(), "f32") => self.lower_float(lit.base10_digits(), true, span),
             syn::Lit::Int(lit) => {
                 let ty = match lit.suffix() {
                     "" => None,
@@ -15,7 +15,7 @@ impl Lower {
                     "u32" => Some(IntType::U32),
                     "usize" => Some(IntType::Usize),
                     other => {
-                        self.unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
+                        self.note_unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
                         None
                     }
                 };
@@ -25,36 +25,36 @@ impl Lower {
                         ExprKind::Int(value, ty)
                     }
                     _ => {
-                        self.unsupported(span, "an integer of more than 32 bits", "shaders have 32-bit integers");
+                        self.note_unsupported(span, "an integer of more than 32 bits", "shaders have 32-bit integers");
                         ExprKind::Int(0, ty)
                     }
                 }
             }
             syn::Lit::Float(lit) if matches!(lit.suffix(), "" | "f32") => {
-                self.float(lit.base10_digits(), !lit.suffix().is_empty(), span)
+                self.lower_float(lit.base10_digits(), !lit.suffix().is_empty(), span)
             }
             syn::Lit::Float(lit) => {
-                self.unsupported(span, &format!("the type `{}`", lit.suffix()), "use f32");
+                self.note_unsupported(span, &format!("the type `{}`", lit.suffix()), "use f32");
                 ExprKind::Float(0.0, true)
             }
             syn::Lit::Bool(lit) => ExprKind::Bool(lit.value),
             syn::Lit::Str(lit) => ExprKind::Str(lit.value()),
             _ => {
-                self.unsupported(span, "this literal", "use numbers and booleans");
+                self.note_unsupported(span, "this literal", "use numbers and booleans");
                 ExprKind::Tuple(Vec::new())
             }
         };
         Expr {
             kind,
-            span: self.span(span),
+            span: self.token_span(span),
         }
     }
 
-    fn float(&mut self, digits: &str, suffixed: bool, span: proc_macro2::Span) -> ExprKind {
+    fn lower_float(&mut self, digits: &str, suffixed: bool, span: proc_macro2::Span) -> ExprKind {
         match digits.parse::<f32>() {
             Ok(value) if value.is_finite() => ExprKind::Float(value, suffixed),
             _ => {
-                self.unsupported(span, "a number beyond the range of f32", "keep it below 3.4e38");
+                self.note_unsupported(span, "a number beyond the range of f32", "keep it below 3.4e38");
                 ExprKind::Float(0.0, true)
             }
         }

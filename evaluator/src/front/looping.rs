@@ -3,7 +3,7 @@
 //! A name stands for every function and constant of which it is the last word, as types are not looked at: statements may be found
 //! that run no such loop, and none is missed but in types.
 
-use super::scan::children;
+use super::scan::child_exprs;
 use super::tree::{Block, Expr, ExprKind, Function, Library, Statement};
 use crate::diagnostic::Span;
 use crate::policy::{Policy, Unroll};
@@ -43,13 +43,19 @@ const OPERATORS: [&str; 28] = [
 
 /// Places of the statements, and of values of blocks, that `entry` reaches and that may run a loop which is asked to be left in
 /// the shader.
-pub fn looping(library: &Library, entry: &str, policy: &Policy) -> FxHashSet<Span> {
+pub fn looping_statements(library: &Library, entry: &str, policy: &Policy) -> FxHashSet<Span> {
     let mut items: FxHashMap<&str, Vec<Item<'_>>> = FxHashMap::default();
     for (name, function) in &library.functions {
-        items.entry(last(name)).or_default().push(Item::Function(function));
+        items
+            .entry(last_segment(name))
+            .or_default()
+            .push(Item::Function(function));
     }
     for (name, constant) in &library.consts {
-        items.entry(last(name)).or_default().push(Item::Const(&constant.value));
+        items
+            .entry(last_segment(name))
+            .or_default()
+            .push(Item::Const(&constant.value));
     }
     let asked = |unroll: Option<Unroll>| unroll.is_some_and(|unroll| unroll != Unroll::Full);
     let by_function = library.functions.values().any(|function| asked(function.unroll));
@@ -61,16 +67,19 @@ pub fn looping(library: &Library, entry: &str, policy: &Policy) -> FxHashSet<Spa
         operators: false,
         found: FxHashSet::default(),
     };
-    let reached = reach(&items, last(entry));
-    let parts: Vec<(&str, Parts<'_>)> = reached.iter().map(|(word, item)| (*word, Parts::of(*item))).collect();
+    let reached = reached_items(&items, last_segment(entry));
+    let parts: Vec<(&str, Parts<'_>)> = reached
+        .iter()
+        .map(|(word, item)| (*word, Parts::from_item(*item)))
+        .collect();
     // A loop makes those that call its function run a loop, and so on.
     loop {
         let before = (scan.words.len(), scan.values);
         for (word, parts) in &parts {
-            if scan.runs(parts) {
+            if scan.may_run_loop(parts) {
                 scan.words.insert(word);
             }
-            scan.values |= parts.closures.iter().any(|closure| scan.runs(closure));
+            scan.values |= parts.closures.iter().any(|closure| scan.may_run_loop(closure));
             scan.values |= parts.paths.iter().any(|path| scan.words.contains(path));
         }
         scan.operators = OPERATORS.iter().any(|name| scan.words.contains(name));
@@ -80,15 +89,15 @@ pub fn looping(library: &Library, entry: &str, policy: &Policy) -> FxHashSet<Spa
     }
     for (_, item) in &reached {
         match item {
-            Item::Function(function) => drop(scan.block(&function.body)),
-            Item::Const(value) => drop(scan.expr(value)),
+            Item::Function(function) => drop(scan.scan_block(&function.body)),
+            Item::Const(value) => drop(scan.scan_expr(value)),
         }
     }
     scan.found
 }
 
 /// The last word of a path.
-fn last(name: &str) -> &str {
+fn last_segment(name: &str) -> &str {
     name.rsplit("::").next().unwrap_or(name)
 }
 
@@ -100,7 +109,7 @@ enum Item<'l> {
 }
 
 /// Items that `entry` reaches, with the words that they go by.
-fn reach<'l>(items: &FxHashMap<&'l str, Vec<Item<'l>>>, entry: &'l str) -> Vec<(&'l str, Item<'l>)> {
+fn reached_items<'l>(items: &FxHashMap<&'l str, Vec<Item<'l>>>, entry: &'l str) -> Vec<(&'l str, Item<'l>)> {
     let mut seen = FxHashSet::default();
     let mut pending: Vec<&str> = OPERATORS.into_iter().chain([entry]).collect();
     let mut reached = Vec::new();
@@ -109,7 +118,7 @@ fn reach<'l>(items: &FxHashMap<&'l str, Vec<Item<'l>>>, entry: &'l str) -> Vec<(
             continue;
         }
         for item in items.get(word).into_iter().flatten() {
-            pending.extend(Parts::of(*item).all_words());
+            pending.extend(Parts::from_item(*item).all_words());
             reached.push((word, *item));
         }
     }
@@ -134,7 +143,7 @@ struct Parts<'l> {
 }
 
 impl<'l> Parts<'l> {
-    fn of(item: Item<'l>) -> Parts<'l> {
+    fn from_item(item: Item<'l>) -> Parts<'l> {
         let mut parts = Parts::default();
         match item {
             Item::Function(function) => parts.block(&function.body),
@@ -160,7 +169,7 @@ impl<'l> Parts<'l> {
             ExprKind::For(f) => self.loops.push(f.unroll),
             ExprKind::While(.., unroll) => self.loops.push(*unroll),
             ExprKind::Call(path, ..) => self.calls.extend(path.last().map(String::as_str)),
-            ExprKind::Method(_, name, _) => drop(self.calls.insert(last(name))),
+            ExprKind::Method(_, name, _) => drop(self.calls.insert(last_segment(name))),
             ExprKind::Path(path) => self.paths.extend(path.last().map(String::as_str)),
             ExprKind::Closure(closure) => {
                 let mut inside = Parts::default();
@@ -172,7 +181,7 @@ impl<'l> Parts<'l> {
         }
         self.operators |= is_operator(e);
         self.is_caller |= matches!(e.kind, ExprKind::Call(..) | ExprKind::Method(..) | ExprKind::Invoke(..));
-        children(e).into_iter().for_each(|child| self.expr(child));
+        child_exprs(e).into_iter().for_each(|child| self.expr(child));
         blocks(e).into_iter().for_each(|block| self.block(block));
     }
 }
@@ -216,26 +225,26 @@ struct Scan<'l> {
 }
 
 impl Scan<'_> {
-    fn stays(&self, unroll: Option<Unroll>) -> bool {
+    fn keeps_loop(&self, unroll: Option<Unroll>) -> bool {
         self.every || unroll.is_some_and(|unroll| unroll != Unroll::Full)
     }
 
-    fn runs(&self, parts: &Parts<'_>) -> bool {
+    fn may_run_loop(&self, parts: &Parts<'_>) -> bool {
         let called = &parts.calls;
-        parts.loops.iter().any(|unroll| self.stays(*unroll))
+        parts.loops.iter().any(|unroll| self.keeps_loop(*unroll))
             || (self.values && parts.is_caller)
             || (self.operators && parts.operators)
             || called.iter().chain(&parts.paths).any(|word| self.words.contains(word))
-            || parts.closures.iter().any(|closure| self.runs(closure))
+            || parts.closures.iter().any(|closure| self.may_run_loop(closure))
     }
 
-    fn block(&mut self, block: &Block) -> bool {
+    fn scan_block(&mut self, block: &Block) -> bool {
         let mut any = false;
         let statements = block.statements.iter();
         let statements = statements.filter_map(|statement| Some((value_of(statement)?, statement.span())));
         let value = block.value.as_deref().map(|value| (value, value.span));
         for (part, span) in statements.chain(value) {
-            if self.expr(part) {
+            if self.scan_expr(part) {
                 self.found.insert(span);
                 any = true;
             }
@@ -244,22 +253,22 @@ impl Scan<'_> {
     }
 
     /// Returns whether an expression may run such a loop. Notes the statements in it that do.
-    fn expr(&mut self, e: &Expr) -> bool {
+    fn scan_expr(&mut self, e: &Expr) -> bool {
         let is_named = |path: &[String]| path.last().is_some_and(|word| self.words.contains(word.as_str()));
         let mut runs = match &e.kind {
-            ExprKind::For(f) => self.stays(f.unroll),
-            ExprKind::While(.., unroll) => self.stays(*unroll),
+            ExprKind::For(f) => self.keeps_loop(f.unroll),
+            ExprKind::While(.., unroll) => self.keeps_loop(*unroll),
             ExprKind::Call(path, ..) => self.values || is_named(path),
-            ExprKind::Method(_, name, _) => self.values || self.words.contains(last(name)),
+            ExprKind::Method(_, name, _) => self.values || self.words.contains(last_segment(name)),
             ExprKind::Invoke(..) => self.values,
             ExprKind::Path(path) => is_named(path),
             _ => self.operators && is_operator(e),
         };
-        for child in children(e) {
-            runs |= self.expr(child);
+        for child in child_exprs(e) {
+            runs |= self.scan_expr(child);
         }
         for block in blocks(e) {
-            runs |= self.block(block);
+            runs |= self.scan_block(block);
         }
         runs
     }

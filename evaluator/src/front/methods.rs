@@ -80,8 +80,8 @@ const SIZES: &[&str] = &[
 ];
 
 /// The methods of a type by their names.
-fn lists(ty: Type) -> &'static [&'static [&'static str]] {
-    match (ty.kind(), ty.components()) {
+fn method_lists(ty: Type) -> &'static [&'static [&'static str]] {
+    match (ty.scalar_kind(), ty.component_count()) {
         (Some(Scalar::F32), 1) => &[FLOATS],
         (Some(Scalar::F32), _) => &[FLOATS, VECTORS],
         (Some(Scalar::Bool), _) => &[MASKS],
@@ -93,8 +93,8 @@ fn lists(ty: Type) -> &'static [&'static [&'static str]] {
 
 /// Help for a method that does not exist.
 pub fn known_methods(name: &str, ty: Type) -> String {
-    let known: Vec<&str> = lists(ty).concat();
-    let close = crate::suggest::suggest(name, &known, "");
+    let known: Vec<&str> = method_lists(ty).concat();
+    let close = crate::suggest::suggest_name(name, &known, "");
     if close.starts_with("did you mean") {
         return close;
     }
@@ -102,8 +102,8 @@ pub fn known_methods(name: &str, ty: Type) -> String {
 }
 
 /// Returns whether numbers or vectors of a type have a method here.
-pub fn has(ty: Type, name: &str) -> bool {
-    lists(ty).iter().any(|list| list.contains(&name))
+pub fn has_method(ty: Type, name: &str) -> bool {
+    method_lists(ty).iter().any(|list| list.contains(&name))
 }
 
 /// Returns whether numbers or vectors have an inherent method of a name, which takes precedence over one of a trait.
@@ -117,5 +117,5 @@ pub fn is_inherent(ty: &str, name: &str) -> bool {
         ("bool", _) => Type::BOOL,
         _ => return false,
     };
-    has(ty, name)
+    has_method(ty, name)
 }

@@ -47,12 +47,12 @@ use ::std::sync::Arc;
 pub use expr::INFERRED;
 pub use foreign::{is_by_last, is_prelude_type};
 pub use kernels::kernel_of;
-pub use looping::looping;
-pub use raw::{raw, unraw};
-pub use scan::{assigned, breaks, children, mentioned_in};
+pub use looping::looping_statements;
+pub use raw::{raw_name, unraw};
+pub use scan::{child_exprs, has_break, mentioned_in, scan_effects};
 pub use traits::is_of_rust;
 pub use tree::Library;
-pub use whiles::guarded;
+pub use whiles::guard_body;
 
 /// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
 pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];
@@ -81,7 +81,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
         let text = without_head(&file.text);
-        if let Err(error) = depth::check(index as u32, &text) {
+        if let Err(error) = depth::check_depth(index as u32, &text) {
             errors.push(*error);
             continue;
         }
@@ -98,14 +98,16 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     }
     let mut items = items::Items::new(&syntax);
     for (file, parsed) in &mut syntax {
-        items.file(*file, parsed);
+        items.add_file(*file, parsed);
     }
     match syn::parse_file(&std::text(files)) {
-        Ok(mut parsed) => items.file(std::FILE, &mut parsed),
-        Err(error) => return Err(Errors::of(syntax_error(std::FILE, "", &error))),
+        Ok(mut parsed) => items.add_file(std::FILE, &mut parsed),
+        Err(error) => return Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
     }
-    let mut parsed = items.lower(&raw(entry)).map_err(|found| Errors::new(found, files))?;
-    parsed.library.purposes = purposes::of(&parsed.library);
+    let mut parsed = items
+        .lower_reached(&raw_name(entry))
+        .map_err(|found| Errors::new(found, files))?;
+    parsed.library.purposes = purposes::function_purposes(&parsed.library);
     Ok(parsed)
 }
 
@@ -133,13 +135,13 @@ fn without_head(text: &str) -> Cow<'_, str> {
 }
 
 fn syntax_error(file: u32, text: &str, error: &syn::Error) -> Diagnostic {
-    let span = place(file, error.span());
+    let span = token_span(file, error.span());
     let said = error.to_string();
     if said.contains("token stream") {
-        if let Some(odd) = odd::character(file, text, span) {
+        if let Some(odd) = odd::character_error(file, text, span) {
             return odd;
         }
-        return Diagnostic::at(
+        return Diagnostic::error_at(
             Code::Syntax,
             span,
             "not valid Rust: a bracket or a quote has no partner",
@@ -147,13 +149,13 @@ fn syntax_error(file: u32, text: &str, error: &syn::Error) -> Diagnostic {
         .label("this one, or one before")
         .help("count the brackets, or let `rustfmt` find the place");
     }
-    Diagnostic::at(Code::Syntax, span, format!("not valid Rust: {said}"))
+    Diagnostic::error_at(Code::Syntax, span, format!("not valid Rust: {said}"))
         .label("the parser stopped here")
         .help("rustc, which compiles the same file, says more")
 }
 
 /// The place of a token.
-fn place(file: u32, span: proc_macro2::Span) -> Span {
+fn token_span(file: u32, span: proc_macro2::Span) -> Span {
     let bytes = span.byte_range();
     let start = span.start();
     Span {

@@ -4,7 +4,7 @@
 
 use super::cfg::Carrier;
 use super::expr::Lower;
-use super::inner::imports;
+use super::inner::list_imports;
 use super::tree::Type;
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
@@ -50,14 +50,14 @@ impl Default for Names {
 
 impl Names {
     /// The names that files give, and what is wrong with each.
-    pub fn of(files: &[(u32, syn::File)]) -> (Names, Wrong) {
+    pub fn from_files(files: &[(u32, syn::File)]) -> (Names, Wrong) {
         let (mut names, mut errors) = (Names::default(), Wrong::new());
         let mut enums = HashMap::new();
         for (_, file) in files {
-            definitions(&file.items, &mut enums);
+            collect_enums(&file.items, &mut enums);
         }
         for (file, parsed) in files {
-            names.take(*file, &parsed.items, &enums, &mut errors);
+            names.add_items(*file, &parsed.items, &enums, &mut errors);
         }
         let renamed = std::mem::take(&mut names.functions);
         for (file, here, there) in renamed {
@@ -70,13 +70,13 @@ impl Names {
             names.paths.remove(&here.to_string());
             let mut lower = Lower::new(file, None, Rc::default());
             let what = "`use` of a function by another name that is not only called";
-            lower.unsupported(here.span(), what, &format!("use it as `{there}`"));
+            lower.note_unsupported(here.span(), what, &format!("use it as `{there}`"));
             errors.extend(lower.errors.into_iter().map(|error| (here.to_string(), error)));
         }
         (names, errors)
     }
 
-    fn take(&mut self, file: u32, items: &[syn::Item], enums: &HashMap<String, Vec<String>>, errors: &mut Wrong) {
+    fn add_items(&mut self, file: u32, items: &[syn::Item], enums: &HashMap<String, Vec<String>>, errors: &mut Wrong) {
         for item in items.iter().filter(|item| is_there(file, item)) {
             match item {
                 syn::Item::Type(t) if t.generics.params.is_empty() => {
@@ -87,18 +87,18 @@ impl Names {
                         .get(&name)
                         .is_some_and(|known| text_of(&known.1) != text_of(&alias.1))
                     {
-                        errors.push((name.clone(), twice(file, &t.ident)));
+                        errors.push((name.clone(), duplicate_error(file, &t.ident)));
                     }
                     self.types.insert(name, alias);
                 }
                 syn::Item::Mod(m) => {
                     if let Some((_, items)) = &m.content {
-                        self.take(file, items, enums, errors);
+                        self.add_items(file, items, enums, errors);
                     }
                 }
                 syn::Item::Use(u) => {
-                    for (path, name) in imports(&u.tree) {
-                        self.import(file, &path, name, enums, errors);
+                    for (path, name) in list_imports(&u.tree) {
+                        self.add_import(file, &path, name, enums, errors);
                     }
                 }
                 _ => {}
@@ -106,7 +106,7 @@ impl Names {
         }
     }
 
-    fn import(
+    fn add_import(
         &mut self,
         file: u32,
         path: &[syn::Ident],
@@ -132,37 +132,37 @@ impl Names {
         let stands = vec![of, there.to_string()];
         let known = self.paths.insert(here.to_string(), stands.clone());
         if known.is_some_and(|known| known != stands) {
-            errors.push((here.to_string(), twice(file, &here)));
+            errors.push((here.to_string(), duplicate_error(file, &here)));
         }
     }
 
     /// Functions by other names: the name here, and the name there.
-    pub fn functions(&self) -> impl Iterator<Item = (String, String)> + '_ {
+    pub fn renamed_functions(&self) -> impl Iterator<Item = (String, String)> + '_ {
         self.functions
             .iter()
             .map(|(_, here, there)| (here.to_string(), there.to_string()))
     }
 
     /// The path that a name stands for.
-    pub fn path(&self, name: &str) -> Option<&[String]> {
+    pub fn aliased_path(&self, name: &str) -> Option<&[String]> {
         self.paths.get(name).map(Vec::as_slice)
     }
 
     /// Returns whether a name stands for another.
-    pub fn has(&self, name: &str) -> bool {
+    pub fn is_alias(&self, name: &str) -> bool {
         self.paths.contains_key(name) || self.types.contains_key(name)
     }
 }
 
 impl Lower {
     /// The type that a name stands for.
-    pub fn alias(&mut self, name: &str) -> Option<Type> {
+    pub fn aliased_type(&mut self, name: &str) -> Option<Type> {
         let names = self.names();
         let (file, ty) = names.types.get(name)?;
         if self.aliases >= MAX_ALIASES {
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::EndlessDefinition,
-                self.span(ty.span()),
+                self.token_span(ty.span()),
                 format!("the type `{name}` stands for itself"),
             )
             .label("a cycle of names")
@@ -172,17 +172,17 @@ impl Lower {
         }
         let mut there = Lower::new(*file, None, Rc::clone(&names));
         there.aliases = self.aliases + 1;
-        let lowered = there.ty(ty);
+        let lowered = there.lower_type(ty);
         self.errors.extend(there.errors);
         Some(lowered)
     }
 
     /// A type's own name where another one stands for it.
     pub fn type_name(&mut self, name: String) -> String {
-        if let Some(Type::Name(of, _)) = self.alias(&name) {
+        if let Some(Type::Name(of, _)) = self.aliased_type(&name) {
             return of;
         }
-        match self.names().path(&name) {
+        match self.names().aliased_path(&name) {
             Some([.., of]) => of.clone(),
             _ => name,
         }
@@ -214,7 +214,7 @@ fn called_in(text: TokenStream, name: &str) -> bool {
 }
 
 /// Enums with their variants.
-fn definitions(items: &[syn::Item], enums: &mut HashMap<String, Vec<String>>) {
+fn collect_enums(items: &[syn::Item], enums: &mut HashMap<String, Vec<String>>) {
     for item in items {
         match item {
             syn::Item::Enum(e) => {
@@ -223,7 +223,7 @@ fn definitions(items: &[syn::Item], enums: &mut HashMap<String, Vec<String>>) {
             }
             syn::Item::Mod(m) => {
                 if let Some((_, items)) = &m.content {
-                    definitions(items, enums);
+                    collect_enums(items, enums);
                 }
             }
             _ => {}
@@ -245,14 +245,14 @@ fn is_there(file: u32, item: &syn::Item) -> bool {
         _ => return true,
     };
     // Errors in attributes are reported when the item is lowered.
-    Lower::new(file, None, Rc::default()).keeps(&mut attrs.clone(), Carrier::Function)
+    Lower::new(file, None, Rc::default()).keeps_by_cfg(&mut attrs.clone(), Carrier::Function)
 }
 
-fn twice(file: u32, name: &syn::Ident) -> Diagnostic {
+fn duplicate_error(file: u32, name: &syn::Ident) -> Diagnostic {
     let lower = Lower::new(file, None, Rc::default());
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::DefinedTwice,
-        lower.span(name.span()),
+        lower.token_span(name.span()),
         format!("`{name}` stands for two things among the kernel's files"),
     )
     .label("another one")

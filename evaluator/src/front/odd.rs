@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 
 /// Error for a text that could not be read beyond a place: names a character there that Rust does not accept, or else the first character
 /// of the text that editors hide. `None` if the text has neither.
-pub fn character(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
+pub fn character_error(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
     let from = reached.start as usize;
     let rest = text.get(from..)?;
     let there = rest
@@ -13,7 +13,7 @@ pub fn character(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
         .filter(|c| !c.is_ascii() || c.is_ascii_control() && !c.is_ascii_whitespace());
     let (at, c) = match there {
         Some(c) => (from, c),
-        None => hidden(text)?,
+        None => find_hidden_char(text)?,
     };
     let (what, help) = match c {
         '\0' => ("a NUL byte".to_owned(), "save the file as UTF-8"),
@@ -36,14 +36,14 @@ pub fn character(file: u32, text: &str, reached: Span) -> Option<Diagnostic> {
     };
     let span = at_byte(file, text, at, c.len_utf8());
     Some(
-        Diagnostic::at(Code::Syntax, span, format!("not valid Rust: {what}"))
+        Diagnostic::error_at(Code::Syntax, span, format!("not valid Rust: {what}"))
             .label("here")
             .help(help),
     )
 }
 
 /// The first character that editors hide and that Rust does not take everywhere.
-fn hidden(text: &str) -> Option<(usize, char)> {
+fn find_hidden_char(text: &str) -> Option<(usize, char)> {
     let mut before = None;
     for (at, c) in text.char_indices() {
         if let Some((at, '\r')) = before
@@ -77,7 +77,7 @@ mod tests {
     use std::sync::Arc;
 
     /// The first error of a text: its place and its message.
-    fn told(text: &str) -> Option<(u32, u32, String)> {
+    fn first_error(text: &str) -> Option<(u32, u32, String)> {
         let file = File {
             path: "k.rs".to_owned(),
             text: text.to_owned(),
@@ -90,10 +90,10 @@ mod tests {
     #[test]
     fn what_editors_hide_is_named_with_its_place() {
         let kernel = "pub fn k(pixel: IVec2) -> f32 {\n    1.0\n}\n";
-        assert_eq!(told(kernel), None);
-        assert_eq!(told(&kernel.replace('\n', "\r\n")), None);
+        assert_eq!(first_error(kernel), None);
+        assert_eq!(first_error(&kernel.replace('\n', "\r\n")), None);
         let wrong = |text: String, place: (u32, u32), what: &str| {
-            let (line, column, message) = told(&text).expect("an error");
+            let (line, column, message) = first_error(&text).expect("an error");
             assert_eq!((line, column), place, "{message}");
             assert_eq!(message, format!("not valid Rust: {what}"));
         };

@@ -1,7 +1,7 @@
 //! `options!`: its syntax, and what becomes of it.
 
 use super::check::Check;
-use super::items::{Items, docs};
+use super::items::{Items, doc_text};
 use super::tree::{Expr, ExprKind, OptionField, Struct};
 use crate::diagnostic::{Code, Diagnostic};
 use syn::parse::{Parse, ParseStream};
@@ -78,7 +78,7 @@ pub fn at_run_time(default: Expr) -> (Expr, bool) {
 
 impl Items {
     /// Notes the options of a kernel.
-    pub(super) fn options(&mut self, file: u32, mac: &syn::Macro) {
+    pub(super) fn add_options(&mut self, file: u32, mac: &syn::Macro) {
         let mut lower = self.lower_of(file);
         match mac.parse_body::<OptionsSyntax>() {
             Ok(mut syntax) => {
@@ -89,28 +89,28 @@ impl Items {
                 syntax.fields.retain_mut(|field| {
                     let kept = check.keeps(&mut field.attrs);
                     if kept {
-                        check.ty(&mut field.ty);
-                        field.range.iter_mut().for_each(|range| check.expr(range));
-                        check.expr(&mut field.default);
+                        check.check_type(&mut field.ty);
+                        field.range.iter_mut().for_each(|range| check.check_expr(range));
+                        check.check_expr(&mut field.default);
                     }
                     kept
                 });
                 let twice = |k: &usize| syntax.fields[..*k].iter().any(|f| f.name == syntax.fields[*k].name);
                 if let Some(k) = (0..syntax.fields.len()).find(twice) {
-                    check.twice(&syntax.fields[k].name);
+                    check.note_duplicate(&syntax.fields[k].name);
                 }
                 self.mentions.add(&name, mac.tokens.clone());
-                self.duplicates.extend(check.errors());
+                self.duplicates.extend(check.into_errors());
                 let fields = syntax.fields.iter().map(|field| {
-                    let (default, uniform) = at_run_time(lower.expr(&field.default));
+                    let (default, uniform) = at_run_time(lower.lower_expr(&field.default));
                     OptionField {
                         name: field.name.to_string(),
-                        docs: docs(&field.attrs),
-                        ty: lower.ty(&field.ty),
-                        range: field.range.as_ref().map(|r| lower.expr(r)),
+                        docs: doc_text(&field.attrs),
+                        ty: lower.lower_type(&field.ty),
+                        range: field.range.as_ref().map(|r| lower.lower_expr(r)),
                         default,
                         uniform,
-                        span: lower.span(field.name.span()),
+                        span: lower.token_span(field.name.span()),
                     }
                 });
                 let fields: Vec<OptionField> = fields.collect();
@@ -127,9 +127,9 @@ impl Items {
                 self.library.options.insert(name, fields);
             }
             Err(error) => {
-                let span = lower.span(error.span());
+                let span = lower.token_span(error.span());
                 lower.errors.push(
-                    Diagnostic::at(Code::OptionsSyntax, span, format!("not a list of options: {error}"))
+                    Diagnostic::error_at(Code::OptionsSyntax, span, format!("not a list of options: {error}"))
                         .help("write `pub name: type = default,`, with the range of a number as `pub name: f32 [0.0..=1.0] = 0.5,`"),
                 );
             }

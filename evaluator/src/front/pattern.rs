@@ -8,66 +8,66 @@ use syn::spanned::Spanned;
 
 impl Lower {
     /// A pattern of a `let`, `for` or `match`.
-    pub fn pattern(&mut self, pattern: &syn::Pat) -> Pattern {
+    pub fn lower_pattern(&mut self, pattern: &syn::Pat) -> Pattern {
         match pattern {
             syn::Pat::Ident(p) if p.subpat.is_none() && p.by_ref.is_none() => {
                 let name = p.ident.to_string();
                 // A name in capitals is a constant, as everywhere in Rust.
                 if name.chars().next().is_some_and(char::is_uppercase) {
-                    let path = self.segments(&syn::Path::from(p.ident.clone()));
+                    let path = self.path_segments(&syn::Path::from(p.ident.clone()));
                     Pattern::Value(Box::new(self.path_expr(path, p.span())))
                 } else {
-                    Pattern::Name(name.into(), p.mutability.is_some(), self.span(p.ident.span()))
+                    Pattern::Name(name.into(), p.mutability.is_some(), self.token_span(p.ident.span()))
                 }
             }
             syn::Pat::Ident(p) if p.by_ref.is_none() => {
                 let inner = match &p.subpat {
-                    Some((_, inner)) => self.pattern(inner),
+                    Some((_, inner)) => self.lower_pattern(inner),
                     None => Pattern::Wild,
                 };
-                let (name, span) = (p.ident.to_string(), self.span(p.ident.span()));
+                let (name, span) = (p.ident.to_string(), self.token_span(p.ident.span()));
                 Pattern::At(name.into(), p.mutability.is_some(), Box::new(inner), span)
             }
             syn::Pat::Wild(_) => Pattern::Wild,
             syn::Pat::Tuple(p) => {
                 let parts = p.elems.iter().map(|e| match e {
                     syn::Pat::Rest(_) => Pattern::Rest,
-                    other => self.pattern(other),
+                    other => self.lower_pattern(other),
                 });
                 let parts = parts.collect();
                 self.one_rest(&p.elems);
-                Pattern::Tuple(parts, self.span(p.span()))
+                Pattern::Tuple(parts, self.token_span(p.span()))
             }
             syn::Pat::Slice(p) => {
                 let parts = p.elems.iter().map(|e| match e {
                     syn::Pat::Rest(_) => Pattern::Rest,
                     syn::Pat::Ident(named) if is_rest(e) && named.by_ref.is_none() => {
-                        let (name, span) = (named.ident.to_string(), self.span(named.ident.span()));
+                        let (name, span) = (named.ident.to_string(), self.token_span(named.ident.span()));
                         Pattern::At(name.into(), named.mutability.is_some(), Box::new(Pattern::Rest), span)
                     }
-                    other => self.pattern(other),
+                    other => self.lower_pattern(other),
                 });
                 let parts = parts.collect();
                 self.one_rest(&p.elems);
-                Pattern::Array(parts, self.span(p.span()))
+                Pattern::Array(parts, self.token_span(p.span()))
             }
-            syn::Pat::Paren(p) => self.pattern(&p.pat),
-            syn::Pat::Reference(p) => Pattern::Ref(Box::new(self.pattern(&p.pat)), self.span(p.span())),
-            syn::Pat::Or(p) => Pattern::Or(p.cases.iter().map(|c| self.pattern(c)).collect()),
+            syn::Pat::Paren(p) => self.lower_pattern(&p.pat),
+            syn::Pat::Reference(p) => Pattern::Ref(Box::new(self.lower_pattern(&p.pat)), self.token_span(p.span())),
+            syn::Pat::Or(p) => Pattern::Or(p.cases.iter().map(|c| self.lower_pattern(c)).collect()),
             syn::Pat::Path(p) => {
-                let segments = self.segments(&p.path);
+                let segments = self.path_segments(&p.path);
                 Pattern::Value(Box::new(self.path_expr(segments, p.span())))
             }
             syn::Pat::Lit(p) => {
-                let expr = self.literal(&p.lit, p.span());
+                let expr = self.lower_literal(&p.lit, p.span());
                 Pattern::Value(Box::new(expr))
             }
             syn::Pat::Struct(p) => {
                 let mut fields = Vec::new();
                 for field in &p.fields {
-                    fields.push((super::expr::member(&field.member), self.pattern(&field.pat)));
+                    fields.push((super::expr::member_name(&field.member), self.lower_pattern(&field.pat)));
                 }
-                Pattern::Struct(self.segments(&p.path), fields, self.span(p.span()))
+                Pattern::Struct(self.path_segments(&p.path), fields, self.token_span(p.span()))
             }
             // Fields of a structure without names are named by their numbers.
             syn::Pat::TupleStruct(p) if p.qself.is_none() => {
@@ -78,13 +78,13 @@ impl Lower {
                     .iter()
                     .take(p.elems.len() - usize::from(rest))
                     .enumerate()
-                    .map(|(k, e)| (k.to_string().into(), self.pattern(e)));
+                    .map(|(k, e)| (k.to_string().into(), self.lower_pattern(e)));
                 let fields = fields.collect();
-                Pattern::Struct(self.segments(&p.path), fields, self.span(p.span()))
+                Pattern::Struct(self.path_segments(&p.path), fields, self.token_span(p.span()))
             }
             syn::Pat::Range(p) => {
                 let inclusive = matches!(p.limits, syn::RangeLimits::Closed(_));
-                let mut end = |end: &Option<Box<syn::Expr>>| end.as_ref().map(|e| Box::new(self.expr(e)));
+                let mut end = |end: &Option<Box<syn::Expr>>| end.as_ref().map(|e| Box::new(self.lower_expr(e)));
                 let (low, high) = (end(&p.start), end(&p.end));
                 Pattern::Range(low, high, inclusive)
             }
@@ -103,7 +103,7 @@ impl Lower {
                         "match on enum variants, numbers, `0..=3`, `a | b` or `_`, and bind names, tuples and fields",
                     ),
                 };
-                self.unsupported(other.span(), what, instead);
+                self.note_unsupported(other.span(), what, instead);
                 Pattern::Wild
             }
         }
@@ -112,9 +112,9 @@ impl Lower {
     /// Refuses a second `..` among the parts of a tuple or an array.
     fn one_rest(&mut self, parts: &syn::punctuated::Punctuated<syn::Pat, syn::Token![,]>) {
         if let Some(second) = parts.iter().filter(|part| is_rest(part)).nth(1) {
-            let span = self.span(second.span());
+            let span = self.token_span(second.span());
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::Pattern,
                     span,
                     "`..` can be used once in a pattern of a tuple or an array",
@@ -126,14 +126,17 @@ impl Lower {
     }
 
     /// A type; lifetimes and parentheses are dropped.
-    pub fn ty(&mut self, ty: &syn::Type) -> Type {
+    pub fn lower_type(&mut self, ty: &syn::Type) -> Type {
         match ty {
-            syn::Type::Reference(t) => Type::Ref(t.mutability.is_some(), Box::new(self.ty(&t.elem))),
-            syn::Type::Paren(t) => self.ty(&t.elem),
-            syn::Type::Group(t) => self.ty(&t.elem),
-            syn::Type::Array(t) => Type::Array(Box::new(self.ty(&t.elem)), Some(Box::new(self.expr(&t.len)))),
-            syn::Type::Slice(t) => Type::Array(Box::new(self.ty(&t.elem)), None),
-            syn::Type::Tuple(t) => Type::Tuple(t.elems.iter().map(|e| self.ty(e)).collect()),
+            syn::Type::Reference(t) => Type::Ref(t.mutability.is_some(), Box::new(self.lower_type(&t.elem))),
+            syn::Type::Paren(t) => self.lower_type(&t.elem),
+            syn::Type::Group(t) => self.lower_type(&t.elem),
+            syn::Type::Array(t) => Type::Array(
+                Box::new(self.lower_type(&t.elem)),
+                Some(Box::new(self.lower_expr(&t.len))),
+            ),
+            syn::Type::Slice(t) => Type::Array(Box::new(self.lower_type(&t.elem)), None),
+            syn::Type::Tuple(t) => Type::Tuple(t.elems.iter().map(|e| self.lower_type(e)).collect()),
             syn::Type::Path(t)
                 if t.path
                     .get_ident()
@@ -154,9 +157,9 @@ impl Lower {
                             syn::GenericArgument::Type(syn::Type::Infer(_)) => {
                                 args.push(Type::Name("_".to_owned(), Vec::new()));
                             }
-                            syn::GenericArgument::Type(t) => args.push(self.ty(t)),
+                            syn::GenericArgument::Type(t) => args.push(self.lower_type(t)),
                             syn::GenericArgument::Const(value) => {
-                                args.push(Type::Const(Box::new(self.expr(value))));
+                                args.push(Type::Const(Box::new(self.lower_expr(value))));
                             }
                             _ => {}
                         }
@@ -165,25 +168,25 @@ impl Lower {
                 let name = last.ident.to_string();
                 match self.self_type() {
                     Some(own) if name == "Self" => own.clone(),
-                    _ => match self.alias(&name) {
+                    _ => match self.aliased_type(&name) {
                         Some(ty) => ty,
                         None => Type::Name(self.type_name(name), args),
                     },
                 }
             }
             syn::Type::ImplTrait(t) if is_called(&t.bounds) => {
-                self.called(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
+                self.fn_bound_type(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
             }
             syn::Type::TraitObject(t) if is_called(&t.bounds) => {
-                self.called(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
+                self.fn_bound_type(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
             }
             syn::Type::ImplTrait(t) if self.in_parameters => self.anonymous_parameter("impl", &t.bounds),
             syn::Type::TraitObject(t) if self.in_parameters => self.anonymous_parameter("dyn", &t.bounds),
             syn::Type::FnPtr(t) if t.unsafety.is_none() && t.abi.is_none() && t.variadic.is_none() => {
-                let params = t.inputs.iter().map(|input| self.ty(&input.ty)).collect();
+                let params = t.inputs.iter().map(|input| self.lower_type(&input.ty)).collect();
                 let result = match &t.output {
                     syn::ReturnType::Default => Type::Tuple(Vec::new()),
-                    syn::ReturnType::Type(_, ty) => self.ty(ty),
+                    syn::ReturnType::Type(_, ty) => self.lower_type(ty),
                 };
                 Type::Fn(params, Box::new(result))
             }
@@ -195,7 +198,7 @@ impl Lower {
             }
             other => {
                 let text = super::cfg::as_written(other);
-                self.unsupported(
+                self.note_unsupported(
                     other.span(),
                     &format!("the type `{text}`"),
                     "use numbers, vectors, arrays, tuples, structures, enums and the prelude's textures",
@@ -248,7 +251,7 @@ impl Lower {
     }
 
     /// The traits that type parameters are bound by.
-    pub fn bounds(&mut self, generics: &syn::Generics) -> HashMap<String, Vec<String>> {
+    pub fn trait_bounds(&mut self, generics: &syn::Generics) -> HashMap<String, Vec<String>> {
         let mut found: HashMap<String, Vec<String>> = HashMap::new();
         for param in &generics.params {
             if let syn::GenericParam::Type(t) = param {

@@ -5,7 +5,7 @@ use crate::ir::Purpose;
 use std::sync::Arc;
 
 /// Purposes of a library's functions, in order of their places.
-pub fn of(library: &Library) -> Arc<[Purpose]> {
+pub fn function_purposes(library: &Library) -> Arc<[Purpose]> {
     let each = library.functions.values().filter(|f| f.span.file != super::std::FILE);
     let each = each.map(|function| Purpose {
         file: function.span.file,

@@ -16,14 +16,14 @@ pub fn parse_file(text: &str) -> syn::Result<syn::File> {
         return syn::parse_file(text);
     }
     let tokens: TokenStream = syn::parse_str(text)?;
-    syn::parse2(plain(tokens))
+    syn::parse2(unraw_tokens(tokens))
 }
 
 /// Tokens in which only keywords are raw identifiers.
-fn plain(tokens: TokenStream) -> TokenStream {
+fn unraw_tokens(tokens: TokenStream) -> TokenStream {
     let each = tokens.into_iter().map(|token| match token {
         TokenTree::Group(group) => {
-            let mut other = Group::new(group.delimiter(), plain(group.stream()));
+            let mut other = Group::new(group.delimiter(), unraw_tokens(group.stream()));
             other.set_span(group.span());
             TokenTree::Group(other)
         }
@@ -45,7 +45,7 @@ fn is_keyword(name: &str) -> bool {
 }
 
 /// A name as the kernel's files have it: of a keyword, the raw identifier.
-pub fn raw(name: &str) -> Cow<'_, str> {
+pub fn raw_name(name: &str) -> Cow<'_, str> {
     let marked = || format!("{MARK}{name}");
     match is_keyword(name) && syn::parse_str::<Ident>(&marked()).is_ok() {
         true => Cow::Owned(marked()),

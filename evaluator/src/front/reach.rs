@@ -25,17 +25,17 @@ pub struct Mentions {
 impl Mentions {
     /// Adds the text of an item. What is added twice counts together.
     pub fn add(&mut self, item: &str, text: TokenStream) {
-        scan(text, self.words.entry(item.to_owned()).or_default());
+        collect_mentions(text, self.words.entry(item.to_owned()).or_default());
     }
 
     /// Lets an item need another, though its text does not mention it.
-    pub fn needs(&mut self, item: &str, other: &str) {
+    pub fn add_need(&mut self, item: &str, other: &str) {
         let needed = Mention::Whole(other.to_owned());
         self.words.entry(item.to_owned()).or_default().insert(needed);
     }
 
     /// Names of the items that `entry` reaches by any mention. Coarse, never too small.
-    pub fn reach<'n>(&self, names: impl Iterator<Item = &'n String>, entry: &str) -> BTreeSet<String> {
+    pub fn reached_items<'n>(&self, names: impl Iterator<Item = &'n String>, entry: &str) -> BTreeSet<String> {
         let items = ByWord::new(names);
         let mut reached = BTreeSet::new();
         let mut pending = vec![entry.to_owned()];
@@ -44,7 +44,7 @@ impl Mentions {
                 continue;
             }
             for mention in self.words.get(&name).into_iter().flatten() {
-                pending.extend(items.mentioned(mention));
+                pending.extend(items.resolve_mention(mention));
             }
         }
         reached
@@ -55,8 +55,8 @@ impl Mentions {
         let others = ByWord::new(others.iter().copied());
         let mut mentions = self.words.get(item).into_iter().flatten();
         mentions.any(|mention| match mention {
-            Mention::Whole(name) => others.has(name),
-            other => others.mentioned(other).next().is_some(),
+            Mention::Whole(name) => others.contains_name(name),
+            other => others.resolve_mention(other).next().is_some(),
         })
     }
 }
@@ -79,13 +79,13 @@ impl<'n> ByWord<'n> {
         ByWord { plain, members }
     }
 
-    fn has(&self, name: &str) -> bool {
+    fn contains_name(&self, name: &str) -> bool {
         let all = self.plain.values().chain(self.members.values()).flatten();
         all.into_iter().any(|known| *known == name)
     }
 
     /// Names of the items that a mention may stand for.
-    fn mentioned(&self, mention: &Mention) -> impl Iterator<Item = String> {
+    fn resolve_mention(&self, mention: &Mention) -> impl Iterator<Item = String> {
         let (plain, member, whole) = match mention {
             Mention::Plain(word) => (Some(word), None, None),
             Mention::Whole(name) => (None, None, Some(name.clone())),
@@ -104,7 +104,7 @@ impl<'n> ByWord<'n> {
     }
 }
 
-fn scan(text: TokenStream, out: &mut BTreeSet<Mention>) {
+fn collect_mentions(text: TokenStream, out: &mut BTreeSet<Mention>) {
     let tokens: Vec<TokenTree> = text.into_iter().collect();
     let punct = |at: usize| match tokens.get(at) {
         Some(TokenTree::Punct(p)) => p.as_char(),
@@ -114,7 +114,7 @@ fn scan(text: TokenStream, out: &mut BTreeSet<Mention>) {
     for (k, token) in tokens.iter().enumerate() {
         let word = match token {
             TokenTree::Group(group) => {
-                scan(group.stream(), out);
+                collect_mentions(group.stream(), out);
                 continue;
             }
             TokenTree::Ident(word) => word.to_string(),

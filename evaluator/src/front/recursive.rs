@@ -4,13 +4,13 @@ use super::tree::{Library, Type};
 use crate::diagnostic::{Code, Diagnostic, Span};
 
 /// An error for each type that holds itself, directly or through others: rustc's E0072.
-pub fn check(library: &Library) -> Vec<Diagnostic> {
+pub fn check_recursive_types(library: &Library) -> Vec<Diagnostic> {
     let mut names: Vec<&String> = library.structs.keys().chain(library.enums.keys()).collect();
     names.sort_unstable();
     let found = names.into_iter().filter_map(|name| {
-        let at = holds(library, name, name, &mut Vec::new())?;
+        let at = find_holding_field(library, name, name, &mut Vec::new())?;
         Some(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::EndlessDefinition,
                 at,
                 format!("recursive type `{name}` has infinite size"),
@@ -23,7 +23,7 @@ pub fn check(library: &Library) -> Vec<Diagnostic> {
 }
 
 /// Finds the field through which a type holds a type of the name `wanted`: the place of the type's own field.
-fn holds(library: &Library, name: &str, wanted: &str, seen: &mut Vec<String>) -> Option<Span> {
+fn find_holding_field(library: &Library, name: &str, wanted: &str, seen: &mut Vec<String>) -> Option<Span> {
     if seen.iter().any(|other| other == name) {
         return None;
     }
@@ -36,7 +36,7 @@ fn holds(library: &Library, name: &str, wanted: &str, seen: &mut Vec<String>) ->
         names_in(ty, &mut named);
         let found = named
             .iter()
-            .any(|inner| inner == wanted || holds(library, inner, wanted, seen).is_some());
+            .any(|inner| inner == wanted || find_holding_field(library, inner, wanted, seen).is_some());
         found.then_some(*at)
     })
 }

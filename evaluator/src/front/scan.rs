@@ -17,19 +17,19 @@ pub struct Effects {
 
 /// Scans a loop's body. `mutating` names the methods that take `&mut self`: a receiver counts as borrowed by a method of such a name,
 /// whatever its type.
-pub fn assigned(body: &Block, mutating: &FxHashSet<String>) -> Effects {
+pub fn scan_effects(body: &Block, mutating: &FxHashSet<String>) -> Effects {
     let mut effects = Effects::default();
     let mut around = Around {
         mutating: Some(mutating),
         ..Around::default()
     };
-    block(body, &mut effects, &mut around);
-    mentioned(body, &mut effects.mentioned);
+    scan_block(body, &mut effects, &mut around);
+    collect_mentioned(body, &mut effects.mentioned);
     effects
 }
 
 /// Returns whether a loop's body has a `break` of its own loop, whose label is `label`.
-pub fn breaks(body: &Block, label: Option<&str>) -> bool {
+pub fn has_break(body: &Block, label: Option<&str>) -> bool {
     fn in_block(body: &Block, label: Option<&str>, innermost: bool) -> bool {
         let of = |e: &Expr| in_expr(e, label, innermost);
         body.statements.iter().any(|statement| match statement {
@@ -48,7 +48,7 @@ pub fn breaks(body: &Block, label: Option<&str>) -> bool {
             ExprKind::Block(block) | ExprKind::Labelled(_, block) => in_block(block, label, innermost),
             _ => false,
         };
-        inner || children(e).into_iter().any(|child| in_expr(child, label, innermost))
+        inner || child_exprs(e).into_iter().any(|child| in_expr(child, label, innermost))
     }
     in_block(body, label, true)
 }
@@ -66,8 +66,8 @@ struct Around<'b> {
 
 impl Around<'_> {
     /// Notes that the variable that `place` is a part of may be written.
-    fn write(&self, place: &Expr, out: &mut Effects) {
-        if let Some(name) = root(place).filter(|name| !self.own.contains(&name.as_str())) {
+    fn note_write(&self, place: &Expr, out: &mut Effects) {
+        if let Some(name) = root_variable(place).filter(|name| !self.own.contains(&name.as_str())) {
             out.assigned.insert(name);
         }
     }
@@ -79,84 +79,86 @@ impl Around<'_> {
     }
 }
 
-fn block<'b>(b: &'b Block, out: &mut Effects, around: &mut Around<'b>) {
+fn scan_block<'b>(b: &'b Block, out: &mut Effects, around: &mut Around<'b>) {
     let mark = around.own.len();
     for statement in &b.statements {
         match statement {
             Statement::Let(pattern, _, init, _) => {
-                init.iter().for_each(|e| expr(e, out, around));
-                bound(pattern, &mut around.own);
+                init.iter().for_each(|e| scan_expr(e, out, around));
+                collect_bindings(pattern, &mut around.own);
             }
-            Statement::Expr(e) => expr(e, out, around),
+            Statement::Expr(e) => scan_expr(e, out, around),
             Statement::Const(_) => {}
         }
     }
-    b.value.iter().for_each(|e| expr(e, out, around));
+    b.value.iter().for_each(|e| scan_expr(e, out, around));
     around.own.truncate(mark);
 }
 
 /// The names that a pattern binds.
-fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
+fn collect_bindings<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
     match pattern {
         Pattern::Name(name, ..) => out.push(name),
-        Pattern::Tuple(all, _) | Pattern::Array(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
-        Pattern::Struct(_, fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
-        Pattern::Ref(inner, _) => bound(inner, out),
+        Pattern::Tuple(all, _) | Pattern::Array(all, _) | Pattern::Or(all) => {
+            all.iter().for_each(|p| collect_bindings(p, out))
+        }
+        Pattern::Struct(_, fields, _) => fields.iter().for_each(|(_, p)| collect_bindings(p, out)),
+        Pattern::Ref(inner, _) => collect_bindings(inner, out),
         Pattern::At(name, _, inner, _) => {
             out.push(name);
-            bound(inner, out);
+            collect_bindings(inner, out);
         }
         Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => {}
     }
 }
 
-fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
+fn scan_expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
     match &e.kind {
         ExprKind::Assign(place, _, value) => {
-            around.write(place, out);
-            expr(place, out, around);
-            expr(value, out, around);
+            around.note_write(place, out);
+            scan_expr(place, out, around);
+            scan_expr(value, out, around);
         }
         ExprKind::Ref(true, place) => {
-            around.write(place, out);
-            expr(place, out, around);
+            around.note_write(place, out);
+            scan_expr(place, out, around);
         }
         ExprKind::Method(receiver, name, args) => {
             if around.mutates(name) {
-                around.write(receiver, out);
+                around.note_write(receiver, out);
             }
-            expr(receiver, out, around);
-            args.iter().for_each(|e| expr(e, out, around));
+            scan_expr(receiver, out, around);
+            args.iter().for_each(|e| scan_expr(e, out, around));
         }
         ExprKind::Try(value) => {
             out.leaves = true;
-            expr(value, out, around);
+            scan_expr(value, out, around);
         }
         ExprKind::Return(value) => {
             out.leaves = true;
-            value.iter().for_each(|e| expr(e, out, around));
+            value.iter().for_each(|e| scan_expr(e, out, around));
         }
         ExprKind::Break(None) | ExprKind::Continue(None) => out.leaves |= around.loops.is_empty(),
         ExprKind::Break(label) | ExprKind::Continue(label) => out.leaves |= !around.loops.contains(&label.as_deref()),
         ExprKind::For(f) => {
-            expr(&f.over, out, around);
+            scan_expr(&f.over, out, around);
             let mark = around.own.len();
-            bound(&f.pattern, &mut around.own);
+            collect_bindings(&f.pattern, &mut around.own);
             around.loops.push(f.label.as_deref());
-            block(&f.body, out, around);
+            scan_block(&f.body, out, around);
             around.loops.pop();
             around.own.truncate(mark);
         }
         ExprKind::While(condition, body, label, _) => {
-            expr(condition, out, around);
+            scan_expr(condition, out, around);
             around.loops.push(label.as_deref());
-            block(body, out, around);
+            scan_block(body, out, around);
             around.loops.pop();
         }
         ExprKind::If(condition, then, otherwise, _) => {
-            expr(condition, out, around);
-            block(then, out, around);
-            otherwise.iter().for_each(|e| expr(e, out, around));
+            scan_expr(condition, out, around);
+            scan_block(then, out, around);
+            otherwise.iter().for_each(|e| scan_expr(e, out, around));
         }
         ExprKind::Closure(closure) => {
             // A `return` in it leaves the closure alone.
@@ -165,46 +167,48 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             closure
                 .params
                 .iter()
-                .for_each(|(pattern, _)| bound(pattern, &mut around.own));
-            expr(&closure.body, out, around);
+                .for_each(|(pattern, _)| collect_bindings(pattern, &mut around.own));
+            scan_expr(&closure.body, out, around);
             around.own.truncate(mark);
             out.leaves = leaves;
         }
-        ExprKind::Block(b) => block(b, out, around),
+        ExprKind::Block(b) => scan_block(b, out, around),
         ExprKind::Labelled(label, b) => {
             around.loops.push(Some(label));
-            block(b, out, around);
+            scan_block(b, out, around);
             around.loops.pop();
         }
         ExprKind::Match(subject, arms, _) => {
-            expr(subject, out, around);
+            scan_expr(subject, out, around);
             for arm in arms {
                 let mark = around.own.len();
-                bound(&arm.pattern, &mut around.own);
-                arm.guard.iter().for_each(|e| expr(e, out, around));
-                expr(&arm.body, out, around);
+                collect_bindings(&arm.pattern, &mut around.own);
+                arm.guard.iter().for_each(|e| scan_expr(e, out, around));
+                scan_expr(&arm.body, out, around);
                 around.own.truncate(mark);
             }
         }
-        _ => children(e).into_iter().for_each(|child| expr(child, out, around)),
+        _ => child_exprs(e)
+            .into_iter()
+            .for_each(|child| scan_expr(child, out, around)),
     }
 }
 
 /// The variable that a place is a part of.
-pub fn root(place: &Expr) -> Option<String> {
+pub fn root_variable(place: &Expr) -> Option<String> {
     match &place.kind {
         ExprKind::Path(path) if path.len() == 1 => Some(path[0].clone()),
         ExprKind::Field(base, _) | ExprKind::Index(base, _) | ExprKind::Deref(base) | ExprKind::Ref(_, base) => {
-            root(base)
+            root_variable(base)
         }
         // A method may give a reference to a part of its receiver.
-        ExprKind::Method(receiver, ..) => root(receiver),
+        ExprKind::Method(receiver, ..) => root_variable(receiver),
         _ => None,
     }
 }
 
 /// Direct parts of an expression, blocks left out.
-pub fn children(e: &Expr) -> Vec<&Expr> {
+pub fn child_exprs(e: &Expr) -> Vec<&Expr> {
     match &e.kind {
         ExprKind::Unary(_, a)
         | ExprKind::Field(a, _)
@@ -238,7 +242,7 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
 }
 
 /// Every name that a piece of the tree mentions: variables, functions, constants, types.
-pub fn mentioned(b: &Block, out: &mut BTreeSet<String>) {
+pub fn collect_mentioned(b: &Block, out: &mut BTreeSet<String>) {
     for statement in &b.statements {
         match statement {
             Statement::Let(_, _, init, _) => init.iter().for_each(|e| mentioned_in(e, out)),
@@ -257,16 +261,18 @@ pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
             out.insert(name.clone());
         }
         ExprKind::Struct(path, ..) => out.extend(path.iter().cloned()),
-        ExprKind::If(_, then, ..) => mentioned(then, out),
+        ExprKind::If(_, then, ..) => collect_mentioned(then, out),
         ExprKind::For(f) => {
             in_pattern(&f.pattern, out);
-            mentioned(&f.body, out);
+            collect_mentioned(&f.body, out);
         }
-        ExprKind::While(_, body, ..) | ExprKind::Block(body) | ExprKind::Labelled(_, body) => mentioned(body, out),
+        ExprKind::While(_, body, ..) | ExprKind::Block(body) | ExprKind::Labelled(_, body) => {
+            collect_mentioned(body, out)
+        }
         ExprKind::Match(_, arms, _) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
         _ => {}
     }
-    children(e).into_iter().for_each(|child| mentioned_in(child, out));
+    child_exprs(e).into_iter().for_each(|child| mentioned_in(child, out));
 }
 
 fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {

@@ -1,7 +1,7 @@
 //! `break` with a value, of a `loop` or a block with a label: what it gives is a variable that the `break` assigns.
 
-use super::expr::{Lower, label};
-use super::scan::breaks;
+use super::expr::{Lower, label_name};
+use super::scan::has_break;
 use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use syn::spanned::Spanned;
@@ -27,7 +27,12 @@ pub enum Kind {
 
 impl Lower {
     /// Lowers what stands in a loop or in a block with a label; tells whether a `break` of it has a value.
-    pub fn inside<T>(&mut self, label: Option<String>, kind: Kind, lower: impl FnOnce(&mut Self) -> T) -> (T, bool) {
+    pub fn with_target<T>(
+        &mut self,
+        label: Option<String>,
+        kind: Kind,
+        lower: impl FnOnce(&mut Self) -> T,
+    ) -> (T, bool) {
         self.targets.push(Target {
             label,
             kind,
@@ -44,18 +49,18 @@ impl Lower {
     }
 
     /// `loop`.
-    pub fn loop_(&mut self, e: &syn::ExprLoop) -> ExprKind {
-        let name = label(e.label.as_ref().map(|l| &l.name));
-        let span = self.span(e.span());
+    pub fn lower_loop(&mut self, e: &syn::ExprLoop) -> ExprKind {
+        let name = label_name(e.label.as_ref().map(|l| &l.name));
+        let span = self.token_span(e.span());
         let always = Expr {
             kind: ExprKind::Bool(true),
-            span: self.span(e.loop_token.span()),
+            span: self.token_span(e.loop_token.span()),
         };
-        let (body, valued) = self.inside(name.clone(), Kind::Loop, |lower| lower.block(&e.body));
-        let ends = !valued && breaks(&body, name.as_deref());
-        let kind = self.while_(always, body, name, &e.attrs);
+        let (body, valued) = self.with_target(name.clone(), Kind::Loop, |lower| lower.lower_block(&e.body));
+        let ends = !valued && has_break(&body, name.as_deref());
+        let kind = self.lower_while(always, body, name, &e.attrs);
         if matches!(kind, ExprKind::For(_)) && !ends {
-            let error = Diagnostic::at(
+            let error = Diagnostic::error_at(
                 Code::Attribute,
                 span,
                 "a `loop` that ends with a value takes no `bound`",
@@ -65,30 +70,30 @@ impl Lower {
             self.errors.push(error);
         }
         match valued {
-            true => self.given(Expr { kind, span }),
+            true => self.wrap_break_value(Expr { kind, span }),
             false => kind,
         }
     }
 
     /// `'label: { .. }`.
-    pub fn labelled(&mut self, e: &syn::ExprBlock) -> ExprKind {
-        let name = label(e.label.as_ref().map(|l| &l.name)).unwrap_or_default();
-        let span = self.span(e.span());
-        let (mut body, valued) = self.inside(Some(name.clone()), Kind::Block, |lower| lower.block(&e.block));
+    pub fn lower_labelled(&mut self, e: &syn::ExprBlock) -> ExprKind {
+        let name = label_name(e.label.as_ref().map(|l| &l.name)).unwrap_or_default();
+        let span = self.token_span(e.span());
+        let (mut body, valued) = self.with_target(Some(name.clone()), Kind::Block, |lower| lower.lower_block(&e.block));
         if valued && let Some(value) = body.value.take() {
             let at = value.span;
-            let assigned = self.assigned(self.targets.len(), *value, at);
+            let assigned = self.assign_break_value(self.targets.len(), *value, at);
             body.statements.push(Statement::Expr(assigned));
         }
         let kind = ExprKind::Labelled(name, body);
         match valued {
-            true => self.given(Expr { kind, span }),
+            true => self.wrap_break_value(Expr { kind, span }),
             false => kind,
         }
     }
 
     /// Wraps a loop or block that is left with a value: the result is the variable that the `break` assigns.
-    fn given(&self, left: Expr) -> ExprKind {
+    fn wrap_break_value(&self, left: Expr) -> ExprKind {
         let (span, name) = (left.span, self.name_within(self.targets.len()));
         let value = Expr {
             kind: ExprKind::Path(vec![name.clone()]),
@@ -104,7 +109,7 @@ impl Lower {
         })
     }
 
-    fn assigned(&self, depth: usize, value: Expr, span: Span) -> Expr {
+    fn assign_break_value(&self, depth: usize, value: Expr, span: Span) -> Expr {
         let place = Expr {
             kind: ExprKind::Path(vec![self.name_within(depth)]),
             span,
@@ -116,12 +121,12 @@ impl Lower {
     }
 
     /// `break`, with a value or without.
-    pub fn break_(&mut self, e: &syn::ExprBreak) -> ExprKind {
-        let name = label(e.label.as_ref());
+    pub fn lower_break(&mut self, e: &syn::ExprBreak) -> ExprKind {
+        let name = label_name(e.label.as_ref());
         let leave = ExprKind::Break(name.clone());
         let Some(value) = &e.expr else { return leave };
-        let value = self.expr(value);
-        let span = self.span(e.span());
+        let value = self.lower_expr(value);
+        let span = self.token_span(e.span());
         let found = self.targets.iter().rposition(|target| match &name {
             Some(_) => target.label == name,
             None => target.kind != Kind::Block,
@@ -130,7 +135,7 @@ impl Lower {
         let Some(depth) = found else { return leave };
         if let Kind::Other(word) = self.targets[depth].kind {
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::Leaving,
                     span,
                     format!("`break` with a value from a `{word}` loop"),
@@ -141,7 +146,7 @@ impl Lower {
             return leave;
         }
         self.targets[depth].valued = true;
-        let assigned = self.assigned(depth, value, span);
+        let assigned = self.assign_break_value(depth, value, span);
         let leave = Expr { kind: leave, span };
         ExprKind::Block(Block {
             statements: vec![Statement::Expr(assigned)],

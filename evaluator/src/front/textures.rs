@@ -208,12 +208,12 @@ pub const TEXTURES: [TextureType; 10] = [
 
 impl TextureType {
     /// The one that is called so.
-    pub fn named(name: &str) -> Option<&'static TextureType> {
+    pub fn from_name(name: &str) -> Option<&'static TextureType> {
         TEXTURES.iter().find(|ty| ty.name == name)
     }
 
     /// That of a texture.
-    pub fn of(texture: &Texture) -> &'static TextureType {
+    pub fn from_texture(texture: &Texture) -> &'static TextureType {
         let found = TEXTURES
             .iter()
             .find(|ty| ty.kind == texture.kind && ty.framed == texture.framed);
@@ -222,7 +222,7 @@ impl TextureType {
     }
 
     /// A method by its name and the number of its arguments.
-    pub fn method(&self, name: &str, arguments: usize) -> Option<&'static TextureMethod> {
+    pub fn find_method(&self, name: &str, arguments: usize) -> Option<&'static TextureMethod> {
         let mut methods = self.methods.iter();
         methods.find(|method| method.name == name && method.params.len() == arguments)
     }
@@ -233,9 +233,14 @@ impl TextureType {
     }
 
     /// The methods that it has for texels of a kind, as a list for people.
-    pub fn described(&self, texel: Scalar) -> String {
-        let of_kind = |method: &&TextureMethod| texel == Scalar::F32 || !method.filters();
-        let methods: Vec<String> = self.methods.iter().filter(of_kind).map(|m| self.shown(m)).collect();
+    pub fn describe_methods(&self, texel: Scalar) -> String {
+        let of_kind = |method: &&TextureMethod| texel == Scalar::F32 || !method.is_filtered();
+        let methods: Vec<String> = self
+            .methods
+            .iter()
+            .filter(of_kind)
+            .map(|m| self.format_method(m))
+            .collect();
         match methods.split_last() {
             Some((last, [])) => last.clone(),
             Some((last, others)) => format!("{} and {last}", others.join(", ")),
@@ -244,7 +249,7 @@ impl TextureType {
     }
 
     /// A method as it is called.
-    pub fn shown(&self, method: &TextureMethod) -> String {
+    pub fn format_method(&self, method: &TextureMethod) -> String {
         let names = method.params.iter().map(|param| match param {
             Param::Place if self.kind.is_cube() => "direction",
             Param::Place if self.kind == TextureKind::Volume => "place",
@@ -256,7 +261,7 @@ impl TextureType {
 
 impl TextureMethod {
     /// Returns whether a sampler filters the texels.
-    pub fn filters(&self) -> bool {
+    pub fn is_filtered(&self) -> bool {
         self.params.contains(&Param::Filtering)
     }
 }

@@ -4,7 +4,7 @@
 
 use super::check::Check;
 use super::expr::Lower;
-use super::items::{Items, Owner, qualified};
+use super::items::{Items, Owner, qualified_name};
 use super::tree::{Implemented, Trait, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
@@ -70,13 +70,13 @@ pub fn is_of_rust(name: &str) -> bool {
 
 impl Items {
     /// Notes a trait of the kernel's files.
-    pub(super) fn trait_(&mut self, file: u32, item: &mut syn::ItemTrait, mut check: Check) {
-        check.generics(&mut item.generics);
+    pub(super) fn add_trait(&mut self, file: u32, item: &mut syn::ItemTrait, mut check: Check) {
+        check.check_generics(&mut item.generics);
         let name = item.ident.to_string();
         let declared = Type::Name("Self".to_owned(), Vec::new());
         let owner = Owner {
             name: name.clone(),
-            generics: self.lower_of(file).generics(&item.generics),
+            generics: self.lower_of(file).lower_generics(&item.generics),
             bounds: HashMap::new(),
             ty: declared,
             stands: HashMap::new(),
@@ -93,8 +93,8 @@ impl Items {
                         continue;
                     }
                     // The body of a default function is checked for each type that takes it.
-                    let mut of_signature = check.beside();
-                    of_signature.function(
+                    let mut of_signature = check.for_same_file();
+                    of_signature.check_function(
                         &mut f.sig,
                         &mut syn::Block {
                             brace_token: syn::token::Brace::default(),
@@ -105,7 +105,7 @@ impl Items {
                         brace_token: syn::token::Brace::default(),
                         stmts: Vec::new(),
                     };
-                    let (function, errors) = self.lowered(file, &f.sig, &empty, &f.attrs, Some(&owner));
+                    let (function, errors) = self.lower_function(file, &f.sig, &empty, &f.attrs, Some(&owner));
                     self.note_errors_of(&name, errors);
                     if f.default.is_none() {
                         self.note(&name, f.to_token_stream(), of_signature);
@@ -115,9 +115,9 @@ impl Items {
                 syn::TraitItem::Const(c) => {
                     if check.keeps(&mut c.attrs) {
                         check.constant_name(&c.ident);
-                        check.ty(&mut c.ty);
+                        check.check_type(&mut c.ty);
                         let mut lower = self.lower_within(file, &owner);
-                        of_trait.consts.insert(c.ident.to_string(), lower.ty(&c.ty));
+                        of_trait.consts.insert(c.ident.to_string(), lower.lower_type(&c.ty));
                         self.note_errors_of(&name, lower.errors);
                     }
                 }
@@ -129,11 +129,11 @@ impl Items {
                     }
                 }
                 // A macro, or unstable syntax.
-                other => self.hidden(other.to_token_stream(), check.beside()),
+                other => self.refuse_definitions(other.to_token_stream(), check.for_same_file()),
             }
         }
         if self.library.traits.insert(name.clone(), of_trait).is_some() {
-            check.twice(&item.ident);
+            check.note_duplicate(&item.ident);
         }
         let text = item.supertraits.to_token_stream();
         self.note(&name, text, check);
@@ -143,22 +143,22 @@ impl Items {
     /// Takes the implementations of traits, after all that types have themselves.
     pub(super) fn implement_all(&mut self) {
         for (file, mut item) in std::mem::take(&mut self.implementations) {
-            self.implement(file, &mut item);
+            self.add_trait_impl(file, &mut item);
         }
     }
 
-    fn implement(&mut self, file: u32, item: &mut syn::ItemImpl) {
+    fn add_trait_impl(&mut self, file: u32, item: &mut syn::ItemImpl) {
         let mut check = Check::new(file);
         let Some((path, _)) = item.trait_.clone() else { return };
         let mut lower = self.lower_of(file);
-        let ty = lower.ty(&item.self_ty);
+        let ty = lower.lower_type(&item.self_ty);
         lower.stands_in(&ty);
-        let generics = lower.generics(&item.generics);
-        let bounds = lower.bounds(&item.generics);
+        let generics = lower.lower_generics(&item.generics);
+        let bounds = lower.trait_bounds(&item.generics);
         let trait_name = path.segments.last().map(|s| s.ident.to_string()).unwrap_or_default();
-        let args = arguments(&mut lower, &path);
+        let args = trait_arguments(&mut lower, &path);
         let own: BTreeSet<&str> = generics.iter().map(super::tree::Generic::name).collect();
-        let of = match ty.bare() {
+        let of = match ty.peel_refs() {
             Type::Name(of, _) if !own.contains(of.as_str()) => of.clone(),
             other => {
                 let (what, instead) = match other {
@@ -169,7 +169,7 @@ impl Items {
                     ),
                 };
                 check.refuse(item.self_ty.span(), what, instead);
-                return self.refuse_functions(item, "impl", &check.errors());
+                return self.refuse_functions(item, "impl", &check.into_errors());
             }
         };
         if OWN.contains(&trait_name.as_str()) {
@@ -178,13 +178,13 @@ impl Items {
                 &format!("`{trait_name}` written by hand"),
                 "derive it where it can be derived, or write a method of the type and call it by its name",
             );
-            self.note(&of, TokenStream::new(), check.taken());
+            self.note(&of, TokenStream::new(), check.take_current());
             return self.refuse_functions(item, &of, &[]);
         }
         let mut stands = HashMap::new();
         for inner in &item.items {
             if let syn::ImplItem::Type(t) = inner {
-                stands.insert(format!("Self::{}", t.ident), lower.ty(&t.ty));
+                stands.insert(format!("Self::{}", t.ident), lower.lower_type(&t.ty));
             }
         }
         let declared = self.traits.get(&trait_name).cloned();
@@ -195,7 +195,7 @@ impl Items {
             });
             stands.extend(types.zip(args.iter().cloned()));
         }
-        check.generics(&mut item.generics);
+        check.check_generics(&mut item.generics);
         let owner = Owner {
             name: of.clone(),
             generics,
@@ -205,11 +205,11 @@ impl Items {
         };
         self.library.implements.insert((of.clone(), trait_name.clone()));
         let mut errors = lower.errors;
-        errors.extend(check.errors());
+        errors.extend(check.into_errors());
         let given: BTreeSet<String> = item.items.iter().filter_map(item_name).collect();
         let mut all: Vec<(u32, syn::ImplItem)> = item.items.iter().map(|inner| (file, inner.clone())).collect();
         if let Some((at, declared)) = &declared {
-            errors.extend(self.missing(file, &path, declared, &given));
+            errors.extend(self.missing_members(file, &path, declared, &given));
             let taken = declared.items.iter().filter_map(default_of);
             let taken = taken.filter(|inner| item_name(inner).is_some_and(|name| !given.contains(&name)));
             all.extend(taken.map(|inner| (*at, inner)));
@@ -218,10 +218,10 @@ impl Items {
         let named = Named {
             trait_name: &trait_name,
             args: &args,
-            shown: shown(&path),
+            shown: format_trait(&path),
         };
         for (file, mut inner) in all {
-            self.member(file, &mut inner, &owner, &named, item, &errors);
+            self.add_impl_item(file, &mut inner, &owner, &named, item, &errors);
         }
         if errors.is_empty() {
             self.reached_by(&of, &named, &owner);
@@ -229,7 +229,7 @@ impl Items {
     }
 
     /// A function or a constant of an implementation.
-    fn member(
+    fn add_impl_item(
         &mut self,
         file: u32,
         inner: &mut syn::ImplItem,
@@ -239,21 +239,21 @@ impl Items {
         errors: &[Diagnostic],
     ) {
         let mut check = Check::new(file);
-        check.generics(&mut item.generics.clone());
+        check.check_generics(&mut item.generics.clone());
         let text = inner.to_token_stream();
         let key = match inner {
             syn::ImplItem::Fn(f) => {
                 if !check.keeps_function(&mut f.attrs) {
                     return;
                 }
-                check.function(&mut f.sig, &mut f.block);
-                let plain = qualified(Some(&owner.name), &f.sig.ident);
-                let key = self.key(&plain, owner, named);
+                check.check_function(&mut f.sig, &mut f.block);
+                let plain = qualified_name(Some(&owner.name), &f.sig.ident);
+                let key = self.function_key(&plain, owner, named);
                 if self.implemented_twice(&plain, named) {
-                    self.duplicate(&self.lower_of(file), f.sig.ident.span(), &plain);
+                    self.note_duplicate(&self.lower_of(file), f.sig.ident.span(), &plain);
                     return;
                 }
-                let (function, lowered) = self.lowered(file, &f.sig, &f.block, &f.attrs, Some(owner));
+                let (function, lowered) = self.lower_function(file, &f.sig, &f.block, &f.attrs, Some(owner));
                 self.note_errors_of(&key, lowered);
                 self.insert(&key, &f.sig.ident, function);
                 self.library.implemented.entry(plain).or_default().push(Implemented {
@@ -268,13 +268,13 @@ impl Items {
                     return;
                 }
                 check.constant_name(&c.ident);
-                check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                check.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
                 let mut lower = self.lower_within(file, owner);
-                let name = qualified(Some(&owner.name), &c.ident);
-                let value = lower.expr(&c.expr);
-                let ty = lower.ty(&c.ty);
+                let name = qualified_name(Some(&owner.name), &c.ident);
+                let value = lower.lower_expr(&c.expr);
+                let ty = lower.lower_type(&c.ty);
                 if self.library.consts.contains_key(&name) {
-                    self.duplicate(&lower, c.ident.span(), &name);
+                    self.note_duplicate(&lower, c.ident.span(), &name);
                 }
                 self.note_errors_of(&name, lower.errors);
                 let constant = super::tree::Const {
@@ -286,7 +286,7 @@ impl Items {
                 name
             }
             syn::ImplItem::Type(_) => return,
-            other => return self.hidden(other.to_token_stream(), check),
+            other => return self.refuse_definitions(other.to_token_stream(), check),
         };
         let mut mentioned = item.self_ty.to_token_stream();
         mentioned.extend(text);
@@ -295,7 +295,7 @@ impl Items {
     }
 
     /// Key of a function of an implementation: its type and its name if those are free.
-    fn key(&self, plain: &str, owner: &Owner, named: &Named<'_>) -> String {
+    fn function_key(&self, plain: &str, owner: &Owner, named: &Named<'_>) -> String {
         let name = plain.rsplit("::").next().unwrap_or(plain);
         // A method of the type itself goes before one of a trait.
         let taken = self.library.functions.contains_key(plain) || super::methods::is_inherent(&owner.name, name);
@@ -307,7 +307,9 @@ impl Items {
 
     /// Returns whether there is an implementation of the trait for the type already, ignoring references.
     fn implemented_twice(&self, plain: &str, named: &Named<'_>) -> bool {
-        let alike = |a: &[Type], b: &[Type]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bare(a) == bare(b));
+        let alike = |a: &[Type], b: &[Type]| {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bare_type_name(a) == bare_type_name(b))
+        };
         let known = self.library.implemented.get(plain);
         known.is_some_and(|known| {
             known
@@ -328,14 +330,14 @@ impl Items {
             .filter(|(plain, _)| plain.starts_with(&format!("{of}::")));
         let keys = keys.flat_map(|(_, all)| all).filter(|i| i.of == named.trait_name);
         let keys: Vec<String> = keys.map(|i| i.key.clone()).collect();
-        let arguments = named.args.iter().filter_map(|ty| match ty.bare() {
+        let arguments = named.args.iter().filter_map(|ty| match ty.peel_refs() {
             Type::Name(name, _) => Some(name.clone()),
             _ => None,
         });
         let types: Vec<String> = std::iter::once(owner.name.clone()).chain(arguments).collect();
         for ty in types.iter().filter(|ty| !super::foreign::is_prelude_type(ty)) {
             for key in &keys {
-                self.mentions.needs(ty, key);
+                self.mentions.add_need(ty, key);
             }
         }
     }
@@ -347,7 +349,7 @@ impl Items {
     }
 
     /// Functions and constants that an implementation lacks.
-    fn missing(
+    fn missing_members(
         &self,
         file: u32,
         path: &syn::Path,
@@ -370,9 +372,9 @@ impl Items {
         }
         let lower = self.lower_of(file);
         Some(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::TraitImplementation,
-                lower.span(path.span()),
+                lower.token_span(path.span()),
                 format!("not all items of the trait `{}` are implemented", declared.ident),
             )
             .label(format!("missing: {}", lacking.join(", ")))
@@ -405,13 +407,13 @@ impl Items {
             .filter_map(|item| Some((item_name(item)?, item_span(item)?)));
         let others = others.filter(|(name, _)| !known.contains(&name.as_str()));
         let each = others.map(|(name, span)| {
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::TraitImplementation,
-                lower.span(span),
+                lower.token_span(span),
                 format!("`{name}` is not a member of the trait `{trait_name}`"),
             )
             .label("not of this trait")
-            .help(crate::suggest::suggest(&name, &known, "it has"))
+            .help(crate::suggest::suggest_name(&name, &known, "it has"))
         });
         each.collect()
     }
@@ -444,38 +446,38 @@ pub fn trait_name(bound: &syn::TypeParamBound) -> Option<String> {
 }
 
 /// The type arguments of a trait.
-fn arguments(lower: &mut Lower, path: &syn::Path) -> Vec<Type> {
+fn trait_arguments(lower: &mut Lower, path: &syn::Path) -> Vec<Type> {
     let Some(syn::PathArguments::AngleBracketed(list)) = path.segments.last().map(|s| &s.arguments) else {
         return Vec::new();
     };
     let each = list.args.iter().filter_map(|arg| match arg {
-        syn::GenericArgument::Type(ty) => Some(lower.ty(ty)),
+        syn::GenericArgument::Type(ty) => Some(lower.lower_type(ty)),
         _ => None,
     });
     each.collect()
 }
 
 /// A trait with its arguments, for names and messages.
-fn shown(path: &syn::Path) -> String {
+fn format_trait(path: &syn::Path) -> String {
     let last = path.segments.last().map(super::cfg::as_written).unwrap_or_default();
     last.replace(' ', "")
 }
 
 /// A type without the references in it.
-fn bare(ty: &Type) -> String {
-    match ty.bare() {
+fn bare_type_name(ty: &Type) -> String {
+    match ty.peel_refs() {
         Type::Name(name, args) => {
-            let args: Vec<String> = args.iter().map(bare).collect();
+            let args: Vec<String> = args.iter().map(bare_type_name).collect();
             format!("{name}<{}>", args.join(","))
         }
         Type::Tuple(parts) => {
-            let parts: Vec<String> = parts.iter().map(bare).collect();
+            let parts: Vec<String> = parts.iter().map(bare_type_name).collect();
             format!("({})", parts.join(","))
         }
-        Type::Array(element, _) => format!("[{}]", bare(element)),
+        Type::Array(element, _) => format!("[{}]", bare_type_name(element)),
         Type::Fn(..) => "fn".to_owned(),
         Type::Const(_) => "_".to_owned(),
-        Type::Ref(_, inner) => bare(inner),
+        Type::Ref(_, inner) => bare_type_name(inner),
     }
 }
 

@@ -214,7 +214,7 @@ impl Pattern {
     }
 
     /// The parts that each of some patterns takes of `count`: one, or what `..` takes. `None` if they are not of so many.
-    pub fn shared(patterns: &[Pattern], count: usize) -> Option<Vec<(&Pattern, Range<usize>)>> {
+    pub fn part_ranges(patterns: &[Pattern], count: usize) -> Option<Vec<(&Pattern, Range<usize>)>> {
         let rest = patterns.iter().position(Pattern::is_rest);
         let left = match rest {
             Some(_) => (count + 1).checked_sub(patterns.len())?,
@@ -260,9 +260,9 @@ pub enum Type {
 
 impl Type {
     /// The type behind any shared or mutable references.
-    pub fn bare(&self) -> &Type {
+    pub fn peel_refs(&self) -> &Type {
         match self {
-            Type::Ref(_, inner) => inner.bare(),
+            Type::Ref(_, inner) => inner.peel_refs(),
             other => other,
         }
     }
@@ -454,7 +454,7 @@ impl Library {
     }
 
     /// Keys of the functions that `Type::name` may mean: a function of the type itself alone, or functions of traits.
-    pub fn methods(&self, ty: &str, name: &str) -> Vec<&str> {
+    pub fn method_keys(&self, ty: &str, name: &str) -> Vec<&str> {
         let plain = format!("{ty}::{name}");
         let of_traits = self.implemented.get(&plain).map_or(&[][..], Vec::as_slice);
         match self.functions.get_key_value(&plain) {
@@ -464,16 +464,16 @@ impl Library {
     }
 
     /// The functions of an operator's trait that a type has.
-    pub fn operators(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
+    pub fn operator_keys(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
         let of_traits = self.implemented.get(&format!("{ty}::{name}"));
         let of_traits = of_traits.into_iter().flatten().filter(|i| i.of == of);
         of_traits.map(|i| i.key.as_str()).collect()
     }
 
     /// The function of a trait, or of one that it needs.
-    pub fn declared(&self, of: &str, name: &str) -> Option<&Function> {
+    pub fn declared_function(&self, of: &str, name: &str) -> Option<&Function> {
         let found = self.traits.get(of)?;
-        let supers = || found.supers.iter().find_map(|of| self.declared(of, name));
+        let supers = || found.supers.iter().find_map(|of| self.declared_function(of, name));
         found.functions.get(name).or_else(supers)
     }
 
@@ -485,7 +485,7 @@ impl Library {
     }
 
     /// The enum and the variant that a path ends with, and the variant's position.
-    pub fn variant<'l>(&'l self, path: &'l [String]) -> Option<(&'l str, usize, &'l Variant)> {
+    pub fn find_variant<'l>(&'l self, path: &'l [String]) -> Option<(&'l str, usize, &'l Variant)> {
         let [.., ty, name] = path else { return None };
         let definition = self.enums.get(ty)?;
         let k = definition.position(name)?;

@@ -6,7 +6,7 @@ use crate::ir::UnaryOp;
 
 impl Lower {
     /// `while`, or `loop` with the condition `true`; with a bound, a `for` of so many iterations that the condition may end.
-    pub fn while_(
+    pub fn lower_while(
         &mut self,
         condition: Expr,
         body: Block,
@@ -17,21 +17,21 @@ impl Lower {
         let Some((bound, at)) = said.bound else {
             return ExprKind::While(Box::new(condition), body, label, said.unroll);
         };
-        let number = |n: i64| Box::new(self.at(ExprKind::Int(n, None), at));
+        let number = |n: i64| Box::new(self.expr_at(ExprKind::Int(n, None), at));
         let range = ExprKind::Range(number(0), number(bound.into()), false);
         ExprKind::For(Box::new(ForLoop {
             label,
             unroll: said.unroll,
             pattern: Pattern::Wild,
-            over: self.at(range, at),
-            body: guarded(&condition, &body),
+            over: self.expr_at(range, at),
+            body: guard_body(&condition, &body),
             bounded: true,
         }))
     }
 }
 
 /// `if !condition { break; }`, and the body: what an iteration does that looks first whether it is one.
-pub fn guarded(condition: &Expr, block: &Block) -> Block {
+pub fn guard_body(condition: &Expr, block: &Block) -> Block {
     let at = |kind| Expr {
         kind,
         span: condition.span,

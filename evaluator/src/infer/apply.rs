@@ -6,54 +6,56 @@ use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Typ
 use std::sync::Arc;
 
 /// Gives each literal the type that was found for it, and each method of a number the function that it stands for.
-pub fn apply(library: &mut Library, items: &KnownItems) {
+pub fn apply_inferred(library: &mut Library, items: &KnownItems) {
     let nothing = Known::default();
     let of = |name: &str| items.get(name).unwrap_or(&nothing);
     for (name, function) in &mut library.functions {
         let known = of(name);
         for param in &mut function.params {
-            ty(&mut param.ty, known);
+            apply_to_type(&mut param.ty, known);
         }
-        ty(&mut function.result, known);
-        block(&mut function.body, known);
+        apply_to_type(&mut function.result, known);
+        apply_to_block(&mut function.body, known);
     }
     for (name, constant) in &mut library.consts {
         let known = of(name);
-        ty(&mut constant.ty, known);
-        expr(&mut constant.value, known);
+        apply_to_type(&mut constant.ty, known);
+        apply_to_expr(&mut constant.value, known);
     }
     let known = of("");
     let of_structures = library.structs.values_mut().flat_map(|s| &mut s.fields);
     let variants = library.enums.values_mut().flat_map(|e| &mut e.variants);
     let of_variants = variants.flat_map(|variant| &mut variant.fields);
-    of_structures.chain(of_variants).for_each(|(_, t, _)| ty(t, known));
+    of_structures
+        .chain(of_variants)
+        .for_each(|(_, t, _)| apply_to_type(t, known));
     for field in library.options.values_mut().flatten() {
-        ty(&mut field.ty, known);
-        expr(&mut field.default, known);
-        field.range.iter_mut().for_each(|range| expr(range, known));
+        apply_to_type(&mut field.ty, known);
+        apply_to_expr(&mut field.default, known);
+        field.range.iter_mut().for_each(|range| apply_to_expr(range, known));
     }
 }
 
-fn block(b: &mut Block, known: &Known) {
+fn apply_to_block(b: &mut Block, known: &Known) {
     for statement in &mut b.statements {
         match statement {
             Statement::Let(p, stated, init, _) => {
-                pattern(p, known);
-                stated.iter_mut().for_each(|t| ty(t, known));
-                init.iter_mut().for_each(|e| expr(e, known));
+                apply_to_pattern(p, known);
+                stated.iter_mut().for_each(|t| apply_to_type(t, known));
+                init.iter_mut().for_each(|e| apply_to_expr(e, known));
             }
-            Statement::Expr(e) => expr(e, known),
+            Statement::Expr(e) => apply_to_expr(e, known),
             Statement::Const(constant) => {
-                ty(&mut constant.ty, known);
-                expr(&mut constant.value, known);
+                apply_to_type(&mut constant.ty, known);
+                apply_to_expr(&mut constant.value, known);
             }
         }
     }
-    b.value.iter_mut().for_each(|e| expr(e, known));
+    b.value.iter_mut().for_each(|e| apply_to_expr(e, known));
 }
 
-fn expr(e: &mut Expr, known: &Known) {
-    let go = |e: &mut Expr| expr(e, known);
+fn apply_to_expr(e: &mut Expr, known: &Known) {
+    let go = |e: &mut Expr| apply_to_expr(e, known);
     match &mut e.kind {
         ExprKind::Int(_, ty) => *ty = ty.or_else(|| known.literals.get(&e.span).copied()),
         ExprKind::Float(..)
@@ -85,7 +87,7 @@ fn expr(e: &mut Expr, known: &Known) {
                 *path = vec![function.clone()];
             }
             if let Some((_, types)) = known.instances.get(&e.span) {
-                *constants = arguments(std::mem::take(constants), types, e.span);
+                *constants = fill_arguments(std::mem::take(constants), types, e.span);
             }
         }
         ExprKind::Method(receiver, name, args) => {
@@ -96,7 +98,7 @@ fn expr(e: &mut Expr, known: &Known) {
             args.iter_mut().for_each(go);
             // Only a call has a place for types.
             if let Some((key, types)) = known.instances.get(&e.span) {
-                let constants = arguments(Vec::new(), types, e.span);
+                let constants = fill_arguments(Vec::new(), types, e.span);
                 let mut receiver = (**receiver).clone();
                 // A function with a `&mut` receiver borrows it, as a method does.
                 if changes_array(key) {
@@ -120,46 +122,46 @@ fn expr(e: &mut Expr, known: &Known) {
         }
         ExprKind::Cast(a, t) => {
             go(a);
-            ty(t, known);
+            apply_to_type(t, known);
         }
         ExprKind::Return(value) => value.iter_mut().for_each(|e| go(e)),
         ExprKind::If(condition, then, otherwise, _) => {
             go(condition);
             otherwise.iter_mut().for_each(|e| go(e));
-            block(then, known);
+            apply_to_block(then, known);
         }
         ExprKind::Match(subject, arms, _) => {
             go(subject);
             for arm in arms {
-                pattern(&mut arm.pattern, known);
-                arm.guard.iter_mut().for_each(|e| expr(e, known));
-                expr(&mut arm.body, known);
+                apply_to_pattern(&mut arm.pattern, known);
+                arm.guard.iter_mut().for_each(|e| apply_to_expr(e, known));
+                apply_to_expr(&mut arm.body, known);
             }
         }
         ExprKind::Closure(closure) => {
             let closure = Arc::make_mut(closure);
             for (p, stated) in &mut closure.params {
-                pattern(p, known);
-                stated.iter_mut().for_each(|t| ty(t, known));
+                apply_to_pattern(p, known);
+                stated.iter_mut().for_each(|t| apply_to_type(t, known));
             }
-            closure.result.iter_mut().for_each(|t| ty(t, known));
-            expr(&mut closure.body, known);
+            closure.result.iter_mut().for_each(|t| apply_to_type(t, known));
+            apply_to_expr(&mut closure.body, known);
         }
-        ExprKind::Block(b) | ExprKind::Labelled(_, b) => block(b, known),
+        ExprKind::Block(b) | ExprKind::Labelled(_, b) => apply_to_block(b, known),
         ExprKind::For(f) => {
-            pattern(&mut f.pattern, known);
-            expr(&mut f.over, known);
-            block(&mut f.body, known);
+            apply_to_pattern(&mut f.pattern, known);
+            apply_to_expr(&mut f.over, known);
+            apply_to_block(&mut f.body, known);
         }
         ExprKind::While(condition, body, ..) => {
             go(condition);
-            block(body, known);
+            apply_to_block(body, known);
         }
     }
 }
 
 /// Generic arguments with the types that were found: those that are stated, then the others. What is not known is `()`.
-fn arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Expr> {
+fn fill_arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Expr> {
     let mut stated = stated.into_iter();
     let each = types.iter().map(|ty| {
         let given = stated.next();
@@ -173,31 +175,34 @@ fn arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Exp
     each.collect()
 }
 
-fn pattern(p: &mut Pattern, known: &Known) {
+fn apply_to_pattern(p: &mut Pattern, known: &Known) {
     match p {
         Pattern::Name(..) | Pattern::Wild | Pattern::Rest => {}
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => {
-            parts.iter_mut().for_each(|part| pattern(part, known));
+            parts.iter_mut().for_each(|part| apply_to_pattern(part, known));
         }
-        Pattern::Struct(_, fields, _) => fields.iter_mut().for_each(|(_, part)| pattern(part, known)),
-        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => pattern(inner, known),
-        Pattern::Value(e) => expr(e, known),
-        Pattern::Range(low, high, _) => [low, high].into_iter().flatten().for_each(|end| expr(end, known)),
+        Pattern::Struct(_, fields, _) => fields.iter_mut().for_each(|(_, part)| apply_to_pattern(part, known)),
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => apply_to_pattern(inner, known),
+        Pattern::Value(e) => apply_to_expr(e, known),
+        Pattern::Range(low, high, _) => [low, high]
+            .into_iter()
+            .flatten()
+            .for_each(|end| apply_to_expr(end, known)),
     }
 }
 
-fn ty(t: &mut Type, known: &Known) {
+fn apply_to_type(t: &mut Type, known: &Known) {
     match t {
-        Type::Name(_, args) | Type::Tuple(args) => args.iter_mut().for_each(|t| ty(t, known)),
-        Type::Ref(_, inner) => ty(inner, known),
-        Type::Const(value) => expr(value, known),
+        Type::Name(_, args) | Type::Tuple(args) => args.iter_mut().for_each(|t| apply_to_type(t, known)),
+        Type::Ref(_, inner) => apply_to_type(inner, known),
+        Type::Const(value) => apply_to_expr(value, known),
         Type::Fn(params, result) => {
-            params.iter_mut().for_each(|t| ty(t, known));
-            ty(result, known);
+            params.iter_mut().for_each(|t| apply_to_type(t, known));
+            apply_to_type(result, known);
         }
         Type::Array(element, len) => {
-            ty(element, known);
-            len.iter_mut().for_each(|e| expr(e, known));
+            apply_to_type(element, known);
+            len.iter_mut().for_each(|e| apply_to_expr(e, known));
         }
     }
 }

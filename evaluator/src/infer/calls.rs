@@ -29,7 +29,7 @@ const DERIVATIVES: [&str; 16] = [
 
 impl<'l> Checker<'l> {
     /// The type of `path::<constants>(args)`.
-    pub fn call(&mut self, path: &'l [String], constants: &'l [Expr], args: &'l [Expr], span: Span) -> Ty {
+    pub fn infer_call(&mut self, path: &'l [String], constants: &'l [Expr], args: &'l [Expr], span: Span) -> Ty {
         let last = path.last().map(String::as_str).unwrap_or_default();
         if let [name] = path
             && let Some(found) = self.call_of_local(name, args, span)
@@ -38,7 +38,7 @@ impl<'l> Checker<'l> {
         }
         let library = self.library;
         if library.broken.contains(&path.join("::")) || library.broken.contains(last) {
-            self.loose(args);
+            self.infer_loose_args(args);
             return Ty::Unknown;
         }
         if let [of, name] = path {
@@ -46,12 +46,12 @@ impl<'l> Checker<'l> {
                 return found;
             }
             if let Some(function) = library.functions.get(&path.join("::")) {
-                return self.signature(&path.join("::"), function, constants, None, args, span);
+                return self.infer_function_call(&path.join("::"), function, constants, None, args, span);
             }
         }
         let function = library.functions.get(last).filter(|_| crate::front::is_by_last(path));
         if let Some(function) = function {
-            return self.signature(last, function, constants, None, args, span);
+            return self.infer_function_call(last, function, constants, None, args, span);
         }
         if let Some(made) = self.constructed_by(path, args, span) {
             return made;
@@ -65,7 +65,7 @@ impl<'l> Checker<'l> {
         let library = self.library;
         if self.params.iter().any(|param| param == of) {
             let Some(function) = self.declared_of(of, name) else {
-                self.loose(args);
+                self.infer_loose_args(args);
                 self.no_member(of, name, span);
                 return Some(match name {
                     "default" | "from" | "new" => Ty::Param(of.to_owned()),
@@ -77,24 +77,24 @@ impl<'l> Checker<'l> {
         if of == "Default" && name == "default" && args.is_empty() {
             return Some(self.given_back(None, span));
         }
-        let declared = library.declared(of, name);
+        let declared = library.declared_function(of, name);
         if let (Some(function), false) = (declared, library.has_type(of)) {
             let own = function.params.first().is_some_and(|own| own.name == "self");
-            let found: Vec<Ty> = args.iter().map(|arg| self.expr(arg, None)).collect();
-            let first = found.first().map(|first| self.peeled(first).0);
+            let found: Vec<Ty> = args.iter().map(|arg| self.infer_expr(arg, None)).collect();
+            let first = found.first().map(|first| self.peel_refs(first).0);
             return Some(match first.filter(|_| own) {
                 Some(Ty::Param(parameter)) => {
-                    let mut given = self.instantiate(function, &[]);
+                    let mut given = self.instantiate_function(function, &[]);
                     given.insert("Self".to_owned(), Ty::Param(parameter));
-                    self.substituted(&function.result, &given, span)
+                    self.substitute_type(&function.result, &given, span)
                 }
                 Some(first) => match self.type_name(&first) {
-                    Some(ty) => self.overloaded(&library.methods(&ty, name), &found, name, span),
+                    Some(ty) => self.infer_overloaded(&library.method_keys(&ty, name), &found, name, span),
                     None => Ty::Unknown,
                 },
                 None => {
                     self.errors.push(
-                        Diagnostic::at(
+                        Diagnostic::error_at(
                             Code::TypeNeeded,
                             span,
                             format!("cannot call `{of}::{name}` without the type that it is of"),
@@ -106,16 +106,16 @@ impl<'l> Checker<'l> {
                 }
             });
         }
-        let keys = library.methods(of, name);
+        let keys = library.method_keys(of, name);
         if keys.len() < 2 {
             return None;
         }
-        let found: Vec<Ty> = args.iter().map(|arg| self.expr(arg, None)).collect();
-        Some(self.overloaded(&keys, &found, name, span))
+        let found: Vec<Ty> = args.iter().map(|arg| self.infer_expr(arg, None)).collect();
+        Some(self.infer_overloaded(&keys, &found, name, span))
     }
 
     /// A function of the kernel's files: each argument against its parameter. A method's receiver has been looked at.
-    pub fn signature(
+    pub fn infer_function_call(
         &mut self,
         key: &str,
         function: &'l Function,
@@ -125,11 +125,11 @@ impl<'l> Checker<'l> {
         span: Span,
     ) -> Ty {
         if self.library.broken.contains(key) {
-            self.loose(args);
+            self.infer_loose_args(args);
             return Ty::Unknown;
         }
-        let given = self.instantiate(function, constants);
-        self.instance(key, function, &given, span);
+        let given = self.instantiate_function(function, constants);
+        self.note_instance(key, function, &given, span);
         self.with_given(function, given, receiver, args, span)
     }
 
@@ -144,8 +144,8 @@ impl<'l> Checker<'l> {
     ) -> Ty {
         if let (Some(found), Some(own)) = (receiver, function.params.first()) {
             // The receiver's type determines the type parameters of its `impl`.
-            let own = self.substituted(&own.ty, &given, span);
-            let (own, found) = (self.peeled(&own).0, self.peeled(found).0);
+            let own = self.substitute_type(&own.ty, &given, span);
+            let (own, found) = (self.peel_refs(&own).0, self.peel_refs(found).0);
             if matches!(own, Ty::Enum(..) | Ty::Struct(..) | Ty::Array(_)) {
                 self.coerce(&own, &found, span);
             }
@@ -156,27 +156,27 @@ impl<'l> Checker<'l> {
             let is_closure = |arg: &Expr| matches!(arg.kind, ExprKind::Closure(_));
             let (closures, values): (Vec<_>, Vec<_>) = params.iter().zip(args).partition(|(_, arg)| is_closure(arg));
             for (param, arg) in values.into_iter().chain(closures) {
-                let wanted = self.substituted(&param.ty, &given, span);
+                let wanted = self.substitute_type(&param.ty, &given, span);
                 let known = self.errors.len();
-                let found = self.expr(arg, Some(&wanted));
+                let found = self.infer_expr(arg, Some(&wanted));
                 let inside = self.errors.len();
                 self.coerce(&wanted, &found, arg.span);
                 if self.errors.len() > inside && inside == known {
                     let error = self.errors.remove(inside);
                     self.errors
-                        .push(error.other(param.span, format!("`{}` is stated here", param.name)));
+                        .push(error.label_at(param.span, format!("`{}` is stated here", param.name)));
                 }
             }
         } else {
-            self.loose(args);
+            self.infer_loose_args(args);
         }
-        self.substituted(&function.result, &given, span)
+        self.substitute_type(&function.result, &given, span)
     }
 
-    fn miscounted(&mut self, name: String, wanted: usize, given: usize, span: Span) {
+    fn note_argument_count(&mut self, name: String, wanted: usize, given: usize, span: Span) {
         let plural = if wanted == 1 { "" } else { "s" };
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::ArgumentCount,
                 span,
                 format!("`{name}` takes {wanted} argument{plural}, not {given}"),
@@ -187,44 +187,44 @@ impl<'l> Checker<'l> {
     }
 
     /// Looks at arguments of which nothing is known.
-    pub fn loose(&mut self, args: &'l [Expr]) {
+    pub fn infer_loose_args(&mut self, args: &'l [Expr]) {
         for arg in args {
-            let found = self.expr(arg, None);
+            let found = self.infer_expr(arg, None);
             self.table.unify(&found, &Ty::Unknown);
         }
     }
 
     /// Arguments against the types that are wanted of them; how many there are is the evaluator's to check.
-    pub fn takes(&mut self, args: &'l [Expr], wanted: &[Ty], result: Ty) -> Ty {
+    pub fn check_arguments(&mut self, args: &'l [Expr], wanted: &[Ty], result: Ty) -> Ty {
         if args.len() == wanted.len() {
             for (arg, wanted) in args.iter().zip(wanted) {
-                self.against(arg, wanted);
+                self.check_expr(arg, wanted);
             }
         } else {
-            self.loose(args);
+            self.infer_loose_args(args);
         }
         result
     }
 
     fn known_call(&mut self, path: &[&str], args: &'l [Expr], span: Span) -> Ty {
-        if let Some(ty) = constructed(path) {
+        if let Some(ty) = constructed_type(path) {
             let wanted = match &ty {
                 Ty::Vector(kind, lanes) => vec![Ty::scalar(*kind); usize::from(*lanes)],
                 Ty::Matrix(n) => vec![Ty::Vector(Scalar::F32, *n); usize::from(*n)],
                 _ => Vec::new(),
             };
             if args.len() != wanted.len() {
-                self.miscounted(path.join("::"), wanted.len(), args.len(), span);
+                self.note_argument_count(path.join("::"), wanted.len(), args.len(), span);
             }
-            return self.takes(args, &wanted, ty);
+            return self.check_arguments(args, &wanted, ty);
         }
         if let [.., ty, name] = path
             && let Some((kind, lanes)) = super::signature::vector(ty)
         {
             let vector = Ty::Vector(kind, lanes);
             return match *name {
-                "splat" => self.takes(args, &[Ty::scalar(kind)], vector),
-                "from_array" => self.takes(args, &[Ty::Array(Box::new(Ty::scalar(kind)))], vector),
+                "splat" => self.check_arguments(args, &[Ty::scalar(kind)], vector),
+                "from_array" => self.check_arguments(args, &[Ty::Array(Box::new(Ty::scalar(kind)))], vector),
                 "from" => self.from(vector, args),
                 _ => self.by_path(&vector, name, args, span),
             };
@@ -242,15 +242,15 @@ impl<'l> Checker<'l> {
             };
             match (receiver, *name) {
                 (Some(number), "from") if !matches!(number, Ty::Matrix(_)) => return self.from(number, args),
-                (Some(Ty::Float), "from_bits") => return self.takes(args, &[Ty::U32], Ty::Float),
+                (Some(Ty::Float), "from_bits") => return self.check_arguments(args, &[Ty::U32], Ty::Float),
                 (Some(Ty::Matrix(n)), "from_diagonal") => {
-                    return self.takes(args, &[Ty::Vector(Scalar::F32, n)], Ty::Matrix(n));
+                    return self.check_arguments(args, &[Ty::Vector(Scalar::F32, n)], Ty::Matrix(n));
                 }
                 (Some(receiver), name) => return self.by_path(&receiver, name, args, span),
                 (None, _) => {}
             }
         }
-        self.prelude(path, args, span)
+        self.infer_prelude_call(path, args, span)
     }
 
     /// `T::from(value)` of a number or a vector.
@@ -258,8 +258,8 @@ impl<'l> Checker<'l> {
         let ([value], Ty::Vector(kind, lanes)) = (args, &ty) else {
             // A number, of a boolean or of a number of its own type.
             for arg in args {
-                let found = self.expr(arg, Some(&ty));
-                if self.table.kind(&found).is_some() {
+                let found = self.infer_expr(arg, Some(&ty));
+                if self.table.variable_kind(&found).is_some() {
                     self.table.unify(&ty, &found);
                 }
             }
@@ -268,15 +268,15 @@ impl<'l> Checker<'l> {
         let part = Ty::scalar(*kind);
         let found = match &value.kind {
             ExprKind::Tuple(parts) if parts.len() == usize::from(*lanes) => {
-                self.expr(value, Some(&Ty::Tuple(vec![part.clone(); parts.len()])))
+                self.infer_expr(value, Some(&Ty::Tuple(vec![part.clone(); parts.len()])))
             }
-            _ => self.expr(value, None),
+            _ => self.infer_expr(value, None),
         };
-        match self.table.shallow(&found) {
+        match self.table.resolve_shallow(&found) {
             Ty::Array(element) => self.coerce(&part, &element, value.span),
             Ty::Tuple(parts) => {
                 for found in &parts {
-                    if !matches!(self.table.shallow(found), Ty::Vector(..)) {
+                    if !matches!(self.table.resolve_shallow(found), Ty::Vector(..)) {
                         self.coerce(&part, found, value.span);
                     }
                 }
@@ -290,7 +290,7 @@ impl<'l> Checker<'l> {
     fn by_path(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
         match args {
             [first, rest @ ..] => {
-                self.against(first, receiver);
+                self.check_expr(first, receiver);
                 self.known_method(receiver, name, rest, span)
             }
             [] => Ty::Unknown,
@@ -298,27 +298,27 @@ impl<'l> Checker<'l> {
     }
 
     /// The functions of the prelude.
-    fn prelude(&mut self, path: &[&str], args: &'l [Expr], span: Span) -> Ty {
+    fn infer_prelude_call(&mut self, path: &[&str], args: &'l [Expr], span: Span) -> Ty {
         let pair = |kind| Ty::Quad(Box::new(Ty::Vector(kind, 2)));
         match (path, args) {
-            ([.., "Quad", "splat" | "from"], [value]) => Ty::Quad(Box::new(self.expr(value, None))),
-            ([.., "Quad", "new"], [lanes]) => match self.expr(lanes, None) {
+            ([.., "Quad", "splat" | "from"], [value]) => Ty::Quad(Box::new(self.infer_expr(value, None))),
+            ([.., "Quad", "new"], [lanes]) => match self.infer_expr(lanes, None) {
                 Ty::Array(lane) => Ty::Quad(lane),
                 _ => Ty::Unknown,
             },
             ([.., "Quad", "from_xy"], [x, y]) => {
-                self.lane(x, &Ty::Float);
-                self.lane(y, &Ty::Float);
+                self.check_lane_argument(x, &Ty::Float);
+                self.check_lane_argument(y, &Ty::Float);
                 pair(Scalar::F32)
             }
             ([.., "lane_position"], []) => pair(Scalar::I32),
             ([.., "quad_vector" | "quad_select"], []) => pair(Scalar::F32),
-            ([.., "fract" | "round" | "sign" | "saturate" | "inverse_sqrt"], [x]) => self.expr(x, None),
+            ([.., "fract" | "round" | "sign" | "saturate" | "inverse_sqrt"], [x]) => self.infer_expr(x, None),
             ([.., "mix"], [from, to, amount]) => {
-                let ty = self.expr(from, None);
-                self.against(to, &ty);
-                let found = self.expr(amount, None);
-                let (of, by) = (self.peeled(&ty).0, self.peeled(&found).0);
+                let ty = self.infer_expr(from, None);
+                self.check_expr(to, &ty);
+                let found = self.infer_expr(amount, None);
+                let (of, by) = (self.peel_refs(&ty).0, self.peel_refs(&found).0);
                 match (&of, &by) {
                     (Ty::Vector(..) | Ty::Quad(_), Ty::Vector(..) | Ty::Quad(_) | Ty::Unknown) | (Ty::Unknown, _) => {}
                     _ => self.coerce(&Ty::Float, &found, amount.span),
@@ -326,22 +326,22 @@ impl<'l> Checker<'l> {
                 ty
             }
             ([.., "step"], [edge, x]) => {
-                self.against(edge, &Ty::Float);
-                self.against(x, &Ty::Float);
+                self.check_expr(edge, &Ty::Float);
+                self.check_expr(x, &Ty::Float);
                 Ty::Float
             }
             ([.., "smoothstep"], [low, high, x]) => {
-                self.against(low, &Ty::Float);
-                self.against(high, &Ty::Float);
-                self.expr(x, None)
+                self.check_expr(low, &Ty::Float);
+                self.check_expr(high, &Ty::Float);
+                self.infer_expr(x, None)
             }
             ([.., "tally"], [name, value]) => {
-                self.expr(name, None);
-                self.expr(value, None)
+                self.infer_expr(name, None);
+                self.infer_expr(value, None)
             }
-            ([.., "uniform"], [value]) => self.expr(value, None),
+            ([.., "uniform"], [value]) => self.infer_expr(value, None),
             (["array", "from_fn"] | ["from_fn"], [f]) => {
-                let item = self.mapped(&Ty::USIZE, f);
+                let item = self.infer_map_result(&Ty::USIZE, f);
                 Ty::Array(Box::new(item))
             }
             (["mem", "swap"] | ["swap"], [a, b]) => {
@@ -360,7 +360,7 @@ impl<'l> Checker<'l> {
                     [.., ty, _] => self.no_type(ty, span),
                     [] => {}
                 }
-                self.loose(args);
+                self.infer_loose_args(args);
                 Ty::Unknown
             }
         }
@@ -386,7 +386,7 @@ impl<'l> Checker<'l> {
             ]);
             types.sort_unstable();
             self.errors.push(
-                Diagnostic::at(Code::UnknownType, span, format!("cannot find type `{ty}`"))
+                Diagnostic::error_at(Code::UnknownType, span, format!("cannot find type `{ty}`"))
                     .label("not found in the kernel's files")
                     .help(match types.iter().find(|known| crate::suggest::is_close(ty, known)) {
                         Some(close) => format!("did you mean `{close}`?"),
@@ -397,8 +397,8 @@ impl<'l> Checker<'l> {
     }
 
     fn takes_both(&mut self, a: &'l Expr, b: &'l Expr, of_a: &Ty, of_b: &Ty) {
-        self.against(a, of_a);
-        self.against(b, of_b);
+        self.check_expr(a, of_a);
+        self.check_expr(b, of_b);
     }
 
     /// Notes an error about a name that is called and is no function.
@@ -426,14 +426,14 @@ impl<'l> Checker<'l> {
             return;
         }
         let error = match self.locals.iter().rev().find(|local| local.name == name) {
-            Some(local) => Diagnostic::at(
+            Some(local) => Diagnostic::error_at(
 Code::NotAFunction,
                 span,
-                format!("expected function, found `{}`", self.table.deep(&local.ty)),
+                format!("expected function, found `{}`", self.table.resolve_deep(&local.ty)),
             )
             .label("not a function")
-            .other(local.span, format!("`{name}` is declared here")),
-            None if DERIVATIVES.contains(&name) => Diagnostic::at(
+            .label_at(local.span, format!("`{name}` is declared here")),
+            None if DERIVATIVES.contains(&name) => Diagnostic::error_at(
 Code::QuadMessage,
                 span,
                 format!("`{name}` asks the pixels beside this one, and a kernel computes one pixel"),
@@ -449,7 +449,7 @@ Code::QuadMessage,
                 known.extend(PRELUDE);
                 known.sort_unstable();
                 let close = known.iter().find(|known| crate::suggest::is_close(name, known));
-                Diagnostic::at(Code::UnknownFunction, span, format!("cannot find function `{name}`"))
+                Diagnostic::error_at(Code::UnknownFunction, span, format!("cannot find function `{name}`"))
                     .label("not found in the kernel's files")
                     .help(match close {
                         Some(close) => format!("did you mean `{close}`?"),
@@ -461,25 +461,25 @@ Code::QuadMessage,
     }
 
     /// An argument that is a value, or one in each lane: `impl Into<Quad<T>>`.
-    pub fn lane(&mut self, arg: &'l Expr, wanted: &Ty) {
-        let found = self.expr(arg, Some(wanted));
-        match self.table.shallow(&found) {
+    pub fn check_lane_argument(&mut self, arg: &'l Expr, wanted: &Ty) {
+        let found = self.infer_expr(arg, Some(wanted));
+        match self.table.resolve_shallow(&found) {
             Ty::Quad(lane) => self.coerce(wanted, &lane, arg.span),
             _ => self.coerce(wanted, &found, arg.span),
         }
     }
 
     /// Floats of a method that takes literals as its receiver: an unsuffixed one is an `f32`, as there is no other.
-    pub fn settled(&mut self, ty: &Ty) -> Ty {
-        if self.table.kind(ty) == Some(Kind::Float) {
+    pub fn settle_float(&mut self, ty: &Ty) -> Ty {
+        if self.table.variable_kind(ty) == Some(Kind::Float) {
             self.table.unify(ty, &Ty::Float);
         }
-        self.table.shallow(ty)
+        self.table.resolve_shallow(ty)
     }
 }
 
 /// `vec3`, `Vec3::new`, `mat3`, `Mat3::from_cols`.
-fn constructed(path: &[&str]) -> Option<Ty> {
+fn constructed_type(path: &[&str]) -> Option<Ty> {
     let (ty, name) = match path {
         [.., ty, name] if !ty.starts_with(|c: char| c.is_lowercase()) => (*ty, *name),
         [.., name] => (*name, "new"),

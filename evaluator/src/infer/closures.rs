@@ -9,8 +9,8 @@ use crate::ir::Scalar;
 
 impl<'l> Checker<'l> {
     /// The type of a closure. What is wanted of it tells the types of its parameters, as in rustc.
-    pub fn closure(&mut self, closure: &'l Closure, wanted: Option<&Ty>, span: Span) -> Ty {
-        let (hints, gives) = match wanted.map(|ty| self.peeled(ty).0) {
+    pub fn infer_closure(&mut self, closure: &'l Closure, wanted: Option<&Ty>, span: Span) -> Ty {
+        let (hints, gives) = match wanted.map(|ty| self.peel_refs(ty).0) {
             Some(Ty::Fn(params, result)) if params.len() == closure.params.len() => (params, Some(*result)),
             _ => (Vec::new(), None),
         };
@@ -19,7 +19,7 @@ impl<'l> Checker<'l> {
         for (k, (pattern, stated)) in closure.params.iter().enumerate() {
             let ty = match (stated, hints.get(k)) {
                 (Some(stated), hint) => {
-                    let ty = self.stated(stated, span);
+                    let ty = self.convert_type(stated, span);
                     if let Some(hint) = hint {
                         self.coerce(hint, &ty, span);
                     }
@@ -29,17 +29,17 @@ impl<'l> Checker<'l> {
                 (None, None) => self.table.fresh(Kind::Any),
             };
             self.bind_whole(pattern, &ty, false);
-            self.irrefutable(pattern, &ty, span);
+            self.check_irrefutable(pattern, &ty, span);
             types.push(ty);
         }
         let result = match (&closure.result, gives) {
-            (Some(stated), _) => self.stated(stated, span),
+            (Some(stated), _) => self.convert_type(stated, span),
             (None, Some(gives)) => gives,
             (None, None) => self.table.fresh(Kind::Any),
         };
         let outer = std::mem::replace(&mut self.result, result.clone());
         let loops = std::mem::take(&mut self.loops);
-        let found = self.expr(&closure.body, Some(&result));
+        let found = self.infer_expr(&closure.body, Some(&result));
         self.coerce(&result, &found, closure.body.span);
         self.result = outer;
         self.loops = loops;
@@ -55,14 +55,14 @@ impl<'l> Checker<'l> {
     }
 
     /// A call of what an expression gives.
-    pub fn invoked(&mut self, callee: &'l Expr, args: &'l [Expr], span: Span) -> Ty {
-        let found = self.expr(callee, None);
+    pub fn infer_invoke(&mut self, callee: &'l Expr, args: &'l [Expr], span: Span) -> Ty {
+        let found = self.infer_expr(callee, None);
         if let Some(result) = self.call_of(&found, "what is called", args, span) {
             return result;
         }
-        let found = self.table.deep(&found);
+        let found = self.table.resolve_deep(&found);
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::NotAFunction,
                 callee.span,
                 format!("expected function, found `{found}`"),
@@ -70,19 +70,19 @@ impl<'l> Checker<'l> {
             .label("not a function")
             .help("call a function, a closure, or a variable or field that holds one"),
         );
-        self.loose(args);
+        self.infer_loose_args(args);
         Ty::Unknown
     }
 
     /// A call of a value of a type; `None` if it is not known to be called.
     fn call_of(&mut self, ty: &Ty, name: &str, args: &'l [Expr], span: Span) -> Option<Ty> {
-        match self.peeled(ty).0 {
+        match self.peel_refs(ty).0 {
             Ty::Fn(params, result) => {
                 if params.len() != args.len() {
                     let (wanted, given) = (params.len(), args.len());
                     let plural = if wanted == 1 { "" } else { "s" };
                     self.errors.push(
-                        Diagnostic::at(
+                        Diagnostic::error_at(
                             Code::ArgumentCount,
                             span,
                             format!("{name} takes {wanted} argument{plural}, not {given}"),
@@ -90,10 +90,10 @@ impl<'l> Checker<'l> {
                         .label("called here"),
                     );
                 }
-                Some(self.takes(args, &params, *result))
+                Some(self.check_arguments(args, &params, *result))
             }
             Ty::Unknown | Ty::Never => {
-                self.loose(args);
+                self.infer_loose_args(args);
                 Some(Ty::Unknown)
             }
             _ => None,
@@ -109,10 +109,13 @@ impl<'l> Checker<'l> {
                 .functions
                 .get(path.last().filter(|_| crate::front::is_by_last(path))?)
         }) {
-            let given = self.instantiate(function, &[]);
-            let params = function.params.iter().map(|p| self.substituted(&p.ty, &given, span));
+            let given = self.instantiate_function(function, &[]);
+            let params = function
+                .params
+                .iter()
+                .map(|p| self.substitute_type(&p.ty, &given, span));
             let params = params.collect();
-            let result = self.substituted(&function.result, &given, span);
+            let result = self.substitute_type(&function.result, &given, span);
             return Some(Ty::Fn(params, Box::new(result)));
         }
         if let [name] = path
@@ -159,10 +162,10 @@ impl<'l> Checker<'l> {
     }
 
     /// Returns the type of the items that a value iterates over; `None` if it is no iterator, no array and no range.
-    fn items(&self, ty: &Ty) -> Option<Ty> {
-        match self.table.shallow(ty) {
+    fn item_type(&self, ty: &Ty) -> Option<Ty> {
+        match self.table.resolve_shallow(ty) {
             Ty::Range(t) | Ty::Iter(t) | Ty::Array(t) => Some(*t),
-            Ty::Ref(mutable, inner) => match self.table.shallow(&inner) {
+            Ty::Ref(mutable, inner) => match self.table.resolve_shallow(&inner) {
                 Ty::Array(t) => Some(Ty::Ref(mutable, t)),
                 _ => None,
             },
@@ -171,14 +174,14 @@ impl<'l> Checker<'l> {
     }
 
     /// A method of an iterator over items; `None` if it is none of these.
-    pub fn adaptor(&mut self, item: &Ty, name: &str, args: &'l [Expr]) -> Option<Ty> {
+    pub fn infer_adaptor(&mut self, item: &Ty, name: &str, args: &'l [Expr]) -> Option<Ty> {
         let iter = |item: Ty| Ty::Iter(Box::new(item));
         Some(match (name, args) {
-            ("skip" | "take", [_]) => self.takes(args, &[Ty::USIZE], iter(item.clone())),
+            ("skip" | "take", [_]) => self.check_arguments(args, &[Ty::USIZE], iter(item.clone())),
             ("count" | "len", []) => Ty::USIZE,
             ("zip" | "chain", [other]) => {
-                let found = self.expr(other, None);
-                let others = self.items(&found).unwrap_or(Ty::Unknown);
+                let found = self.infer_expr(other, None);
+                let others = self.item_type(&found).unwrap_or(Ty::Unknown);
                 match name {
                     "zip" => iter(Ty::Tuple(vec![item.clone(), others])),
                     _ => {
@@ -187,29 +190,29 @@ impl<'l> Checker<'l> {
                     }
                 }
             }
-            ("map", [f]) => iter(self.mapped(item, f)),
+            ("map", [f]) => iter(self.infer_map_result(item, f)),
             ("for_each", [f]) => {
-                self.against(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::UNIT)));
+                self.check_expr(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::UNIT)));
                 Ty::UNIT
             }
             ("fold", [first, f]) => {
-                let sum = self.expr(first, None);
-                self.against(f, &Ty::Fn(vec![sum.clone(), item.clone()], Box::new(sum.clone())));
+                let sum = self.infer_expr(first, None);
+                self.check_expr(f, &Ty::Fn(vec![sum.clone(), item.clone()], Box::new(sum.clone())));
                 sum
             }
             ("all" | "any", [f]) => {
-                self.against(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::Bool)));
+                self.check_expr(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::Bool)));
                 Ty::Bool
             }
-            ("sum" | "product", []) => self.peeled(item).0,
+            ("sum" | "product", []) => self.peel_refs(item).0,
             _ => return None,
         })
     }
 
     /// Returns the type of a closure's result for items.
-    pub fn mapped(&mut self, item: &Ty, f: &'l Expr) -> Ty {
+    pub fn infer_map_result(&mut self, item: &Ty, f: &'l Expr) -> Ty {
         let result = self.table.fresh(Kind::Any);
-        self.against(f, &Ty::Fn(vec![item.clone()], Box::new(result.clone())));
-        self.table.shallow(&result)
+        self.check_expr(f, &Ty::Fn(vec![item.clone()], Box::new(result.clone())));
+        self.table.resolve_shallow(&result)
     }
 }

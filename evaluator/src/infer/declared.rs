@@ -1,14 +1,14 @@
 //! Checks that implementations match the declarations of their traits.
 
 use super::types::Ty;
-use super::{Checker, Known, one};
+use super::{Checker, Known, infer_item};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Const, Function, Library, Type};
 use std::collections::{BTreeSet, HashMap};
 
 /// Notes where functions and constants are unlike what their traits say of them. A trait of which the kernel reaches something is
 /// looked at for every type.
-pub fn check(library: &Library, reached: &BTreeSet<String>, errors: &mut Vec<Diagnostic>) {
+pub fn check_declared(library: &Library, reached: &BTreeSet<String>, errors: &mut Vec<Diagnostic>) {
     let functions = || {
         library.implemented.iter().flat_map(|(key, implemented)| {
             let (ty, name) = key.split_once("::").unwrap_or_default();
@@ -35,12 +35,12 @@ pub fn check(library: &Library, reached: &BTreeSet<String>, errors: &mut Vec<Dia
         .map(|(of, ..)| of);
     let traits: BTreeSet<&String> = called.chain(read).collect();
     for (of, ty, name, declared, _, function) in functions().filter(|(of, ..)| traits.contains(of)) {
-        one(library, &mut Known::default(), errors, |checker| {
+        infer_item(library, &mut Known::default(), errors, |checker| {
             checker.as_declared((of, declared), (ty, function), name);
         });
     }
     for (of, declared, given) in constants().filter(|(of, ..)| traits.contains(of)) {
-        one(library, &mut Known::default(), errors, |checker| {
+        infer_item(library, &mut Known::default(), errors, |checker| {
             checker.constant_as_declared(of, declared, given);
         });
     }
@@ -53,12 +53,15 @@ impl<'l> Checker<'l> {
         let (wanted, found) = (declared.params.len(), function.params.len());
         if wanted != found {
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::TraitImplementation,
                     span,
-                    format!("`{name}` has {}, but {wanted} in the trait `{of}`", parameters(found)),
+                    format!(
+                        "`{name}` has {}, but {wanted} in the trait `{of}`",
+                        counted_parameters(found)
+                    ),
                 )
-                .label(format!("expected {}", parameters(wanted)))
+                .label(format!("expected {}", counted_parameters(wanted)))
                 .help("give it those that the trait declares"),
             );
             return;
@@ -67,11 +70,11 @@ impl<'l> Checker<'l> {
         if !plain(declared) || !plain(function) {
             return;
         }
-        let own = self.quietly(|c| c.named(ty, &[], &HashMap::new(), span));
+        let own = self.quietly(|c| c.convert_named_type(ty, &[], &HashMap::new(), span));
         let given = HashMap::from([("Self".to_owned(), own)]);
         let types = |f: &'l Function| f.params.iter().map(|p| &p.ty).chain([&f.result]);
         for (k, (wanted, found)) in types(declared).zip(types(function)).enumerate() {
-            let Some((wanted, found)) = self.unlike(wanted, found, &given, span) else {
+            let Some((wanted, found)) = self.type_difference(wanted, found, &given, span) else {
                 continue;
             };
             let what = match function.params.get(k) {
@@ -79,7 +82,7 @@ impl<'l> Checker<'l> {
                 None => "the result".to_owned(),
             };
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::TraitImplementation,
                     span,
                     format!("`{name}` is not as the trait `{of}` declares it: {what} is `{found}`"),
@@ -92,12 +95,12 @@ impl<'l> Checker<'l> {
 
     fn constant_as_declared(&mut self, of: &str, declared: &'l Type, given: &'l Const) {
         let span = given.value.span;
-        let Some((wanted, found)) = self.unlike(declared, &given.ty, &HashMap::new(), span) else {
+        let Some((wanted, found)) = self.type_difference(declared, &given.ty, &HashMap::new(), span) else {
             return;
         };
         let name = given.name.rsplit("::").next().unwrap_or_default();
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::TraitImplementation,
                 span,
                 format!("`{name}` is not as the trait `{of}` declares it: it is `{found}`"),
@@ -109,17 +112,17 @@ impl<'l> Checker<'l> {
 
     /// The type that a trait declares and the one that is given, where they differ. Types that are not known here, such as those
     /// that a trait has of its own, do for any.
-    fn unlike(
+    fn type_difference(
         &mut self,
         declared: &'l Type,
         given: &'l Type,
         types: &HashMap<String, Ty>,
         span: Span,
     ) -> Option<(Ty, Ty)> {
-        let wanted = self.quietly(|c| c.substituted(declared, types, span));
-        let found = self.quietly(|c| c.substituted(given, &HashMap::new(), span));
+        let wanted = self.quietly(|c| c.substitute_type(declared, types, span));
+        let found = self.quietly(|c| c.substitute_type(given, &HashMap::new(), span));
         let same = matches!(wanted, Ty::Unknown) || self.table.unify(&wanted, &found);
-        (!same).then(|| (self.table.deep(&wanted), self.table.deep(&found)))
+        (!same).then(|| (self.table.resolve_deep(&wanted), self.table.resolve_deep(&found)))
     }
 
     /// Leaves out what is wrong with a type: it may belong to a function that the kernel does not reach.
@@ -131,6 +134,6 @@ impl<'l> Checker<'l> {
     }
 }
 
-fn parameters(count: usize) -> String {
+fn counted_parameters(count: usize) -> String {
     format!("{count} parameter{}", if count == 1 { "" } else { "s" })
 }

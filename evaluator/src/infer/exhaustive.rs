@@ -1,7 +1,7 @@
 //! Checks that the arms of a `match` cover every value, as rustc demands.
 
 use super::Checker;
-use super::operators::literal;
+use super::operators::integer_literal;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
@@ -12,13 +12,13 @@ type Cell<'p> = Option<&'p Pattern>;
 
 impl<'l> Checker<'l> {
     /// Notes an error if no arm takes some value of the subject's type.
-    pub fn exhaustive(&mut self, subject: &Ty, arms: &'l [Arm], span: Span) {
+    pub fn check_exhaustive(&mut self, subject: &Ty, arms: &'l [Arm], span: Span) {
         // A guard may fail.
         let arms = arms.iter().filter(|arm| arm.guard.is_none());
         let rows = arms.map(|arm| vec![Some(&arm.pattern)]).collect();
-        if !self.covers(rows, std::slice::from_ref(subject)) {
+        if !self.covers_values(rows, std::slice::from_ref(subject)) {
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::NonExhaustive,
                     span,
                     "non-exhaustive patterns: some values are taken by no arm of this `match`",
@@ -30,10 +30,10 @@ impl<'l> Checker<'l> {
     }
 
     /// Notes an error if a pattern of a `let`, a `for` or a parameter leaves out some value.
-    pub fn irrefutable(&mut self, pattern: &'l Pattern, ty: &Ty, span: Span) {
-        if !self.covers(vec![vec![Some(pattern)]], std::slice::from_ref(ty)) {
+    pub fn check_irrefutable(&mut self, pattern: &'l Pattern, ty: &Ty, span: Span) {
+        if !self.covers_values(vec![vec![Some(pattern)]], std::slice::from_ref(ty)) {
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::RefutablePattern,
                     span,
                     "refutable pattern: it does not take every value",
@@ -45,23 +45,23 @@ impl<'l> Checker<'l> {
     }
 
     /// Returns whether the rows together cover all values of some types.
-    fn covers(&mut self, rows: Vec<Vec<Cell<'_>>>, types: &[Ty]) -> bool {
+    fn covers_values(&mut self, rows: Vec<Vec<Cell<'_>>>, types: &[Ty]) -> bool {
         let Some((first, rest)) = types.split_first() else {
             return !rows.is_empty();
         };
-        let rows = alternatives(rows);
+        let rows = expand_alternatives(rows);
         // No pattern looks at this value. Taking it apart would not end for a type that holds itself, which rustc refuses.
         if rows.iter().all(|row| takes_all(row[0])) {
-            return self.covers(with(&rows, |_| false), rest);
+            return self.covers_values(matching_rows(&rows, |_| false), rest);
         }
-        let ty = self.peeled(first).0;
-        let is_integer = matches!(ty, Ty::Int(_)) || self.table.kind(&ty) == Some(Kind::Integer);
+        let ty = self.peel_refs(first).0;
+        let is_integer = matches!(ty, Ty::Int(_)) || self.table.variable_kind(&ty) == Some(Kind::Integer);
         match &ty {
             Ty::Unknown | Ty::Param(_) | Ty::Never => true,
             Ty::Bool => [true, false].iter().all(|value| {
                 let takes =
                     |p: &Pattern| matches!(p, Pattern::Value(e) if matches!(&e.kind, ExprKind::Bool(b) if b == value));
-                self.covers(with(&rows, takes), rest)
+                self.covers_values(matching_rows(&rows, takes), rest)
             }),
             Ty::Enum(name, _) => {
                 let library = self.library;
@@ -69,7 +69,7 @@ impl<'l> Checker<'l> {
                 variants.iter().enumerate().all(|(k, variant)| {
                     let (fields, types) = self.fields_of(&ty, Some(k)).unwrap_or((&variant.fields, Vec::new()));
                     let rows = rows.iter().filter_map(|row| {
-                        let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                        let cells: Vec<Cell<'_>> = match row[0].map(peel_pattern) {
                             Some(Pattern::Value(e)) if is_path_to(e, &variant.name) => vec![None; fields.len()],
                             Some(Pattern::Struct(path, patterns, _)) if path.last() == Some(&variant.name) => {
                                 let of = |field: &Name| patterns.iter().find(|(name, _)| name == field);
@@ -81,7 +81,7 @@ impl<'l> Checker<'l> {
                         Some([cells, row[1..].to_vec()].concat())
                     });
                     let rows = rows.collect();
-                    self.covers(rows, &[types, rest.to_vec()].concat())
+                    self.covers_values(rows, &[types, rest.to_vec()].concat())
                 })
             }
             _ if is_integer => {
@@ -92,40 +92,40 @@ impl<'l> Checker<'l> {
                     _ => vec![i64::from(i32::MIN), i64::from(i32::MAX) + 1],
                 };
                 let (least, most) = (ends[0], ends[1]);
-                let ranges = rows.iter().filter_map(|row| row[0].and_then(range));
+                let ranges = rows.iter().filter_map(|row| row[0].and_then(integer_range));
                 ends.extend(ranges.flat_map(|(low, high)| [low, high.saturating_add(1)]));
                 ends.retain(|n| (least..=most).contains(n));
                 ends.sort_unstable();
                 ends.dedup();
                 ends[..ends.len() - 1].iter().all(|n| {
-                    let takes = |p: &Pattern| range(p).is_some_and(|(low, high)| (low..=high).contains(n));
-                    self.covers(with(&rows, takes), rest)
+                    let takes = |p: &Pattern| integer_range(p).is_some_and(|(low, high)| (low..=high).contains(n));
+                    self.covers_values(matching_rows(&rows, takes), rest)
                 })
             }
             Ty::Tuple(parts) => {
                 let rows = rows.iter().filter_map(|row| {
-                    let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                    let cells: Vec<Cell<'_>> = match row[0].map(peel_pattern) {
                         Some(Pattern::Tuple(patterns, _)) => cells(patterns, parts.len())?,
                         other if takes_all(other) => vec![None; parts.len()],
                         _ => return None,
                     };
                     Some([cells, row[1..].to_vec()].concat())
                 });
-                self.covers(rows.collect(), &[parts.clone(), rest.to_vec()].concat())
+                self.covers_values(rows.collect(), &[parts.clone(), rest.to_vec()].concat())
             }
             Ty::Array(element) => {
-                let len = rows.iter().find_map(|row| match row[0].map(bare) {
+                let len = rows.iter().find_map(|row| match row[0].map(peel_pattern) {
                     Some(Pattern::Array(parts, _)) if !parts.iter().any(Pattern::is_rest) => Some(parts.len()),
                     _ => None,
                 });
                 // If every pattern has `..`, the length is large enough that no part of the longest one is left out.
-                let named = rows.iter().filter_map(|row| match row[0].map(bare) {
+                let named = rows.iter().filter_map(|row| match row[0].map(peel_pattern) {
                     Some(Pattern::Array(parts, _)) => Some(parts.len()),
                     _ => None,
                 });
                 let len = len.or_else(|| named.max().map(|most| 2 * most)).unwrap_or(0);
                 let rows = rows.iter().filter_map(|row| {
-                    let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                    let cells: Vec<Cell<'_>> = match row[0].map(peel_pattern) {
                         Some(Pattern::Array(patterns, _)) => cells(patterns, len)?,
                         other if takes_all(other) => vec![None; len],
                         _ => return None,
@@ -133,14 +133,14 @@ impl<'l> Checker<'l> {
                     Some([cells, row[1..].to_vec()].concat())
                 });
                 let parts = vec![(**element).clone(); len];
-                self.covers(rows.collect(), &[parts, rest.to_vec()].concat())
+                self.covers_values(rows.collect(), &[parts, rest.to_vec()].concat())
             }
             Ty::Struct(name, _) if self.library.structs.contains_key(name) => {
                 let Some((fields, parts)) = self.fields_of(&ty, None) else {
                     return true;
                 };
                 let rows = rows.iter().filter_map(|row| {
-                    let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                    let cells: Vec<Cell<'_>> = match row[0].map(peel_pattern) {
                         Some(Pattern::Struct(_, patterns, _)) => {
                             let of = |field: &Name| patterns.iter().find(|(name, _)| name == field);
                             fields.iter().map(|(field, ..)| of(field).map(|(_, p)| p)).collect()
@@ -151,10 +151,10 @@ impl<'l> Checker<'l> {
                     Some([cells, row[1..].to_vec()].concat())
                 });
                 let rows: Vec<Vec<Cell<'_>>> = rows.collect();
-                self.covers(rows, &[parts, rest.to_vec()].concat())
+                self.covers_values(rows, &[parts, rest.to_vec()].concat())
             }
             // Floats and the like: an arm that names no value of them.
-            _ => self.covers(with(&rows, |p| !compares(p)), rest),
+            _ => self.covers_values(matching_rows(&rows, |p| !has_comparison(p)), rest),
         }
     }
 }
@@ -162,7 +162,7 @@ impl<'l> Checker<'l> {
 /// Distributes the patterns of a tuple or an array over its `count` parts; `None` if they do not fit that number.
 fn cells(patterns: &[Pattern], count: usize) -> Option<Vec<Cell<'_>>> {
     let mut cells = vec![None; count];
-    for (pattern, taken) in Pattern::shared(patterns, count)? {
+    for (pattern, taken) in Pattern::part_ranges(patterns, count)? {
         if !pattern.is_rest() {
             cells[taken.start] = Some(pattern);
         }
@@ -171,13 +171,13 @@ fn cells(patterns: &[Pattern], count: usize) -> Option<Vec<Cell<'_>>> {
 }
 
 /// Rows without `|` in their first cell.
-fn alternatives(rows: Vec<Vec<Cell<'_>>>) -> Vec<Vec<Cell<'_>>> {
+fn expand_alternatives(rows: Vec<Vec<Cell<'_>>>) -> Vec<Vec<Cell<'_>>> {
     let mut out = Vec::new();
     for row in rows {
-        match row[0].map(bare) {
+        match row[0].map(peel_pattern) {
             Some(Pattern::Or(cases)) => {
                 let each = cases.iter().map(|case| [vec![Some(case)], row[1..].to_vec()].concat());
-                out.extend(alternatives(each.collect()));
+                out.extend(expand_alternatives(each.collect()));
             }
             _ => out.push(row),
         }
@@ -186,10 +186,10 @@ fn alternatives(rows: Vec<Vec<Cell<'_>>>) -> Vec<Vec<Cell<'_>>> {
 }
 
 /// Returns the remaining cells of the rows whose first cell matches.
-fn with<'p>(rows: &[Vec<Cell<'p>>], takes: impl Fn(&Pattern) -> bool) -> Vec<Vec<Cell<'p>>> {
+fn matching_rows<'p>(rows: &[Vec<Cell<'p>>], takes: impl Fn(&Pattern) -> bool) -> Vec<Vec<Cell<'p>>> {
     let taken = rows
         .iter()
-        .filter(|row| takes_all(row[0]) || row[0].map(bare).is_some_and(&takes));
+        .filter(|row| takes_all(row[0]) || row[0].map(peel_pattern).is_some_and(&takes));
     taken.map(|row| row[1..].to_vec()).collect()
 }
 
@@ -199,23 +199,23 @@ fn is_path_to(e: &Expr, name: &String) -> bool {
 }
 
 fn takes_all(cell: Cell<'_>) -> bool {
-    cell.is_none_or(|p| matches!(bare(p), Pattern::Name(..) | Pattern::Wild | Pattern::Rest))
+    cell.is_none_or(|p| matches!(peel_pattern(p), Pattern::Name(..) | Pattern::Wild | Pattern::Rest))
 }
 
 /// A pattern without the `&` before it.
-fn bare(pattern: &Pattern) -> &Pattern {
+fn peel_pattern(pattern: &Pattern) -> &Pattern {
     match pattern {
-        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => bare(inner),
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => peel_pattern(inner),
         other => other,
     }
 }
 
 /// The integers that a pattern takes.
-fn range(pattern: &Pattern) -> Option<(i64, i64)> {
-    match bare(pattern) {
-        Pattern::Value(e) => literal(e).map(|n| (n, n)),
+fn integer_range(pattern: &Pattern) -> Option<(i64, i64)> {
+    match peel_pattern(pattern) {
+        Pattern::Value(e) => integer_literal(e).map(|n| (n, n)),
         Pattern::Range(low, high, inclusive) => {
-            let end = |end: &Option<Box<Expr>>, open: i64| end.as_ref().map_or(Some(open), |e| literal(e));
+            let end = |end: &Option<Box<Expr>>, open: i64| end.as_ref().map_or(Some(open), |e| integer_literal(e));
             let past = i64::from(high.is_some() && !inclusive);
             Some((end(low, i64::MIN)?, end(high, i64::MAX)? - past))
         }
@@ -224,11 +224,11 @@ fn range(pattern: &Pattern) -> Option<(i64, i64)> {
 }
 
 /// Returns whether a pattern compares any part with a value.
-fn compares(pattern: &Pattern) -> bool {
-    match bare(pattern) {
+fn has_comparison(pattern: &Pattern) -> bool {
+    match peel_pattern(pattern) {
         Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Ref(..) | Pattern::At(..) => false,
         Pattern::Value(_) | Pattern::Range(..) => true,
-        Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => parts.iter().any(compares),
-        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| compares(part)),
+        Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => parts.iter().any(has_comparison),
+        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| has_comparison(part)),
     }
 }

@@ -10,42 +10,44 @@ use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
     /// The type of `receiver.name(args)`.
-    pub fn method(&mut self, receiver: &'l Expr, name: &str, args: &'l [Expr], span: Span) -> Ty {
-        let (ty, access) = self.place(receiver);
-        if self.table.kind(&self.peeled(&ty).0) == Some(Kind::Any) {
-            self.solve();
+    pub fn infer_method_call(&mut self, receiver: &'l Expr, name: &str, args: &'l [Expr], span: Span) -> Ty {
+        let (ty, access) = self.infer_place(receiver);
+        if self.table.variable_kind(&self.peel_refs(&ty).0) == Some(Kind::Any) {
+            self.solve_deferred();
         }
-        let (bare, reference) = self.peeled(&ty);
+        let (bare, reference) = self.peel_refs(&ty);
         if let Ty::Param(parameter) = &bare
             && let Some(function) = self.declared_of(parameter, name)
         {
             if function.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
-                self.borrowed(access, reference, receiver);
+                self.check_mutable_receiver(access, reference, receiver);
             }
             return self.of_parameter(parameter, function, Some(&ty), args, span);
         }
         let settled = match &bare {
             Ty::Struct(..) | Ty::Enum(..) => bare.clone(),
-            _ => self.settled(&bare),
+            _ => self.settle_float(&bare),
         };
-        let of = self.type_name(&settled).filter(|_| self.table.kind(&settled).is_none());
-        if let Some(of) = of.filter(|_| !(matches!(settled, Ty::Int(_)) && evaluated(name))) {
+        let of = self
+            .type_name(&settled)
+            .filter(|_| self.table.variable_kind(&settled).is_none());
+        if let Some(of) = of.filter(|_| !(matches!(settled, Ty::Int(_)) && is_evaluated_method(name))) {
             let library = self.library;
-            let keys = library.methods(&of, name);
+            let keys = library.method_keys(&of, name);
             if let Some(function) = keys.first().map(|key| &library.functions[*key]) {
                 if function.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
-                    self.borrowed(access, reference, receiver);
+                    self.check_mutable_receiver(access, reference, receiver);
                 }
                 if let [key] = keys.as_slice() {
                     // The value tells which type the method is of, but not what several traits call the same.
                     if !matches!(settled, Ty::Struct(..) | Ty::Enum(..)) || key.starts_with('<') {
                         self.methods.insert(span, (*key).to_owned());
                     }
-                    return self.signature(key, function, &[], Some(&ty), args, span);
+                    return self.infer_function_call(key, function, &[], Some(&ty), args, span);
                 }
                 let mut found = vec![settled];
-                found.extend(args.iter().map(|arg| self.expr(arg, None)));
-                return self.overloaded(&keys, &found, name, span);
+                found.extend(args.iter().map(|arg| self.infer_expr(arg, None)));
+                return self.infer_overloaded(&keys, &found, name, span);
             }
         }
         if name == "into" && args.is_empty() {
@@ -56,12 +58,12 @@ impl<'l> Checker<'l> {
         }
         let changes = matches!(bare, Ty::Array(_)) && matches!(name, "swap" | "reverse" | "fill");
         if name == "iter_mut" || changes {
-            self.borrowed(access, reference, receiver);
+            self.check_mutable_receiver(access, reference, receiver);
         }
         if matches!(bare, Ty::Int(_)) && reference.is_some() && matches!(name, "min" | "max" | "clamp") {
             // rustc finds `Ord` of the reference before that of the number.
             let wanted = vec![ty.clone(); if name == "clamp" { 2 } else { 1 }];
-            return self.takes(args, &wanted, ty.clone());
+            return self.check_arguments(args, &wanted, ty.clone());
         }
         match (&bare, name) {
             (Ty::Array(element), "iter" | "iter_mut") => {
@@ -72,34 +74,36 @@ impl<'l> Checker<'l> {
                 None => element.clone(),
             }),
             // Methods of `Ord` are those of every integer, so that rustc need not know of which.
-            (Ty::Int(_) | Ty::Var(_), "min" | "max" | "clamp") if self.table.kind(&bare) == Some(Kind::Integer) => {
+            (Ty::Int(_) | Ty::Var(_), "min" | "max" | "clamp")
+                if self.table.variable_kind(&bare) == Some(Kind::Integer) =>
+            {
                 let wanted = vec![bare.clone(); if name == "clamp" { 2 } else { 1 }];
-                self.takes(args, &wanted, bare)
+                self.check_arguments(args, &wanted, bare)
             }
-            (Ty::Int(_) | Ty::Var(_), _) if self.table.kind(&bare) == Some(Kind::Integer) => {
-                self.ambiguous(name, receiver);
-                self.loose(args);
+            (Ty::Int(_) | Ty::Var(_), _) if self.table.variable_kind(&bare) == Some(Kind::Integer) => {
+                self.note_ambiguous_method(name, receiver);
+                self.infer_loose_args(args);
                 Ty::Unknown
             }
             _ => {
-                let bare = self.settled(&bare);
+                let bare = self.settle_float(&bare);
                 self.known_method(&bare, name, args, span)
             }
         }
     }
 
     /// A receiver that a method changes.
-    fn borrowed(&mut self, access: Access, reference: Option<bool>, receiver: &Expr) {
+    fn check_mutable_receiver(&mut self, access: Access, reference: Option<bool>, receiver: &Expr) {
         match reference {
             Some(true) => {}
-            Some(false) => self.writable(Access::Shared, receiver, false),
-            None => self.writable(access, receiver, false),
+            Some(false) => self.check_writable(Access::Shared, receiver, false),
+            None => self.check_writable(access, receiver, false),
         }
     }
 
-    fn ambiguous(&mut self, name: &str, receiver: &Expr) {
+    fn note_ambiguous_method(&mut self, name: &str, receiver: &Expr) {
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::TypeNeeded,
                 receiver.span,
                 format!("cannot call method `{name}` on an integer of which the type is not known yet"),
@@ -127,8 +131,8 @@ impl<'l> Checker<'l> {
             Ty::Matrix(n) => {
                 let column = Ty::Vector(Scalar::F32, *n);
                 match name {
-                    "transpose" => self.takes(args, &[], own),
-                    "col" => self.takes(args, &[Ty::USIZE], column),
+                    "transpose" => self.check_arguments(args, &[], own),
+                    "col" => self.check_arguments(args, &[Ty::USIZE], column),
                     "mul_vec2" | "mul_vec3" | "mul_vec4" => self.takes_own(args, column),
                     "mul_mat2" | "mul_mat3" | "mul_mat4" => self.takes_own(args, own),
                     "transform_point3" | "transform_vector3" => {
@@ -142,14 +146,16 @@ impl<'l> Checker<'l> {
                 let key = format!("Array::{name}");
                 let function = &self.library.functions[&key];
                 self.methods.insert(span, key.clone());
-                self.signature(&key, function, &[], Some(receiver), args, span)
+                self.infer_function_call(&key, function, &[], Some(receiver), args, span)
             }
             Ty::Array(item) if matches!(name, "windows" | "chunks" | "chunks_exact") => {
-                let part = Ty::Array(item.clone()).shared();
-                self.takes(args, &[Ty::USIZE], Ty::Iter(Box::new(part)))
+                let part = Ty::Array(item.clone()).into_shared_ref();
+                self.check_arguments(args, &[Ty::USIZE], Ty::Iter(Box::new(part)))
             }
-            Ty::Array(_) if name == "len" => self.takes(args, &[], Ty::USIZE),
-            Ty::Array(item) if name == "map" && args.len() == 1 => Ty::Array(Box::new(self.mapped(item, &args[0]))),
+            Ty::Array(_) if name == "len" => self.check_arguments(args, &[], Ty::USIZE),
+            Ty::Array(item) if name == "map" && args.len() == 1 => {
+                Ty::Array(Box::new(self.infer_map_result(item, &args[0])))
+            }
             Ty::Array(_)
                 if matches!(
                     name,
@@ -171,7 +177,7 @@ impl<'l> Checker<'l> {
                 ) =>
             {
                 self.errors.push(
-                    Diagnostic::at(
+                    Diagnostic::error_at(
                         Code::UnknownMethod,
                         span,
                         format!("an array is no iterator: it has no method `{name}`"),
@@ -182,23 +188,23 @@ impl<'l> Checker<'l> {
                 self.unknown_method(args)
             }
             Ty::Range(item) | Ty::Iter(item) => match name {
-                "rev" => self.takes(args, &[], own),
-                "step_by" => self.takes(args, &[Ty::USIZE], own),
-                "contains" => self.takes(args, &[(**item).clone().shared()], Ty::Bool),
-                "enumerate" => self.takes(
+                "rev" => self.check_arguments(args, &[], own),
+                "step_by" => self.check_arguments(args, &[Ty::USIZE], own),
+                "contains" => self.check_arguments(args, &[(**item).clone().into_shared_ref()], Ty::Bool),
+                "enumerate" => self.check_arguments(
                     args,
                     &[],
                     Ty::Iter(Box::new(Ty::Tuple(vec![Ty::USIZE, (**item).clone()]))),
                 ),
                 "copied" | "cloned" => {
-                    let bare = self.peeled(item).0;
-                    self.takes(args, &[], Ty::Iter(Box::new(bare)))
+                    let bare = self.peel_refs(item).0;
+                    self.check_arguments(args, &[], Ty::Iter(Box::new(bare)))
                 }
-                "iter" | "into_iter" => self.takes(args, &[], own),
-                "min" | "max" if matches!(self.peeled(item).0, Ty::Float | Ty::Vector(..)) => {
-                    let of = self.peeled(item).0;
+                "iter" | "into_iter" => self.check_arguments(args, &[], own),
+                "min" | "max" if matches!(self.peel_refs(item).0, Ty::Float | Ty::Vector(..)) => {
+                    let of = self.peel_refs(item).0;
                     let first = if name == "min" { "INFINITY" } else { "NEG_INFINITY" };
-                    let error = Diagnostic::at(
+                    let error = Diagnostic::error_at(
                         Code::TraitBound,
                         span,
                         format!("the trait bound `{of}: Ord` is not satisfied"),
@@ -214,45 +220,47 @@ impl<'l> Checker<'l> {
                     let key = format!("Iterator::{name}");
                     let function = &self.library.functions[&key];
                     let items = Ty::Array(item.clone());
-                    self.signature(&key, function, &[], Some(&items), args, span)
+                    self.infer_function_call(&key, function, &[], Some(&items), args, span)
                 }
-                _ => match self.adaptor(item, name, args) {
+                _ => match self.infer_adaptor(item, name, args) {
                     Some(found) => found,
                     None => self.unknown_method(args),
                 },
             },
             Ty::Texture(kind, texel) => self.of_texture(kind, texel, name, args),
             Ty::Buffer(element) => match name {
-                "load" => self.takes(args, &[Ty::USIZE], (**element).clone()),
-                "len" => self.takes(args, &[], Ty::USIZE),
+                "load" => self.check_arguments(args, &[Ty::USIZE], (**element).clone()),
+                "len" => self.check_arguments(args, &[], Ty::USIZE),
                 _ => self.unknown_method(args),
             },
             Ty::Storage("StorageTexture", texel) => match name {
-                "store" => self.takes(args, &[Ty::Vector(Scalar::I32, 2), (**texel).clone()], Ty::UNIT),
-                "size" => self.takes(args, &[], Ty::Vector(Scalar::U32, 2)),
+                "store" => self.check_arguments(args, &[Ty::Vector(Scalar::I32, 2), (**texel).clone()], Ty::UNIT),
+                "size" => self.check_arguments(args, &[], Ty::Vector(Scalar::U32, 2)),
                 _ => self.unknown_method(args),
             },
             Ty::Storage(kind, element) => match (*kind, name) {
-                (_, "len") => self.takes(args, &[], Ty::USIZE),
-                ("StorageBuffer" | "Shared", "store") => self.takes(args, &[Ty::USIZE, (**element).clone()], Ty::UNIT),
+                (_, "len") => self.check_arguments(args, &[], Ty::USIZE),
+                ("StorageBuffer" | "Shared", "store") => {
+                    self.check_arguments(args, &[Ty::USIZE, (**element).clone()], Ty::UNIT)
+                }
                 ("AtomicBuffer" | "Shared" | "AtomicShared", "load") => {
-                    self.takes(args, &[Ty::USIZE], (**element).clone())
+                    self.check_arguments(args, &[Ty::USIZE], (**element).clone())
                 }
                 ("AtomicBuffer" | "AtomicShared", "add" | "max" | "min" | "and" | "or" | "xor" | "exchange") => {
-                    self.takes(args, &[Ty::USIZE, (**element).clone()], (**element).clone())
+                    self.check_arguments(args, &[Ty::USIZE, (**element).clone()], (**element).clone())
                 }
                 _ => self.unknown_method(args),
             },
             Ty::Quad(lane) => self.of_quad(lane, name, args, span),
             Ty::Enum(of, parts) if matches!(of.as_str(), "Option" | "Result") => match (name, parts.first()) {
-                ("unwrap", Some(held)) => self.takes(args, &[], held.clone()),
-                ("expect", Some(held)) => self.takes(args, &[Ty::Str.shared()], held.clone()),
+                ("unwrap", Some(held)) => self.check_arguments(args, &[], held.clone()),
+                ("expect", Some(held)) => self.check_arguments(args, &[Ty::Str.into_shared_ref()], held.clone()),
                 _ => self.unknown_method(args),
             },
             Ty::Bool => match name {
                 "select" => Ty::Unknown,
                 "min" | "max" => self.takes_own(args, Ty::Bool),
-                "clamp" => self.takes(args, &[Ty::Bool, Ty::Bool], Ty::Bool),
+                "clamp" => self.check_arguments(args, &[Ty::Bool, Ty::Bool], Ty::Bool),
                 _ => self.unknown_method(args),
             },
             _ => self.unknown_method(args),
@@ -270,13 +278,13 @@ impl<'l> Checker<'l> {
         };
         // Of a quad's messages the evaluator says what they need.
         if !name.starts_with("swap_")
-            && !methods::has(ty, name)
+            && !methods::has_method(ty, name)
             && methods::UNLIKE.iter().all(|(unlike, ..)| *unlike != name)
         {
             let plural = if arguments == 1 { "" } else { "s" };
             let message = format!("there is no method `{name}` with {arguments} argument{plural} on {receiver}");
             self.errors.push(
-                Diagnostic::at(Code::UnknownMethod, span, message)
+                Diagnostic::error_at(Code::UnknownMethod, span, message)
                     .label("not supported")
                     .help(methods::known_methods(name, ty)),
             );
@@ -285,11 +293,11 @@ impl<'l> Checker<'l> {
 
     /// A method with one argument of the type of its result.
     fn takes_own(&mut self, args: &'l [Expr], own: Ty) -> Ty {
-        self.takes(args, std::slice::from_ref(&own), own.clone())
+        self.check_arguments(args, std::slice::from_ref(&own), own.clone())
     }
 
     fn unknown_method(&mut self, args: &'l [Expr]) -> Ty {
-        self.loose(args);
+        self.infer_loose_args(args);
         Ty::Unknown
     }
 
@@ -297,10 +305,10 @@ impl<'l> Checker<'l> {
         let float = Ty::Float;
         match name {
             "powf" | "atan2" | "min" | "max" => self.takes_own(args, float),
-            "clamp" | "mul_add" | "lerp" => self.takes(args, &[float.clone(), float.clone()], float),
-            "powi" => self.takes(args, &[Ty::I32], float),
-            "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
-            "to_bits" => self.takes(args, &[], Ty::U32),
+            "clamp" | "mul_add" | "lerp" => self.check_arguments(args, &[float.clone(), float.clone()], float),
+            "powi" => self.check_arguments(args, &[Ty::I32], float),
+            "is_nan" | "is_finite" => self.check_arguments(args, &[], Ty::Bool),
+            "to_bits" => self.check_arguments(args, &[], Ty::U32),
             _ if args.is_empty() => float,
             _ => self.unknown_method(args),
         }
@@ -309,13 +317,13 @@ impl<'l> Checker<'l> {
     fn of_integer(&mut self, own: &Ty, name: &str, args: &'l [Expr]) -> Ty {
         let own = own.clone();
         match name {
-            "abs" | "signum" | "reverse_bits" | "wrapping_neg" => self.takes(args, &[], own),
-            "count_ones" | "leading_zeros" | "trailing_zeros" => self.takes(args, &[], Ty::U32),
+            "abs" | "signum" | "reverse_bits" | "wrapping_neg" => self.check_arguments(args, &[], own),
+            "count_ones" | "leading_zeros" | "trailing_zeros" => self.check_arguments(args, &[], Ty::U32),
             "min" | "max" | "rem_euclid" | "div_euclid" | "div_ceil" | "wrapping_add" | "wrapping_sub"
             | "wrapping_mul" => self.takes_own(args, own),
-            "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
-            "is_multiple_of" => self.takes(args, &[own], Ty::Bool),
-            "pow" | "wrapping_shl" | "wrapping_shr" => self.takes(args, &[Ty::U32], own),
+            "clamp" => self.check_arguments(args, &[own.clone(), own.clone()], own),
+            "is_multiple_of" => self.check_arguments(args, &[own], Ty::Bool),
+            "pow" | "wrapping_shl" | "wrapping_shr" => self.check_arguments(args, &[Ty::U32], own),
             _ => self.unknown_method(args),
         }
     }
@@ -324,8 +332,8 @@ impl<'l> Checker<'l> {
         let (own, part) = (Ty::Vector(kind, lanes), Ty::scalar(kind));
         if kind == Scalar::Bool {
             return match name {
-                "any" | "all" => self.takes(args, &[], Ty::Bool),
-                "test" => self.takes(args, &[Ty::USIZE], Ty::Bool),
+                "any" | "all" => self.check_arguments(args, &[], Ty::Bool),
+                "test" => self.check_arguments(args, &[Ty::USIZE], Ty::Bool),
                 _ => self.unknown_method(args),
             };
         }
@@ -334,48 +342,50 @@ impl<'l> Checker<'l> {
             let target = target.or_else(|| to.strip_prefix("ivec").map(|n| format!("IVec{n}")));
             let target = target.or_else(|| to.strip_prefix("uvec").map(|n| format!("UVec{n}")));
             return match target.and_then(|name| super::signature::vector(&name)) {
-                Some((kind, lanes)) => self.takes(args, &[], Ty::Vector(kind, lanes)),
+                Some((kind, lanes)) => self.check_arguments(args, &[], Ty::Vector(kind, lanes)),
                 None => self.unknown_method(args),
             };
         }
         if name.len() <= 4 && name.len() > 1 && name.chars().all(|c| "xyzw".contains(c)) {
-            return self.takes(args, &[], Ty::Vector(kind, name.len() as u8));
+            return self.check_arguments(args, &[], Ty::Vector(kind, name.len() as u8));
         }
         match name {
-            "dot" | "distance" | "distance_squared" => self.takes(args, &[own], part),
+            "dot" | "distance" | "distance_squared" => self.check_arguments(args, &[own], part),
             "length" | "length_squared" | "length_recip" | "min_element" | "max_element" | "element_sum"
-            | "element_product" => self.takes(args, &[], part),
+            | "element_product" => self.check_arguments(args, &[], part),
             "min" | "max" | "cross" | "reflect" | "rem_euclid" | "div_euclid" => self.takes_own(args, own),
             "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" => {
-                self.takes(args, &[own], Ty::Vector(Scalar::Bool, lanes))
+                self.check_arguments(args, &[own], Ty::Vector(Scalar::Bool, lanes))
             }
-            "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
-            "lerp" => self.takes(args, &[own.clone(), Ty::Float], own),
-            "powf" => self.takes(args, &[Ty::Float], own),
-            "extend" => self.takes(args, &[part], Ty::Vector(kind, lanes + 1)),
-            "truncate" => self.takes(args, &[], Ty::Vector(kind, lanes - 1)),
-            "to_array" => self.takes(args, &[], Ty::Array(Box::new(part))),
-            "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
+            "clamp" => self.check_arguments(args, &[own.clone(), own.clone()], own),
+            "lerp" => self.check_arguments(args, &[own.clone(), Ty::Float], own),
+            "powf" => self.check_arguments(args, &[Ty::Float], own),
+            "extend" => self.check_arguments(args, &[part], Ty::Vector(kind, lanes + 1)),
+            "truncate" => self.check_arguments(args, &[], Ty::Vector(kind, lanes - 1)),
+            "to_array" => self.check_arguments(args, &[], Ty::Array(Box::new(part))),
+            "is_nan" | "is_finite" => self.check_arguments(args, &[], Ty::Bool),
             "abs" | "ceil" | "floor" | "trunc" | "exp" | "exp2" | "ln" | "log2" | "sqrt" | "recip" | "normalize"
-            | "perp" | "sin" | "cos" | "signum" | "round" | "fract" => self.takes(args, &[], own),
+            | "perp" | "sin" | "cos" | "signum" | "round" | "fract" => self.check_arguments(args, &[], own),
             _ => self.unknown_method(args),
         }
     }
 
     fn of_quad(&mut self, lane: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
-        let lane = self.table.shallow(lane);
+        let lane = self.table.resolve_shallow(lane);
         let own = Ty::Quad(Box::new(lane.clone()));
         match name {
-            "swap_horizontal" | "swap_vertical" | "swap_diagonal" | "sum" | "average" => self.takes(args, &[], own),
-            "gather" => self.takes(args, &[], Ty::Array(Box::new(own))),
+            "swap_horizontal" | "swap_vertical" | "swap_diagonal" | "sum" | "average" => {
+                self.check_arguments(args, &[], own)
+            }
+            "gather" => self.check_arguments(args, &[], Ty::Array(Box::new(own))),
             "lt" | "le" | "gt" | "ge" | "eq" | "ne" => {
-                args.iter().for_each(|arg| self.lane(arg, &lane));
+                args.iter().for_each(|arg| self.check_lane_argument(arg, &lane));
                 Ty::Quad(Box::new(Ty::Bool))
             }
             "select" => match args {
                 [yes, no] => {
-                    let ty = self.expr(yes, None);
-                    self.against(no, &ty);
+                    let ty = self.infer_expr(yes, None);
+                    self.check_expr(no, &ty);
                     ty
                 }
                 _ => self.unknown_method(args),
@@ -392,18 +402,18 @@ impl<'l> Checker<'l> {
                 result => Ty::Quad(Box::new(result)),
             },
             "extend" => {
-                args.iter().for_each(|arg| self.lane(arg, &Ty::Float));
+                args.iter().for_each(|arg| self.check_lane_argument(arg, &Ty::Float));
                 match lane {
                     Ty::Vector(kind, lanes) => Ty::Quad(Box::new(Ty::Vector(kind, lanes + 1))),
                     _ => Ty::Unknown,
                 }
             }
             "dot" | "distance" | "distance_squared" => {
-                args.iter().for_each(|arg| self.lane(arg, &lane));
+                args.iter().for_each(|arg| self.check_lane_argument(arg, &lane));
                 Ty::Quad(Box::new(Ty::Float))
             }
             "min" | "max" | "clamp" | "atan2" | "powf" | "cross" => {
-                args.iter().for_each(|arg| self.lane(arg, &lane));
+                args.iter().for_each(|arg| self.check_lane_argument(arg, &lane));
                 own
             }
             _ => self.unknown_method(args),
@@ -412,6 +422,6 @@ impl<'l> Checker<'l> {
 }
 
 /// Methods of integers that the evaluator computes where it knows the numbers, and else takes from the library.
-fn evaluated(name: &str) -> bool {
+fn is_evaluated_method(name: &str) -> bool {
     matches!(name, "rem_euclid" | "div_euclid" | "div_ceil" | "is_multiple_of")
 }

@@ -48,10 +48,10 @@ type KnownItems = HashMap<String, Known>;
 /// # Errors
 ///
 /// Everything that rustc would refuse, of all functions.
-pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Vec<Diagnostic>> {
-    let (known, mut errors) = found(library, reached);
+pub fn infer_types(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Vec<Diagnostic>> {
+    let (known, mut errors) = infer_items(library, reached);
     if errors.is_empty() {
-        apply::apply(library, &known);
+        apply::apply_inferred(library, &known);
         return Ok(());
     }
     errors.sort_by_key(|error| error.span);
@@ -61,11 +61,11 @@ pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Ve
 
 /// Types that do not match in functions that the kernel does not reach. What else is wrong with them does not concern it: they may call
 /// what is not among its files.
-pub fn mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagnostic> {
+pub fn find_mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     for function in functions.iter().filter_map(|name| library.functions.get(name)) {
-        one(library, &mut Known::default(), &mut errors, |checker| {
-            checker.function(function)
+        infer_item(library, &mut Known::default(), &mut errors, |checker| {
+            checker.check_function(function)
         });
     }
     errors.retain(|error| error.code() == Some(Code::MismatchedTypes));
@@ -75,19 +75,19 @@ pub fn mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagno
 }
 
 /// Infers all reached items: the results, and every error.
-fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diagnostic>) {
+fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diagnostic>) {
     let (mut items, mut errors) = (KnownItems::new(), Vec::new());
     for name in reached {
         if let Some(function) = library.functions.get(name) {
             let known = items.entry(name.clone()).or_default();
-            one(library, known, &mut errors, |checker| checker.function(function));
+            infer_item(library, known, &mut errors, |checker| checker.check_function(function));
         }
         if let Some(constant) = library.consts.get(name) {
             let known = items.entry(name.clone()).or_default();
-            one(library, known, &mut errors, |checker| checker.constant(constant));
+            infer_item(library, known, &mut errors, |checker| checker.check_constant(constant));
         }
     }
-    declared::check(library, reached, &mut errors);
+    declared::check_declared(library, reached, &mut errors);
     let mut known = Known::default();
     let of_structures = library.structs.values().map(|s| (&s.generics, &s.fields));
     let variants = library
@@ -97,16 +97,16 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
     for (generics, fields) in of_structures.chain(variants) {
         for (_, ty, span) in fields {
             // A type that the kernel does not reach may hold anything.
-            one(library, &mut known, &mut Vec::new(), |checker| {
-                checker.generics(generics, *span);
-                checker.stated(ty, *span);
+            infer_item(library, &mut known, &mut Vec::new(), |checker| {
+                checker.declare_generics(generics, *span);
+                checker.convert_type(ty, *span);
             });
         }
     }
     for field in library.options.values().flatten() {
-        one(library, &mut known, &mut errors, |checker| {
-            let ty = checker.stated(&field.ty, field.span);
-            checker.against(&field.default, &ty);
+        infer_item(library, &mut known, &mut errors, |checker| {
+            let ty = checker.convert_type(&field.ty, field.span);
+            checker.check_expr(&field.default, &ty);
             if let Some(range) = &field.range {
                 let number = match ty {
                     Ty::Ref(_, list) | Ty::Array(list) => match *list {
@@ -115,7 +115,7 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
                     },
                     other => other,
                 };
-                checker.against(range, &Ty::Range(Box::new(number)));
+                checker.check_expr(range, &Ty::Range(Box::new(number)));
             }
         });
     }
@@ -124,7 +124,12 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
 }
 
 /// Looks at one item by itself.
-fn one<'l>(library: &'l Library, known: &mut Known, errors: &mut Vec<Diagnostic>, look: impl FnOnce(&mut Checker<'l>)) {
+fn infer_item<'l>(
+    library: &'l Library,
+    known: &mut Known,
+    errors: &mut Vec<Diagnostic>,
+    look: impl FnOnce(&mut Checker<'l>),
+) {
     let mut checker = Checker::new(library);
     look(&mut checker);
     checker.finish(known, errors);
@@ -216,34 +221,34 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn function(&mut self, function: &'l Function) {
+    fn check_function(&mut self, function: &'l Function) {
         self.bounds = Some(&function.bounds);
-        self.generics(&function.generics, function.span);
+        self.declare_generics(&function.generics, function.span);
         for name in function.bounds.keys().filter(|name| name.starts_with("dyn ")) {
-            self.object(name, function.span);
+            self.check_trait_object(name, function.span);
         }
         for (k, param) in function.params.iter().enumerate() {
             if function.params[..k].iter().any(|other| other.name == param.name) {
                 self.bound_twice(&param.name, param.span, "parameter list");
             }
-            let ty = self.stated(&param.ty, param.span);
-            self.declare(&param.name, ty, param.mutable, false, param.span);
+            let ty = self.convert_type(&param.ty, param.span);
+            self.declare_local(&param.name, ty, param.mutable, false, param.span);
         }
-        self.result = self.stated(&function.result, function.span);
+        self.result = self.convert_type(&function.result, function.span);
         let wanted = self.result.clone();
-        let found = self.block(&function.body, Some(&wanted));
+        let found = self.infer_block(&function.body, Some(&wanted));
         let at = function.body.value.as_ref().map_or(function.span, |value| value.span);
         self.coerce(&wanted, &found, at);
     }
 
     /// Declares type parameters and constants.
-    fn generics(&mut self, generics: &'l [Generic], span: Span) {
+    fn declare_generics(&mut self, generics: &'l [Generic], span: Span) {
         for generic in generics {
             match generic {
                 Generic::Type(name) => self.params.push(name.clone()),
                 Generic::Const(name, ty) => {
-                    let ty = self.stated(ty, span);
-                    self.declare(name, ty, false, false, span);
+                    let ty = self.convert_type(ty, span);
+                    self.declare_local(name, ty, false, false, span);
                 }
             }
         }
@@ -251,7 +256,7 @@ impl<'l> Checker<'l> {
 
     fn bound_twice(&mut self, name: &str, span: Span, list: &str) {
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::DefinedTwice,
                 span,
                 format!("identifier `{name}` is bound more than once in this {list}"),
@@ -261,12 +266,12 @@ impl<'l> Checker<'l> {
         );
     }
 
-    fn constant(&mut self, constant: &'l Const) {
-        let ty = self.stated(&constant.ty, constant.value.span);
-        self.against(&constant.value, &ty);
+    fn check_constant(&mut self, constant: &'l Const) {
+        let ty = self.convert_type(&constant.ty, constant.value.span);
+        self.check_expr(&constant.value, &ty);
     }
 
-    fn declare(&mut self, name: &str, ty: Ty, mutable: bool, deferred: bool, span: Span) {
+    fn declare_local(&mut self, name: &str, ty: Ty, mutable: bool, deferred: bool, span: Span) {
         self.locals.push(Local {
             name: name.to_owned(),
             ty,
@@ -278,21 +283,21 @@ impl<'l> Checker<'l> {
 
     /// Literals that nothing decides become `i32`, as in Rust; what is left is checked.
     fn finish(mut self, known: &mut Known, errors: &mut Vec<Diagnostic>) {
-        self.solve();
+        self.solve_deferred();
         let integers = std::mem::take(&mut self.integers);
         for (_, ty, _) in &integers {
-            if self.table.kind(ty) == Some(Kind::Integer) {
+            if self.table.variable_kind(ty) == Some(Kind::Integer) {
                 self.table.unify(ty, &Ty::I32);
             }
         }
-        self.solve();
+        self.solve_deferred();
         let minus: HashMap<Span, Span> = self
             .negated
             .iter()
             .map(|(sign, _, operand)| (*operand, *sign))
             .collect();
         for (span, ty, value) in integers {
-            let Ty::Int(kind) = self.table.shallow(&ty) else {
+            let Ty::Int(kind) = self.table.resolve_shallow(&ty) else {
                 continue;
             };
             let largest = match kind {
@@ -303,7 +308,7 @@ impl<'l> Checker<'l> {
             if value > largest {
                 let at = minus.get(&span).copied().unwrap_or(span);
                 self.errors.push(
-                    Diagnostic::at(
+                    Diagnostic::error_at(
                         Code::LiteralRange,
                         at,
                         format!("literal out of range for `{}`", Ty::Int(kind)),
@@ -317,9 +322,9 @@ impl<'l> Checker<'l> {
             known.literals.insert(span, kind);
         }
         for (sign, ty, _) in std::mem::take(&mut self.negated) {
-            if let ty @ Ty::Int(IntType::U32 | IntType::Usize) = self.table.shallow(&ty) {
+            if let ty @ Ty::Int(IntType::U32 | IntType::Usize) = self.table.resolve_shallow(&ty) {
                 self.errors.push(
-                    Diagnostic::at(
+                    Diagnostic::error_at(
                         Code::OperatorTypes,
                         sign,
                         format!("cannot apply unary operator `-` to type `{ty}`"),
@@ -330,33 +335,33 @@ impl<'l> Checker<'l> {
             }
         }
         for (span, op, [a, b], ty) in std::mem::take(&mut self.computed) {
-            if let Ty::Int(kind) = self.table.shallow(&ty)
-                && operators::overflows(op, a, b, kind)
+            if let Ty::Int(kind) = self.table.resolve_shallow(&ty)
+                && operators::literals_overflow(op, a, b, kind)
             {
                 if b == 0 && op != crate::ir::BinaryOp::Sub {
                     self.errors.push(
-                        Diagnostic::at(Code::DivisionByZero, span, "attempt to divide by zero")
+                        Diagnostic::error_at(Code::DivisionByZero, span, "attempt to divide by zero")
                             .label("the divisor is always 0")
                             .help("divide only where the divisor is not 0: `if n != 0 { ... }`"),
                     );
                     continue;
                 }
                 self.errors.push(
-                    Diagnostic::at(Code::Overflow, span, "this arithmetic operation will overflow")
+                    Diagnostic::error_at(Code::Overflow, span, "this arithmetic operation will overflow")
                         .label(format!("beyond the range of `{}`", Ty::Int(kind)))
                         .help("compute it in another type, or with `wrapping_mul` and its like where it is to wrap"),
                 );
             }
         }
-        let observed: Vec<Ty> = self.observed.iter().map(|ty| self.table.shallow(ty)).collect();
+        let observed: Vec<Ty> = self.observed.iter().map(|ty| self.table.resolve_shallow(ty)).collect();
         let mut named = Vec::new();
         for (span, ty) in std::mem::take(&mut self.floats) {
             // Reports a single error for all literals of the same type.
-            let ty = self.table.shallow(&ty);
-            if self.table.kind(&ty) == Some(Kind::Float) && observed.contains(&ty) && !named.contains(&ty) {
+            let ty = self.table.resolve_shallow(&ty);
+            if self.table.variable_kind(&ty) == Some(Kind::Float) && observed.contains(&ty) && !named.contains(&ty) {
                 named.push(ty);
                 self.errors.push(
-                    Diagnostic::at(
+                    Diagnostic::error_at(
                         Code::TypeNeeded,
                         span,
                         "nothing says that this number is an `f32`, so that Rust makes it an `f64`",

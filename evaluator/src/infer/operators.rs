@@ -8,10 +8,11 @@ use crate::ir::{BinaryOp, Scalar, UnaryOp};
 
 impl<'l> Checker<'l> {
     /// The type of `left op right`; `expr` is the whole.
-    pub fn operator(&mut self, op: BinaryOp, left: &Ty, right: &Ty, expr: &'l Expr) -> Ty {
-        let unknown = |checker: &Self, ty: &Ty| checker.table.kind(&checker.peeled(ty).0) == Some(Kind::Any);
+    pub fn infer_operator(&mut self, op: BinaryOp, left: &Ty, right: &Ty, expr: &'l Expr) -> Ty {
+        let unknown =
+            |checker: &Self, ty: &Ty| checker.table.variable_kind(&checker.peel_refs(ty).0) == Some(Kind::Any);
         if unknown(self, left) || unknown(self, right) {
-            self.solve();
+            self.solve_deferred();
         }
         if unknown(self, left) || unknown(self, right) {
             let result = match op.is_comparison() {
@@ -27,17 +28,17 @@ impl<'l> Checker<'l> {
             });
             return result;
         }
-        match self.combined(op, left, right) {
+        match self.operator_result(op, left, right) {
             Some(ty) => ty,
             None => {
-                self.refuse(op, left, right, expr);
+                self.note_operator_error(op, left, right, expr);
                 if op.is_comparison() { Ty::Bool } else { Ty::Unknown }
             }
         }
     }
 
     /// Looks again at operators whose operands were not known.
-    pub fn solve(&mut self) {
+    pub fn solve_deferred(&mut self) {
         loop {
             let waiting = std::mem::take(&mut self.deferred);
             let before = waiting.len();
@@ -49,7 +50,7 @@ impl<'l> Checker<'l> {
                 expr,
             } in waiting
             {
-                let any = |ty: &Ty| self.table.kind(&self.peeled(ty).0) == Some(Kind::Any);
+                let any = |ty: &Ty| self.table.variable_kind(&self.peel_refs(ty).0) == Some(Kind::Any);
                 if any(&left) || any(&right) {
                     self.deferred.push(Deferred {
                         op,
@@ -60,9 +61,9 @@ impl<'l> Checker<'l> {
                     });
                     continue;
                 }
-                match self.combined(op, &left, &right) {
+                match self.operator_result(op, &left, &right) {
                     Some(ty) => self.coerce(&result, &ty, expr.span),
-                    None => self.refuse(op, &left, &right, expr),
+                    None => self.note_operator_error(op, &left, &right, expr),
                 }
             }
             if self.deferred.len() == before {
@@ -72,9 +73,9 @@ impl<'l> Checker<'l> {
     }
 
     /// Returns the type of an operator's result; `None` if it does not accept these operands.
-    fn combined(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> Option<Ty> {
+    fn operator_result(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> Option<Ty> {
         if op.is_comparison() {
-            return self.compared(op, left, right).then_some(Ty::Bool);
+            return self.check_comparison(op, left, right).then_some(Ty::Bool);
         }
         if let Some(of) = super::traits::trait_of(op)
             && let Some(result) = self.operator_of(of, left, right)
@@ -82,17 +83,17 @@ impl<'l> Checker<'l> {
             return Some(result);
         }
         // Numbers and vectors have operators on shared references too; on `&mut` there are none.
-        let ((l, left_ref), (r, right_ref)) = (self.peeled(left), self.peeled(right));
+        let ((l, left_ref), (r, right_ref)) = (self.peel_refs(left), self.peel_refs(right));
         if left_ref == Some(true) && !matches!(l, Ty::Unknown | Ty::Param(_)) {
             return None;
         }
         if right_ref == Some(true) && !matches!(r, Ty::Unknown | Ty::Param(_)) {
             return None;
         }
-        self.arithmetic(op, &l, &r)
+        self.arithmetic_result(op, &l, &r)
     }
 
-    fn arithmetic(&mut self, op: BinaryOp, l: &Ty, r: &Ty) -> Option<Ty> {
+    fn arithmetic_result(&mut self, op: BinaryOp, l: &Ty, r: &Ty) -> Option<Ty> {
         use BinaryOp::{Add, And, Div, Mul, Or, Rem, Shl, Shr, Sub, Xor};
         match (l, r) {
             (Ty::Unknown | Ty::Param(_) | Ty::Never, _) | (_, Ty::Unknown | Ty::Param(_) | Ty::Never) => {
@@ -106,16 +107,16 @@ impl<'l> Checker<'l> {
                 return Some(Ty::Unknown);
             }
             (Ty::Quad(a), Ty::Quad(b)) => {
-                let (a, b) = (self.table.shallow(a), self.table.shallow(b));
-                return self.arithmetic(op, &a, &b).map(|t| Ty::Quad(Box::new(t)));
+                let (a, b) = (self.table.resolve_shallow(a), self.table.resolve_shallow(b));
+                return self.arithmetic_result(op, &a, &b).map(|t| Ty::Quad(Box::new(t)));
             }
             (Ty::Quad(a), b) => {
-                let a = self.table.shallow(a);
-                return self.arithmetic(op, &a, b).map(|t| Ty::Quad(Box::new(t)));
+                let a = self.table.resolve_shallow(a);
+                return self.arithmetic_result(op, &a, b).map(|t| Ty::Quad(Box::new(t)));
             }
             (a, Ty::Quad(b)) => {
-                let b = self.table.shallow(b);
-                return self.arithmetic(op, a, &b).map(|t| Ty::Quad(Box::new(t)));
+                let b = self.table.resolve_shallow(b);
+                return self.arithmetic_result(op, a, &b).map(|t| Ty::Quad(Box::new(t)));
             }
             _ => {}
         }
@@ -160,7 +161,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn compared(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> bool {
+    fn check_comparison(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> bool {
         if !self.table.unify(left, right) {
             return false;
         }
@@ -168,7 +169,7 @@ impl<'l> Checker<'l> {
         if matches!(op, BinaryOp::Eq | BinaryOp::Ne) && self.not_comparable(left).is_some() {
             return false;
         }
-        match self.peeled(left).0 {
+        match self.peel_refs(left).0 {
             Ty::Vector(..) | Ty::Matrix(_) | Ty::Enum(..) | Ty::Struct(..) | Ty::Quad(_) => {
                 matches!(op, BinaryOp::Eq | BinaryOp::Ne)
             }
@@ -179,7 +180,7 @@ impl<'l> Checker<'l> {
     /// The first structure or enum in a type that has no `PartialEq`.
     fn not_comparable(&mut self, ty: &Ty) -> Option<String> {
         let library = self.library;
-        let bare = self.peeled(ty).0;
+        let bare = self.peel_refs(ty).0;
         let (name, derives) = match &bare {
             Ty::Struct(name, _) => (name, library.structs.get(name).map(|s| &s.derives)),
             Ty::Enum(name, _) => (name, library.enums.get(name).map(|e| &e.derives)),
@@ -197,25 +198,26 @@ impl<'l> Checker<'l> {
     }
 
     fn is_own(&self, ty: &Ty) -> bool {
-        matches!(self.peeled(ty).0, Ty::Struct(..) | Ty::Enum(..))
+        matches!(self.peel_refs(ty).0, Ty::Struct(..) | Ty::Enum(..))
     }
 
     fn is_number(&self, ty: &Ty) -> bool {
-        matches!(self.table.shallow(ty), Ty::Float | Ty::Int(_)) || self.table.kind(ty).is_some_and(|k| k != Kind::Any)
+        matches!(self.table.resolve_shallow(ty), Ty::Float | Ty::Int(_))
+            || self.table.variable_kind(ty).is_some_and(|k| k != Kind::Any)
     }
 
     fn is_integer(&self, ty: &Ty) -> bool {
-        matches!(self.table.shallow(ty), Ty::Int(_)) || self.table.kind(ty) == Some(Kind::Integer)
+        matches!(self.table.resolve_shallow(ty), Ty::Int(_)) || self.table.variable_kind(ty) == Some(Kind::Integer)
     }
 
-    fn refuse(&mut self, op: BinaryOp, left: &Ty, right: &Ty, expr: &Expr) {
-        let (left, right) = (self.table.deep(left), self.table.deep(right));
-        let shown = |ty: &Ty| match self.table.kind(ty) {
+    fn note_operator_error(&mut self, op: BinaryOp, left: &Ty, right: &Ty, expr: &Expr) {
+        let (left, right) = (self.table.resolve_deep(left), self.table.resolve_deep(right));
+        let shown = |ty: &Ty| match self.table.variable_kind(ty) {
             Some(Kind::Integer) => "an integer".to_owned(),
             Some(Kind::Float) => "a float".to_owned(),
             _ => format!("`{ty}`"),
         };
-        let sign = symbol(op);
+        let sign = operator_symbol(op);
         let (l, r) = (shown(&left), shown(&right));
         let (message, label) = match op.is_comparison() {
             true => (
@@ -224,7 +226,7 @@ impl<'l> Checker<'l> {
             ),
             false => (format!("cannot apply `{sign}` to {l} and {r}"), "not for these types"),
         };
-        let mut error = Diagnostic::at(Code::OperatorTypes, expr.span, message).label(label);
+        let mut error = Diagnostic::error_at(Code::OperatorTypes, expr.span, message).label(label);
         let help = match (&left, &right) {
             _ if op.is_comparison() && left == right && self.is_own(&left) => Some(match self.not_comparable(&left) {
                 Some(name) if matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
@@ -265,10 +267,10 @@ impl<'l> Checker<'l> {
             (Ty::Vector(kind, _), other) | (other, Ty::Vector(kind, _)) if self.is_number(other) => {
                 Some(format!("convert the number with `as {}`", Ty::scalar(*kind)))
             }
-            (Ty::Float, other) if self.table.kind(other) == Some(Kind::Integer) => {
+            (Ty::Float, other) if self.table.variable_kind(other) == Some(Kind::Integer) => {
                 Some("write it as a float: `2.0`".to_owned())
             }
-            (other, Ty::Float) if self.table.kind(other) == Some(Kind::Integer) => {
+            (other, Ty::Float) if self.table.variable_kind(other) == Some(Kind::Integer) => {
                 Some("write it as a float: `2.0`".to_owned())
             }
             (Ty::Int(_) | Ty::Float, Ty::Int(_) | Ty::Float) => {
@@ -284,16 +286,16 @@ impl<'l> Checker<'l> {
 }
 
 /// The value of an integer literal, with a minus sign before it or without.
-pub fn literal(expr: &Expr) -> Option<i64> {
+pub fn integer_literal(expr: &Expr) -> Option<i64> {
     match &expr.kind {
         ExprKind::Int(value, _) => Some(*value),
-        ExprKind::Unary(UnaryOp::Neg, operand) => literal(operand).map(|value| -value),
+        ExprKind::Unary(UnaryOp::Neg, operand) => integer_literal(operand).map(|value| -value),
         _ => None,
     }
 }
 
 /// Returns whether an operation on literals leaves the range of its type or divides by zero, which rustc refuses.
-pub fn overflows(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
+pub fn literals_overflow(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
     let result = match op {
         BinaryOp::Div | BinaryOp::Rem => return b == 0,
         BinaryOp::Add => a.checked_add(b),
@@ -311,7 +313,7 @@ pub fn overflows(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
 }
 
 /// An operator as it is written.
-pub fn symbol(op: BinaryOp) -> &'static str {
+pub fn operator_symbol(op: BinaryOp) -> &'static str {
     match op {
         BinaryOp::Add => "+",
         BinaryOp::Sub => "-",

@@ -11,7 +11,7 @@ impl<'l> Checker<'l> {
     /// Binds the names of a whole pattern, each of which it may have once.
     pub fn bind_whole(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
         let mark = self.locals.len();
-        self.bind(pattern, ty, deferred);
+        self.bind_pattern(pattern, ty, deferred);
         for k in mark..self.locals.len() {
             let local = &self.locals[k];
             if self.locals[mark..k].iter().any(|other| other.name == local.name) {
@@ -22,27 +22,27 @@ impl<'l> Checker<'l> {
     }
 
     /// Binds the names of a pattern to the parts of a value of a type. What a reference is taken apart into are references.
-    fn bind(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
+    fn bind_pattern(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
         if let Pattern::Name(name, mutable, span) = pattern {
-            return self.declare(name, ty.clone(), *mutable, deferred, *span);
+            return self.declare_local(name, ty.clone(), *mutable, deferred, *span);
         }
         if let Pattern::Ref(inner, span) = pattern {
-            let referred = match self.table.shallow(ty) {
+            let referred = match self.table.resolve_shallow(ty) {
                 Ty::Ref(_, referred) => *referred,
                 Ty::Unknown | Ty::Param(_) | Ty::Never => Ty::Unknown,
                 other => {
                     let any = self.table.fresh(super::Kind::Any);
-                    self.coerce(&other, &any.clone().shared(), *span);
+                    self.coerce(&other, &any.clone().into_shared_ref(), *span);
                     any
                 }
             };
-            return self.bind(inner, &referred, deferred);
+            return self.bind_pattern(inner, &referred, deferred);
         }
         if let Pattern::At(name, mutable, inner, span) = pattern {
-            self.declare(name, ty.clone(), *mutable, deferred, *span);
-            return self.bind(inner, ty, deferred);
+            self.declare_local(name, ty.clone(), *mutable, deferred, *span);
+            return self.bind_pattern(inner, ty, deferred);
         }
-        let (bare, reference) = self.peeled(ty);
+        let (bare, reference) = self.peel_refs(ty);
         let through = |part: Ty| match reference {
             Some(mutable) => Ty::Ref(mutable, Box::new(part)),
             None => part,
@@ -50,10 +50,10 @@ impl<'l> Checker<'l> {
         match pattern {
             Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Ref(..) | Pattern::At(..) => {}
             Pattern::Tuple(parts, span) => match &bare {
-                Ty::Tuple(types) if Pattern::shared(parts, types.len()).is_some() => {
-                    for (part, taken) in Pattern::shared(parts, types.len()).into_iter().flatten() {
+                Ty::Tuple(types) if Pattern::part_ranges(parts, types.len()).is_some() => {
+                    for (part, taken) in Pattern::part_ranges(parts, types.len()).into_iter().flatten() {
                         if !part.is_rest() {
-                            self.bind(part, &through(types[taken.start].clone()), deferred);
+                            self.bind_pattern(part, &through(types[taken.start].clone()), deferred);
                         }
                     }
                 }
@@ -62,7 +62,7 @@ impl<'l> Checker<'l> {
                     let types: Vec<Ty> = parts.iter().map(|_| self.table.fresh(super::Kind::Any)).collect();
                     self.coerce(other, &Ty::Tuple(types.clone()), *span);
                     for (part, ty) in parts.iter().zip(types) {
-                        self.bind(part, &through(ty), deferred);
+                        self.bind_pattern(part, &through(ty), deferred);
                     }
                 }
             },
@@ -71,7 +71,7 @@ impl<'l> Checker<'l> {
                     let one = through((**element).clone());
                     let rest = through(Ty::Array(element.clone()));
                     for part in parts {
-                        self.bind(part, if part.is_rest() { &rest } else { &one }, deferred);
+                        self.bind_pattern(part, if part.is_rest() { &rest } else { &one }, deferred);
                     }
                 }
                 Ty::Unknown | Ty::Param(_) | Ty::Never => self.bind_unknown(parts, deferred),
@@ -80,13 +80,13 @@ impl<'l> Checker<'l> {
                     self.coerce(other, &Ty::Array(Box::new(element.clone())), *span);
                     parts
                         .iter()
-                        .for_each(|part| self.bind(part, &through(element.clone()), deferred));
+                        .for_each(|part| self.bind_pattern(part, &through(element.clone()), deferred));
                 }
             },
             Pattern::Struct(path, fields, span) => {
                 let parts = self.parts_of_pattern(path, fields, &bare, *span);
                 for ((_, part), ty) in fields.iter().zip(parts) {
-                    self.bind(part, &through(ty), deferred);
+                    self.bind_pattern(part, &through(ty), deferred);
                 }
             }
             Pattern::Or(cases) => {
@@ -94,7 +94,7 @@ impl<'l> Checker<'l> {
                 let mark = self.locals.len();
                 for (k, case) in cases.iter().enumerate() {
                     let kept = self.locals.len();
-                    self.bind(case, ty, deferred);
+                    self.bind_pattern(case, ty, deferred);
                     if k > 0 {
                         let again = self.locals.split_off(kept);
                         for local in again {
@@ -110,21 +110,21 @@ impl<'l> Checker<'l> {
                 let known = match &expr.kind {
                     // A constant or a variant.
                     ExprKind::Path(path) => {
-                        if let Some((_, _, variant)) = self.library.variant(path)
+                        if let Some((_, _, variant)) = self.library.find_variant(path)
                             && !variant.fields.is_empty()
                         {
                             self.holds_data(path, variant, expr.span);
                             return;
                         }
-                        self.expr(expr, None)
+                        self.infer_expr(expr, None)
                     }
-                    _ => self.expr(expr, Some(&bare)),
+                    _ => self.infer_expr(expr, Some(&bare)),
                 };
                 self.coerce(&bare, &known, expr.span);
             }
             Pattern::Range(low, high, _) => {
                 let ends = [low, high].into_iter().flatten();
-                ends.for_each(|end| self.against(end, &bare));
+                ends.for_each(|end| self.check_expr(end, &bare));
                 self.not_backwards(pattern);
             }
         }
@@ -160,7 +160,7 @@ impl<'l> Checker<'l> {
                 let names: Vec<&str> = known.iter().map(|(name, ..)| name.as_str()).collect();
                 let plural = if known.len() == 1 { "" } else { "s" };
                 self.errors.push(match counted && field.parse::<usize>().is_ok() {
-                    true => Diagnostic::at(
+                    true => Diagnostic::error_at(
                         Code::Pattern,
                         span,
                         format!(
@@ -169,9 +169,9 @@ impl<'l> Checker<'l> {
                         ),
                     )
                     .label("too many"),
-                    false => Diagnostic::at(Code::UnknownField, span, format!("`{name}` has no field `{field}`"))
+                    false => Diagnostic::error_at(Code::UnknownField, span, format!("`{name}` has no field `{field}`"))
                         .label("not there")
-                        .help(crate::suggest::suggest(field, &names, "it has")),
+                        .help(crate::suggest::suggest_name(field, &names, "it has")),
                 });
             }
             found.push(k.map_or(Ty::Unknown, |k| types[k].clone()));
@@ -185,7 +185,7 @@ impl<'l> Checker<'l> {
         let named = variant.fields.iter().any(|(name, ..)| name.parse::<usize>().is_err());
         let rest = if named { " { .. }" } else { "(..)" };
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::VariantForm,
                 span,
                 format!("expected unit variant, found variant `{name}`, which holds values"),
@@ -202,20 +202,20 @@ impl<'l> Checker<'l> {
         let variants = library.enums.get(ty).map_or(&[][..], |e| &e.variants);
         let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
         self.errors.push(
-            Diagnostic::at(Code::UnknownVariant, span, format!("`{ty}` has no variant `{variant}`"))
+            Diagnostic::error_at(Code::UnknownVariant, span, format!("`{ty}` has no variant `{variant}`"))
                 .label("not there")
-                .help(crate::suggest::suggest(variant, &names, "it has")),
+                .help(crate::suggest::suggest_name(variant, &names, "it has")),
         );
     }
 
     /// Notes an error about a range of literals that takes nothing.
     fn not_backwards(&mut self, pattern: &'l Pattern) {
         if let Pattern::Range(Some(low), Some(high), inclusive) = pattern
-            && let (Some(from), Some(to)) = (number(low), number(high))
+            && let (Some(from), Some(to)) = (literal_number(low), literal_number(high))
             && (from > to || (from == to && !inclusive))
         {
             self.errors.push(
-                Diagnostic::at(Code::Pattern, high.span, "this range pattern takes no value")
+                Diagnostic::error_at(Code::Pattern, high.span, "this range pattern takes no value")
                     .label("not above its lower bound")
                     .help("write the smaller bound first"),
             );
@@ -223,7 +223,9 @@ impl<'l> Checker<'l> {
     }
 
     fn bind_unknown(&mut self, parts: &'l [Pattern], deferred: bool) {
-        parts.iter().for_each(|part| self.bind(part, &Ty::Unknown, deferred));
+        parts
+            .iter()
+            .for_each(|part| self.bind_pattern(part, &Ty::Unknown, deferred));
     }
 }
 
@@ -236,11 +238,11 @@ fn lane_of(name: &str) -> usize {
 }
 
 /// The value of a literal, which an `f64` holds exactly.
-fn number(expr: &Expr) -> Option<f64> {
+fn literal_number(expr: &Expr) -> Option<f64> {
     match &expr.kind {
         ExprKind::Int(value, _) => Some(*value as f64),
         ExprKind::Float(value, _) => Some(f64::from(*value)),
-        ExprKind::Unary(UnaryOp::Neg, operand) => number(operand).map(|value| -value),
+        ExprKind::Unary(UnaryOp::Neg, operand) => literal_number(operand).map(|value| -value),
         _ => None,
     }
 }

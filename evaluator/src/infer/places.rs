@@ -22,32 +22,32 @@ pub enum Access {
 
 impl<'l> Checker<'l> {
     /// The type of an expression that may be a place, and whether that may be written.
-    pub fn place(&mut self, expr: &'l Expr) -> (Ty, Access) {
+    pub fn infer_place(&mut self, expr: &'l Expr) -> (Ty, Access) {
         match &expr.kind {
-            ExprKind::Path(path) => self.path(path, expr.span),
+            ExprKind::Path(path) => self.infer_path(path, expr.span),
             ExprKind::Field(base, name) => {
-                let (base, access) = self.place(base);
-                let (bare, access) = self.inside(&base, access);
-                (self.field(&bare, name, expr.span), access)
+                let (base, access) = self.infer_place(base);
+                let (bare, access) = self.peel_base(&base, access);
+                (self.infer_field(&bare, name, expr.span), access)
             }
             ExprKind::Index(base, index) => {
-                let (base, access) = self.place(base);
-                let (bare, access) = self.inside(&base, access);
-                let found = self.expr(index, None);
-                (self.element(&bare, &found, index), access)
+                let (base, access) = self.infer_place(base);
+                let (bare, access) = self.peel_base(&base, access);
+                let found = self.infer_expr(index, None);
+                (self.infer_element(&bare, &found, index), access)
             }
             ExprKind::Deref(reference) => {
-                let (ty, access) = self.place(reference);
-                match self.table.shallow(&ty) {
+                let (ty, access) = self.infer_place(reference);
+                match self.table.resolve_shallow(&ty) {
                     Ty::Ref(true, inner) => (*inner, Access::Writable),
                     Ty::Ref(false, inner) => (*inner, Access::Shared),
                     Ty::Unknown | Ty::Var(_) | Ty::Param(_) => (Ty::Unknown, access),
                     other => {
                         self.errors.push(
-                            Diagnostic::at(
+                            Diagnostic::error_at(
                                 Code::OperatorTypes,
                                 expr.span,
-                                format!("type `{}` cannot be dereferenced", self.table.deep(&other)),
+                                format!("type `{}` cannot be dereferenced", self.table.resolve_deep(&other)),
                             )
                             .label("not a reference")
                             .help("leave out the `*`"),
@@ -56,26 +56,26 @@ impl<'l> Checker<'l> {
                     }
                 }
             }
-            _ => (self.expr(expr, None), Access::Writable),
+            _ => (self.infer_expr(expr, None), Access::Writable),
         }
     }
 
     /// A type without the references around it, and whether the outermost of them are all `&mut`.
-    pub fn peeled(&self, ty: &Ty) -> (Ty, Option<bool>) {
-        let (mut ty, mut mutable) = (self.table.shallow(ty), None);
+    pub fn peel_refs(&self, ty: &Ty) -> (Ty, Option<bool>) {
+        let (mut ty, mut mutable) = (self.table.resolve_shallow(ty), None);
         while let Ty::Ref(m, inner) = &ty {
             mutable = Some(mutable.unwrap_or(true) && *m);
-            ty = self.table.shallow(inner);
+            ty = self.table.resolve_shallow(inner);
         }
         (ty, mutable)
     }
 
     /// Returns the type of the value that a field or an element belongs to, behind any references.
-    fn inside(&mut self, base: &Ty, access: Access) -> (Ty, Access) {
-        if self.table.kind(base) == Some(Kind::Any) {
-            self.solve();
+    fn peel_base(&mut self, base: &Ty, access: Access) -> (Ty, Access) {
+        if self.table.variable_kind(base) == Some(Kind::Any) {
+            self.solve_deferred();
         }
-        let (bare, reference) = self.peeled(base);
+        let (bare, reference) = self.peel_refs(base);
         let access = match (reference, access) {
             (Some(true), _) => Access::Writable,
             (Some(false), _) => Access::Shared,
@@ -86,7 +86,7 @@ impl<'l> Checker<'l> {
     }
 
     /// A variable, a constant or a variant.
-    fn path(&mut self, path: &'l [String], span: Span) -> (Ty, Access) {
+    fn infer_path(&mut self, path: &'l [String], span: Span) -> (Ty, Access) {
         if let [name] = path
             && let Some(local) = self.locals.iter().rev().find(|local| local.name == *name)
         {
@@ -108,12 +108,12 @@ impl<'l> Checker<'l> {
         let joined = path.join("::");
         let last = path.last().map(String::as_str).unwrap_or_default();
         let library = self.library;
-        if library.variant(path).is_some()
+        if library.find_variant(path).is_some()
             && let Some((ty, fields, types)) = self.made_by(path)
         {
             if let Some((field, ..)) = fields.first().filter(|(name, ..)| name.parse::<usize>().is_err()) {
                 self.errors.push(
-                    Diagnostic::at(
+                    Diagnostic::error_at(
                         Code::VariantForm,
                         span,
                         format!("expected value, found struct variant `{}`", path.join("::")),
@@ -150,9 +150,9 @@ impl<'l> Checker<'l> {
         if let ([name], Ty::Unknown) = (path, &known) {
             let names: Vec<&str> = self.locals.iter().map(|local| local.name.as_str()).collect();
             self.errors.push(
-                Diagnostic::at(Code::UnknownName, span, format!("cannot find `{name}`"))
+                Diagnostic::error_at(Code::UnknownName, span, format!("cannot find `{name}`"))
                     .label("not found")
-                    .help(crate::suggest::suggest(name, &names, "variables here are")),
+                    .help(crate::suggest::suggest_name(name, &names, "variables here are")),
             );
         }
         (known, Access::Writable)
@@ -161,15 +161,15 @@ impl<'l> Checker<'l> {
     /// The type that another item states, whose errors are that item's.
     pub fn field_type(&mut self, ty: &'l Type, span: Span) -> Ty {
         let errors = self.errors.len();
-        let ty = self.substituted(ty, &HashMap::new(), span);
+        let ty = self.substitute_type(ty, &HashMap::new(), span);
         self.errors.truncate(errors);
         ty
     }
 
-    fn field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
+    fn infer_field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
         let found = self.known_field(base, name);
         let fields = match base {
-            Ty::Var(_) if self.table.kind(base) == Some(Kind::Any) => return found,
+            Ty::Var(_) if self.table.variable_kind(base) == Some(Kind::Any) => return found,
             Ty::Unknown | Ty::Param(_) | Ty::Never => return found,
             Ty::Vector(_, lanes) => ["x", "y", "z", "w"][..usize::from(*lanes)].to_vec(),
             Ty::Matrix(n) => ["x_axis", "y_axis", "z_axis", "w_axis"][..usize::from(*n)].to_vec(),
@@ -181,14 +181,14 @@ impl<'l> Checker<'l> {
             _ => Vec::new(),
         };
         if !fields.contains(&name) {
-            let shown = match self.table.kind(base) {
+            let shown = match self.table.variable_kind(base) {
                 Some(_) => "a number".to_owned(),
-                None => format!("type `{}`", self.table.deep(base)),
+                None => format!("type `{}`", self.table.resolve_deep(base)),
             };
-            let mut error = Diagnostic::at(Code::UnknownField, span, format!("no field `{name}` on {shown}"))
+            let mut error = Diagnostic::error_at(Code::UnknownField, span, format!("no field `{name}` on {shown}"))
                 .label("unknown field");
             if !fields.is_empty() {
-                error = error.help(crate::suggest::suggest(name, &fields, "it has"));
+                error = error.help(crate::suggest::suggest_name(name, &fields, "it has"));
             }
             self.errors.push(error);
         }
@@ -214,27 +214,27 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn element(&mut self, base: &Ty, index: &Ty, at: &Expr) -> Ty {
+    fn infer_element(&mut self, base: &Ty, index: &Ty, at: &Expr) -> Ty {
         let element = match base {
             Ty::Array(element) => (**element).clone(),
             Ty::Vector(kind, _) => Ty::scalar(*kind),
-            Ty::Struct(..) => match self.indexed(base, index) {
+            Ty::Struct(..) => match self.infer_indexed(base, index) {
                 Some(element) => return element,
                 None => return Ty::Unknown,
             },
             _ => return Ty::Unknown,
         };
-        if let Ty::Range(_) = self.table.shallow(index) {
+        if let Ty::Range(_) = self.table.resolve_shallow(index) {
             return Ty::Unknown;
         }
         if !self.table.unify(&Ty::USIZE, index) {
-            let (base, found) = (self.table.deep(base), self.table.deep(index));
-            let found = match self.table.kind(&found) {
+            let (base, found) = (self.table.resolve_deep(base), self.table.resolve_deep(index));
+            let found = match self.table.variable_kind(&found) {
                 Some(Kind::Float) => "a float".to_owned(),
                 _ => format!("`{found}`"),
             };
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::IndexType,
                     at.span,
                     format!("the type `{base}` cannot be indexed by {found}"),
@@ -247,15 +247,15 @@ impl<'l> Checker<'l> {
     }
 
     /// `target = value`, `target op= value`.
-    pub fn assign(&mut self, target: &'l Expr, op: Option<BinaryOp>, value: &'l Expr, expr: &'l Expr) -> Ty {
-        let (ty, access) = self.place(target);
-        self.writable(access, target, op.is_none());
+    pub fn infer_assign(&mut self, target: &'l Expr, op: Option<BinaryOp>, value: &'l Expr, expr: &'l Expr) -> Ty {
+        let (ty, access) = self.infer_place(target);
+        self.check_writable(access, target, op.is_none());
         match op {
-            None => self.against(value, &ty),
+            None => self.check_expr(value, &ty),
             Some(op) => {
-                let found = self.expr(value, None);
+                let found = self.infer_expr(value, None);
                 if let Some((of, name)) = super::traits::trait_of(op)
-                    && matches!(self.peeled(&ty).0, Ty::Struct(..) | Ty::Enum(..))
+                    && matches!(self.peel_refs(&ty).0, Ty::Struct(..) | Ty::Enum(..))
                 {
                     let assigned = (format!("{of}Assign"), format!("{name}_assign"));
                     if self.operator_of((&assigned.0, &assigned.1), &ty, &found).is_none() {
@@ -263,11 +263,11 @@ impl<'l> Checker<'l> {
                     }
                     return Ty::UNIT;
                 }
-                let result = self.operator(op, &ty, &found, expr);
-                if let Ty::Ref(true, _) = self.table.shallow(&ty) {
-                    let shown = self.table.deep(&ty);
+                let result = self.infer_operator(op, &ty, &found, expr);
+                if let Ty::Ref(true, _) = self.table.resolve_shallow(&ty) {
+                    let shown = self.table.resolve_deep(&ty);
                     self.errors.push(
-                        Diagnostic::at(
+                        Diagnostic::error_at(
                             Code::OperatorTypes,
                             expr.span,
                             format!("a binary assignment operation cannot be applied to type `{shown}`"),
@@ -285,10 +285,10 @@ impl<'l> Checker<'l> {
 
     /// Notes an error about `+=` and its like on a type that has no such operator.
     fn not_assigned(&mut self, op: BinaryOp, ty: &Ty, of: &str, span: Span) {
-        let shown = self.table.deep(ty);
-        let sign = super::operators::symbol(op);
+        let shown = self.table.resolve_deep(ty);
+        let sign = super::operators::operator_symbol(op);
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::OperatorTypes,
                 span,
                 format!("binary assignment operation `{sign}=` cannot be applied to type `{shown}`"),
@@ -299,19 +299,19 @@ impl<'l> Checker<'l> {
     }
 
     /// Notes an error if a place may not be written. `first` is a whole assignment, which may give a variable its first value.
-    pub fn writable(&mut self, access: Access, place: &Expr, first: bool) {
+    pub fn check_writable(&mut self, access: Access, place: &Expr, first: bool) {
         let error = match access {
             Access::Writable => return,
             Access::Immutable(_, _, true) if first => return,
-            Access::Immutable(name, declared, _) | Access::Part(name, declared) => Diagnostic::at(
+            Access::Immutable(name, declared, _) | Access::Part(name, declared) => Diagnostic::error_at(
                 Code::Immutable,
                 place.span,
                 format!("cannot change `{name}`, as it is not declared as mutable"),
             )
             .label("changed here")
-            .other(declared, "declared here")
+            .label_at(declared, "declared here")
             .help(format!("declare it as `mut {name}`")),
-            Access::Shared => Diagnostic::at(
+            Access::Shared => Diagnostic::error_at(
                 Code::Immutable,
                 place.span,
                 "cannot change what is behind a `&` reference",

@@ -21,7 +21,7 @@ impl<'l> Checker<'l> {
         });
         let given: HashMap<String, Ty> = named.collect();
         let errors = self.errors.len();
-        let types = fields.iter().map(|(_, ty, at)| self.substituted(ty, &given, *at));
+        let types = fields.iter().map(|(_, ty, at)| self.substitute_type(ty, &given, *at));
         let types: Vec<Ty> = types.collect();
         // They are those of the item that states the fields.
         self.errors.truncate(errors);
@@ -57,7 +57,7 @@ impl<'l> Checker<'l> {
     /// The type that a path makes: a structure, or an enum by a variant of it; with its fields, and a name for messages.
     pub fn made_by(&mut self, path: &'l [String]) -> Option<(Ty, &'l Fields, Vec<Ty>)> {
         let library = self.library;
-        if let Some((name, k, _)) = library.variant(path) {
+        if let Some((name, k, _)) = library.find_variant(path) {
             let args = self.fresh_arguments(&library.enums[name].generics);
             let ty = Ty::Enum(name.to_owned(), args);
             let (fields, types) = self.fields_of(&ty, Some(k))?;
@@ -82,14 +82,14 @@ impl<'l> Checker<'l> {
             let plural = if wanted == 1 { "" } else { "s" };
             let name = path.join("::");
             let error = match wanted {
-                0 => Diagnostic::at(
+                0 => Diagnostic::error_at(
                     Code::VariantForm,
                     span,
                     format!("expected function, found unit variant `{name}`"),
                 )
                 .label("it holds nothing")
                 .help(format!("write `{name}`")),
-                _ => Diagnostic::at(
+                _ => Diagnostic::error_at(
                     Code::ArgumentCount,
                     span,
                     format!("`{name}` takes {wanted} argument{plural}, not {given}"),
@@ -98,39 +98,39 @@ impl<'l> Checker<'l> {
             };
             self.errors.push(error);
         }
-        Some(self.takes(args, &types, ty))
+        Some(self.check_arguments(args, &types, ty))
     }
 
     /// `Name { field: value }`, of a structure or a variant.
-    pub fn structure(&mut self, path: &'l [String], fields: &'l [(Name, Expr)], rest: Option<&'l Expr>) -> Ty {
+    pub fn infer_struct(&mut self, path: &'l [String], fields: &'l [(Name, Expr)], rest: Option<&'l Expr>) -> Ty {
         let Some((ty, known, types)) = self.made_by(path) else {
             fields.iter().for_each(|(_, value)| {
-                self.expr(value, None);
+                self.infer_expr(value, None);
             });
             return Ty::Unknown;
         };
         for (field, value) in fields {
             match known.iter().position(|(name, ..)| name == field) {
-                Some(k) => self.against(value, &types[k]),
+                Some(k) => self.check_expr(value, &types[k]),
                 None => {
-                    self.expr(value, None);
+                    self.infer_expr(value, None);
                 }
             }
         }
         if let Some(rest) = rest {
-            self.against(rest, &ty);
+            self.check_expr(rest, &ty);
         }
         ty
     }
 
     /// `value?`: what it holds, where the function may end with what it has instead.
-    pub fn tried(&mut self, value: &'l Expr, span: Span) -> Ty {
-        let found = self.expr(value, None);
-        if self.table.kind(&found) == Some(Kind::Any) {
-            self.solve();
+    pub fn infer_try(&mut self, value: &'l Expr, span: Span) -> Ty {
+        let found = self.infer_expr(value, None);
+        if self.table.variable_kind(&found) == Some(Kind::Any) {
+            self.solve_deferred();
         }
-        let result = self.table.shallow(&self.result.clone());
-        match self.table.shallow(&found) {
+        let result = self.table.resolve_shallow(&self.result.clone());
+        match self.table.resolve_shallow(&found) {
             Ty::Enum(name, args) if name == "Option" && args.len() == 1 => {
                 let other = self.table.fresh(Kind::Any);
                 self.ends_with(&result, Ty::Enum(name, vec![other]), span);
@@ -143,9 +143,9 @@ impl<'l> Checker<'l> {
             }
             Ty::Unknown | Ty::Param(_) | Ty::Never | Ty::Var(_) => Ty::Unknown,
             other => {
-                let shown = self.table.deep(&other);
+                let shown = self.table.resolve_deep(&other);
                 self.errors.push(
-                    Diagnostic::at(
+                    Diagnostic::error_at(
                         Code::QuestionMark,
                         span,
                         format!("the `?` operator can only be applied to an `Option` or a `Result`, not to `{shown}`"),
@@ -163,9 +163,9 @@ impl<'l> Checker<'l> {
         if self.table.unify(result, &wanted) {
             return;
         }
-        let (result, wanted) = (self.table.deep(result), self.table.deep(&wanted));
+        let (result, wanted) = (self.table.resolve_deep(result), self.table.resolve_deep(&wanted));
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::QuestionMark,
                 span,
                 format!("the `?` operator in a function that gives `{result}`"),

@@ -11,47 +11,47 @@ pub use crate::front::tree::vector_named as vector;
 
 impl<'l> Checker<'l> {
     /// The type that is written at `span`.
-    pub fn stated(&mut self, ty: &'l Type, span: Span) -> Ty {
-        self.lengths(ty);
-        self.substituted(ty, &HashMap::new(), span)
+    pub fn convert_type(&mut self, ty: &'l Type, span: Span) -> Ty {
+        self.check_array_lengths(ty);
+        self.substitute_type(ty, &HashMap::new(), span)
     }
 
     /// Looks at the lengths of arrays in a type, which are expressions of the item that states it.
-    fn lengths(&mut self, ty: &'l Type) {
+    fn check_array_lengths(&mut self, ty: &'l Type) {
         match ty {
-            Type::Ref(_, inner) => self.lengths(inner),
-            Type::Name(_, args) | Type::Tuple(args) => args.iter().for_each(|arg| self.lengths(arg)),
+            Type::Ref(_, inner) => self.check_array_lengths(inner),
+            Type::Name(_, args) | Type::Tuple(args) => args.iter().for_each(|arg| self.check_array_lengths(arg)),
             Type::Fn(params, result) => {
-                params.iter().for_each(|param| self.lengths(param));
-                self.lengths(result);
+                params.iter().for_each(|param| self.check_array_lengths(param));
+                self.check_array_lengths(result);
             }
             // No type depends on it.
             Type::Const(_) => {}
             Type::Array(element, len) => {
-                self.lengths(element);
+                self.check_array_lengths(element);
                 if let Some(len) = len {
-                    self.against(len, &Ty::USIZE);
+                    self.check_expr(len, &Ty::USIZE);
                 }
             }
         }
     }
 
     /// A type of another function, its type parameters replaced.
-    pub fn substituted(&mut self, ty: &'l Type, given: &HashMap<String, Ty>, span: Span) -> Ty {
+    pub fn substitute_type(&mut self, ty: &'l Type, given: &HashMap<String, Ty>, span: Span) -> Ty {
         match ty {
-            Type::Ref(mutable, inner) => Ty::Ref(*mutable, Box::new(self.substituted(inner, given, span))),
-            Type::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.substituted(p, given, span)).collect()),
-            Type::Array(element, _) => Ty::Array(Box::new(self.substituted(element, given, span))),
+            Type::Ref(mutable, inner) => Ty::Ref(*mutable, Box::new(self.substitute_type(inner, given, span))),
+            Type::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.substitute_type(p, given, span)).collect()),
+            Type::Array(element, _) => Ty::Array(Box::new(self.substitute_type(element, given, span))),
             Type::Fn(params, result) => Ty::Fn(
-                params.iter().map(|p| self.substituted(p, given, span)).collect(),
-                Box::new(self.substituted(result, given, span)),
+                params.iter().map(|p| self.substitute_type(p, given, span)).collect(),
+                Box::new(self.substitute_type(result, given, span)),
             ),
-            Type::Name(name, args) => self.named(name, args, given, span),
+            Type::Name(name, args) => self.convert_named_type(name, args, given, span),
             Type::Const(_) => Ty::Unknown,
         }
     }
 
-    pub fn named(&mut self, name: &str, args: &'l [Type], given: &HashMap<String, Ty>, span: Span) -> Ty {
+    pub fn convert_named_type(&mut self, name: &str, args: &'l [Type], given: &HashMap<String, Ty>, span: Span) -> Ty {
         if let Some(ty) = given.get(name) {
             return ty.clone();
         }
@@ -60,16 +60,22 @@ impl<'l> Checker<'l> {
         }
         let library = self.library;
         if let Some(definition) = library.enums.get(name) {
-            return Ty::Enum(name.to_owned(), self.arguments(&definition.generics, args, given, span));
+            return Ty::Enum(
+                name.to_owned(),
+                self.convert_arguments(&definition.generics, args, given, span),
+            );
         }
         if let Some(definition) = library.structs.get(name) {
-            return Ty::Struct(name.to_owned(), self.arguments(&definition.generics, args, given, span));
+            return Ty::Struct(
+                name.to_owned(),
+                self.convert_arguments(&definition.generics, args, given, span),
+            );
         }
         if let Some((kind, lanes)) = vector(name) {
             return Ty::Vector(kind, lanes);
         }
         let mut texel = || match args {
-            [texel] => self.substituted(texel, given, span),
+            [texel] => self.substitute_type(texel, given, span),
             _ => Ty::Unknown,
         };
         match name {
@@ -100,10 +106,10 @@ impl<'l> Checker<'l> {
             "_" => self.table.fresh(Kind::Any),
             // A value of one type or another, which the values tell.
             _ if name.starts_with("dyn ") => {
-                self.object(name, span);
+                self.check_trait_object(name, span);
                 Ty::Unknown
             }
-            _ => match TextureType::named(name) {
+            _ => match TextureType::from_name(name) {
                 Some(of) if of.kind.is_depth() => Ty::Texture(of, Box::new(Ty::Float)),
                 Some(of) => Ty::Texture(of, Box::new(texel())),
                 None => {
@@ -115,7 +121,7 @@ impl<'l> Checker<'l> {
     }
 
     /// The type arguments of a structure or an enum; those that are not written are to be found.
-    fn arguments(
+    fn convert_arguments(
         &mut self,
         generics: &[Generic],
         args: &'l [Type],
@@ -126,7 +132,7 @@ impl<'l> Checker<'l> {
             .iter()
             .enumerate()
             .map(|(k, generic)| match (generic, args.get(k)) {
-                (Generic::Type(_), Some(ty)) => self.substituted(ty, given, span),
+                (Generic::Type(_), Some(ty)) => self.substitute_type(ty, given, span),
                 _ => self.table.fresh(Kind::Any),
             });
         each.collect()
@@ -143,7 +149,7 @@ impl<'l> Checker<'l> {
             }
         };
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::NotInLanguage,
                 span,
                 format!("the type `{name}` is not part of the kernel language"),
@@ -156,7 +162,9 @@ impl<'l> Checker<'l> {
     /// A type in `::<>`, written as what has it.
     fn type_argument(&mut self, stated: &'l Expr) -> Ty {
         match &stated.kind {
-            ExprKind::Path(path) if path.len() == 1 => self.named(&path[0], &[], &HashMap::new(), stated.span),
+            ExprKind::Path(path) if path.len() == 1 => {
+                self.convert_named_type(&path[0], &[], &HashMap::new(), stated.span)
+            }
             ExprKind::Repeat(element, _) => Ty::Array(Box::new(self.type_argument(element))),
             ExprKind::Tuple(parts) if !parts.is_empty() => {
                 Ty::Tuple(parts.iter().map(|part| self.type_argument(part)).collect())
@@ -166,7 +174,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Type parameters of a function as variables: those stated in `::<>`, the others to be found.
-    pub fn instantiate(&mut self, function: &'l Function, stated: &'l [Expr]) -> HashMap<String, Ty> {
+    pub fn instantiate_function(&mut self, function: &'l Function, stated: &'l [Expr]) -> HashMap<String, Ty> {
         let mut given = HashMap::new();
         for (k, generic) in function.generics.iter().enumerate() {
             match generic {
@@ -179,8 +187,8 @@ impl<'l> Checker<'l> {
                 }
                 Generic::Const(_, ty) => {
                     if let Some(constant) = stated.get(k).filter(|stated| !is_inferred(stated)) {
-                        let ty = self.substituted(ty, &HashMap::new(), constant.span);
-                        self.against(constant, &ty);
+                        let ty = self.substitute_type(ty, &HashMap::new(), constant.span);
+                        self.check_expr(constant, &ty);
                     }
                 }
             }

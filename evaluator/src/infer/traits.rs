@@ -52,10 +52,10 @@ pub fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
 impl<'l> Checker<'l> {
     /// Returns the name under which a type's functions are listed; `None` for a type that has no name, or is not known yet.
     pub fn type_name(&self, ty: &Ty) -> Option<String> {
-        match self.table.shallow(ty) {
+        match self.table.resolve_shallow(ty) {
             Ty::Struct(name, _) | Ty::Enum(name, _) => Some(name),
             ty @ (Ty::Bool | Ty::Int(_) | Ty::Float | Ty::Vector(..) | Ty::Matrix(_)) => Some(ty.to_string()),
-            ty => match self.table.kind(&ty)? {
+            ty => match self.table.variable_kind(&ty)? {
                 Kind::Float => Some("f32".to_owned()),
                 Kind::Integer => Some("i32".to_owned()),
                 Kind::Any => None,
@@ -64,7 +64,7 @@ impl<'l> Checker<'l> {
     }
 
     /// The function among several that takes some types, which are those of all its parameters.
-    pub fn taking(&mut self, keys: &[&'l str], found: &[Ty]) -> Option<(&'l str, &'l Function)> {
+    pub fn select_overload(&mut self, keys: &[&'l str], found: &[Ty]) -> Option<(&'l str, &'l Function)> {
         let library = self.library;
         for key in keys {
             let function = &library.functions[*key];
@@ -72,10 +72,10 @@ impl<'l> Checker<'l> {
                 continue;
             }
             let (table, errors) = (self.table.clone(), self.errors.len());
-            let given = self.instantiate(function, &[]);
+            let given = self.instantiate_function(function, &[]);
             let fits = function.params.iter().zip(found).all(|(param, found)| {
-                let wanted = self.substituted(&param.ty, &given, param.span);
-                self.fits(&wanted, found)
+                let wanted = self.substitute_type(&param.ty, &given, param.span);
+                self.fits_parameter(&wanted, found)
             });
             self.table = table;
             self.errors.truncate(errors);
@@ -87,11 +87,11 @@ impl<'l> Checker<'l> {
     }
 
     /// Returns whether a value of a type can be passed for a parameter. An unknown type fits everything.
-    fn fits(&mut self, wanted: &Ty, found: &Ty) -> bool {
-        match (self.table.shallow(wanted), self.table.shallow(found)) {
+    fn fits_parameter(&mut self, wanted: &Ty, found: &Ty) -> bool {
+        match (self.table.resolve_shallow(wanted), self.table.resolve_shallow(found)) {
             (Ty::Ref(..), found @ (Ty::Struct(..) | Ty::Enum(..) | Ty::Float | Ty::Int(_) | Ty::Vector(..))) => {
                 // Of a method's own `&self`.
-                let inner = self.peeled(wanted).0;
+                let inner = self.peel_refs(wanted).0;
                 self.table.unify(&inner, &found)
             }
             _ => self.table.unify(wanted, found),
@@ -99,21 +99,24 @@ impl<'l> Checker<'l> {
     }
 
     /// A call of one of several functions of one name, by the types of all arguments, of which the receiver is the first.
-    pub fn overloaded(&mut self, keys: &[&'l str], found: &[Ty], name: &str, span: Span) -> Ty {
+    pub fn infer_overloaded(&mut self, keys: &[&'l str], found: &[Ty], name: &str, span: Span) -> Ty {
         if let ([], Some(first)) = (keys, found.first()) {
-            let shown = self.table.deep(&self.peeled(first).0).to_string();
+            let shown = self.table.resolve_deep(&self.peel_refs(first).0).to_string();
             self.errors.push(
-                Diagnostic::at(Code::TraitBound, span, format!("no `{name}` for `{shown}`"))
+                Diagnostic::error_at(Code::TraitBound, span, format!("no `{name}` for `{shown}`"))
                     .label(format!("`{shown}` has no such function"))
                     .help(format!("write an `impl` of the trait for `{shown}`")),
             );
             return Ty::Unknown;
         }
-        let Some((key, function)) = self.taking(keys, found) else {
-            let shown: Vec<String> = found.iter().map(|ty| format!("`{}`", self.table.deep(ty))).collect();
+        let Some((key, function)) = self.select_overload(keys, found) else {
+            let shown: Vec<String> = found
+                .iter()
+                .map(|ty| format!("`{}`", self.table.resolve_deep(ty)))
+                .collect();
             let known: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::TraitBound,
                     span,
                     format!("no `{name}` takes {}", shown.join(" and ")),
@@ -129,17 +132,17 @@ impl<'l> Checker<'l> {
 
     /// Returns the type of a function's result for arguments of some types.
     fn called_with(&mut self, function: &'l Function, key: &str, found: &[Ty], span: Span) -> Ty {
-        let given = self.instantiate(function, &[]);
+        let given = self.instantiate_function(function, &[]);
         for (param, found) in function.params.iter().zip(found) {
-            let wanted = self.substituted(&param.ty, &given, span);
-            self.fits(&wanted, found);
+            let wanted = self.substitute_type(&param.ty, &given, span);
+            self.fits_parameter(&wanted, found);
         }
-        self.instance(key, function, &given, span);
-        self.substituted(&function.result, &given, span)
+        self.note_instance(key, function, &given, span);
+        self.substitute_type(&function.result, &given, span)
     }
 
     /// Notes what the type parameters of a call are, and what they have to be.
-    pub fn instance(&mut self, key: &str, function: &'l Function, given: &HashMap<String, Ty>, span: Span) {
+    pub fn note_instance(&mut self, key: &str, function: &'l Function, given: &HashMap<String, Ty>, span: Span) {
         for (name, traits) in &function.bounds {
             if let Some(ty) = given.get(name) {
                 self.bounded.push(Bound {
@@ -179,7 +182,7 @@ impl<'l> Checker<'l> {
     pub fn declared_of(&self, parameter: &str, name: &str) -> Option<&'l Function> {
         let library = self.library;
         let traits = self.bounds?.get(parameter)?;
-        traits.iter().find_map(|of| library.declared(of, name))
+        traits.iter().find_map(|of| library.declared_function(of, name))
     }
 
     /// The type of a constant of a type parameter.
@@ -188,11 +191,11 @@ impl<'l> Checker<'l> {
         let traits = self.bounds?.get(parameter)?;
         let ty = traits.iter().find_map(|of| library.declared_const(of, name))?;
         let given = HashMap::from([("Self".to_owned(), Ty::Param(parameter.to_owned()))]);
-        Some(self.substituted(ty, &given, span))
+        Some(self.substitute_type(ty, &given, span))
     }
 
     /// Notes an error about `dyn Trait` of a trait that is not the kernel's, or of which Rust makes no such type.
-    pub fn object(&mut self, name: &str, span: Span) {
+    pub fn check_trait_object(&mut self, name: &str, span: Span) {
         let library = self.library;
         let of = name
             .trim_start_matches("dyn ")
@@ -200,7 +203,7 @@ impl<'l> Checker<'l> {
             .next()
             .unwrap_or_default();
         let error = match library.traits.get(of) {
-            None => Diagnostic::at(
+            None => Diagnostic::error_at(
                 Code::NotInLanguage,
                 span,
                 format!("the type `{name}` is not part of the kernel language"),
@@ -212,7 +215,7 @@ impl<'l> Checker<'l> {
                 if found.consts.is_empty() && found.functions.values().all(takes_self) {
                     return;
                 }
-                Diagnostic::at(Code::DynTrait, span, format!("the trait `{of}` is not dyn compatible"))
+                Diagnostic::error_at(Code::DynTrait, span, format!("the trait `{of}` is not dyn compatible"))
                     .label("it has a constant, or a function without `self`")
                     .help(format!(
                         "take `&impl {of}`, or put what has no `self` into a trait of its own"
@@ -233,7 +236,7 @@ impl<'l> Checker<'l> {
         let unknown = traits.iter().find(|of| !known(of) && !crate::front::is_of_rust(of));
         if let Some(of) = unknown {
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::UnknownType,
                     span,
                     format!("cannot find trait `{of}`, which `{parameter}` has to have"),
@@ -243,7 +246,7 @@ impl<'l> Checker<'l> {
             );
         } else if traits.iter().all(known) {
             self.errors.push(
-                Diagnostic::at(
+                Diagnostic::error_at(
                     Code::TraitBound,
                     span,
                     format!("no `{name}` for the type parameter `{parameter}`"),
@@ -263,7 +266,7 @@ impl<'l> Checker<'l> {
         args: &'l [Expr],
         span: Span,
     ) -> Ty {
-        let mut given = self.instantiate(function, &[]);
+        let mut given = self.instantiate_function(function, &[]);
         given.insert("Self".to_owned(), Ty::Param(parameter.to_owned()));
         self.with_given(function, given, receiver, args, span)
     }
@@ -271,28 +274,28 @@ impl<'l> Checker<'l> {
     /// Returns the type of the result of an operator's trait for two types; `None` if neither is a structure or an enum with that trait.
     pub fn operator_of(&mut self, (of, name): (&str, &str), left: &Ty, right: &Ty) -> Option<Ty> {
         let own = |ty: Ty| matches!(ty, Ty::Struct(..) | Ty::Enum(..));
-        if !own(self.peeled(left).0) && !own(self.peeled(right).0) {
+        if !own(self.peel_refs(left).0) && !own(self.peel_refs(right).0) {
             return None;
         }
         let library = self.library;
-        let keys = library.operators(&self.type_name(&self.peeled(left).0)?, of, name);
+        let keys = library.operator_keys(&self.type_name(&self.peel_refs(left).0)?, of, name);
         for key in keys {
             let function = &library.functions[key];
             let [own, other] = function.params.as_slice() else {
                 continue;
             };
             let (table, errors) = (self.table.clone(), self.errors.len());
-            let given = self.instantiate(function, &[]);
-            let of_own = self.substituted(&own.ty, &given, own.span);
-            let of_other = self.substituted(&other.ty, &given, other.span);
+            let given = self.instantiate_function(function, &[]);
+            let of_own = self.substitute_type(&own.ty, &given, own.span);
+            let of_other = self.substitute_type(&other.ty, &given, other.span);
             let is_place = function.params[0].ty.is_mutable_reference();
             let taken = match is_place {
-                true => self.peeled(left).0,
+                true => self.peel_refs(left).0,
                 false => left.clone(),
             };
-            let of_own = if is_place { self.peeled(&of_own).0 } else { of_own };
+            let of_own = if is_place { self.peel_refs(&of_own).0 } else { of_own };
             if self.table.unify(&of_own, &taken) && self.table.unify(&of_other, right) {
-                return Some(self.substituted(&function.result, &given, own.span));
+                return Some(self.substitute_type(&function.result, &given, own.span));
             }
             self.table = table;
             self.errors.truncate(errors);
@@ -307,30 +310,30 @@ impl<'l> Checker<'l> {
             _ => ("Not", "not"),
         };
         let library = self.library;
-        let (Ty::Struct(ty, _) | Ty::Enum(ty, _)) = self.table.shallow(operand) else {
+        let (Ty::Struct(ty, _) | Ty::Enum(ty, _)) = self.table.resolve_shallow(operand) else {
             return None;
         };
-        let function = &library.functions[*library.operators(&ty, of, name).first()?];
-        let given = self.instantiate(function, &[]);
-        let own = self.substituted(&function.params.first()?.ty, &given, function.span);
+        let function = &library.functions[*library.operator_keys(&ty, of, name).first()?];
+        let given = self.instantiate_function(function, &[]);
+        let own = self.substitute_type(&function.params.first()?.ty, &given, function.span);
         self.table.unify(&own, operand);
-        Some(self.substituted(&function.result, &given, function.span))
+        Some(self.substitute_type(&function.result, &given, function.span))
     }
 
     /// Returns the type of an indexed structure.
-    pub fn indexed(&mut self, base: &Ty, index: &Ty) -> Option<Ty> {
+    pub fn infer_indexed(&mut self, base: &Ty, index: &Ty) -> Option<Ty> {
         let Ty::Struct(ty, _) = base else { return None };
         let library = self.library;
-        let keys = library.operators(ty, "Index", "index");
-        let (key, function) = self.taking(&keys, &[base.clone(), index.clone()])?;
+        let keys = library.operator_keys(ty, "Index", "index");
+        let (key, function) = self.select_overload(&keys, &[base.clone(), index.clone()])?;
         let _ = key;
-        let given = self.instantiate(function, &[]);
+        let given = self.instantiate_function(function, &[]);
         for (param, found) in function.params.iter().zip([base, index]) {
-            let wanted = self.substituted(&param.ty, &given, param.span);
-            self.fits(&wanted, found);
+            let wanted = self.substitute_type(&param.ty, &given, param.span);
+            self.fits_parameter(&wanted, found);
         }
-        let result = self.substituted(&function.result, &given, function.span);
-        Some(match self.table.shallow(&result) {
+        let result = self.substitute_type(&function.result, &given, function.span);
+        Some(match self.table.resolve_shallow(&result) {
             Ty::Ref(_, inner) => *inner,
             other => other,
         })
@@ -363,17 +366,17 @@ impl<'l> Checker<'l> {
     /// Finds the functions that what they have to give tells, and checks the traits of type parameters.
     pub fn settle_traits(&mut self) {
         for Pending { span, wanted, from } in std::mem::take(&mut self.pending) {
-            if let (Some(from), found) = (&from, self.table.shallow(&wanted))
-                && let Ty::Vector(kind, lanes) = self.peeled(from).0
+            if let (Some(from), found) = (&from, self.table.resolve_shallow(&wanted))
+                && let Ty::Vector(kind, lanes) = self.peel_refs(from).0
                 && let Some(key) = self.components_as(&found, kind, lanes)
             {
                 self.methods.insert(span, key.to_owned());
                 continue;
             }
             let Some(of) = self.type_name(&wanted) else {
-                if !matches!(self.table.shallow(&wanted), Ty::Unknown | Ty::Param(_)) {
+                if !matches!(self.table.resolve_shallow(&wanted), Ty::Unknown | Ty::Param(_)) {
                     self.errors.push(
-                        Diagnostic::at(
+                        Diagnostic::error_at(
                             Code::TypeNeeded,
                             span,
                             "type annotations needed: nothing says what this is to give",
@@ -386,12 +389,12 @@ impl<'l> Checker<'l> {
             };
             let library = self.library;
             let key = match &from {
-                None => library.methods(&of, "default").first().map(|key| (*key).to_owned()),
+                None => library.method_keys(&of, "default").first().map(|key| (*key).to_owned()),
                 Some(from) => {
-                    let keys = library.methods(&of, "from");
-                    let found = self.taking(&keys, std::slice::from_ref(from));
-                    let builtin =
-                        crate::front::is_prelude_type(&of) || self.peeled(from).0 == self.table.shallow(&wanted);
+                    let keys = library.method_keys(&of, "from");
+                    let found = self.select_overload(&keys, std::slice::from_ref(from));
+                    let builtin = crate::front::is_prelude_type(&of)
+                        || self.peel_refs(from).0 == self.table.resolve_shallow(&wanted);
                     found
                         .map(|(key, _)| key.to_owned())
                         .or_else(|| builtin.then(|| format!("{of}::from")))
@@ -402,14 +405,14 @@ impl<'l> Checker<'l> {
                 None => {
                     let what = match &from {
                         None => "Default".to_owned(),
-                        Some(from) => format!("From<{}>", self.table.deep(from)),
+                        Some(from) => format!("From<{}>", self.table.resolve_deep(from)),
                     };
-                    self.unsatisfied(&of, &what, span);
+                    self.note_unsatisfied(&of, &what, span);
                 }
             }
         }
         for Bound { span, ty, traits } in std::mem::take(&mut self.bounded) {
-            let found = self.table.shallow(&ty);
+            let found = self.table.resolve_shallow(&ty);
             let of_parameter = match &found {
                 Ty::Param(name) => self.bounds.and_then(|bounds| bounds.get(name)).cloned(),
                 _ => None,
@@ -422,11 +425,11 @@ impl<'l> Checker<'l> {
                     _ => true,
                 };
                 if !satisfied {
-                    let shown = match self.table.kind(&found) {
+                    let shown = match self.table.variable_kind(&found) {
                         Some(_) => self.type_name(&found).unwrap_or_default(),
-                        None => self.table.deep(&found).to_string(),
+                        None => self.table.resolve_deep(&found).to_string(),
                     };
-                    self.unsatisfied(&shown, of, span);
+                    self.note_unsatisfied(&shown, of, span);
                 }
             }
         }
@@ -438,9 +441,9 @@ impl<'l> Checker<'l> {
         known == of || supers.iter().any(|known| self.has_trait(known, of))
     }
 
-    fn unsatisfied(&mut self, ty: &str, of: &str, span: Span) {
+    fn note_unsatisfied(&mut self, ty: &str, of: &str, span: Span) {
         self.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::TraitBound,
                 span,
                 format!("the trait bound `{ty}: {of}` is not satisfied"),
@@ -456,7 +459,7 @@ impl<'l> Checker<'l> {
     pub fn named_instances(&mut self) -> HashMap<Span, (String, Vec<Option<String>>)> {
         let mut named = HashMap::new();
         for Instance { span, key, types } in std::mem::take(&mut self.instances) {
-            let names = types.iter().map(|ty| match self.table.shallow(ty.as_ref()?) {
+            let names = types.iter().map(|ty| match self.table.resolve_shallow(ty.as_ref()?) {
                 Ty::Param(name) => Some(name),
                 other => self.type_name(&other),
             });

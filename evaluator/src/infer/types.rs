@@ -80,7 +80,7 @@ impl Ty {
     }
 
     /// `&T`.
-    pub fn shared(self) -> Ty {
+    pub fn into_shared_ref(self) -> Ty {
         Ty::Ref(false, Box::new(self))
     }
 
@@ -122,7 +122,7 @@ impl Table {
     }
 
     /// The type as far as its outermost part is known.
-    pub fn shallow(&self, ty: &Ty) -> Ty {
+    pub fn resolve_shallow(&self, ty: &Ty) -> Ty {
         let mut ty = ty;
         while let Ty::Var(v) = ty {
             match &self.variables[*v as usize] {
@@ -134,20 +134,20 @@ impl Table {
     }
 
     /// Returns the types that an unknown variable may take; `None` for a type that is known.
-    pub fn kind(&self, ty: &Ty) -> Option<Kind> {
-        match self.shallow(ty) {
+    pub fn variable_kind(&self, ty: &Ty) -> Option<Kind> {
+        match self.resolve_shallow(ty) {
             Ty::Var(v) => self.variables[v as usize].as_ref().err().copied(),
             _ => None,
         }
     }
 
     /// The type with all that is known of its parts.
-    pub fn deep(&self, ty: &Ty) -> Ty {
-        let boxed = |t: &Ty| Box::new(self.deep(t));
-        match self.shallow(ty) {
-            Ty::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.deep(p)).collect()),
-            Ty::Struct(name, args) => Ty::Struct(name, args.iter().map(|p| self.deep(p)).collect()),
-            Ty::Enum(name, args) => Ty::Enum(name, args.iter().map(|p| self.deep(p)).collect()),
+    pub fn resolve_deep(&self, ty: &Ty) -> Ty {
+        let boxed = |t: &Ty| Box::new(self.resolve_deep(t));
+        match self.resolve_shallow(ty) {
+            Ty::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.resolve_deep(p)).collect()),
+            Ty::Struct(name, args) => Ty::Struct(name, args.iter().map(|p| self.resolve_deep(p)).collect()),
+            Ty::Enum(name, args) => Ty::Enum(name, args.iter().map(|p| self.resolve_deep(p)).collect()),
             Ty::Array(t) => Ty::Array(boxed(&t)),
             Ty::Range(t) => Ty::Range(boxed(&t)),
             Ty::Iter(t) => Ty::Iter(boxed(&t)),
@@ -156,7 +156,7 @@ impl Table {
             Ty::Buffer(t) => Ty::Buffer(boxed(&t)),
             Ty::Storage(name, t) => Ty::Storage(name, boxed(&t)),
             Ty::Ref(mutable, t) => Ty::Ref(mutable, boxed(&t)),
-            Ty::Fn(params, result) => Ty::Fn(params.iter().map(|p| self.deep(p)).collect(), boxed(&result)),
+            Ty::Fn(params, result) => Ty::Fn(params.iter().map(|p| self.resolve_deep(p)).collect(), boxed(&result)),
             other => other,
         }
     }
@@ -164,7 +164,7 @@ impl Table {
     /// Number of parts of a type, counted up to `limit`.
     pub fn size(&self, ty: &Ty, limit: usize) -> usize {
         let mut sum = 1;
-        for part in self.shallow(ty).parts() {
+        for part in self.resolve_shallow(ty).parts() {
             if sum > limit {
                 break;
             }
@@ -175,7 +175,7 @@ impl Table {
 
     /// Makes two types one; false if they differ. Of what is not known, nothing is refused.
     pub fn unify(&mut self, a: &Ty, b: &Ty) -> bool {
-        let (a, b) = (self.shallow(a), self.shallow(b));
+        let (a, b) = (self.resolve_shallow(a), self.resolve_shallow(b));
         match (&a, &b) {
             (Ty::Var(x), Ty::Var(y)) if x == y => true,
             (Ty::Var(x), Ty::Var(y)) => {
@@ -228,7 +228,7 @@ impl Table {
     }
 
     fn occurs(&self, variable: u32, ty: &Ty) -> bool {
-        match self.shallow(ty) {
+        match self.resolve_shallow(ty) {
             Ty::Var(v) => v == variable,
             other => other.parts().into_iter().any(|part| self.occurs(variable, part)),
         }
@@ -236,7 +236,7 @@ impl Table {
 
     /// Marks a type that is unified with an unknown one as unknown: its literals take their types from the values that they meet.
     fn taint(&mut self, ty: &Ty) {
-        match self.shallow(ty) {
+        match self.resolve_shallow(ty) {
             Ty::Var(v) => {
                 self.bind(v, Ty::Unknown);
             }

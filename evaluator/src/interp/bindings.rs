@@ -188,7 +188,7 @@ impl<'a> Bindings<'a> {
 }
 
 /// The entry of a name.
-pub(super) fn find<'b, T>(entries: &'b [(String, T)], name: &str) -> Option<&'b T> {
+pub(super) fn find_entry<'b, T>(entries: &'b [(String, T)], name: &str) -> Option<&'b T> {
     entries
         .iter()
         .rev()
@@ -197,11 +197,11 @@ pub(super) fn find<'b, T>(entries: &'b [(String, T)], name: &str) -> Option<&'b 
 }
 
 /// Bits of a uniform or buffer element, as the graph's constants have them.
-pub(super) fn bits(ty: Type, lanes: &[f64]) -> [u32; 4] {
+pub(super) fn element_bits(ty: Type, lanes: &[f64]) -> [u32; 4] {
     let lane = |k: usize| lanes.get(k).or(lanes.first()).copied().unwrap_or(0.0);
     let mut out = [0; 4];
-    for (k, slot) in out.iter_mut().enumerate().take(ty.components() as usize) {
-        *slot = match ty.kind() {
+    for (k, slot) in out.iter_mut().enumerate().take(ty.component_count() as usize) {
+        *slot = match ty.scalar_kind() {
             Some(Scalar::F32) => (lane(k) as f32).to_bits(),
             Some(Scalar::U32) => lane(k) as u32,
             Some(Scalar::I32) => lane(k) as i32 as u32,
@@ -212,20 +212,20 @@ pub(super) fn bits(ty: Type, lanes: &[f64]) -> [u32; 4] {
 }
 
 /// Checks that everything that the scheduled graph reads is there and fits.
-pub(super) fn check(
+pub(super) fn check_bindings(
     graph: &Graph,
     schedule: &Schedule,
     frame: [u32; 2],
     bindings: &Bindings<'_>,
 ) -> Result<(), InputError> {
-    let live = graph.ids().filter(|id| schedule.has(*id));
+    let live = graph.node_ids().filter(|id| schedule.has_node(*id));
     let ops: Vec<_> = live.map(|id| &graph.node(id).op).collect();
     for (index, texture) in graph.textures.iter().enumerate() {
         if !ops.iter().any(|op| op.texture() == Some(index as u32)) {
             continue;
         }
         let name = texture.name.clone();
-        let Some(image) = find(&bindings.textures, &name) else {
+        let Some(image) = find_entry(&bindings.textures, &name) else {
             return Err(InputError::Missing(name));
         };
         let [width, height, found] = image.extent(0);
@@ -233,7 +233,7 @@ pub(super) fn check(
             let (found, needed) = (image.scalar(), texture.scalar);
             return Err(InputError::Scalar { name, found, needed });
         }
-        if let Some(needed) = misshapen(texture, *image) {
+        if let Some(needed) = required_shape(texture, *image) {
             return Err(InputError::Shape { name, needed });
         }
         // An index without a known bound is clamped to the layers that exist.
@@ -248,11 +248,11 @@ pub(super) fn check(
     }
     for (index, buffer) in graph.buffers.iter().enumerate() {
         let read = ops.iter().any(|op| op.buffer() == Some(index as u32));
-        let found = find(&bindings.buffers, &buffer.name).map_or(0, |values| values.len());
+        let found = find_entry(&bindings.buffers, &buffer.name).map_or(0, |values| values.len());
         if read && found == 0 {
             return Err(InputError::MissingBuffer(buffer.name.clone()));
         }
-        let each = buffer.element.values().len();
+        let each = buffer.element.value_types().len();
         if read && !found.is_multiple_of(each) {
             let name = buffer.name.clone();
             return Err(InputError::Elements { name, found, each });
@@ -262,7 +262,7 @@ pub(super) fn check(
 }
 
 /// Returns the shape that a texture requires, if the image or its levels have another one.
-fn misshapen(texture: &Texture, image: &dyn Texels) -> Option<&'static str> {
+fn required_shape(texture: &Texture, image: &dyn Texels) -> Option<&'static str> {
     let half = |side: u32, level: u32| side.checked_shr(level).unwrap_or(0).max(1);
     let [width, height, depth] = image.extent(0);
     let volume = texture.kind == TextureKind::Volume;

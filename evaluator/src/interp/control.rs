@@ -1,23 +1,23 @@
 //! Steps in their order: loops and branches.
 
-use super::{Interpreter, MOST_ITERATIONS, Scratch, store, whole};
+use super::{Interpreter, MOST_ITERATIONS, Scratch, load_cells, store_cells};
 use crate::ir::arith::Cells;
 use crate::ir::{NodeId, Real, Region, Type};
 use crate::passes::{Block, Schedule, Step};
 
 impl<R: Real> Interpreter<'_, R> {
-    pub(super) fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
-        self.steps(&block.steps, pixel, s);
+    pub(super) fn run_block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
+        self.run_steps(&block.steps, pixel, s);
     }
 
-    pub(super) fn steps(&self, steps: &[Step], pixel: [u32; 2], s: &mut Scratch) {
+    pub(super) fn run_steps(&self, steps: &[Step], pixel: [u32; 2], s: &mut Scratch) {
         for step in steps {
             match step {
                 Step::Eval(id) => self.eval(*id, pixel, s),
                 Step::Loop { node, body } => self.run_loop(*node, body, pixel, s),
                 Step::If { node, then, otherwise } => {
-                    let holds = self.holds(*node, s);
-                    self.block(if holds { then } else { otherwise }, pixel, s);
+                    let holds = self.condition_holds(*node, s);
+                    self.run_block(if holds { then } else { otherwise }, pixel, s);
                     self.leave_branch(*node, holds, s);
                 }
             }
@@ -25,7 +25,7 @@ impl<R: Real> Interpreter<'_, R> {
     }
 
     /// Returns whether the condition of a branch holds.
-    pub(super) fn holds(&self, node: NodeId, s: &Scratch) -> bool {
+    pub(super) fn condition_holds(&self, node: NodeId, s: &Scratch) -> bool {
         s.values[self.graph.node(node).args[0].0 as usize][0] != 0
     }
 
@@ -33,11 +33,11 @@ impl<R: Real> Interpreter<'_, R> {
     pub(super) fn leave_branch(&self, node: NodeId, holds: bool, s: &mut Scratch) {
         let region = self.graph.regions_of(node)[usize::from(!holds)];
         let results = &self.graph.region(region).results;
-        s.arrays[node.0 as usize] = results.iter().flat_map(|r| whole(self.graph, s, *r)).collect();
+        s.arrays[node.0 as usize] = results.iter().flat_map(|r| load_cells(self.graph, s, *r)).collect();
     }
 
     /// The first counter of a loop and its end.
-    pub(super) fn course(&self, node: NodeId, s: &Scratch) -> std::ops::Range<i64> {
+    pub(super) fn counter_range(&self, node: NodeId, s: &Scratch) -> std::ops::Range<i64> {
         let args = &self.graph.node(node).args;
         let signed = self.graph.ty(args[0]) == Type::I32;
         let [start, end] = [args[0], args[1]].map(|id| {
@@ -52,9 +52,9 @@ impl<R: Real> Interpreter<'_, R> {
     }
 
     /// Returns the values that a loop carries into its first iteration.
-    pub(super) fn entering(&self, node: NodeId, s: &Scratch) -> Vec<Vec<Cells>> {
+    pub(super) fn entry_values(&self, node: NodeId, s: &Scratch) -> Vec<Vec<Cells>> {
         let args = &self.graph.node(node).args;
-        args[2..].iter().map(|a| whole(self.graph, s, *a)).collect()
+        args[2..].iter().map(|a| load_cells(self.graph, s, *a)).collect()
     }
 
     /// Gives the parameters of a loop's body their values.
@@ -62,7 +62,7 @@ impl<R: Real> Interpreter<'_, R> {
         s.values[region.params[0].0 as usize] = [u64::from(counter as u32), 0, 0, 0];
         s.loops.push((region.params[0], counter));
         for (param, value) in region.params[1..].iter().zip(carried) {
-            store(self.graph, s, *param, value);
+            store_cells(self.graph, s, *param, value);
         }
     }
 
@@ -72,15 +72,15 @@ impl<R: Real> Interpreter<'_, R> {
         let stops = region.stop.is_some_and(|stop| s.values[stop.0 as usize][0] != 0);
         s.iterations += 1;
         let ended = s.iterations > MOST_ITERATIONS;
-        (self.leaving(region, s), stops || ended)
+        (self.exit_values(region, s), stops || ended)
     }
 
     fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
         let region = self.graph.region(self.graph.regions_of(node)[0]);
-        let mut carried = self.entering(node, s);
-        for counter in self.course(node, s) {
+        let mut carried = self.entry_values(node, s);
+        for counter in self.counter_range(node, s) {
             self.begin_iteration(region, counter, carried, s);
-            self.block(body, pixel, s);
+            self.run_block(body, pixel, s);
             let stops;
             (carried, stops) = self.end_iteration(region, s);
             if stops {
@@ -97,7 +97,7 @@ impl<R: Real> Interpreter<'_, R> {
     }
 
     /// Returns the values that leave a loop's body. An array that is made in each iteration, and leaves once, is moved.
-    fn leaving(&self, region: &Region, s: &mut Scratch) -> Vec<Vec<Cells>> {
+    fn exit_values(&self, region: &Region, s: &mut Scratch) -> Vec<Vec<Cells>> {
         let here = self.schedule.place[region.params[0].0 as usize];
         let mut values = Vec::new();
         for result in &region.results {
@@ -108,7 +108,7 @@ impl<R: Real> Interpreter<'_, R> {
                 && region.results.iter().filter(|r| *r == result).count() == 1;
             values.push(match moves {
                 true => std::mem::take(&mut s.arrays[slot]),
-                false => whole(self.graph, s, *result),
+                false => load_cells(self.graph, s, *result),
             });
         }
         values

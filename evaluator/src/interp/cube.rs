@@ -1,13 +1,18 @@
 //! Cubes, as the prelude reads them natively.
 
-use super::sampling::{between, floor, footprint, unary};
+use super::sampling::{apply_unary, floor, lerp_texels, linear_footprint};
 use crate::ir::{BinaryOp, Real, UnaryOp};
 
 /// Filters a cube of `n` texels a side in a direction; `texel` returns those inside by column, row and face. Texels beyond an edge are
 /// those of the next face; where three faces meet, the missing fourth texel is the mean of the three.
-pub fn filtered<R: Real>(n: u32, linear: bool, direction: [R; 3], texel: impl Fn(u32, u32, u32) -> [R; 4]) -> [R; 4] {
+pub fn filter_cube<R: Real>(
+    n: u32,
+    linear: bool,
+    direction: [R; 3],
+    texel: impl Fn(u32, u32, u32) -> [R; 4],
+) -> [R; 4] {
     let side = i64::from(n);
-    let (face, uv) = face(direction);
+    let (face, uv) = project_to_face(direction);
     let at = uv.map(|v| v * R::from_f64(n.into()));
     let inside = |at: [i64; 2]| {
         let [x, y] = at.map(|k| k.clamp(0, side - 1) as u32);
@@ -16,7 +21,7 @@ pub fn filtered<R: Real>(n: u32, linear: bool, direction: [R; 3], texel: impl Fn
     if !linear {
         return inside(at.map(|v| floor(v).to_f64() as i64));
     }
-    let ([x, y], [tx, ty]) = footprint(at);
+    let ([x, y], [tx, ty]) = linear_footprint(at);
     let outside = |k: i64| k < 0 || k >= side;
     let tap = |dx: i64, dy: i64| {
         let (x, y) = (x + dx, y + dy);
@@ -24,7 +29,7 @@ pub fn filtered<R: Real>(n: u32, linear: bool, direction: [R; 3], texel: impl Fn
             (false, false) => Some(texel(x as u32, y as u32, face)),
             (true, true) => None,
             _ => {
-                let (face, [x, y]) = beyond(face, [x, y], side);
+                let (face, [x, y]) = texel_beyond_edge(face, [x, y], side);
                 Some(texel(x, y, face))
             }
         }
@@ -42,14 +47,14 @@ pub fn filtered<R: Real>(n: u32, linear: bool, direction: [R; 3], texel: impl Fn
         }
     };
     let [a, b, c, d] = [0, 1, 2, 3].map(|k| taps[k].unwrap_or_else(|| mean(k)));
-    between(between(a, b, tx), between(c, d, tx), ty)
+    lerp_texels(lerp_texels(a, b, tx), lerp_texels(c, d, tx), ty)
 }
 
 /// The face that a direction points to, +X, -X, +Y, -Y, +Z, -Z, and the place on it from 0 to 1.
-fn face<R: Real>([x, y, z]: [R; 3]) -> (u32, [R; 2]) {
+fn project_to_face<R: Real>([x, y, z]: [R; 3]) -> (u32, [R; 2]) {
     let zero = R::from_f64(0.0);
-    let [across, up, along] = [x, y, z].map(|v| unary(UnaryOp::Abs, v));
-    let minus = |v: R| unary(UnaryOp::Neg, v);
+    let [across, up, along] = [x, y, z].map(|v| apply_unary(UnaryOp::Abs, v));
+    let minus = |v: R| apply_unary(UnaryOp::Neg, v);
     let (face, s, t, major) = if along >= across && along >= up {
         if z < zero {
             (5, minus(x), minus(y), along)
@@ -69,7 +74,7 @@ fn face<R: Real>([x, y, z]: [R; 3]) -> (u32, [R; 2]) {
 }
 
 /// The texel that lies where a face has one just outside: of the face beyond that edge.
-fn beyond(face: u32, [x, y]: [i64; 2], n: i64) -> (u32, [u32; 2]) {
+fn texel_beyond_edge(face: u32, [x, y]: [i64; 2], n: i64) -> (u32, [u32; 2]) {
     // The direction of its middle, in halves of a texel.
     let (s, t) = (2 * x + 1 - n, 2 * y + 1 - n);
     let [x, y, z] = match face {

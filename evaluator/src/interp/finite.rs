@@ -18,7 +18,7 @@ impl NonFiniteOrigin {
     pub fn describe(&self, graph: &Graph) -> String {
         let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();
         let value = lanes.join(", ");
-        let origin = self.origin(graph);
+        let origin = self.named_origin(graph);
         let name = origin.map_or("a value", |o| &*o.name);
         let mut text = match &graph.node(self.node).op {
             Op::Const(_) => format!("`{name}` is the constant {value}"),
@@ -43,14 +43,14 @@ impl NonFiniteOrigin {
     }
 
     /// Returns the operation's own origin, or that of the first named value that uses it.
-    fn origin<'g>(&self, graph: &'g Graph) -> Option<&'g crate::ir::Origin> {
+    fn named_origin<'g>(&self, graph: &'g Graph) -> Option<&'g crate::ir::Origin> {
         let mut at = self.node;
         loop {
             if let Some(origin) = graph.origin(at).filter(|o| !o.name.is_empty()) {
                 return Some(origin);
             }
             at = graph
-                .ids()
+                .node_ids()
                 .skip(at.0 as usize + 1)
                 .find(|id| graph.node(*id).args.contains(&at))?;
         }

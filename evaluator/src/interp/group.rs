@@ -6,20 +6,20 @@ use crate::passes::{Block, Step};
 
 impl<R: Real> Interpreter<'_, R> {
     /// Runs the workgroup whose first pixel is given.
-    pub(super) fn workgroup(&self, origin: [u32; 2], s: &mut Scratch) {
-        s.memory.begin(origin);
+    pub(super) fn run_workgroup(&self, origin: [u32; 2], s: &mut Scratch) {
+        s.memory.begin_workgroup(origin);
         for thread in &mut s.threads {
             thread.non_finite_origin = None;
         }
-        self.together(&self.schedule.body, origin, s);
+        self.run_together(&self.schedule.body, origin, s);
         s.non_finite_origin = s.threads.iter_mut().find_map(|thread| thread.non_finite_origin.take());
     }
 
     /// Runs a block that all invocations come to.
-    fn together(&self, block: &Block, origin: [u32; 2], s: &mut Scratch) {
+    fn run_together(&self, block: &Block, origin: [u32; 2], s: &mut Scratch) {
         let mut from = 0;
         for (k, step) in block.steps.iter().enumerate() {
-            if !self.waits(step) {
+            if !self.has_barrier(step) {
                 continue;
             }
             self.one_by_one(&block.steps[from..k], origin, s);
@@ -28,8 +28,9 @@ impl<R: Real> Interpreter<'_, R> {
                 Step::Eval(_) => s.memory.barrier(),
                 Step::Loop { node, body } => self.loop_together(*node, body, origin, s),
                 Step::If { node, then, otherwise } => {
-                    let holds = self.agreed(s, |interpreter, thread| interpreter.holds(*node, thread));
-                    self.together(if holds { then } else { otherwise }, origin, s);
+                    let holds =
+                        self.uniform_decision(s, |interpreter, thread| interpreter.condition_holds(*node, thread));
+                    self.run_together(if holds { then } else { otherwise }, origin, s);
                     for thread in &mut s.threads {
                         self.leave_branch(*node, holds, thread);
                     }
@@ -41,12 +42,12 @@ impl<R: Real> Interpreter<'_, R> {
 
     fn loop_together(&self, node: NodeId, body: &Block, origin: [u32; 2], s: &mut Scratch) {
         let region = self.graph.region(self.graph.regions_of(node)[0]);
-        let mut carried: Vec<_> = s.threads.iter().map(|thread| self.entering(node, thread)).collect();
-        for counter in self.agreed(s, |interpreter, thread| interpreter.course(node, thread)) {
+        let mut carried: Vec<_> = s.threads.iter().map(|thread| self.entry_values(node, thread)).collect();
+        for counter in self.uniform_decision(s, |interpreter, thread| interpreter.counter_range(node, thread)) {
             for (thread, carried) in s.threads.iter_mut().zip(&mut carried) {
                 self.begin_iteration(region, counter, std::mem::take(carried), thread);
             }
-            self.together(body, origin, s);
+            self.run_together(body, origin, s);
             let mut stops = Vec::new();
             for (thread, carried) in s.threads.iter_mut().zip(&mut carried) {
                 let stop;
@@ -54,7 +55,7 @@ impl<R: Real> Interpreter<'_, R> {
                 stops.push(stop);
             }
             if stops.iter().any(|stop| *stop != stops[0]) {
-                s.memory.diverges();
+                s.memory.note_divergence();
             }
             if stops[0] {
                 break;
@@ -66,10 +67,10 @@ impl<R: Real> Interpreter<'_, R> {
     }
 
     /// Evaluates a decision for the first invocation, and checks that all others agree.
-    fn agreed<T: PartialEq>(&self, s: &mut Scratch, says: impl Fn(&Self, &Scratch) -> T) -> T {
+    fn uniform_decision<T: PartialEq>(&self, s: &mut Scratch, says: impl Fn(&Self, &Scratch) -> T) -> T {
         let first = says(self, &s.threads[0]);
         if s.threads.iter().any(|thread| says(self, thread) != first) {
-            s.memory.diverges();
+            s.memory.note_divergence();
         }
         first
     }
@@ -83,14 +84,14 @@ impl<R: Real> Interpreter<'_, R> {
             s.memory.thread = number;
             std::mem::swap(&mut s.memory, &mut thread.memory);
             let pixel = [0, 1].map(|k| origin[k] + thread.local[k]);
-            self.steps(steps, pixel, thread);
+            self.run_steps(steps, pixel, thread);
             std::mem::swap(&mut s.memory, &mut thread.memory);
         }
     }
 
     /// Returns whether a step contains a barrier.
-    fn waits(&self, step: &Step) -> bool {
-        let any = |block: &Block| block.steps.iter().any(|step| self.waits(step));
+    fn has_barrier(&self, step: &Step) -> bool {
+        let any = |block: &Block| block.steps.iter().any(|step| self.has_barrier(step));
         match step {
             Step::Eval(id) => matches!(self.graph.node(*id).op, Op::Barrier { .. }),
             Step::Loop { body, .. } => any(body),

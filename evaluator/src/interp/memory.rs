@@ -98,7 +98,7 @@ impl Memories {
     }
 
     /// Another workgroup begins: what it shares is 0.
-    pub fn begin(&mut self, origin: [u32; 2]) {
+    pub fn begin_workgroup(&mut self, origin: [u32; 2]) {
         self.shared
             .iter_mut()
             .flatten()
@@ -113,13 +113,13 @@ impl Memories {
     }
 
     /// Notes that the invocations do not agree on which phases to run.
-    pub fn diverges(&mut self) {
+    pub fn note_divergence(&mut self) {
         let origin = self.origin;
         self.disorder.get_or_insert(Disorder::Divergence { origin });
     }
 
     /// An element of what is shared.
-    pub fn look(&mut self, memory: Memory, index: usize) -> Cells {
+    pub fn load_shared(&mut self, memory: Memory, index: usize) -> Cells {
         let Memory::Shared(k) = memory else { return [0; 4] };
         let (phase, thread) = (self.phase, self.thread);
         let Some(element) = self.shared[k as usize].get_mut(index) else {
@@ -129,7 +129,7 @@ impl Memories {
         touched.several |= touched.reader.is_some_and(|other| other != thread);
         touched.reader = Some(thread);
         let (other, cells) = (touched.writer, element.cells);
-        self.raced(k, index, other);
+        self.note_race(k, index, other);
         cells
     }
 
@@ -158,8 +158,8 @@ impl Memories {
         };
         touched.writer = Some(thread);
         let before = std::mem::replace(&mut element.cells, value);
-        self.raced(k, index, writer);
-        self.raced(k, index, reader);
+        self.note_race(k, index, writer);
+        self.note_race(k, index, reader);
         before
     }
 
@@ -175,7 +175,7 @@ impl Memories {
     }
 
     /// Notes a race with another invocation.
-    fn raced(&mut self, k: u32, index: usize, other: Option<u32>) {
+    fn note_race(&mut self, k: u32, index: usize, other: Option<u32>) {
         let Some(other) = other.filter(|other| *other != self.thread) else {
             return;
         };

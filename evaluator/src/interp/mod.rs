@@ -102,21 +102,22 @@ impl<'a, R: Real> Interpreter<'a, R> {
         if graph.invocation == Invocation::Lane {
             return Err(InputError::Lanes);
         }
-        bindings::check(graph, schedule, frame, bindings)?;
-        let cells = |ty, lanes: &[f64]| arith::cells::<R>(ty, &bindings::bits(ty, lanes));
+        bindings::check_bindings(graph, schedule, frame, bindings)?;
+        let cells = |ty, lanes: &[f64]| arith::host_cells::<R>(ty, &bindings::element_bits(ty, lanes));
         let textures = graph
             .textures
             .iter()
-            .map(|t| bindings::find(&bindings.textures, &t.name).copied());
-        let samplers = graph
-            .samplers
-            .iter()
-            .map(|s| bindings::find(&bindings.samplers, &s.name).copied().unwrap_or_default());
+            .map(|t| bindings::find_entry(&bindings.textures, &t.name).copied());
+        let samplers = graph.samplers.iter().map(|s| {
+            bindings::find_entry(&bindings.samplers, &s.name)
+                .copied()
+                .unwrap_or_default()
+        });
         let buffers = graph.buffers.iter().map(|buffer| {
-            let elements = bindings::find(&bindings.buffers, &buffer.name)
+            let elements = bindings::find_entry(&bindings.buffers, &buffer.name)
                 .copied()
                 .unwrap_or_default();
-            let types = buffer.element.values();
+            let types = buffer.element.value_types();
             let types = types.iter().cycle();
             elements
                 .iter()
@@ -125,7 +126,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 .collect()
         });
         let uniforms = graph.uniforms.iter().map(|uniform| {
-            let given = bindings::find(&bindings.uniforms, &uniform.name).map(Vec::as_slice);
+            let given = bindings::find_entry(&bindings.uniforms, &uniform.name).map(Vec::as_slice);
             let default = [uniform.default.unwrap_or(0.0)];
             cells(uniform.ty, given.unwrap_or(&default))
         });
@@ -143,17 +144,17 @@ impl<'a, R: Real> Interpreter<'a, R> {
     }
 
     /// Notes for each pixel where it first had a NaN or an infinity, see [`Scratch::non_finite_origin`].
-    pub fn watch(mut self) -> Self {
+    pub fn track_non_finite(mut self) -> Self {
         self.watches = true;
         self
     }
 
     /// Room for this graph's values.
-    pub fn scratch(&self) -> Scratch {
+    pub fn new_scratch(&self) -> Scratch {
         let mut values = vec![[0; 4]; self.graph.nodes.len()];
-        for id in self.graph.ids() {
-            if let Some(bits) = self.graph.constant(id) {
-                values[id.0 as usize] = arith::constant::<R>(self.graph.ty(id), &bits);
+        for id in self.graph.node_ids() {
+            if let Some(bits) = self.graph.constant_bits(id) {
+                values[id.0 as usize] = arith::constant_cells::<R>(self.graph.ty(id), &bits);
             }
         }
         let one = Scratch {
@@ -180,48 +181,48 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
     }
 
-    /// Returns the value of the first target of a pixel inside the frame: see [`Interpreter::invocation`].
-    pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
-        let [width, height] = self.graph.invocation.tile();
+    /// Returns the value of the first target of a pixel inside the frame: see [`Interpreter::run_invocation`].
+    pub fn run_pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
+        let [width, height] = self.graph.invocation.tile_size();
         let (left, upper) = (x % width, y % height);
-        self.invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
+        self.run_invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
     }
 
     /// Runs the invocation whose upper left pixel is given, or its whole workgroup, and returns the values of the first target of all its
     /// pixels, row by row; those outside of the frame are meaningless. Components that a value lacks are 0, and the fourth is 1.
-    /// [`Interpreter::target`] returns the other targets.
-    pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
+    /// [`Interpreter::target_values`] returns the other targets.
+    pub fn run_invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.non_finite_origin = None;
         scratch.iterations = 0;
         scratch.threads.iter_mut().for_each(|thread| thread.iterations = 0);
         match scratch.threads.is_empty() {
-            true => self.block(&self.schedule.body, [x, y], scratch),
-            false => self.workgroup([x, y], scratch),
+            true => self.run_block(&self.schedule.body, [x, y], scratch),
+            false => self.run_workgroup([x, y], scratch),
         }
-        self.given(0, scratch)
+        self.target_cells(0, scratch)
             .map(|(ty, cells)| match ty.is_float() {
                 true => {
-                    let lane = |k: usize| match k < ty.components() as usize {
+                    let lane = |k: usize| match k < ty.component_count() as usize {
                         true => R::from_bits(cells[k]),
                         false => R::from_f64(f64::from(u8::from(k == 3))),
                     };
                     [lane(0), lane(1), lane(2), lane(3)]
                 }
-                false => texel::<R>(ty, cells).map(R::from_f64),
+                false => to_texel::<R>(ty, cells).map(R::from_f64),
             })
             .collect()
     }
 
     /// Returns the values of a target, by its index in [`Graph::targets`], of all pixels of the last invocation, in the order of
-    /// [`Interpreter::invocation`]: floats and integers as they are.
-    pub fn target(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
-        self.given(index, scratch)
-            .map(|(ty, cells)| texel::<R>(ty, cells))
+    /// [`Interpreter::run_invocation`]: floats and integers as they are.
+    pub fn target_values(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        self.target_cells(index, scratch)
+            .map(|(ty, cells)| to_texel::<R>(ty, cells))
             .collect()
     }
 
     /// Type and value of a target, pixel by pixel.
-    fn given<'s>(&'s self, target: usize, scratch: &'s Scratch) -> impl Iterator<Item = (Type, Cells)> + 's {
+    fn target_cells<'s>(&'s self, target: usize, scratch: &'s Scratch) -> impl Iterator<Item = (Type, Cells)> + 's {
         let all = match scratch.threads.is_empty() {
             true => std::slice::from_ref(scratch),
             false => &scratch.threads,
@@ -235,11 +236,11 @@ impl<'a, R: Real> Interpreter<'a, R> {
 
     /// Returns the present contents of a buffer that is written, by its index in [`Graph::buffers`]: each element in as many lanes as it
     /// has.
-    pub fn buffer(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
-        let ty = self.graph.buffers[index].value();
-        let lanes = ty.components() as usize;
+    pub fn buffer_contents(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        let ty = self.graph.buffers[index].value_type();
+        let lanes = ty.component_count() as usize;
         let elements = scratch.memory.buffer(index).iter().map(|cells| {
-            let all = texel::<R>(ty, *cells);
+            let all = to_texel::<R>(ty, *cells);
             std::array::from_fn(|k| if k < lanes { all[k] } else { 0.0 })
         });
         elements.collect()
@@ -247,16 +248,16 @@ impl<'a, R: Real> Interpreter<'a, R> {
 
     /// Returns the present contents of a picture that is written at any place, by its index in [`Graph::images`], row by row: 0 where
     /// nothing was stored.
-    pub fn image(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+    pub fn image_contents(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
         let ty = self.graph.images[index].ty;
         let texels = scratch.memory.image(index).iter();
         texels
-            .map(|cells| cells.map_or([0.0; 4], |cells| texel::<R>(ty, cells)))
+            .map(|cells| cells.map_or([0.0; 4], |cells| to_texel::<R>(ty, cells)))
             .collect()
     }
 
     /// Does what an effect does, and gives what was there before.
-    fn effect(&self, id: NodeId, s: &mut Scratch) -> Cells {
+    fn run_effect(&self, id: NodeId, s: &mut Scratch) -> Cells {
         let node = self.graph.node(id);
         let arg = |k: usize| s.values[node.args[k].0 as usize];
         let Some(memory) = node.op.memory() else { return [0; 4] };
@@ -271,9 +272,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
             return [0; 4];
         }
         match node.op {
-            Op::SharedLoad(_) => s.memory.look(memory, index),
+            Op::SharedLoad(_) => s.memory.load_shared(memory, index),
             Op::Atomic { op, .. } => {
-                let change = |before: Cells| [arith::atomic(op, node.ty, before[0], value[0]), 0, 0, 0];
+                let change = |before: Cells| [arith::apply_atomic(op, node.ty, before[0], value[0]), 0, 0, 0];
                 s.memory.change(memory, index, change)
             }
             _ => s.memory.store(memory, index, value),
@@ -285,7 +286,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let slot = id.0 as usize;
         match &node.op {
             Op::Const(_) => {}
-            Op::Unused => s.values[slot] = [0; 4],
+            Op::Undef => s.values[slot] = [0; 4],
             Op::Pixel => s.values[slot] = [pixel[0].into(), pixel[1].into(), 0, 0],
             Op::Thread => s.values[slot] = [s.local[0].into(), s.local[1].into(), 0, 0],
             Op::GroupOrigin => {
@@ -295,9 +296,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
             Op::Inside => s.values[slot] = [(0..2).all(|k| pixel[k] < self.frame[k]).into(), 0, 0, 0],
             Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
             Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],
-            op if op.is_effect() => s.values[slot] = self.effect(id, s),
+            op if op.is_effect() => s.values[slot] = self.run_effect(id, s),
             op if op.is_read() || op.texture().is_some() || op.buffer().is_some() => {
-                s.values[slot] = self.read(op, &node.args, s);
+                s.values[slot] = self.eval_read(op, &node.args, s);
             }
             Op::MakeArray => {
                 let values = &s.values;
@@ -322,8 +323,8 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 s.arrays[slot] = array;
             }
             Op::Result(k) => {
-                let value = self.result(node.args[0], *k as usize, s);
-                store(self.graph, s, id, value);
+                let value = self.result_cells(node.args[0], *k as usize, s);
+                store_cells(self.graph, s, id, value);
             }
             op => {
                 let operand = node.args.last().map_or(node.ty, |a| match op {
@@ -334,16 +335,16 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 for (slot, arg) in args.iter_mut().zip(&node.args) {
                     *slot = s.values[arg.0 as usize];
                 }
-                s.values[slot] = arith::apply::<R>(op, operand, &args, node.ty).expect("a verified graph");
+                s.values[slot] = arith::apply_op::<R>(op, operand, &args, node.ty).expect("a verified graph");
             }
         }
         if self.watches && s.non_finite_origin.is_none() && node.ty.is_float() && !node.ty.is_array() {
-            self.look(id, s);
+            self.note_non_finite(id, s);
         }
     }
 
     /// Evaluates a read. Every resource that is read has been bound.
-    fn read(&self, op: &Op, args: &[NodeId], s: &Scratch) -> Cells {
+    fn eval_read(&self, op: &Op, args: &[NodeId], s: &Scratch) -> Cells {
         let word = |k: usize, lane: usize| args.get(k).map_or(0, |a| s.values[a.0 as usize][lane] as u32);
         let real = |k: usize, lane: usize| R::from_bits(s.values[args[k].0 as usize][lane]);
         // A sampler is other hardware, and reads and gives what it computes in.
@@ -355,10 +356,10 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 &self.buffers[buffer as usize],
                 &self.graph.buffers[buffer as usize].element,
             );
-            let each = element.values().len();
+            let each = element.value_types().len();
             return match op {
                 Op::BufferLoad { field, .. } => {
-                    let part = element.field(*field).map_or(1, Type::parts);
+                    let part = element.field_type(*field).map_or(1, Type::part_count);
                     let within = element.first_value(*field) + word(1, 0).min(part - 1) as usize;
                     values[(word(0, 0) as usize).min(values.len() / each - 1) * each + within]
                 }
@@ -416,18 +417,18 @@ impl<'a, R: Real> Interpreter<'a, R> {
     }
 
     /// Notes a number that is not finite and comes of finite ones.
-    fn look(&self, id: NodeId, s: &mut Scratch) {
+    fn note_non_finite(&self, id: NodeId, s: &mut Scratch) {
         let finite = |id: NodeId| {
             let ty = self.graph.ty(id);
-            let lanes = &s.values[id.0 as usize][..ty.components() as usize];
-            ty.kind() != Some(Scalar::F32)
+            let lanes = &s.values[id.0 as usize][..ty.component_count() as usize];
+            ty.scalar_kind() != Some(Scalar::F32)
                 || ty.is_array()
                 || lanes.iter().all(|c| R::from_bits(*c).to_f64().is_finite())
         };
         if finite(id) || !self.graph.node(id).args.iter().all(|a| finite(*a)) {
             return;
         }
-        let lanes = &s.values[id.0 as usize][..self.graph.ty(id).components() as usize];
+        let lanes = &s.values[id.0 as usize][..self.graph.ty(id).component_count() as usize];
         let kept = s.loops.iter().map(|(param, value)| Counter {
             name: self.graph.origin(*param).map_or("k", |o| &*o.name).into(),
             value: *value,
@@ -445,32 +446,32 @@ impl<'a, R: Real> Interpreter<'a, R> {
     }
 
     /// Result `k` of a loop or branch, cut from the values that all its results were left in.
-    fn result(&self, owner: NodeId, k: usize, s: &Scratch) -> Vec<Cells> {
+    fn result_cells(&self, owner: NodeId, k: usize, s: &Scratch) -> Vec<Cells> {
         let region = self.graph.region(self.graph.regions_of(owner)[0]);
-        let sizes: Vec<usize> = region.results.iter().map(|r| size(self.graph.ty(*r))).collect();
+        let sizes: Vec<usize> = region.results.iter().map(|r| cell_count(self.graph.ty(*r))).collect();
         let from: usize = sizes[..k].iter().sum();
         s.arrays[owner.0 as usize][from..from + sizes[k]].to_vec()
     }
 }
 
 /// A value as a texel holds it.
-fn texel<R: Real>(ty: Type, cells: Cells) -> [f64; 4] {
-    std::array::from_fn(|k| match ty.kind() {
-        _ if k >= ty.components() as usize => f64::from(u8::from(k == 3)),
+fn to_texel<R: Real>(ty: Type, cells: Cells) -> [f64; 4] {
+    std::array::from_fn(|k| match ty.scalar_kind() {
+        _ if k >= ty.component_count() as usize => f64::from(u8::from(k == 3)),
         Some(Scalar::F32) => R::from_bits(cells[k]).to_f64(),
         Some(Scalar::I32) => f64::from(cells[k] as u32 as i32),
         _ => f64::from(cells[k] as u32),
     })
 }
 
-fn size(ty: Type) -> usize {
+fn cell_count(ty: Type) -> usize {
     match ty {
         Type::Array { len, .. } => len as usize,
         _ => 1,
     }
 }
 
-fn whole(graph: &Graph, s: &Scratch, id: NodeId) -> Vec<Cells> {
+fn load_cells(graph: &Graph, s: &Scratch, id: NodeId) -> Vec<Cells> {
     if graph.ty(id).is_array() {
         s.arrays[id.0 as usize].clone()
     } else {
@@ -478,7 +479,7 @@ fn whole(graph: &Graph, s: &Scratch, id: NodeId) -> Vec<Cells> {
     }
 }
 
-fn store(graph: &Graph, s: &mut Scratch, id: NodeId, value: Vec<Cells>) {
+fn store_cells(graph: &Graph, s: &mut Scratch, id: NodeId, value: Vec<Cells>) {
     if graph.ty(id).is_array() {
         s.arrays[id.0 as usize] = value;
     } else {

@@ -6,19 +6,19 @@ use super::{AtomicOp, BinaryOp, Bits, Op, Real, Scalar, Type, UnaryOp, usize_bit
 pub type Cells = [u64; 4];
 
 /// The bits of what a host gives as cells of an `R`.
-pub fn cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
-    bits.map(|bits| match ty.kind() {
+pub fn host_cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
+    bits.map(|bits| match ty.scalar_kind() {
         Some(Scalar::F32) => R::from_f64(f64::from(f32::from_bits(bits))).to_bits(),
         _ => u64::from(bits),
     })
 }
 
 /// The bits of a constant as cells of an `R`.
-pub fn constant<R: Real>(ty: Type, bits: &Bits) -> Cells {
+pub fn constant_cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
     if ty == Type::USIZE {
         return [usize_value(bits), 0, 0, 0];
     }
-    bits.map(|bits| match ty.kind() {
+    bits.map(|bits| match ty.scalar_kind() {
         Some(Scalar::F32) => R::made(f32::from_bits(bits).into()).to_bits(),
         _ => u64::from(bits),
     })
@@ -28,7 +28,7 @@ pub fn constant<R: Real>(ty: Type, bits: &Bits) -> Cells {
 pub const MOST_OPERANDS: usize = 4;
 
 /// The result of a value operation on constants in `f32`, as the graph holds it.
-pub fn fold(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
+pub fn fold_op(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
     let mut cells = [[0; 4]; MOST_OPERANDS];
     let cells = cells.get_mut(..args.len())?;
     for (cells, lanes) in cells.iter_mut().zip(args) {
@@ -37,7 +37,7 @@ pub fn fold(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
             _ => lanes.map(u64::from),
         };
     }
-    let found = apply::<f32>(op, operand, cells, ty)?;
+    let found = apply_op::<f32>(op, operand, cells, ty)?;
     Some(match ty {
         Type::USIZE => usize_bits(found[0]),
         _ => found.map(|cell| cell as u32),
@@ -46,22 +46,22 @@ pub fn fold(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
 
 /// The result of a value operation (not a read, nor anything of arrays and regions) on arguments of type `operand`;
 /// `None` for operations that are not decided by their arguments alone.
-pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Option<Cells> {
-    let lanes = ty.components() as usize;
+pub fn apply_op<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Option<Cells> {
+    let lanes = ty.component_count() as usize;
     let real = |cell: u64| R::from_bits(cell);
     Some(match op {
-        Op::Const(bits) => constant::<R>(ty, bits),
-        Op::Unary(op) => each(lanes, |k| unary::<R>(*op, operand.kind()?, args[0][k]))?,
-        Op::Binary(op) => each(lanes, |k| component::<R>(*op, operand, args[0][k], args[1][k]))?,
+        Op::Const(bits) => constant_cells::<R>(ty, bits),
+        Op::Unary(op) => map_components(lanes, |k| apply_unary::<R>(*op, operand.scalar_kind()?, args[0][k]))?,
+        Op::Binary(op) => map_components(lanes, |k| apply_component::<R>(*op, operand, args[0][k], args[1][k]))?,
         Op::Dot => {
             let product = |k: usize| real(args[0][k]) * real(args[1][k]);
-            let sum = (1..operand.components() as usize).fold(product(0), |sum, k| sum + product(k));
+            let sum = (1..operand.component_count() as usize).fold(product(0), |sum, k| sum + product(k));
             [sum.to_bits(), 0, 0, 0]
         }
         Op::Cross => {
             let at = |v: usize, k: usize| real(args[v][k % 3]);
             let lane = |k: usize| at(0, k + 1) * at(1, k + 2) - at(1, k + 1) * at(0, k + 2);
-            each(3, |k| Some(lane(k).to_bits()))?
+            map_components(3, |k| Some(lane(k).to_bits()))?
         }
         Op::Clamp if operand == Type::F32 => {
             let [x, low, high] = [0, 1, 2].map(|k| real(args[k][0]));
@@ -74,22 +74,26 @@ pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Optio
             };
             [clamped.to_bits(), 0, 0, 0]
         }
-        Op::Clamp => each(lanes, |k| {
-            let above = component::<R>(BinaryOp::Max, operand, args[0][k], args[1][k])?;
-            component::<R>(BinaryOp::Min, operand, above, args[2][k])
+        Op::Clamp => map_components(lanes, |k| {
+            let above = apply_component::<R>(BinaryOp::Max, operand, args[0][k], args[1][k])?;
+            apply_component::<R>(BinaryOp::Min, operand, above, args[2][k])
         })?,
         Op::Select => args[if args[0][0] != 0 { 1 } else { 2 }],
-        Op::Splat => each(lanes, |_| Some(args[0][0]))?,
-        Op::Compose => each(lanes, |k| Some(args[k][0]))?,
+        Op::Splat => map_components(lanes, |_| Some(args[0][0]))?,
+        Op::Compose => map_components(lanes, |k| Some(args[k][0]))?,
         Op::Extract(lane) => [args[0][*lane as usize], 0, 0, 0],
-        Op::Convert => each(lanes, |k| convert::<R>(args[0][k], operand.kind()?, ty.kind()?))?,
-        Op::Bitcast => each(lanes, |k| bitcast::<R>(args[0][k], operand.kind()?, ty.kind()?))?,
+        Op::Convert => map_components(lanes, |k| {
+            convert_cell::<R>(args[0][k], operand.scalar_kind()?, ty.scalar_kind()?)
+        })?,
+        Op::Bitcast => map_components(lanes, |k| {
+            bitcast_cell::<R>(args[0][k], operand.scalar_kind()?, ty.scalar_kind()?)
+        })?,
         Op::Exact | Op::Tally(_) => args[0],
         _ => return None,
     })
 }
 
-fn each(lanes: usize, lane: impl Fn(usize) -> Option<u64>) -> Option<Cells> {
+fn map_components(lanes: usize, lane: impl Fn(usize) -> Option<u64>) -> Option<Cells> {
     let mut out = [0; 4];
     for (k, slot) in out.iter_mut().enumerate().take(lanes) {
         *slot = lane(k)?;
@@ -97,7 +101,7 @@ fn each(lanes: usize, lane: impl Fn(usize) -> Option<u64>) -> Option<Cells> {
     Some(out)
 }
 
-fn unary<R: Real>(op: UnaryOp, kind: Scalar, cell: u64) -> Option<u64> {
+fn apply_unary<R: Real>(op: UnaryOp, kind: Scalar, cell: u64) -> Option<u64> {
     use UnaryOp::*;
     let bits = cell as u32;
     let word = match (kind, op) {
@@ -121,7 +125,7 @@ fn unary<R: Real>(op: UnaryOp, kind: Scalar, cell: u64) -> Option<u64> {
     Some(word.into())
 }
 
-fn binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
+fn apply_binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
     match kind {
         Scalar::Bool => binary_bool(op, a != 0, b != 0).map(u64::from),
         Scalar::F32 => binary_real(op, R::from_bits(a), R::from_bits(b)),
@@ -132,12 +136,12 @@ fn binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
 }
 
 /// Computes a component of an operation on two operands of a type.
-fn component<R: Real>(op: BinaryOp, operand: Type, a: u64, b: u64) -> Option<u64> {
+fn apply_component<R: Real>(op: BinaryOp, operand: Type, a: u64, b: u64) -> Option<u64> {
     let first = |holds: bool| Some(if holds { a } else { b });
     match op {
         BinaryOp::Min if operand.is_float() && !operand.is_scalar() => first(R::from_bits(a) < R::from_bits(b)),
         BinaryOp::Max if operand.is_float() && !operand.is_scalar() => first(R::from_bits(a) > R::from_bits(b)),
-        _ => binary::<R>(op, operand.kind()?, a, b),
+        _ => apply_binary::<R>(op, operand.scalar_kind()?, a, b),
     }
 }
 
@@ -236,7 +240,7 @@ fn binary_usize(op: BinaryOp, a: u64, b: u64) -> Option<u64> {
     })
 }
 
-fn convert<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
+fn convert_cell<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     use Scalar::*;
     let bits = cell as u32;
     let number = |x: f64| R::made(x).to_bits();
@@ -257,7 +261,7 @@ fn convert<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     })
 }
 
-fn bitcast<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
+fn bitcast_cell<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     use Scalar::*;
     // In other precisions too, bits are those of the nearest `f32`.
     Some(match (from, to) {
@@ -269,9 +273,9 @@ fn bitcast<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     })
 }
 /// Returns the value that an atomic operation stores, from the old value and its operand.
-pub fn atomic(op: AtomicOp, ty: Type, before: u64, value: u64) -> u64 {
+pub fn apply_atomic(op: AtomicOp, ty: Type, before: u64, value: u64) -> u64 {
     let (a, b) = (before as u32, value as u32);
-    let signed = ty.kind() == Some(Scalar::I32);
+    let signed = ty.scalar_kind() == Some(Scalar::I32);
     let after = match op {
         AtomicOp::Add => a.wrapping_add(b),
         AtomicOp::Max if signed => (a as i32).max(b as i32) as u32,

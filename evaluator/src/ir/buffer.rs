@@ -15,7 +15,7 @@ pub struct Buffer {
 
 impl Buffer {
     /// The type of its elements; of structures, which are only read field by field, `Type::Results`.
-    pub fn value(&self) -> Type {
+    pub fn value_type(&self) -> Type {
         match self.element {
             Element::Value(ty) => ty,
             Element::Struct(_) => Type::Results,
@@ -70,7 +70,7 @@ impl Structure {
     pub fn new(name: String, fields: Vec<(String, Type)>) -> Structure {
         let mut at = 0u32;
         let placed = fields.into_iter().map(|(name, ty)| {
-            let (alignment, size) = ty.layout();
+            let (alignment, size) = ty.memory_layout();
             let offset = at.next_multiple_of(alignment);
             at = offset + size;
             Field { name, ty, offset }
@@ -81,15 +81,18 @@ impl Structure {
 
     /// Bytes from one structure to the next: its size, to a multiple of its largest alignment.
     pub fn stride(&self) -> u32 {
-        let end = self.fields.last().map_or(4, |field| field.offset + field.ty.layout().1);
-        let alignment = self.fields.iter().map(|field| field.ty.layout().0).max();
+        let end = self
+            .fields
+            .last()
+            .map_or(4, |field| field.offset + field.ty.memory_layout().1);
+        let alignment = self.fields.iter().map(|field| field.ty.memory_layout().0).max();
         end.next_multiple_of(alignment.unwrap_or(4))
     }
 }
 
 impl Element {
     /// The type of a field by its number, 0 of a single value.
-    pub fn field(&self, k: u32) -> Option<Type> {
+    pub fn field_type(&self, k: u32) -> Option<Type> {
         match self {
             Element::Value(ty) => (k == 0).then_some(*ty),
             Element::Struct(structure) => structure.fields.get(k as usize).map(|field| field.ty),
@@ -100,7 +103,7 @@ impl Element {
     pub fn stride(&self) -> u32 {
         match self {
             Element::Value(ty) => {
-                let (alignment, size) = ty.layout();
+                let (alignment, size) = ty.memory_layout();
                 size.next_multiple_of(alignment)
             }
             Element::Struct(structure) => structure.stride(),
@@ -108,23 +111,23 @@ impl Element {
     }
 
     /// The types of all scalars and vectors of an element, in order: elements of arrays one by one.
-    pub fn values(&self) -> Vec<Type> {
+    pub fn value_types(&self) -> Vec<Type> {
         match self {
             Element::Value(ty) => vec![*ty],
             Element::Struct(structure) => {
-                let of = |field: &Field| vec![field.ty.element(); field.ty.parts() as usize];
+                let of = |field: &Field| vec![field.ty.element_type(); field.ty.part_count() as usize];
                 structure.fields.iter().flat_map(of).collect()
             }
         }
     }
 
-    /// Index in [`values`](Self::values) of a field's first value.
+    /// Index in [`value_types`](Self::value_types) of a field's first value.
     pub fn first_value(&self, field: u32) -> usize {
         match self {
             Element::Value(_) => 0,
             Element::Struct(structure) => {
                 let before = structure.fields.iter().take(field as usize);
-                before.map(|field| field.ty.parts() as usize).sum()
+                before.map(|field| field.ty.part_count() as usize).sum()
             }
         }
     }

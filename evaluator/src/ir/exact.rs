@@ -15,38 +15,38 @@ impl Builder<'_> {
 
     /// The node that computes an operation on floats, each of its roundings marked. A dot or cross product becomes the
     /// products and sums that it stands for, first to last, since shader languages leave their order open.
-    pub fn exactly(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
+    pub fn add_exact(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
         match op {
             Op::Dot => {
                 let of = self.graph().ty(args[0]);
-                let product = self.marked(Op::Binary(BinaryOp::Mul), args, of);
-                let mut lanes = (0..of.components()).map(Op::Extract);
-                let first = lanes.next().map(|lane| self.simplified(lane, [product], ty));
+                let product = self.add_marked(Op::Binary(BinaryOp::Mul), args, of);
+                let mut lanes = (0..of.component_count()).map(Op::Extract);
+                let first = lanes.next().map(|lane| self.add_simplified(lane, [product], ty));
                 let first = first.expect("a vector has components");
                 lanes.fold(first, |sum, lane| {
-                    let lane = self.simplified(lane, [product], ty);
-                    self.marked(Op::Binary(BinaryOp::Add), &[sum, lane], ty)
+                    let lane = self.add_simplified(lane, [product], ty);
+                    self.add_marked(Op::Binary(BinaryOp::Add), &[sum, lane], ty)
                 })
             }
             Op::Cross => {
                 let turned = |b: &mut Self, of: NodeId, turn: [u8; 3]| {
-                    let lanes = turn.map(|lane| b.simplified(Op::Extract(lane), [of], Type::F32));
-                    b.simplified(Op::Compose, lanes, ty)
+                    let lanes = turn.map(|lane| b.add_simplified(Op::Extract(lane), [of], Type::F32));
+                    b.add_simplified(Op::Compose, lanes, ty)
                 };
                 let (next, last) = ([1, 2, 0], [2, 0, 1]);
                 let products = [(next, last), (last, next)].map(|(first, second)| {
                     let sides = [turned(self, args[0], first), turned(self, args[1], second)];
-                    self.marked(Op::Binary(BinaryOp::Mul), &sides, ty)
+                    self.add_marked(Op::Binary(BinaryOp::Mul), &sides, ty)
                 });
-                self.marked(Op::Binary(BinaryOp::Sub), &products, ty)
+                self.add_marked(Op::Binary(BinaryOp::Sub), &products, ty)
             }
-            op => self.marked(op, args, ty),
+            op => self.add_marked(op, args, ty),
         }
     }
 
-    fn marked(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
-        let id = self.simplified(op, args, ty);
-        match self.graph().node(id).op.rounds() {
+    fn add_marked(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
+        let id = self.add_simplified(op, args, ty);
+        match self.graph().node(id).op.is_rounding() {
             true => self.intern(Op::Exact, [id], ty),
             false => id,
         }

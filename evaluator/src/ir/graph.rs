@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Bits, Buffer, Memory, Op, Origin, Scalar, Shared, Texture, Type, usize_bits};
+use super::{Bits, Buffer, Memory, Op, Origin, Scalar, SharedArray, Texture, Type, usize_bits};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub struct Region {
 
 impl Region {
     /// Everything that is computed for use outside of it: its results, and whether it stops.
-    pub fn leaving(&self) -> impl Iterator<Item = NodeId> {
+    pub fn yielded_values(&self) -> impl Iterator<Item = NodeId> {
         self.results.iter().copied().chain(self.stop)
     }
 }
@@ -70,7 +70,7 @@ pub struct Sampler {
 /// A value that a kernel computes for each pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Name: [`Target::ALONE`], or that of a field of the kernel's structure.
+    /// Name: [`Target::DEFAULT_NAME`], or that of a field of the kernel's structure.
     pub name: String,
     /// A float or integer, or a vector of them.
     pub ty: Type,
@@ -78,12 +78,12 @@ pub struct Target {
 
 impl Target {
     /// Name of the target of a kernel that gives one value.
-    pub const ALONE: &'static str = "destination";
+    pub const DEFAULT_NAME: &'static str = "destination";
 
     /// Default target of a kernel: one colour.
-    pub fn colour() -> Target {
+    pub fn default_color() -> Target {
         Target {
-            name: Target::ALONE.to_owned(),
+            name: Target::DEFAULT_NAME.to_owned(),
             ty: Type::value(Scalar::F32, 4),
         }
     }
@@ -99,12 +99,12 @@ pub struct Uniform {
     /// Value to use unless the host sets one.
     pub default: Option<f64>,
     /// Of what it is a part.
-    pub part: Option<Part>,
+    pub part: Option<UniformPart>,
 }
 
 /// A column of a matrix, or an element of an array of scalars or vectors, that a kernel takes as one value.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct UniformPart {
     /// Name of the whole in the kernel.
     pub of: String,
     /// Index of the part, from 0.
@@ -142,7 +142,7 @@ pub enum Invocation {
 
 impl Invocation {
     /// Pixels across and down.
-    pub fn pixels(self) -> [u32; 2] {
+    pub fn block_size(self) -> [u32; 2] {
         match self {
             Invocation::Pixel | Invocation::MayBeOutside | Invocation::Lane | Invocation::Group(_) => [1, 1],
             Invocation::Block(size) => size,
@@ -150,10 +150,10 @@ impl Invocation {
     }
 
     /// Pixels across and down that are computed together: those of an invocation, or of all invocations of a workgroup.
-    pub fn tile(self) -> [u32; 2] {
+    pub fn tile_size(self) -> [u32; 2] {
         match self {
             Invocation::Group(size) => size,
-            other => other.pixels(),
+            other => other.block_size(),
         }
     }
 }
@@ -178,7 +178,7 @@ pub struct Graph {
     /// Pictures of the frame's size that are written at any place, by the index that `Memory::Image` carries.
     pub images: Vec<Target>,
     /// Workgroup memory, by the index that `Memory::Shared` carries.
-    pub shared: Vec<Shared>,
+    pub shared: Vec<SharedArray>,
     /// Samplers, by the index that `Op::Sample` carries.
     pub samplers: Vec<Sampler>,
     /// Run-time parameters, by the index that `Op::Uniform` carries.
@@ -252,7 +252,7 @@ impl Graph {
     }
 
     /// All pictures that it writes: what it gives for each pixel, and those that it writes at any place.
-    pub fn pictures(&self) -> impl Iterator<Item = &Target> + Clone {
+    pub fn written_targets(&self) -> impl Iterator<Item = &Target> + Clone {
         self.targets.iter().chain(&self.images)
     }
 
@@ -261,7 +261,7 @@ impl Graph {
         match memory {
             Memory::Buffer(k) => {
                 let buffer = &self.buffers[k as usize];
-                (buffer.value(), &buffer.name)
+                (buffer.value_type(), &buffer.name)
             }
             Memory::Shared(k) => {
                 let shared = &self.shared[k as usize];
@@ -275,12 +275,12 @@ impl Graph {
     }
 
     /// All nodes in order.
-    pub fn ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + use<> {
+    pub fn node_ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + use<> {
         (0..self.nodes.len() as u32).map(NodeId)
     }
 
     /// The bits of a constant.
-    pub fn constant(&self, id: NodeId) -> Option<Bits> {
+    pub fn constant_bits(&self, id: NodeId) -> Option<Bits> {
         match self.node(id).op {
             Op::Const(bits) => Some(bits),
             _ => None,
@@ -326,7 +326,7 @@ impl<'r> Builder<'r> {
         };
         let graph = Graph {
             regions: vec![body],
-            targets: vec![Target::colour()],
+            targets: vec![Target::default_color()],
             ..Graph::default()
         };
         Builder {
@@ -357,14 +357,14 @@ impl<'r> Builder<'r> {
 
     /// The node that computes `op` of `args`, simplified.
     pub fn add(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
-        if self.exact && op.rounds() && ty.is_float() {
-            return self.exactly(op, args.as_ref(), ty);
+        if self.exact && op.is_rounding() && ty.is_float() {
+            return self.add_exact(op, args.as_ref(), ty);
         }
-        self.simplified(op, args, ty)
+        self.add_simplified(op, args, ty)
     }
 
     /// The node that computes `op` of `args`, simplified and not made exact.
-    pub(super) fn simplified(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
+    pub(super) fn add_simplified(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
         let (rules, args) = (self.rules, args.as_ref());
         match rules.simplify(self, &op, args, ty) {
             Some(id) => id,
@@ -375,7 +375,7 @@ impl<'r> Builder<'r> {
     /// The node that computes `op` of `args` exactly as stated.
     pub fn intern(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
         let args = args.as_ref();
-        let free = match self.known(&op, args, ty) {
+        let free = match self.find_or_hash(&op, args, ty) {
             Ok(id) => return id,
             Err(free) => free,
         };
@@ -387,15 +387,15 @@ impl<'r> Builder<'r> {
             .iter()
             .any(|region| !self.graph.region(*region).effects.is_empty())
         {
-            self.happens(id);
+            self.record_effect(id);
         }
         id
     }
 
     /// An effect, behind all others of the region that is open.
-    pub fn effect(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
+    pub fn add_effect(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
         let id = self.push(Node { op, args, ty });
-        self.happens(id);
+        self.record_effect(id);
         id
     }
 
@@ -403,16 +403,16 @@ impl<'r> Builder<'r> {
         let id = NodeId(self.graph.nodes.len() as u32);
         self.graph.nodes.push(node);
         self.graph.origins.push(None);
-        self.graph.homes.push(self.innermost());
+        self.graph.homes.push(self.innermost_region());
         id
     }
 
-    fn innermost(&self) -> RegionId {
+    fn innermost_region(&self) -> RegionId {
         *self.open.last().expect("the body is always open")
     }
 
-    fn happens(&mut self, id: NodeId) {
-        let region = self.innermost();
+    fn record_effect(&mut self, id: NodeId) {
+        let region = self.innermost_region();
         self.graph.regions[region.0 as usize].effects.push(id);
     }
 
@@ -422,7 +422,7 @@ impl<'r> Builder<'r> {
     }
 
     /// Returns the number of effects of each open region.
-    pub fn effects(&self) -> Vec<usize> {
+    pub fn effect_counts(&self) -> Vec<usize> {
         let open = self.open.iter();
         open.map(|region| self.graph.region(*region).effects.len()).collect()
     }
@@ -440,7 +440,7 @@ impl<'r> Builder<'r> {
             nodes: self.graph.nodes.len(),
             regions: self.graph.regions.len(),
             events: self.graph.events.len(),
-            effects: self.effects(),
+            effects: self.effect_counts(),
         }
     }
 
@@ -467,12 +467,12 @@ impl<'r> Builder<'r> {
     }
 
     /// The node that computes `op` of `args`, if there is one already.
-    pub fn find(&self, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
-        self.known(op, args, ty).ok()
+    pub fn find_node(&self, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        self.find_or_hash(op, args, ty).ok()
     }
 
     /// The node that is equal, or the hash by which it would be known.
-    fn known(&self, op: &Op, args: &[NodeId], ty: Type) -> Result<NodeId, u64> {
+    fn find_or_hash(&self, op: &Op, args: &[NodeId], ty: Type) -> Result<NodeId, u64> {
         let mut hash = hash_of(op, args, ty);
         while let Some(id) = self.known.get(&hash) {
             let node = self.graph.node(*id);
@@ -558,7 +558,7 @@ impl<'r> Builder<'r> {
 
     /// Says when the loop of a region ends before its counter does.
     pub fn set_stop(&mut self, region: RegionId, stop: NodeId) {
-        let never = self.graph.constant(stop).is_some_and(|bits| bits[0] == 0);
+        let never = self.graph.constant_bits(stop).is_some_and(|bits| bits[0] == 0);
         self.graph.regions[region.0 as usize].stop = (!never).then_some(stop);
     }
 

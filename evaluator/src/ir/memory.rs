@@ -18,7 +18,7 @@ pub const MOST_SHARED_BYTES: u64 = 16_384;
 
 /// An array that the invocations of a workgroup share; all 0 when they begin. It is bound by no host.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Shared {
+pub struct SharedArray {
     /// Name in the kernel.
     pub name: String,
     /// A scalar or a vector, of numbers.
@@ -31,10 +31,10 @@ pub struct Shared {
     pub filled: bool,
 }
 
-impl Shared {
+impl SharedArray {
     /// Bytes that it takes in a workgroup's memory: as WGSL lays it out, a vector of three lies as one of four does.
-    pub fn bytes(&self) -> u64 {
-        let lanes = match self.element.components() {
+    pub fn byte_size(&self) -> u64 {
+        let lanes = match self.element.component_count() {
             3 => 4,
             lanes => u64::from(lanes),
         };

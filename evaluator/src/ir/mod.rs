@@ -8,7 +8,7 @@
 //!   inside the frame and a multiple of the block's size; others may lie outside, and are not stored.
 //! - The invocations of a kernel of quads are [`Invocation::Lane`]s: four of them, at even coordinates, compute in step.
 //!   Each stores its own pixel; one that lies outside of the frame computes as the others do, and its [`Op::Pixel`] is
-//!   outside. [`Op::Message`] gives the other lane's bits as they are. A condition, or a bound of a structured loop, is the
+//!   outside. [`Op::QuadSwap`] gives the other lane's bits as they are. A condition, or a bound of a structured loop, is the
 //!   same in all lanes of a quad, so that all of them come to every message.
 //! - The invocations of a kernel of workgroups ([`Invocation::Group`]) are those of a workgroup, each with its pixel, which may
 //!   lie outside of the frame: all of them compute, and what is given for a pixel outside is not stored. Conditions and bounds
@@ -30,7 +30,7 @@
 //!   which they are compared; from an end that is not above the start there are no iterations. If the region has a
 //!   stop, a boolean, and it holds in an iteration, that one is the last: its results are those of the loop. A region
 //!   may use any node that is computed outside it. [`Op::Result`] reads the carried values after the last iteration.
-//! - [`Op::Unused`] is any value, of which nothing that is looked at depends: what a loop gives for those who did not
+//! - [`Op::Undef`] is any value, of which nothing that is looked at depends: what a loop gives for those who did not
 //!   leave it early, say.
 //! - A kept branch is one [`Op::If`] node with two regions without parameters.
 //! - Nodes belong to no region by themselves: where a node is evaluated follows from what it depends on and who
@@ -60,15 +60,15 @@ pub mod verify;
 
 pub use buffer::{Access, Buffer, Element, Field, Structure};
 pub use graph::{
-    Builder, Event, Graph, Invocation, Mark, Node, NodeId, Part, Purpose, Region, RegionId, Rules, Sampler, Target,
-    Uniform, Varying,
+    Builder, Event, Graph, Invocation, Mark, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
+    UniformPart, Varying,
 };
-pub use memory::{MOST_SHARED_BYTES, Memory, Shared};
-pub use op::{AtomicOp, Axis, BinaryOp, Direction, Op, UnaryOp};
+pub use memory::{MOST_SHARED_BYTES, Memory, SharedArray};
+pub use op::{AtomicOp, Axis, BinaryOp, Op, QuadDirection, UnaryOp};
 pub use origin::{Counter, Naming, Origin};
 pub use parse::{ParseError, parse};
 pub use print::print;
 pub use real::{F16, Real};
-pub use rebuild::{Rebuild, Replace, copy_tables, rebuild, rebuild_replacing};
+pub use rebuild::{Rebuild, Replace, copy_tables, rebuild_graph, rebuild_replacing};
 pub use texture::{Texture, TextureKind};
 pub use types::{Bits, Scalar, Type, usize_bits, usize_value, vector_named};

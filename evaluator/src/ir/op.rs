@@ -8,7 +8,7 @@ pub enum Op {
     /// A known value, by its bits.
     Const(Bits),
     /// An undefined value: nothing reads it.
-    Unused,
+    Undef,
     /// Coordinate of the output pixel, `vec2<i32>`, inside the frame.
     Pixel,
     /// Width and height of the frame, `vec2<i32>`, each at least 1.
@@ -22,7 +22,7 @@ pub enum Op {
     /// True if the pixel of an invocation of a workgroup is to be computed: inside the frame.
     Inside,
     /// The argument as the lane beside, above or below, or across has it, bit for bit.
-    Message(Direction),
+    QuadSwap(QuadDirection),
     /// The argument's fine derivative, of floats: in both lanes of a row the right one's less the left one's, in both of
     /// a column the lower one's less the upper one's.
     Derivative(Axis),
@@ -194,22 +194,26 @@ impl AtomicOp {
 /// From which lane of a quad a message comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // named as in GLSL
-pub enum Direction {
+pub enum QuadDirection {
     Horizontal,
     Vertical,
     Diagonal,
 }
 
-impl Direction {
+impl QuadDirection {
     /// Every direction.
-    pub const ALL: [Direction; 3] = [Direction::Horizontal, Direction::Vertical, Direction::Diagonal];
+    pub const ALL: [QuadDirection; 3] = [
+        QuadDirection::Horizontal,
+        QuadDirection::Vertical,
+        QuadDirection::Diagonal,
+    ];
 
     /// The axes along which it comes from the other side of the quad: 1 or 0.
-    pub fn bits(self) -> [u32; 2] {
+    pub fn axis_bits(self) -> [u32; 2] {
         match self {
-            Direction::Horizontal => [1, 0],
-            Direction::Vertical => [0, 1],
-            Direction::Diagonal => [1, 1],
+            QuadDirection::Horizontal => [1, 0],
+            QuadDirection::Vertical => [0, 1],
+            QuadDirection::Diagonal => [1, 1],
         }
     }
 }
@@ -303,7 +307,7 @@ impl BinaryOp {
     }
 
     /// Returns whether exchanging the arguments changes no bit of the result.
-    pub fn commutes(self) -> bool {
+    pub fn is_commutative(self) -> bool {
         use BinaryOp::*;
         matches!(self, Add | Mul | And | Or | Xor | Eq | Ne)
     }
@@ -383,7 +387,7 @@ impl Op {
     }
 
     /// Tells if it rounds floats, so that a compiler that merges it with others may change a bit.
-    pub fn rounds(&self) -> bool {
+    pub fn is_rounding(&self) -> bool {
         use BinaryOp::{Add, Atan2, Div, Mul, Pow, Rem, Sub};
         match self {
             Op::Binary(op) => matches!(op, Add | Sub | Mul | Div | Rem | Pow | Atan2),
@@ -448,7 +452,7 @@ impl Op {
     }
 
     /// Returns whether it is ordered but free of side effects; dead if unused.
-    pub fn only_looks(&self) -> bool {
+    pub fn is_removable_effect(&self) -> bool {
         matches!(self, Op::SharedLoad(_))
     }
 
@@ -466,7 +470,7 @@ impl Op {
     }
 
     /// A read that stands for every call of it.
-    pub fn shared(mut self) -> Op {
+    pub fn without_site(mut self) -> Op {
         if let Op::Load { site, .. }
         | Op::Sample { site, .. }
         | Op::Gather { site, .. }

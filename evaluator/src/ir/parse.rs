@@ -3,9 +3,9 @@
 //! File tests: `evaluator/tests/filetests/parse`.
 
 use super::{
-    Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Memory, Node,
-    NodeId, Op, Origin, Part, Region, RegionId, Sampler, Scalar, Shared, Structure, Target, Texture, TextureKind, Type,
-    UnaryOp, Uniform, Varying,
+    Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Element, Event, Graph, Invocation, Memory, Node, NodeId, Op,
+    Origin, QuadDirection, Region, RegionId, Sampler, Scalar, SharedArray, Structure, Target, Texture, TextureKind,
+    Type, UnaryOp, Uniform, UniformPart, Varying,
 };
 
 /// Why a text is not a graph.
@@ -25,8 +25,8 @@ pub struct ParseError {
 ///
 /// The first line that cannot be read, and why.
 pub fn parse(text: &str) -> Result<Graph, ParseError> {
-    let mut reader = Reader::default();
-    reader.graph.regions.push(empty(None));
+    let mut reader = GraphParser::default();
+    reader.graph.regions.push(empty_region(None));
     reader.open.push(Graph::BODY);
     for (k, line) in text.lines().enumerate() {
         reader
@@ -48,13 +48,13 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
     }
     reader.event(Event::Close(Graph::BODY));
     if reader.graph.targets.is_empty() && !reader.gives_nothing {
-        reader.graph.targets.push(Target::colour());
+        reader.graph.targets.push(Target::default_color());
     }
     Ok(reader.graph)
 }
 
 #[derive(Default)]
-struct Reader {
+struct GraphParser {
     graph: Graph,
     has_output: bool,
     gives_nothing: bool,
@@ -63,7 +63,7 @@ struct Reader {
 
 type Parsed<T = ()> = Result<T, String>;
 
-impl Reader {
+impl GraphParser {
     fn event(&mut self, event: Event) {
         self.graph.events.push((self.graph.nodes.len() as u32, event));
     }
@@ -84,8 +84,8 @@ impl Reader {
             "texture" => self.texture(rest),
             "buffer" => self.buffer(rest),
             "image" => {
-                let (name, kind) = named(rest)?;
-                let ty = ty(kind)?;
+                let (name, kind) = split_name(rest)?;
+                let ty = parse_type(kind)?;
                 self.graph.images.push(Target { name, ty });
                 Ok(())
             }
@@ -93,8 +93,8 @@ impl Reader {
             "sampler" => self.sampler(rest),
             "uniform" => self.uniform(rest),
             "varying" => {
-                let (name, kind) = named(rest)?;
-                let ty = ty(kind)?;
+                let (name, kind) = split_name(rest)?;
+                let ty = parse_type(kind)?;
                 self.graph.varyings.push(Varying { name, ty });
                 Ok(())
             }
@@ -103,8 +103,8 @@ impl Reader {
                 Ok(())
             }
             "target" => {
-                let (name, kind) = named(rest)?;
-                let ty = ty(kind)?;
+                let (name, kind) = split_name(rest)?;
+                let ty = parse_type(kind)?;
                 self.graph.targets.push(Target { name, ty });
                 Ok(())
             }
@@ -126,11 +126,11 @@ impl Reader {
     }
 
     fn texture(&mut self, text: &str) -> Parsed {
-        let (name, rest) = named(text)?;
+        let (name, rest) = split_name(text)?;
         let words: Vec<&str> = rest.split_whitespace().collect();
         let (kind, components, size, kind_of_number) = match words[..] {
             [kind, components, size] => (kind, components, size, Scalar::F32),
-            [kind, components, size, number] => (kind, components, size, scalar(number)?),
+            [kind, components, size, number] => (kind, components, size, parse_scalar(number)?),
             _ => return Err("a texture is `texture NAME: KIND COMPONENTS frame|own`, and `i32` or `u32`".to_owned()),
         };
         let found = TextureKind::ALL.into_iter().find(|(_, word)| *word == kind);
@@ -139,28 +139,28 @@ impl Reader {
             name,
             kind,
             scalar: kind_of_number,
-            components: number(components)?,
-            declared: number(components)?,
+            components: parse_number(components)?,
+            declared: parse_number(components)?,
             framed: size == "frame",
         });
         Ok(())
     }
 
     fn buffer(&mut self, text: &str) -> Parsed {
-        let (name, rest) = named(text)?;
+        let (name, rest) = split_name(text)?;
         let (rest, access) = match rest.rsplit_once(' ') {
             Some((rest, "write")) => (rest, Access::Write),
             Some((rest, "atomic")) => (rest, Access::Atomic),
             _ => (rest, Access::Read),
         };
         let element = match rest.strip_prefix("struct ") {
-            None => Element::Value(ty(rest)?),
+            None => Element::Value(parse_type(rest)?),
             Some(rest) => {
                 let body = rest.strip_suffix(" }").and_then(|rest| rest.split_once(" { "));
                 let (of, fields) = body.ok_or("a structure is `struct NAME { FIELD: TYPE; ... }`")?;
                 let fields = fields.split("; ").map(|field| {
-                    let (name, kind) = named(field)?;
-                    Ok((name, ty(kind)?))
+                    let (name, kind) = split_name(field)?;
+                    Ok((name, parse_type(kind)?))
                 });
                 Element::Struct(Structure::new(of.to_owned(), fields.collect::<Parsed<_>>()?))
             }
@@ -170,14 +170,14 @@ impl Reader {
     }
 
     fn shared(&mut self, text: &str) -> Parsed {
-        let (name, rest) = named(text)?;
+        let (name, rest) = split_name(text)?;
         let (element, len, how) = match rest.split_whitespace().collect::<Vec<_>>()[..] {
             [element, len] => (element, len, ""),
             [element, len, how @ ("atomic" | "filled")] => (element, len, how),
             _ => return Err("what is shared is `shared NAME: TYPE LENGTH`, and `atomic` or `filled`".to_owned()),
         };
-        let (element, len) = (ty(element)?, number(len)?);
-        self.graph.shared.push(Shared {
+        let (element, len) = (parse_type(element)?, parse_number(len)?);
+        self.graph.shared.push(SharedArray {
             name,
             element,
             len,
@@ -188,7 +188,7 @@ impl Reader {
     }
 
     fn sampler(&mut self, text: &str) -> Parsed {
-        let (name, rest) = named(text)?;
+        let (name, rest) = split_name(text)?;
         let (comparison, filters) = match rest {
             "comparison" => (true, false),
             "filtering" => (false, true),
@@ -204,16 +204,16 @@ impl Reader {
     }
 
     fn uniform(&mut self, text: &str) -> Parsed {
-        let (name, rest) = named(text)?;
+        let (name, rest) = split_name(text)?;
         let (kind, default) = match rest.split_once(" = ") {
-            Some((kind, default)) => (kind, Some(number(default)?)),
+            Some((kind, default)) => (kind, Some(parse_number(default)?)),
             None => (rest, None),
         };
         let (kind, part) = match kind.split_once(" of ") {
-            Some((kind, part)) => (kind, Some(self::part(part)?)),
+            Some((kind, part)) => (kind, Some(self::parse_part(part)?)),
             None => (kind, None),
         };
-        let ty = ty(kind)?;
+        let ty = parse_type(kind)?;
         self.graph.uniforms.push(Uniform {
             name,
             ty,
@@ -228,8 +228,8 @@ impl Reader {
         self.graph.invocation = match words[..] {
             ["may-be-outside"] => Invocation::MayBeOutside,
             ["lane"] => Invocation::Lane,
-            ["block", width, height] => Invocation::Block([number(width)?, number(height)?]),
-            ["group", width, height] => Invocation::Group([number(width)?, number(height)?]),
+            ["block", width, height] => Invocation::Block([parse_number(width)?, parse_number(height)?]),
+            ["group", width, height] => Invocation::Group([parse_number(width)?, parse_number(height)?]),
             _ => {
                 return Err(
                     "an invocation is `may-be-outside`, `lane`, `block WIDTH HEIGHT` or `group WIDTH HEIGHT`"
@@ -241,14 +241,14 @@ impl Reader {
     }
 
     fn open(&mut self, text: &str) -> Parsed {
-        let id: u32 = number(text.strip_suffix(" {").ok_or("a region is `region N {`")?)?;
+        let id: u32 = parse_number(text.strip_suffix(" {").ok_or("a region is `region N {`")?)?;
         if id as usize != self.graph.regions.len() {
             return Err(format!(
                 "regions are numbered in order: this is region {}",
                 self.graph.regions.len()
             ));
         }
-        let region = empty(self.open.last().copied());
+        let region = empty_region(self.open.last().copied());
         self.graph.regions.push(region);
         self.open.push(RegionId(id));
         self.event(Event::Open(RegionId(id)));
@@ -269,7 +269,7 @@ impl Reader {
         let id = text
             .strip_prefix('%')
             .ok_or_else(|| format!("`{text}` is not a node"))?;
-        let id: u32 = number(id)?;
+        let id: u32 = parse_number(id)?;
         if id as usize >= self.graph.nodes.len() {
             return Err(format!("%{id} is not made yet"));
         }
@@ -289,7 +289,7 @@ impl Reader {
                 self.graph.nodes.len()
             ));
         }
-        let ty = ty(kind)?;
+        let ty = parse_type(kind)?;
         let mut parts = body.split(" yields ");
         let mut words = parts.next().unwrap_or_default().split_whitespace().peekable();
         let name = words.next().ok_or("an operation is missing")?;
@@ -302,7 +302,7 @@ impl Reader {
         let here = NodeId(self.graph.nodes.len() as u32);
         for part in parts {
             let (region, results) = part.split_once(':').ok_or("results are `yields REGION: %A %B`")?;
-            let region: u32 = number(region)?;
+            let region: u32 = parse_number(region)?;
             let (results, stop) = match results.split_once(" stops ") {
                 Some((results, stop)) => (results, Some(self.node_id(stop.trim())?)),
                 None => (results, None),
@@ -338,25 +338,25 @@ impl Reader {
         let word = |k: usize| words.get(k).copied().ok_or_else(|| format!("`{name}` lacks a word"));
         let (g, missing) = (&self.graph, |what: &str| format!("there is no such {what}"));
         let texture = || -> Parsed<u32> {
-            let found = position(g.textures.iter().map(|t| &t.name), word(0)?);
+            let found = find_position(g.textures.iter().map(|t| &t.name), word(0)?);
             found.ok_or_else(|| missing("texture"))
         };
         let sampler = || -> Parsed<u32> {
-            let found = position(g.samplers.iter().map(|s| &s.name), word(1)?);
+            let found = find_position(g.samplers.iter().map(|s| &s.name), word(1)?);
             found.ok_or_else(|| missing("sampler"))
         };
         let buffer_at = |k: usize| -> Parsed<u32> {
             let name = word(k)?.split('.').next().unwrap_or_default();
-            let found = position(g.buffers.iter().map(|b| &b.name), name);
+            let found = find_position(g.buffers.iter().map(|b| &b.name), name);
             found.ok_or_else(|| missing("buffer"))
         };
         let buffer = || buffer_at(0);
         let shared = |k: usize| -> Parsed<u32> {
-            let found = position(g.shared.iter().map(|s| &s.name), word(k)?);
+            let found = find_position(g.shared.iter().map(|s| &s.name), word(k)?);
             found.ok_or_else(|| missing("memory"))
         };
         let memory = |k: usize| -> Parsed<Memory> {
-            let image = position(g.images.iter().map(|image| &image.name), word(k)?);
+            let image = find_position(g.images.iter().map(|image| &image.name), word(k)?);
             match (image, buffer_at(k)) {
                 (Some(image), _) => Ok(Memory::Image(image)),
                 (None, Ok(buffer)) => Ok(Memory::Buffer(buffer)),
@@ -364,21 +364,21 @@ impl Reader {
             }
         };
         let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {
-            Some(site) => number(site)?,
+            Some(site) => parse_number(site)?,
             None => 0,
         };
         let region = |k: usize| -> Parsed<RegionId> {
             let text = words.iter().filter_map(|w| w.strip_prefix("region=")).nth(k);
-            Ok(RegionId(number(text.ok_or_else(|| missing("region"))?)?))
+            Ok(RegionId(parse_number(text.ok_or_else(|| missing("region"))?)?))
         };
         Ok(match name {
             "const" => {
                 let mut bits = [0; 4];
-                if words.len() != ty.components() as usize {
-                    return Err(format!("a constant {ty} has {} lanes", ty.components()));
+                if words.len() != ty.component_count() as usize {
+                    return Err(format!("a constant {ty} has {} lanes", ty.component_count()));
                 }
                 for (slot, word) in bits.iter_mut().zip(words) {
-                    *slot = lane(ty, word)?;
+                    *slot = parse_component(ty, word)?;
                 }
                 Op::Const(bits)
             }
@@ -389,8 +389,10 @@ impl Reader {
             "grouporigin" => Op::GroupOrigin,
             "inside" => Op::Inside,
             "message" => {
-                let found = Direction::ALL.into_iter().find(|d| format!("{d:?}") == words.concat());
-                Op::Message(found.ok_or_else(|| missing("direction"))?)
+                let found = QuadDirection::ALL
+                    .into_iter()
+                    .find(|d| format!("{d:?}") == words.concat());
+                Op::QuadSwap(found.ok_or_else(|| missing("direction"))?)
             }
             "derivative" => {
                 let found = [Axis::X, Axis::Y]
@@ -398,27 +400,27 @@ impl Reader {
                     .find(|a| format!("{a:?}") == words.concat());
                 Op::Derivative(found.ok_or_else(|| missing("axis"))?)
             }
-            "varying" => {
-                Op::Varying(position(g.varyings.iter().map(|v| &v.name), word(0)?).ok_or_else(|| missing("varying"))?)
-            }
+            "varying" => Op::Varying(
+                find_position(g.varyings.iter().map(|v| &v.name), word(0)?).ok_or_else(|| missing("varying"))?,
+            ),
             "gathercompare" => Op::GatherCompare {
                 texture: texture()?,
                 sampler: sampler()?,
                 site,
             },
-            "uniform" => {
-                Op::Uniform(position(g.uniforms.iter().map(|u| &u.name), word(0)?).ok_or_else(|| missing("uniform"))?)
-            }
-            "unary" => Op::Unary(unary(word(0)?).ok_or_else(|| missing("operation"))?),
-            "binary" => Op::Binary(binary(word(0)?).ok_or_else(|| missing("operation"))?),
-            "unused" => Op::Unused,
+            "uniform" => Op::Uniform(
+                find_position(g.uniforms.iter().map(|u| &u.name), word(0)?).ok_or_else(|| missing("uniform"))?,
+            ),
+            "unary" => Op::Unary(parse_unary(word(0)?).ok_or_else(|| missing("operation"))?),
+            "binary" => Op::Binary(parse_binary(word(0)?).ok_or_else(|| missing("operation"))?),
+            "unused" => Op::Undef,
             "dot" => Op::Dot,
             "cross" => Op::Cross,
             "clamp" => Op::Clamp,
             "select" => Op::Select,
             "splat" => Op::Splat,
             "compose" => Op::Compose,
-            "extract" => Op::Extract(number(word(0)?)?),
+            "extract" => Op::Extract(parse_number(word(0)?)?),
             "convert" => Op::Convert,
             "bitcast" => Op::Bitcast,
             "texturesize" => Op::TextureSize(texture()?),
@@ -436,7 +438,7 @@ impl Reader {
             "gather" => Op::Gather {
                 texture: texture()?,
                 sampler: sampler()?,
-                component: number(word(2)?)?,
+                component: parse_number(word(2)?)?,
                 site,
             },
             "compare" => Op::Compare {
@@ -449,7 +451,7 @@ impl Reader {
                 buffer: buffer()?,
                 field: match (word(0)?.split_once('.'), &g.buffers[buffer()? as usize].element) {
                     (Some((_, field)), Element::Struct(of)) => {
-                        let found = position(of.fields.iter().map(|f| &f.name), field);
+                        let found = find_position(of.fields.iter().map(|f| &f.name), field);
                         found.ok_or_else(|| missing("field"))?
                     }
                     _ => 0,
@@ -469,21 +471,21 @@ impl Reader {
             "barrier" => Op::Barrier {
                 buffers: words.first() == Some(&"buffers"),
             },
-            "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
+            "tally" => Op::Tally(find_position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
             "exact" => Op::Exact,
             "makearray" => Op::MakeArray,
             "arrayget" => Op::ArrayGet,
             "arrayset" => Op::ArraySet,
             "loop" => Op::Loop(region(0)?),
             "if" => Op::If(region(0)?, region(1)?),
-            "result" => Op::Result(number(word(0)?)?),
-            "param" => Op::Param(region(0)?, number(word(0)?)?),
+            "result" => Op::Result(parse_number(word(0)?)?),
+            "param" => Op::Param(region(0)?, parse_number(word(0)?)?),
             _ => return Err(format!("`{name}` is no operation")),
         })
     }
 }
 
-fn empty(parent: Option<RegionId>) -> Region {
+fn empty_region(parent: Option<RegionId>) -> Region {
     Region {
         parent,
         params: Vec::new(),
@@ -493,44 +495,44 @@ fn empty(parent: Option<RegionId>) -> Region {
     }
 }
 
-fn position<'a>(mut names: impl Iterator<Item = &'a String>, name: &str) -> Option<u32> {
+fn find_position<'a>(mut names: impl Iterator<Item = &'a String>, name: &str) -> Option<u32> {
     names.position(|known| known == name).map(|k| k as u32)
 }
 
 /// Parses the part of a whole that a uniform is: `grade column 0 3`.
-fn part(text: &str) -> Parsed<Part> {
+fn parse_part(text: &str) -> Parsed<UniformPart> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (of, columns, index, count) = match words[..] {
         [of, "column", index, count] => (of, true, index, count),
         [of, "element", index, count] => (of, false, index, count),
         _ => return Err("a part is `NAME column INDEX COUNT` or `NAME element INDEX COUNT`".to_owned()),
     };
-    Ok(Part {
+    Ok(UniformPart {
         of: of.to_owned(),
-        index: number(index)?,
-        count: number(count)?,
+        index: parse_number(index)?,
+        count: parse_number(count)?,
         columns,
     })
 }
 
-fn named(text: &str) -> Parsed<(String, &str)> {
+fn split_name(text: &str) -> Parsed<(String, &str)> {
     let (name, rest) = text.split_once(": ").ok_or("expected `NAME: ...`")?;
     Ok((name.to_owned(), rest))
 }
 
-fn number<T: std::str::FromStr>(text: &str) -> Parsed<T> {
+fn parse_number<T: std::str::FromStr>(text: &str) -> Parsed<T> {
     text.parse()
         .map_err(|_| format!("`{text}` is not a number that fits here"))
 }
 
-fn scalar(text: &str) -> Parsed<Scalar> {
+fn parse_scalar(text: &str) -> Parsed<Scalar> {
     let all = [Scalar::Bool, Scalar::I32, Scalar::U32, Scalar::F32];
     let found = all.into_iter().find(|s| s.to_string() == text);
     found.ok_or_else(|| format!("`{text}` is no type"))
 }
 
 /// `f32`, `vec3<i32>`, `array<vec4<f32>, 9>`, `results`.
-fn ty(text: &str) -> Parsed<Type> {
+fn parse_type(text: &str) -> Parsed<Type> {
     if text == "results" {
         return Ok(Type::Results);
     }
@@ -539,11 +541,11 @@ fn ty(text: &str) -> Parsed<Type> {
         let Type::Value {
             scalar,
             components: lanes,
-        } = ty(element)?
+        } = parse_type(element)?
         else {
             return Err("an array holds scalars or vectors".to_owned());
         };
-        let len = number(len)?;
+        let len = parse_number(len)?;
         return Ok(Type::Array {
             scalar,
             components: lanes,
@@ -552,23 +554,23 @@ fn ty(text: &str) -> Parsed<Type> {
     }
     if let Some(inner) = text.strip_prefix("vec").and_then(|t| t.strip_suffix('>')) {
         let (lanes, kind) = inner.split_once('<').ok_or("a vector is `vecN<TYPE>`")?;
-        let lanes: u8 = number(lanes)?;
+        let lanes: u8 = parse_number(lanes)?;
         if !(2..=4).contains(&lanes) {
             return Err("a vector has 2 to 4 lanes".to_owned());
         }
-        return Ok(Type::value(scalar(kind)?, lanes));
+        return Ok(Type::value(parse_scalar(kind)?, lanes));
     }
-    Ok(Type::scalar(scalar(text)?))
+    Ok(Type::scalar(parse_scalar(text)?))
 }
 
-fn lane(ty: Type, text: &str) -> Parsed<u32> {
+fn parse_component(ty: Type, text: &str) -> Parsed<u32> {
     if let Some(bits) = text.strip_prefix("bits:") {
         return u32::from_str_radix(bits, 16).map_err(|_| format!("`{text}` is no bits"));
     }
-    match ty.kind() {
-        Some(Scalar::F32) => Ok(number::<f32>(text)?.to_bits()),
-        Some(Scalar::I32) => Ok(number::<i32>(text)? as u32),
-        _ => number(text),
+    match ty.scalar_kind() {
+        Some(Scalar::F32) => Ok(parse_number::<f32>(text)?.to_bits()),
+        Some(Scalar::I32) => Ok(parse_number::<i32>(text)? as u32),
+        _ => parse_number(text),
     }
 }
 
@@ -586,22 +588,22 @@ fn read_origin(text: &str) -> Parsed<Origin> {
         let (name, value) = word.split_once('=').ok_or("a counter is `NAME=VALUE`")?;
         Ok(Counter {
             name: name.into(),
-            value: number(value)?,
+            value: parse_number(value)?,
         })
     });
     Ok(Origin {
         name: name.into(),
         naming: Default::default(),
-        file: number(file)?,
-        line: number(line)?,
+        file: parse_number(file)?,
+        line: parse_number(line)?,
         counters: counters.collect::<Parsed<_>>()?,
     })
 }
 
-fn unary(text: &str) -> Option<UnaryOp> {
+fn parse_unary(text: &str) -> Option<UnaryOp> {
     UnaryOp::ALL.into_iter().find(|op| format!("{op:?}") == text)
 }
 
-fn binary(text: &str) -> Option<BinaryOp> {
+fn parse_binary(text: &str) -> Option<BinaryOp> {
     BinaryOp::ALL.into_iter().find(|op| format!("{op:?}") == text)
 }

@@ -19,14 +19,14 @@ use std::fmt::Write;
 
 /// The whole graph.
 pub fn print(graph: &Graph) -> String {
-    let mut text = tables(graph);
+    let mut text = print_tables(graph);
     let mut depth = 0usize;
     let mut events = graph.events.iter().peekable();
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
             depth = print_event(&mut text, depth, event);
         }
-        let _ = writeln!(text, "{}{}", "  ".repeat(depth), line(graph, id));
+        let _ = writeln!(text, "{}{}", "  ".repeat(depth), print_node(graph, id));
     }
     for (_, event) in events {
         depth = print_event(&mut text, depth, event);
@@ -36,7 +36,7 @@ pub fn print(graph: &Graph) -> String {
     text
 }
 
-fn tables(graph: &Graph) -> String {
+fn print_tables(graph: &Graph) -> String {
     let mut text = String::new();
     for file in &graph.files {
         let _ = writeln!(text, "file {file}");
@@ -51,7 +51,7 @@ fn tables(graph: &Graph) -> String {
             text,
             "texture {}: {} {} {size}{number}",
             t.name,
-            t.kind.word(),
+            t.kind.ir_name(),
             t.components
         );
     }
@@ -103,7 +103,7 @@ fn tables(graph: &Graph) -> String {
     }
     if graph.targets.is_empty() {
         text += "target none\n";
-    } else if graph.targets != [Target::colour()] {
+    } else if graph.targets != [Target::default_color()] {
         for t in &graph.targets {
             let _ = writeln!(text, "target {}: {}", t.name, t.ty);
         }
@@ -139,9 +139,9 @@ fn print_event(text: &mut String, depth: usize, event: &Event) -> usize {
     }
 }
 
-fn line(graph: &Graph, id: NodeId) -> String {
+fn print_node(graph: &Graph, id: NodeId) -> String {
     let node = graph.node(id);
-    let mut line = format!("%{}: {} = {}", id.0, node.ty, op(graph, &node.op, node.ty));
+    let mut line = format!("%{}: {} = {}", id.0, node.ty, print_op(graph, &node.op, node.ty));
     for arg in &node.args {
         let _ = write!(line, " %{}", arg.0);
     }
@@ -163,7 +163,7 @@ fn line(graph: &Graph, id: NodeId) -> String {
     line
 }
 
-fn op(graph: &Graph, op: &Op, ty: Type) -> String {
+fn print_op(graph: &Graph, op: &Op, ty: Type) -> String {
     let texture = |k: &u32| graph.textures[*k as usize].name.as_str();
     let sampler = |k: &u32| graph.samplers[*k as usize].name.as_str();
     let buffer = |k: &u32| graph.buffers[*k as usize].name.as_str();
@@ -173,7 +173,9 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
     };
     match op {
         Op::Const(bits) => {
-            let lanes = bits[..ty.components() as usize].iter().map(|b| lane(ty, *b));
+            let lanes = bits[..ty.component_count() as usize]
+                .iter()
+                .map(|b| print_component(ty, *b));
             format!("const {}", lanes.collect::<Vec<_>>().join(" "))
         }
         Op::Uniform(k) => format!("uniform {}", graph.uniforms[*k as usize].name),
@@ -199,7 +201,7 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::GatherCompare {
             texture: t, sampler: s, ..
         } => format!("gathercompare {} {}{at}", texture(t), sampler(s)),
-        Op::Message(direction) => format!("message {direction:?}"),
+        Op::QuadSwap(direction) => format!("message {direction:?}"),
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
@@ -225,8 +227,8 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
 }
 
 /// A lane that reads back as the same bits.
-fn lane(ty: Type, bits: u32) -> String {
-    match ty.kind() {
+fn print_component(ty: Type, bits: u32) -> String {
+    match ty.scalar_kind() {
         Some(Scalar::F32) if f32::from_bits(bits).is_nan() => format!("bits:{bits:08x}"),
         Some(Scalar::F32) => format!("{:?}", f32::from_bits(bits)),
         Some(Scalar::I32) => format!("{}", bits as i32),

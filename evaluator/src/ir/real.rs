@@ -122,12 +122,12 @@ real!(f64, u64);
 pub struct F16(half::f16);
 
 impl F16 {
-    fn round(x: f32) -> F16 {
+    fn from_f32_rounded(x: f32) -> F16 {
         F16(half::f16::from_f32(x))
     }
 
     /// The nearest number; of a finite one a finite one, and of one that is not zero one that is not.
-    pub fn nearest(x: f64) -> half::f16 {
+    pub fn nearest_finite(x: f64) -> half::f16 {
         use half::f16;
         let near = f16::from_f64(x);
         let instead = if near.is_infinite() && x.is_finite() {
@@ -145,7 +145,7 @@ impl Add for F16 {
     type Output = F16;
 
     fn add(self, other: F16) -> F16 {
-        F16::round(self.0.to_f32() + other.0.to_f32())
+        F16::from_f32_rounded(self.0.to_f32() + other.0.to_f32())
     }
 }
 
@@ -153,7 +153,7 @@ impl Sub for F16 {
     type Output = F16;
 
     fn sub(self, other: F16) -> F16 {
-        F16::round(self.0.to_f32() - other.0.to_f32())
+        F16::from_f32_rounded(self.0.to_f32() - other.0.to_f32())
     }
 }
 
@@ -161,7 +161,7 @@ impl Mul for F16 {
     type Output = F16;
 
     fn mul(self, other: F16) -> F16 {
-        F16::round(self.0.to_f32() * other.0.to_f32())
+        F16::from_f32_rounded(self.0.to_f32() * other.0.to_f32())
     }
 }
 
@@ -174,7 +174,7 @@ impl Real for F16 {
     }
 
     fn made(x: f64) -> Self {
-        F16(F16::nearest(x))
+        F16(F16::nearest_finite(x))
     }
 
     fn to_f64(self) -> f64 {
@@ -190,10 +190,10 @@ impl Real for F16 {
     }
 
     fn unary(self, op: UnaryOp) -> Option<Self> {
-        self.0.to_f32().unary(op).map(F16::round)
+        self.0.to_f32().unary(op).map(F16::from_f32_rounded)
     }
 
     fn binary(self, op: BinaryOp, other: Self) -> Option<Self> {
-        self.0.to_f32().binary(op, other.0.to_f32()).map(F16::round)
+        self.0.to_f32().binary(op, other.0.to_f32()).map(F16::from_f32_rounded)
     }
 }

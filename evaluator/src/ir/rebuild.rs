@@ -16,18 +16,18 @@ pub struct Rebuild<'a> {
 /// Replacements for nodes while a graph is rebuilt, and nodes that come before all of them.
 pub trait Replace {
     /// Makes what comes first.
-    fn begin(&mut self, builder: &mut Builder<'_>);
+    fn add_prologue(&mut self, builder: &mut Builder<'_>);
 
     /// Replacement of a node of the old graph, where `new` has the replacements of the nodes before it; `None` to copy the node.
-    fn node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId>;
+    fn replace_node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId>;
 
     /// The type of a parameter or a result that was of the type `ty`.
-    fn ty(&self, _old: NodeId, ty: Type) -> Type {
+    fn replace_type(&self, _old: NodeId, ty: Type) -> Type {
         ty
     }
 
     /// Replacement of the start or the end of the loop of `region`, in the type of its counter; `None` for the general replacement.
-    fn bound(
+    fn replace_bound(
         &mut self,
         _builder: &mut Builder<'_>,
         _region: RegionId,
@@ -39,7 +39,7 @@ pub trait Replace {
 
     /// Replacement of result `k` of `region`, or of the first value of what its loop carries there, in the type of the result; `None` for
     /// the general replacement.
-    fn passed(
+    fn replace_passed(
         &mut self,
         _builder: &mut Builder<'_>,
         _region: RegionId,
@@ -52,33 +52,33 @@ pub trait Replace {
 }
 
 /// Leaves every node what it is.
-struct Nothing;
+struct CopyAll;
 
-impl Replace for Nothing {
-    fn begin(&mut self, _: &mut Builder<'_>) {}
+impl Replace for CopyAll {
+    fn add_prologue(&mut self, _: &mut Builder<'_>) {}
 
-    fn node(&mut self, _: &mut Builder<'_>, _: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
+    fn replace_node(&mut self, _: &mut Builder<'_>, _: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
         None
     }
 }
 
 /// Rebuilds a kernel, with its effects: unused nodes, unused carried values and unused components of texels vanish, and the pass's rules
 /// apply.
-pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
-    rebuild_replacing(old, pass, &mut Nothing)
+pub fn rebuild_graph(old: &Graph, pass: &Rebuild<'_>) -> Graph {
+    rebuild_replacing(old, pass, &mut CopyAll)
 }
 
-/// As [`rebuild`], with other nodes in the place of some.
+/// As [`rebuild_graph`], with other nodes in the place of some.
 pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Replace) -> Graph {
-    let live = Liveness::of(old);
+    let live = Liveness::from_graph(old);
     let mut builder = Builder::new(pass.rules);
     builder.reserve(old.nodes.len());
     copy_tables(old, builder.graph_mut());
     for (texture, components) in builder.graph_mut().textures.iter_mut().zip(components_read(old, &live)) {
         texture.components = components.min(texture.components);
     }
-    replace.begin(&mut builder);
-    let mut walk = Walk {
+    replace.add_prologue(&mut builder);
+    let mut walk = Rebuilder {
         old,
         live,
         builder,
@@ -88,7 +88,7 @@ pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Repl
     };
     walk.new_regions[0] = Some(Graph::BODY);
     let mut events = old.events.iter().peekable();
-    for id in old.ids() {
+    for id in old.node_ids() {
         while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
             walk.event(*event, replace);
         }
@@ -119,7 +119,7 @@ pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.invocation = old.invocation;
 }
 
-struct Walk<'g, 'r> {
+struct Rebuilder<'g, 'r> {
     old: &'g Graph,
     live: Liveness,
     builder: Builder<'r>,
@@ -129,7 +129,7 @@ struct Walk<'g, 'r> {
     args: Vec<NodeId>,
 }
 
-impl Walk<'_, '_> {
+impl Rebuilder<'_, '_> {
     fn new_id(&self, old: NodeId) -> NodeId {
         self.new_ids[old.0 as usize].expect("arguments are built before their users")
     }
@@ -144,8 +144,11 @@ impl Walk<'_, '_> {
     }
 
     fn open(&mut self, region: RegionId, replace: &dyn Replace) {
-        let params = self.live.kept(region, &self.old.region(region).params, true);
-        let types: Vec<_> = params.iter().map(|p| replace.ty(*p, self.old.ty(*p))).collect();
+        let params = self.live.keep_used(region, &self.old.region(region).params, true);
+        let types: Vec<_> = params
+            .iter()
+            .map(|p| replace.replace_type(*p, self.old.ty(*p)))
+            .collect();
         let new = self.builder.open_region(&types);
         self.new_regions[region.0 as usize] = Some(new);
         let made = self.builder.graph().region(new).params.clone();
@@ -155,7 +158,7 @@ impl Walk<'_, '_> {
     }
 
     /// Positions of the results of a region that are used, of `count` values of which the first `before` are none.
-    fn places(&self, region: RegionId, count: usize, before: usize) -> Vec<usize> {
+    fn used_positions(&self, region: RegionId, count: usize, before: usize) -> Vec<usize> {
         let used = &self.live.results[region.0 as usize];
         (0..count - before).filter(|k| used[*k]).collect()
     }
@@ -164,11 +167,11 @@ impl Walk<'_, '_> {
     fn set_results(&mut self, owner: NodeId, replace: &mut dyn Replace) {
         for region in self.old.regions_of(owner) {
             let results: Vec<NodeId> = self
-                .places(region, self.old.region(region).results.len(), 0)
+                .used_positions(region, self.old.region(region).results.len(), 0)
                 .into_iter()
                 .map(|k| {
                     let old = self.old.region(region).results[k];
-                    let passed = replace.passed(&mut self.builder, region, k, old, &self.new_ids);
+                    let passed = replace.replace_passed(&mut self.builder, region, k, old, &self.new_ids);
                     passed.unwrap_or_else(|| self.new_id(old))
                 })
                 .collect();
@@ -184,7 +187,7 @@ impl Walk<'_, '_> {
         if !self.live.nodes[id.0 as usize] || self.new_ids[id.0 as usize].is_some() {
             return;
         }
-        if let Some(new) = replace.node(&mut self.builder, id, &self.new_ids) {
+        if let Some(new) = replace.replace_node(&mut self.builder, id, &self.new_ids) {
             return self.take_over(id, new);
         }
         self.set_results(id, replace);
@@ -195,12 +198,12 @@ impl Walk<'_, '_> {
         let (op, args): (Op, &[NodeId]) = match &node.op {
             Op::Loop(body) => {
                 for old in &node.args[..2] {
-                    let bound = replace.bound(&mut self.builder, *body, *old, &self.new_ids);
+                    let bound = replace.replace_bound(&mut self.builder, *body, *old, &self.new_ids);
                     carried.push(bound.unwrap_or_else(|| self.new_id(*old)));
                 }
-                for k in self.places(*body, node.args.len(), 2) {
+                for k in self.used_positions(*body, node.args.len(), 2) {
                     let old = node.args[k + 2];
-                    let passed = replace.passed(&mut self.builder, *body, k, old, &self.new_ids);
+                    let passed = replace.replace_passed(&mut self.builder, *body, k, old, &self.new_ids);
                     carried.push(passed.unwrap_or_else(|| self.new_id(old)));
                 }
                 (Op::Loop(region(body)), &[])
@@ -217,7 +220,7 @@ impl Walk<'_, '_> {
                     .count();
                 (Op::Result(k - gone as u32), &node.args)
             }
-            read if share_loads && read.is_read() => (read.clone().shared(), &node.args),
+            read if share_loads && read.is_read() => (read.clone().without_site(), &node.args),
             other => (other.clone(), &node.args),
         };
         let mut new_args = std::mem::take(&mut self.args);
@@ -227,9 +230,9 @@ impl Walk<'_, '_> {
         let args = new_args.as_slice();
         let ty = match (&op, op.texture()) {
             (Op::Load { .. } | Op::Sample { .. }, Some(texture)) => {
-                self.builder.graph().textures[texture as usize].texel()
+                self.builder.graph().textures[texture as usize].texel_type()
             }
-            (Op::Result(_), _) => replace.ty(id, node.ty),
+            (Op::Result(_), _) => replace.replace_type(id, node.ty),
             _ => node.ty,
         };
         let new = match op {
@@ -237,10 +240,10 @@ impl Walk<'_, '_> {
                 // An effect whose condition is never true is dropped; its value is 0.
                 let never = args
                     .first()
-                    .and_then(|id| self.builder.graph().constant(*id))
+                    .and_then(|id| self.builder.graph().constant_bits(*id))
                     .is_some_and(|bits| bits[0] == 0);
                 match (never, ty) {
-                    (false, _) => self.builder.effect(effect, args.to_vec(), ty),
+                    (false, _) => self.builder.add_effect(effect, args.to_vec(), ty),
                     (true, Type::Results) => return,
                     (true, _) => self.builder.constant(ty, [0; 4]),
                 }
@@ -275,7 +278,7 @@ fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
         }
     };
     const ALL: u8 = 4;
-    for id in graph.ids().filter(|id| live.nodes[id.0 as usize]) {
+    for id in graph.node_ids().filter(|id| live.nodes[id.0 as usize]) {
         let node = graph.node(id);
         match node.op {
             Op::Extract(lane) => use_of(node.args[0], lane + 1),
@@ -284,9 +287,9 @@ fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
     }
     graph.outputs().iter().for_each(|id| use_of(*id, ALL));
     for region in &graph.regions {
-        region.leaving().for_each(|id| use_of(id, ALL));
+        region.yielded_values().for_each(|id| use_of(id, ALL));
     }
-    for id in graph.ids().filter(|id| live.nodes[id.0 as usize]) {
+    for id in graph.node_ids().filter(|id| live.nodes[id.0 as usize]) {
         if let Op::Gather { texture, component, .. } = graph.node(id).op {
             most[texture as usize] = most[texture as usize].max(component + 1);
         }
@@ -303,7 +306,7 @@ struct Liveness {
 }
 
 impl Liveness {
-    fn of(graph: &Graph) -> Liveness {
+    fn from_graph(graph: &Graph) -> Liveness {
         let mut live = Liveness {
             nodes: vec![false; graph.nodes.len()],
             regions: vec![false; graph.regions.len()],
@@ -312,7 +315,7 @@ impl Liveness {
         live.regions[0] = true;
         let happens = |region: &Region| -> Vec<NodeId> {
             let all = region.effects.iter().copied();
-            all.filter(|id| !graph.node(*id).op.only_looks()).collect()
+            all.filter(|id| !graph.node(*id).op.is_removable_effect()).collect()
         };
         let mut pending = [graph.outputs(), &happens(&graph.regions[0])].concat();
         while let Some(id) = pending.pop() {
@@ -336,11 +339,11 @@ impl Liveness {
                 }
                 Op::Result(k) => {
                     pending.push(node.args[0]);
-                    live.leaves(graph, node.args[0], k as usize, &mut pending);
+                    live.mark_result(graph, node.args[0], k as usize, &mut pending);
                 }
                 Op::Param(region, k) if k > 0 => {
-                    let owner = graph.ids().find(|id| graph.node(*id).op == Op::Loop(region));
-                    live.leaves(
+                    let owner = graph.node_ids().find(|id| graph.node(*id).op == Op::Loop(region));
+                    live.mark_result(
                         graph,
                         owner.expect("a region with parameters is a loop's"),
                         k as usize - 1,
@@ -354,7 +357,7 @@ impl Liveness {
     }
 
     /// Result `k` of `owner` is used: so are what computes it and, in a loop, its first value.
-    fn leaves(&mut self, graph: &Graph, owner: NodeId, k: usize, pending: &mut Vec<NodeId>) {
+    fn mark_result(&mut self, graph: &Graph, owner: NodeId, k: usize, pending: &mut Vec<NodeId>) {
         for region in graph.regions_of(owner) {
             if !std::mem::replace(&mut self.results[region.0 as usize][k], true) {
                 let entry = graph.region(region);
@@ -369,7 +372,7 @@ impl Liveness {
 
     /// Filters values that correspond to a region's results: keeps those whose result is used. With `counter` the first value corresponds
     /// to none and is kept.
-    fn kept(&self, region: RegionId, values: &[NodeId], counter: bool) -> Vec<NodeId> {
+    fn keep_used(&self, region: RegionId, values: &[NodeId], counter: bool) -> Vec<NodeId> {
         let skip = usize::from(counter && !values.is_empty());
         let used = self.results[region.0 as usize].iter();
         let rest = values[skip..]

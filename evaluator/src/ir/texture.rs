@@ -37,7 +37,7 @@ impl TextureKind {
     ];
 
     /// The word for it in the text of a graph.
-    pub fn word(self) -> &'static str {
+    pub fn ir_name(self) -> &'static str {
         let found = TextureKind::ALL.iter().find(|(kind, _)| *kind == self);
         found.expect("every kind is listed").1
     }
@@ -76,19 +76,19 @@ impl TextureKind {
     }
 
     /// Components of a size and of a texel's coordinate, without a layer.
-    pub fn dimensions(self) -> u8 {
+    pub fn dimension_count(self) -> u8 {
         if self == TextureKind::Volume { 3 } else { 2 }
     }
 
     /// A place that a sampler reads at: two or three floats.
-    pub fn place(self) -> Type {
+    pub fn position_type(self) -> Type {
         let three = self.is_cube() || self == TextureKind::Volume;
         Type::value(Scalar::F32, if three { 3 } else { 2 })
     }
 
     /// A texel's coordinate, and a size, as the graph has them.
-    pub fn coordinate(self) -> Type {
-        Type::value(Scalar::I32, self.dimensions())
+    pub fn coordinate_type(self) -> Type {
+        Type::value(Scalar::I32, self.dimension_count())
     }
 }
 
@@ -111,7 +111,7 @@ pub struct Texture {
 
 impl Texture {
     /// A texel as the kernel has it.
-    pub fn texel(&self) -> Type {
+    pub fn texel_type(&self) -> Type {
         Type::value(self.scalar, self.components)
     }
 

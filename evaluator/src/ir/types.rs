@@ -76,7 +76,7 @@ impl Type {
     }
 
     /// Kind of the components; `None` for `Results`.
-    pub fn kind(self) -> Option<Scalar> {
+    pub fn scalar_kind(self) -> Option<Scalar> {
         match self {
             Type::Value { scalar, .. } | Type::Array { scalar, .. } => Some(scalar),
             Type::Results => None,
@@ -84,7 +84,7 @@ impl Type {
     }
 
     /// Bits of a value or of an array's element; 0 for `Results`.
-    pub fn components(self) -> u8 {
+    pub fn component_count(self) -> u8 {
         match self {
             Type::Value { components, .. } | Type::Array { components, .. } => components,
             Type::Results => 0,
@@ -105,7 +105,7 @@ impl Type {
     }
 
     /// The element of an array; a value is its own element.
-    pub fn element(self) -> Type {
+    pub fn element_type(self) -> Type {
         match self {
             Type::Array { scalar, components, .. } => Type::Value { scalar, components },
             other => other,
@@ -113,7 +113,7 @@ impl Type {
     }
 
     /// Scalars or vectors that it is made of: elements of an array; 1 of a value.
-    pub fn parts(self) -> u32 {
+    pub fn part_count(self) -> u32 {
         match self {
             Type::Array { len, .. } => len,
             _ => 1,
@@ -121,8 +121,8 @@ impl Type {
     }
 
     /// Alignment and size in bytes as WGSL and GLSL's std430 have them in memory.
-    pub fn layout(self) -> (u32, u32) {
-        let (alignment, size) = match self.components() {
+    pub fn memory_layout(self) -> (u32, u32) {
+        let (alignment, size) = match self.component_count() {
             1 => (4, 4),
             2 => (8, 8),
             3 => (16, 12),
@@ -146,12 +146,12 @@ impl Type {
 
     /// Returns whether the components are integers.
     pub fn is_integer(self) -> bool {
-        matches!(self.kind(), Some(Scalar::I32 | Scalar::U32 | Scalar::Usize))
+        matches!(self.scalar_kind(), Some(Scalar::I32 | Scalar::U32 | Scalar::Usize))
     }
 
     /// Returns whether the components are floats.
     pub fn is_float(self) -> bool {
-        self.kind() == Some(Scalar::F32)
+        self.scalar_kind() == Some(Scalar::F32)
     }
 }
 
@@ -170,7 +170,7 @@ impl Type {
                 };
                 format!("{prefix}Vec{components}")
             }
-            Type::Array { len, .. } => format!("[{}; {len}]", self.element().in_rust()),
+            Type::Array { len, .. } => format!("[{}; {len}]", self.element_type().in_rust()),
             Type::Results => "nothing".to_owned(),
         }
     }
@@ -193,7 +193,7 @@ impl fmt::Display for Type {
         match self {
             Type::Value { scalar, components: 1 } => write!(f, "{scalar}"),
             Type::Value { scalar, components } => write!(f, "vec{components}<{scalar}>"),
-            Type::Array { len, .. } => write!(f, "array<{}, {len}>", self.element()),
+            Type::Array { len, .. } => write!(f, "array<{}, {len}>", self.element_type()),
             Type::Results => f.write_str("results"),
         }
     }

@@ -24,29 +24,29 @@ use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Type, Una
 use std::collections::HashMap;
 
 /// Checks a graph; the message names the node that breaks a rule.
-pub fn verify(graph: &Graph) -> Result<(), String> {
-    results(graph)?;
-    regions(graph)?;
-    shared(graph)?;
-    effects(graph)?;
+pub fn verify_graph(graph: &Graph) -> Result<(), String> {
+    check_results(graph)?;
+    check_regions(graph)?;
+    check_shared(graph)?;
+    check_effects(graph)?;
     let mut types = Vec::new();
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         let node = graph.node(id);
         if node.args.iter().any(|arg| *arg >= id) {
             return Err(format!("%{}: an argument is made after its user", id.0));
         }
-        check(graph, id, &mut types).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
+        check_node(graph, id, &mut types).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
     }
-    scopes(graph)
+    check_scopes(graph)
 }
 
 /// Rule 5.
-fn results(graph: &Graph) -> Result<(), String> {
+fn check_results(graph: &Graph) -> Result<(), String> {
     let outputs = &graph.regions.first().ok_or("no body")?.results;
-    let [width, height] = graph.invocation.pixels();
-    for (k, target) in graph.pictures().enumerate() {
+    let [width, height] = graph.invocation.block_size();
+    for (k, target) in graph.written_targets().enumerate() {
         let numbers = matches!(target.ty, Type::Value { scalar, components: lanes } if scalar != Scalar::Bool && (1..=4).contains(&lanes));
-        if !numbers || graph.pictures().take(k).any(|other| other.name == target.name) {
+        if !numbers || graph.written_targets().take(k).any(|other| other.name == target.name) {
             return Err(format!(
                 "the target {} is of no numbers, or there are two of it",
                 target.name
@@ -69,7 +69,7 @@ fn results(graph: &Graph) -> Result<(), String> {
 }
 
 /// Rule 7, but for operations.
-fn shared(graph: &Graph) -> Result<(), String> {
+fn check_shared(graph: &Graph) -> Result<(), String> {
     let wrong = graph.shared.iter().find(|shared| {
         let numbers = matches!(shared.element, Type::Value { scalar, .. } if scalar != Scalar::Bool);
         let atomic = matches!(shared.element, Type::I32 | Type::U32);
@@ -82,7 +82,7 @@ fn shared(graph: &Graph) -> Result<(), String> {
 }
 
 /// Rule 8, but for where values are used.
-fn effects(graph: &Graph) -> Result<(), String> {
+fn check_effects(graph: &Graph) -> Result<(), String> {
     let mut of: Vec<Option<RegionId>> = vec![None; graph.nodes.len()];
     for (k, region) in graph.regions.iter().enumerate() {
         let known = region.effects.iter().all(|id| (id.0 as usize) < graph.nodes.len());
@@ -96,8 +96,8 @@ fn effects(graph: &Graph) -> Result<(), String> {
         }
     }
     let alone = matches!(graph.invocation, Invocation::Pixel | Invocation::Group(_));
-    let live = live(graph);
-    for id in graph.ids() {
+    let live = live_nodes(graph);
+    for id in graph.node_ids() {
         let op = &graph.node(id).op;
         let within = graph.regions_of(id);
         let has = |region: &RegionId| !graph.region(*region).effects.is_empty();
@@ -125,14 +125,14 @@ fn effects(graph: &Graph) -> Result<(), String> {
 }
 
 /// By node, whether results or effects depend on it.
-fn live(graph: &Graph) -> Vec<bool> {
+fn live_nodes(graph: &Graph) -> Vec<bool> {
     let mut live = vec![false; graph.nodes.len()];
     let mut pending: Vec<NodeId> = [graph.outputs(), &graph.regions[0].effects].concat();
     while let Some(id) = pending.pop() {
         if !std::mem::replace(&mut live[id.0 as usize], true) {
             pending.extend(&graph.node(id).args);
             for region in graph.regions_of(id) {
-                pending.extend(graph.region(region).leaving());
+                pending.extend(graph.region(region).yielded_values());
                 pending.extend(&graph.region(region).effects);
             }
         }
@@ -141,9 +141,9 @@ fn live(graph: &Graph) -> Vec<bool> {
 }
 
 /// Rules 1 and 3, as far as they are of regions.
-fn regions(graph: &Graph) -> Result<(), String> {
+fn check_regions(graph: &Graph) -> Result<(), String> {
     let mut owners = vec![0; graph.regions.len()];
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         for region in graph.regions_of(id) {
             let Some(owned) = owners.get_mut(region.0 as usize) else {
                 return Err(format!("%{}: no such region", id.0));
@@ -154,7 +154,7 @@ fn regions(graph: &Graph) -> Result<(), String> {
                 .params
                 .iter()
                 .copied()
-                .chain(region.leaving())
+                .chain(region.yielded_values())
                 .any(|inner| inner >= id)
             {
                 return Err(format!("%{}: a parameter or result is made after its user", id.0));
@@ -179,7 +179,7 @@ fn regions(graph: &Graph) -> Result<(), String> {
     Ok(())
 }
 
-fn expect(holds: bool, what: &str, types: &[Type]) -> Result<(), String> {
+fn expect_types(holds: bool, what: &str, types: &[Type]) -> Result<(), String> {
     match holds {
         true => Ok(()),
         false => Err(format!("{what}, got {types:?}")),
@@ -187,12 +187,12 @@ fn expect(holds: bool, what: &str, types: &[Type]) -> Result<(), String> {
 }
 
 /// `types` is room for the types of the arguments.
-fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String> {
+fn check_node(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String> {
     let node = graph.node(id);
     types.clear();
     types.extend(node.args.iter().map(|a| graph.ty(*a)));
     let types = types.as_slice();
-    let expect = |holds: bool, what: &str| expect(holds, what, types);
+    let expect = |holds: bool, what: &str| expect_types(holds, what, types);
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
     let shaped = match node.ty {
         Type::Value { components: lanes, .. } => (1..=4).contains(&lanes),
@@ -207,7 +207,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         Op::Const(bits) => {
             count(0)?;
             expect(value, "a constant is a scalar or a vector")?;
-            let boolean = node.ty.kind() == Some(Scalar::Bool);
+            let boolean = node.ty.scalar_kind() == Some(Scalar::Bool);
             expect(!boolean || bits.iter().all(|bit| *bit <= 1), "a boolean is 0 or 1")
         }
         Op::Param(region, k) => {
@@ -222,7 +222,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
                 "a counter is an i32 or a u32",
             )
         }
-        Op::Unused => {
+        Op::Undef => {
             count(0)?;
             expect(value, "a scalar or a vector")
         }
@@ -259,10 +259,10 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
                 "floats of the varying's type",
             )
         }
-        Op::Message(_) | Op::Derivative(_) => {
+        Op::QuadSwap(_) | Op::Derivative(_) => {
             count(1)?;
             expect(graph.invocation == Invocation::Lane, "the invocation is no lane")?;
-            let floats = matches!(node.op, Op::Message(_)) || node.ty.is_float();
+            let floats = matches!(node.op, Op::QuadSwap(_)) || node.ty.is_float();
             expect(
                 types[0] == node.ty && !node.ty.is_array() && floats,
                 "a scalar or vector, of floats for a derivative",
@@ -287,7 +287,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
             count(1)?;
             expect(types[0] == node.ty, "type of argument and result differ")?;
             expect(
-                value && node.ty.kind().is_some_and(|kind| takes(*op, kind)),
+                value && node.ty.scalar_kind().is_some_and(|kind| is_defined_for(*op, kind)),
                 "an operation that the type does not have",
             )
         }
@@ -311,7 +311,10 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
                 op,
                 BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Eq | BinaryOp::Ne
             );
-            expect(logic || types[0].kind() != Some(Scalar::Bool), "arithmetic on booleans")?;
+            expect(
+                logic || types[0].scalar_kind() != Some(Scalar::Bool),
+                "arithmetic on booleans",
+            )?;
             expect(value, "arithmetic on arrays")
         }
         Op::Dot => {
@@ -332,7 +335,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         Op::Clamp => {
             count(3)?;
             expect(types.iter().all(|t| *t == node.ty), "all of one type")?;
-            expect(value && node.ty.kind() != Some(Scalar::Bool), "numbers")
+            expect(value && node.ty.scalar_kind() != Some(Scalar::Bool), "numbers")
         }
         Op::Select => {
             count(3)?;
@@ -344,38 +347,43 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         Op::Splat => {
             count(1)?;
             expect(
-                types[0].is_scalar() && types[0].kind() == node.ty.kind() && value && !node.ty.is_scalar(),
+                types[0].is_scalar()
+                    && types[0].scalar_kind() == node.ty.scalar_kind()
+                    && value
+                    && !node.ty.is_scalar(),
                 "a scalar of the vector's kind",
             )
         }
         Op::Compose => {
-            count(node.ty.components() as usize)?;
+            count(node.ty.component_count() as usize)?;
             expect(value && !node.ty.is_scalar(), "a vector")?;
             expect(
-                types.iter().all(|t| t.is_scalar() && t.kind() == node.ty.kind()),
+                types
+                    .iter()
+                    .all(|t| t.is_scalar() && t.scalar_kind() == node.ty.scalar_kind()),
                 "a scalar for each lane",
             )
         }
         Op::Extract(lane) => {
             count(1)?;
             expect(
-                *lane < types[0].components()
+                *lane < types[0].component_count()
                     && !types[0].is_array()
                     && !types[0].is_scalar()
                     && node.ty.is_scalar()
-                    && node.ty.kind() == types[0].kind(),
+                    && node.ty.scalar_kind() == types[0].scalar_kind(),
                 "a lane of a vector",
             )
         }
         Op::Convert => {
             count(1)?;
-            let alike = types[0].components() == node.ty.components() && !types[0].is_array() && value;
+            let alike = types[0].component_count() == node.ty.component_count() && !types[0].is_array() && value;
             expect(alike, "as many lanes as before")
         }
         Op::Bitcast => {
             count(1)?;
-            let number = |t: Type| t.kind() != Some(Scalar::Bool);
-            let alike = types[0].components() == node.ty.components() && number(types[0]) && number(node.ty);
+            let number = |t: Type| t.scalar_kind() != Some(Scalar::Bool);
+            let alike = types[0].component_count() == node.ty.component_count() && number(types[0]) && number(node.ty);
             expect(alike && !types[0].is_array() && value, "numbers of as many lanes")
         }
 
@@ -384,22 +392,25 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
                 return Err("not an array".to_owned());
             };
             count(len as usize)?;
-            expect(types.iter().all(|t| *t == node.ty.element()), "elements of one type")
+            expect(
+                types.iter().all(|t| *t == node.ty.element_type()),
+                "elements of one type",
+            )
         }
         Op::ArrayGet => {
             count(2)?;
             expect(
-                types[0].is_array() && types[1] == Type::I32 && node.ty == types[0].element(),
+                types[0].is_array() && types[1] == Type::I32 && node.ty == types[0].element_type(),
                 "an array and an index",
             )
         }
         Op::ArraySet => {
             count(3)?;
-            let fits = types[0].is_array() && types[1] == Type::I32 && types[2] == types[0].element();
+            let fits = types[0].is_array() && types[1] == Type::I32 && types[2] == types[0].element_type();
             expect(fits && node.ty == types[0], "an array, an index and an element")
         }
         Op::Loop(body) => {
-            let body = region(graph, *body)?;
+            let body = find_region(graph, *body)?;
             expect(
                 node.ty == Type::Results && !body.params.is_empty(),
                 "results, of a region with a counter",
@@ -421,7 +432,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         }
         Op::If(then, otherwise) => {
             count(1)?;
-            let sides = [region(graph, *then)?, region(graph, *otherwise)?];
+            let sides = [find_region(graph, *then)?, find_region(graph, *otherwise)?];
             let bare = sides.iter().all(|side| side.params.is_empty() && side.stop.is_none());
             expect(
                 node.ty == Type::Results && bare,
@@ -455,12 +466,12 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         | Op::Atomic { .. }
         | Op::Store(_)
         | Op::SharedLoad(_)
-        | Op::Barrier { .. } => resources::check(graph, node, types),
+        | Op::Barrier { .. } => resources::check_resource_op(graph, node, types),
     }
 }
 
 /// Returns whether an operation exists for a kind of numbers.
-fn takes(op: UnaryOp, kind: Scalar) -> bool {
+fn is_defined_for(op: UnaryOp, kind: Scalar) -> bool {
     use UnaryOp::*;
     match op {
         Not => kind == Scalar::Bool,
@@ -471,7 +482,7 @@ fn takes(op: UnaryOp, kind: Scalar) -> bool {
     }
 }
 
-fn region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {
+fn find_region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {
     graph
         .regions
         .get(id.0 as usize)
@@ -479,7 +490,7 @@ fn region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {
 }
 
 /// Rule 4: what depends on a parameter is used where the parameter is known.
-fn scopes(graph: &Graph) -> Result<(), String> {
+fn check_scopes(graph: &Graph) -> Result<(), String> {
     let inside = |mut at: RegionId, outer: RegionId| loop {
         if at == outer {
             return true;
@@ -495,7 +506,7 @@ fn scopes(graph: &Graph) -> Result<(), String> {
         happens.extend(effects.map(|id| (*id, RegionId(k as u32))));
     }
     let mut needs: Vec<RegionId> = Vec::with_capacity(graph.nodes.len());
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         let node = graph.node(id);
         let mut need = match node.op {
             Op::Param(region, _) => region,
@@ -514,7 +525,7 @@ fn scopes(graph: &Graph) -> Result<(), String> {
         }
         for region in graph.regions_of(id) {
             let parent = graph.region(region).parent.unwrap_or(Graph::BODY);
-            for result in graph.region(region).leaving() {
+            for result in graph.region(region).yielded_values() {
                 if !inside(region, needs[result.0 as usize]) {
                     return Err(format!("%{}: a result depends on a region outside", id.0));
                 }

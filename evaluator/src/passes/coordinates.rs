@@ -3,7 +3,9 @@
 //! File tests: `evaluator/tests/filetests/passes/coordinates`.
 
 use super::fold::Exact;
-use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild};
+use crate::ir::{
+    BinaryOp, Builder, Graph, Invocation, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild_graph,
+};
 use std::collections::BTreeSet;
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
@@ -18,15 +20,18 @@ const MAX_STEP: i32 = 1 << 30;
 /// Comes behind every pass that looks for coordinates as vectors.
 pub fn by_component(graph: &Graph) -> Graph {
     let found: Vec<Neighbour> = graph
-        .ids()
+        .node_ids()
         .filter(|id| is_read(&graph.node(*id).op))
-        .filter_map(|id| Neighbour::of(graph, graph.node(id).args[0]))
+        .filter_map(|id| Neighbour::from_node(graph, graph.node(id).args[0]))
         .collect();
     // Of each distinct coordinate and of each distinct component; a vector's operation is one for each component.
     let whole: BTreeSet<_> = found.iter().collect();
-    let parts: BTreeSet<_> = found.iter().flat_map(|at| [0, 1].map(|axis| at.part(axis))).collect();
-    let together: usize = whole.iter().map(|at| 2 * at.operations()).sum();
-    let apart: usize = parts.iter().map(Part::operations).sum();
+    let parts: BTreeSet<_> = found
+        .iter()
+        .flat_map(|at| [0, 1].map(|axis| at.axis_part(axis)))
+        .collect();
+    let together: usize = whole.iter().map(|at| 2 * at.operation_count()).sum();
+    let apart: usize = parts.iter().map(Part::operation_count).sum();
     if apart >= together {
         return graph.clone();
     }
@@ -34,7 +39,7 @@ pub fn by_component(graph: &Graph) -> Graph {
         rules: &ByComponent,
         share_loads: false,
     };
-    rebuild(graph, &pass)
+    rebuild_graph(graph, &pass)
 }
 
 fn is_read(op: &Op) -> bool {
@@ -65,12 +70,12 @@ struct Part {
 }
 
 impl Neighbour {
-    fn of(g: &Graph, id: NodeId) -> Option<Neighbour> {
+    fn from_node(g: &Graph, id: NodeId) -> Option<Neighbour> {
         let node = g.node(id);
         if node.ty != PAIR {
             return None;
         }
-        let is_zero = |id: NodeId| g.constant(id).is_some_and(|bits| bits[..2] == [0, 0]);
+        let is_zero = |id: NodeId| g.constant_bits(id).is_some_and(|bits| bits[..2] == [0, 0]);
         let (moved, from_zero, last) = match (&node.op, &node.args[..]) {
             (Op::Clamp, [moved, low, last]) if is_zero(*low) => (*moved, true, Some(*last)),
             (Op::Binary(BinaryOp::Max), [moved, low]) if is_zero(*low) => (*moved, true, None),
@@ -78,11 +83,11 @@ impl Neighbour {
             _ => return None,
         };
         let size = match last {
-            Some(last) => Some(size(g, last)?),
+            Some(last) => Some(size_op(g, last)?),
             None => None,
         };
         let node = g.node(moved);
-        let constant = |id: NodeId| g.constant(id).map(|bits| [bits[0] as i32, bits[1] as i32]);
+        let constant = |id: NodeId| g.constant_bits(id).map(|bits| [bits[0] as i32, bits[1] as i32]);
         let (pixel, step) = match (&node.op, &node.args[..]) {
             (Op::Pixel, _) => (moved, [0, 0]),
             (Op::Binary(BinaryOp::Add), [a, b]) => match (constant(*a), constant(*b)) {
@@ -103,7 +108,7 @@ impl Neighbour {
     }
 
     /// A component, brought inside on the sides on which it may lie outside. A pixel never lies before the first.
-    fn part(&self, axis: u8) -> Part {
+    fn axis_part(&self, axis: u8) -> Part {
         let step = self.step[usize::from(axis)];
         Part {
             pixel: self.pixel,
@@ -114,16 +119,16 @@ impl Neighbour {
         }
     }
 
-    fn operations(&self) -> usize {
+    fn operation_count(&self) -> usize {
         let moves = usize::from(self.step != [0, 0]);
         moves + usize::from(self.last.is_some()) + usize::from(self.from_zero)
     }
 }
 
 /// The size of which `last` is the largest coordinate.
-fn size(g: &Graph, last: NodeId) -> Option<Op> {
+fn size_op(g: &Graph, last: NodeId) -> Option<Op> {
     let node = g.node(last);
-    let is_one = |id: NodeId| g.constant(id).is_some_and(|bits| bits[..2] == [1, 1]);
+    let is_one = |id: NodeId| g.constant_bits(id).is_some_and(|bits| bits[..2] == [1, 1]);
     match (&node.op, &node.args[..]) {
         (Op::Binary(BinaryOp::Sub), [size, one]) if is_one(*one) => match &g.node(*size).op {
             size @ (Op::FrameSize | Op::TextureSize(_)) => Some(size.clone()),
@@ -134,11 +139,11 @@ fn size(g: &Graph, last: NodeId) -> Option<Op> {
 }
 
 impl Part {
-    fn operations(&self) -> usize {
+    fn operation_count(&self) -> usize {
         usize::from(self.step != 0) + usize::from(self.last.is_some()) + usize::from(self.from_zero)
     }
 
-    fn made(&self, b: &mut Builder<'_>, like: NodeId) -> NodeId {
+    fn build_part(&self, b: &mut Builder<'_>, like: NodeId) -> NodeId {
         let mut at = b.add(Op::Extract(self.axis), [self.pixel], Type::I32);
         if self.step != 0 {
             let step = b.i32(self.step);
@@ -152,11 +157,11 @@ impl Part {
             let last = b.add(Op::Extract(self.axis), [last], Type::I32);
             at = b.add(Op::Binary(BinaryOp::Min), [at, last], Type::I32);
         }
-        if self.operations() > 1
+        if self.operation_count() > 1
             && let Some(origin) = b.graph().origin(like).cloned()
         {
             let origin = Origin {
-                name: self.name().into(),
+                name: self.step_name().into(),
                 counters: [].into(),
                 ..origin
             };
@@ -166,7 +171,7 @@ impl Part {
     }
 
     /// Name for the column or row, with the distance from the second on.
-    fn name(&self) -> String {
+    fn step_name(&self) -> String {
         let side = match (self.axis, self.step) {
             (0, 0) => "column",
             (_, 0) => "row",
@@ -189,8 +194,8 @@ impl Rules for ByComponent {
         if !is_read(op) {
             return Exact.simplify(b, op, args, ty);
         }
-        let at = Neighbour::of(b.graph(), args[0])?;
-        let parts = [0, 1].map(|axis| at.part(axis).made(b, args[0]));
+        let at = Neighbour::from_node(b.graph(), args[0])?;
+        let parts = [0, 1].map(|axis| at.axis_part(axis).build_part(b, args[0]));
         let coordinate = b.add(Op::Compose, parts, PAIR);
         if let Some(origin) = b.graph().origin(args[0]).cloned() {
             b.set_origin(coordinate, &origin);

@@ -2,7 +2,7 @@
 
 use super::ranges;
 use super::schedule::{Block, Schedule, Step};
-use crate::ir::{Graph, Memory, NodeId, Op, Shared, Type};
+use crate::ir::{Graph, Memory, NodeId, Op, SharedArray, Type};
 use std::collections::BTreeMap;
 use straightline_manifest::Counts;
 
@@ -11,13 +11,13 @@ const FILTERED: &str = "color";
 
 /// Counts what one invocation executes; a loop whose trip count is a runtime value counts as one iteration.
 /// `statements` and `max_live` are known only once text is emitted and are left 0.
-pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
+pub fn count_operations(graph: &Graph, schedule: &Schedule) -> Counts {
     let run = Counter { graph }.block(&schedule.body);
     let reads: BTreeMap<String, u32> = run.reads;
     let colour_reads = reads.get(FILTERED).copied().unwrap_or(0);
     Counts {
         basic_blocks: basic_blocks(graph, &schedule.body),
-        loops: loops(&schedule.body),
+        loops: count_loops(&schedule.body),
         texture_reads: reads
             .values()
             .fold(0, |sum: u32, n| sum.saturating_add(*n))
@@ -40,7 +40,7 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
 }
 
 #[derive(Clone, Default)]
-struct Run {
+struct RunCounts {
     reads: BTreeMap<String, u32>,
     tallies: BTreeMap<String, u32>,
     transcendentals: u32,
@@ -52,8 +52,8 @@ struct Run {
     alu: u32,
 }
 
-impl Run {
-    fn add(&mut self, other: &Run, times: u32) {
+impl RunCounts {
+    fn add(&mut self, other: &RunCounts, times: u32) {
         for (name, n) in &other.reads {
             let slot = self.reads.entry(name.clone()).or_default();
             *slot = slot.saturating_add(n.saturating_mul(times));
@@ -76,7 +76,7 @@ impl Run {
     }
 
     /// Of two alternatives, the larger in each figure.
-    fn max(mut self, other: Run) -> Run {
+    fn max(mut self, other: RunCounts) -> RunCounts {
         for (name, n) in other.reads {
             let slot = self.reads.entry(name).or_default();
             *slot = n.max(*slot);
@@ -101,19 +101,19 @@ struct Counter<'g> {
 }
 
 impl Counter<'_> {
-    fn block(&self, block: &Block) -> Run {
-        let mut run = Run::default();
+    fn block(&self, block: &Block) -> RunCounts {
+        let mut run = RunCounts::default();
         for step in &block.steps {
             match step {
                 Step::Eval(id) => self.node(*id, &mut run),
-                Step::Loop { node, body } => run.add(&self.block(body), trips(self.graph, *node).unwrap_or(1)),
+                Step::Loop { node, body } => run.add(&self.block(body), max_trip_count(self.graph, *node).unwrap_or(1)),
                 Step::If { then, otherwise, .. } => run.add(&self.block(then).max(self.block(otherwise)), 1),
             }
         }
         run
     }
 
-    fn node(&self, id: NodeId, run: &mut Run) {
+    fn node(&self, id: NodeId, run: &mut RunCounts) {
         match &self.graph.node(id).op {
             op if op.is_read() => {
                 let texture = op.texture().map(|t| &self.graph.textures[t as usize].name);
@@ -143,7 +143,7 @@ impl Counter<'_> {
                 ..
             } => {}
             effect if effect.is_effect() => run.writes = run.writes.saturating_add(1),
-            Op::Message(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
+            Op::QuadSwap(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {
                 run.alu = run.alu.saturating_add(1)
             }
@@ -154,13 +154,19 @@ impl Counter<'_> {
 
 /// Bytes of what a workgroup shares and uses.
 fn shared_memory(graph: &Graph, schedule: &Schedule) -> u32 {
-    let live = |id: &NodeId| schedule.has(*id);
+    let live = |id: &NodeId| schedule.has_node(*id);
     let used = |k: usize| {
         let memory = Some(Memory::Shared(k as u32));
-        graph.ids().filter(live).any(|id| graph.node(id).op.memory() == memory)
+        graph
+            .node_ids()
+            .filter(live)
+            .any(|id| graph.node(id).op.memory() == memory)
     };
     let shared = graph.shared.iter().enumerate();
-    let bytes: u64 = shared.filter(|(k, _)| used(*k)).map(|(_, s)| Shared::bytes(s)).sum();
+    let bytes: u64 = shared
+        .filter(|(k, _)| used(*k))
+        .map(|(_, s)| SharedArray::byte_size(s))
+        .sum();
     u32::try_from(bytes).unwrap_or(u32::MAX)
 }
 
@@ -175,12 +181,12 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     if !graph.textures[texture as usize].is_counted() {
         return Some(layers);
     }
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         let node = graph.node(id);
         if matches!(node.op, Op::Load { texture: t, .. } if t == texture)
             && let Some(layer) = node.args.get(1)
         {
-            let (_, largest) = ranges::bounds(graph, *layer).filter(|(_, largest)| *largest < MAX_LAYERS)?;
+            let (_, largest) = ranges::integer_bounds(graph, *layer).filter(|(_, largest)| *largest < MAX_LAYERS)?;
             layers = layers.max(u32::try_from(largest.max(0)).ok()?.checked_add(1)?);
         }
     }
@@ -188,14 +194,14 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
 }
 
 /// Returns the most iterations of a loop, if both bounds are known.
-pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
-    let endless = graph.constant(graph.node(node).args[1]) == Some([Graph::ENDLESS as u32, 0, 0, 0]);
+pub(super) fn max_trip_count(graph: &Graph, node: NodeId) -> Option<u32> {
+    let endless = graph.constant_bits(graph.node(node).args[1]) == Some([Graph::ENDLESS as u32, 0, 0, 0]);
     if endless && graph.region(graph.regions_of(node)[0]).stop.is_some() {
         return None;
     }
     let bound = |arg: usize| {
         let id = graph.node(node).args[arg];
-        let bits = graph.constant(id)?[0];
+        let bits = graph.constant_bits(id)?[0];
         Some(match graph.ty(id) {
             Type::U32 => i64::from(bits),
             _ => i64::from(bits as i32),
@@ -219,11 +225,11 @@ fn basic_blocks(graph: &Graph, block: &Block) -> u32 {
     1 + inner.sum::<u32>()
 }
 
-fn loops(block: &Block) -> u32 {
+fn count_loops(block: &Block) -> u32 {
     let inner = block.steps.iter().map(|step| match step {
         Step::Eval(_) => 0,
-        Step::Loop { body, .. } => 1 + loops(body),
-        Step::If { then, otherwise, .. } => loops(then) + loops(otherwise),
+        Step::Loop { body, .. } => 1 + count_loops(body),
+        Step::If { then, otherwise, .. } => count_loops(then) + count_loops(otherwise),
     });
     inner.sum()
 }

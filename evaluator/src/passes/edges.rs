@@ -17,28 +17,28 @@ pub fn at_constants(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> 
         return None;
     }
     match op {
-        BinaryOp::Div => division(b, args[0], args[1], ty),
-        _ => power(b, args[0], args[1], ty),
+        BinaryOp::Div => fold_division(b, args[0], args[1], ty),
+        _ => fold_power(b, args[0], args[1], ty),
     }
 }
 
 /// `x^0` and `1^y` are 1, of a NaN too; `x^1` is `x`.
-fn power(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeId> {
+fn fold_power(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeId> {
     let all = |id: NodeId, value: f32| {
-        let lanes = usize::from(ty.components());
-        let bits = b.graph().constant(id);
+        let lanes = usize::from(ty.component_count());
+        let bits = b.graph().constant_bits(id);
         bits.is_some_and(|bits| bits[..lanes].iter().all(|lane| f32::from_bits(*lane) == value))
     };
     match (all(x, 1.0) || all(y, 0.0), all(y, 1.0)) {
-        (true, _) => Some(splat(b, 1.0, ty)),
+        (true, _) => Some(splat_constant(b, 1.0, ty)),
         (_, true) => Some(x),
         _ => None,
     }
 }
 
-fn division(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeId> {
+fn fold_division(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeId> {
     let divisor = b.graph().node(y).clone();
-    let lanes = usize::from(ty.components());
+    let lanes = usize::from(ty.component_count());
     match &divisor.op {
         Op::Const(bits) if bits[..lanes].iter().any(|lane| is_edge(*lane)) => {
             if lanes == 1 {
@@ -52,7 +52,7 @@ fn division(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeI
             Some(by_component(b, x, y, ty))
         }
         Op::Compose => {
-            let edge = |id: &NodeId| b.graph().constant(*id).is_some_and(|bits| is_edge(bits[0]));
+            let edge = |id: &NodeId| b.graph().constant_bits(*id).is_some_and(|bits| is_edge(bits[0]));
             divisor.args.iter().any(edge).then(|| by_component(b, x, y, ty))
         }
         Op::Splat => {
@@ -61,7 +61,7 @@ fn division(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeI
             Some(b.add(Op::Binary(BinaryOp::Mul), [x, infinite], ty))
         }
         Op::Binary(BinaryOp::Sub) if divisor.args[0] == divisor.args[1] && lanes > 1 => {
-            let parts = components(b, divisor.args[0], ty).into_iter().map(|part| {
+            let parts = split_components(b, divisor.args[0], ty).into_iter().map(|part| {
                 let nothing = b.add(Op::Binary(BinaryOp::Sub), [part, part], Type::F32);
                 of_nothing(b, nothing)
             });
@@ -124,7 +124,7 @@ fn if_finite(b: &mut Builder<'_>, x: NodeId, value: NodeId) -> NodeId {
 
 /// A quotient of vectors, component by component.
 fn by_component(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> NodeId {
-    let pairs = components(b, x, ty).into_iter().zip(components(b, y, ty));
+    let pairs = split_components(b, x, ty).into_iter().zip(split_components(b, y, ty));
     let pairs: Vec<_> = pairs.collect();
     let parts: Vec<_> = pairs
         .into_iter()
@@ -133,15 +133,15 @@ fn by_component(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> NodeId {
     b.add(Op::Compose, parts, ty)
 }
 
-fn components(b: &mut Builder<'_>, id: NodeId, ty: Type) -> Vec<NodeId> {
+fn split_components(b: &mut Builder<'_>, id: NodeId, ty: Type) -> Vec<NodeId> {
     let part = Type::scalar(Scalar::F32);
-    (0..ty.components())
+    (0..ty.component_count())
         .map(|k| b.add(Op::Extract(k), [id], part))
         .collect()
 }
 
-fn splat(b: &mut Builder<'_>, value: f32, ty: Type) -> NodeId {
-    let lanes = usize::from(ty.components());
+fn splat_constant(b: &mut Builder<'_>, value: f32, ty: Type) -> NodeId {
+    let lanes = usize::from(ty.component_count());
     let bits = std::array::from_fn(|k| if k < lanes { value.to_bits() } else { 0 });
     b.constant(ty, bits)
 }

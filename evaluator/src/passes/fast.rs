@@ -19,8 +19,8 @@ use std::collections::HashMap;
 /// - a constant factor goes into the constants of a sum, a product or a quotient (1 rounding a term; of a sum that cancels, of its
 ///   largest term), where a multiplication and an addition are one step on most GPUs;
 /// - `x + 0` is `x` (a zero may have the other sign).
-pub fn fast(graph: &Graph) -> Graph {
-    let mut rewriting = Fast::of(graph);
+pub fn apply_fast_math(graph: &Graph) -> Graph {
+    let mut rewriting = FastMath::from_graph(graph);
     let pass = Rebuild {
         rules: &Exact,
         share_loads: false,
@@ -33,7 +33,7 @@ type Factor = [f32; 4];
 
 const LOG2_E: Factor = [std::f32::consts::LOG2_E; 4];
 
-struct Fast<'g> {
+struct FastMath<'g> {
     old: &'g Graph,
     /// By node, how often it is used.
     uses: Vec<u32>,
@@ -43,26 +43,26 @@ struct Fast<'g> {
     quotients: HashMap<NodeId, u32>,
 }
 
-impl<'g> Fast<'g> {
-    fn of(old: &'g Graph) -> Fast<'g> {
+impl<'g> FastMath<'g> {
+    fn from_graph(old: &'g Graph) -> FastMath<'g> {
         let mut uses = vec![0; old.nodes.len()];
         let mut exact = vec![false; old.nodes.len()];
-        for id in old.ids().filter(|id| old.node(*id).op == Op::Exact) {
+        for id in old.node_ids().filter(|id| old.node(*id).op == Op::Exact) {
             exact[old.node(id).args[0].0 as usize] = true;
         }
         let mut quotients = HashMap::new();
-        for id in old.ids() {
+        for id in old.node_ids() {
             let node = old.node(id);
             node.args.iter().for_each(|arg| uses[arg.0 as usize] += 1);
-            if let Some((divisor, count)) = divisor(old, id).filter(|_| !exact[id.0 as usize]) {
+            if let Some((divisor, count)) = common_divisor(old, id).filter(|_| !exact[id.0 as usize]) {
                 *quotients.entry(divisor).or_default() += count;
             }
         }
-        let leaving = old.regions.iter().flat_map(|region| region.leaving());
+        let leaving = old.regions.iter().flat_map(|region| region.yielded_values());
         for id in old.outputs().iter().copied().chain(leaving) {
             uses[id.0 as usize] += 1;
         }
-        Fast {
+        FastMath {
             old,
             uses,
             exact,
@@ -70,82 +70,86 @@ impl<'g> Fast<'g> {
         }
     }
 
-    fn constant(&self, id: NodeId) -> Option<Factor> {
-        let bits: Bits = self.old.constant(id)?;
-        (self.old.ty(id).kind() == Some(Scalar::F32)).then(|| bits.map(f32::from_bits))
+    fn constant_factor(&self, id: NodeId) -> Option<Factor> {
+        let bits: Bits = self.old.constant_bits(id)?;
+        (self.old.ty(id).scalar_kind() == Some(Scalar::F32)).then(|| bits.map(f32::from_bits))
     }
 
     /// A product's or a quotient's other side and the constant that it is multiplied by.
-    fn factor(&self, id: NodeId) -> Option<(NodeId, Factor)> {
+    fn split_factor(&self, id: NodeId) -> Option<(NodeId, Factor)> {
         let node = self.old.node(id);
-        let lanes = usize::from(node.ty.components());
+        let lanes = usize::from(node.ty.component_count());
         let inverse = |divisor: Factor| {
             let inverse = divisor.map(|x| 1.0 / x);
             is_held(&inverse[..lanes]).then_some(inverse)
         };
         match (&node.op, &node.args[..]) {
-            (Op::Binary(BinaryOp::Mul), [x, k]) if self.constant(*k).is_some() => Some((*x, self.constant(*k)?)),
-            (Op::Binary(BinaryOp::Mul), [k, x]) if self.constant(*k).is_some() => Some((*x, self.constant(*k)?)),
-            (Op::Binary(BinaryOp::Div), [x, k]) => Some((*x, inverse(self.constant(*k)?)?)),
+            (Op::Binary(BinaryOp::Mul), [x, k]) if self.constant_factor(*k).is_some() => {
+                Some((*x, self.constant_factor(*k)?))
+            }
+            (Op::Binary(BinaryOp::Mul), [k, x]) if self.constant_factor(*k).is_some() => {
+                Some((*x, self.constant_factor(*k)?))
+            }
+            (Op::Binary(BinaryOp::Div), [x, k]) => Some((*x, inverse(self.constant_factor(*k)?)?)),
             _ => None,
         }
     }
 
     /// Returns whether a constant factor is free here: it is folded into a constant, or into a sum with a constant.
-    fn absorbs(&self, id: NodeId) -> bool {
+    fn absorbs_factor(&self, id: NodeId) -> bool {
         let node = self.old.node(id);
-        if self.constant(id).is_some() {
+        if self.constant_factor(id).is_some() {
             return true;
         }
-        if self.exact[id.0 as usize] || self.uses[id.0 as usize] > 1 || node.ty.kind() != Some(Scalar::F32) {
+        if self.exact[id.0 as usize] || self.uses[id.0 as usize] > 1 || node.ty.scalar_kind() != Some(Scalar::F32) {
             return false;
         }
         match (&node.op, &node.args[..]) {
-            (Op::Unary(UnaryOp::Neg) | Op::Splat, [x]) => self.absorbs(*x),
+            (Op::Unary(UnaryOp::Neg) | Op::Splat, [x]) => self.absorbs_factor(*x),
             (Op::Binary(BinaryOp::Add | BinaryOp::Sub), [x, y]) => {
-                let is_known = self.constant(*x).is_some() || self.constant(*y).is_some();
-                is_known || (self.absorbs(*x) && self.absorbs(*y))
+                let is_known = self.constant_factor(*x).is_some() || self.constant_factor(*y).is_some();
+                is_known || (self.absorbs_factor(*x) && self.absorbs_factor(*y))
             }
-            _ => self.factor(id).is_some(),
+            _ => self.split_factor(id).is_some(),
         }
     }
 
     /// A value of the old graph, times a constant.
-    fn scaled(&self, b: &mut Builder<'_>, id: NodeId, by: Factor, new: &[Option<NodeId>]) -> NodeId {
+    fn build_scaled(&self, b: &mut Builder<'_>, id: NodeId, by: Factor, new: &[Option<NodeId>]) -> NodeId {
         let node = self.old.node(id);
-        let lanes = usize::from(node.ty.components());
+        let lanes = usize::from(node.ty.component_count());
         let times = |other: Factor| {
             let product: Factor = std::array::from_fn(|k| by[k] * other[k]);
             is_held(&product[..lanes]).then_some(product)
         };
-        if let Some(product) = self.constant(id).and_then(times) {
-            return constant(b, node.ty, product);
+        if let Some(product) = self.constant_factor(id).and_then(times) {
+            return build_constant(b, node.ty, product);
         }
-        if self.absorbs(id) {
+        if self.absorbs_factor(id) {
             match (&node.op, &node.args[..]) {
-                (Op::Unary(UnaryOp::Neg), [x]) => return self.scaled(b, *x, by.map(|k| -k), new),
+                (Op::Unary(UnaryOp::Neg), [x]) => return self.build_scaled(b, *x, by.map(|k| -k), new),
                 (Op::Splat, [x]) if by[..lanes].iter().all(|k| k.to_bits() == by[0].to_bits()) => {
-                    let scaled = self.scaled(b, *x, [by[0]; 4], new);
+                    let scaled = self.build_scaled(b, *x, [by[0]; 4], new);
                     return b.add(Op::Splat, [scaled], node.ty);
                 }
                 (Op::Binary(op @ (BinaryOp::Add | BinaryOp::Sub)), [x, y]) => {
-                    let sides = [*x, *y].map(|side| self.scaled(b, side, by, new));
+                    let sides = [*x, *y].map(|side| self.build_scaled(b, side, by, new));
                     return b.add(Op::Binary(*op), sides, node.ty);
                 }
                 _ => {}
             }
-            if let Some((x, product)) = self.factor(id).and_then(|(x, k)| Some((x, times(k)?))) {
-                return self.scaled(b, x, product, new);
+            if let Some((x, product)) = self.split_factor(id).and_then(|(x, k)| Some((x, times(k)?))) {
+                return self.build_scaled(b, x, product, new);
             }
         }
         let same = new[id.0 as usize].expect("arguments are built before their users");
-        let factor = constant(b, node.ty, by);
+        let factor = build_constant(b, node.ty, by);
         b.add(Op::Binary(BinaryOp::Mul), [same, factor], node.ty)
     }
 
     /// A quotient by a value by which there are others, as a product with its reciprocal.
     fn shared_quotient(&self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
-        let (divisor, _) = divisor(self.old, id)?;
+        let (divisor, _) = common_divisor(self.old, id)?;
         if self.quotients.get(&divisor).is_none_or(|count| *count < 2) {
             return None;
         }
@@ -153,7 +157,7 @@ impl<'g> Fast<'g> {
         let dividend = new[node.args[0].0 as usize]?;
         let below = new[divisor.0 as usize]?;
         let of = self.old.ty(divisor);
-        let one = constant(b, of, [1.0; 4]);
+        let one = build_constant(b, of, [1.0; 4]);
         let reciprocal = b.add(Op::Binary(BinaryOp::Div), [one, below], of);
         let factor = match of == node.ty {
             true => reciprocal,
@@ -163,27 +167,27 @@ impl<'g> Fast<'g> {
     }
 }
 
-impl Replace for Fast<'_> {
-    fn begin(&mut self, _: &mut Builder<'_>) {}
+impl Replace for FastMath<'_> {
+    fn add_prologue(&mut self, _: &mut Builder<'_>) {}
 
-    fn node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
+    fn replace_node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
         let node = self.old.node(id);
-        if node.ty.kind() != Some(Scalar::F32) || node.ty.is_array() || self.exact[id.0 as usize] {
+        if node.ty.scalar_kind() != Some(Scalar::F32) || node.ty.is_array() || self.exact[id.0 as usize] {
             return None;
         }
         let is_zero = |id: NodeId| {
-            self.constant(id)
-                .is_some_and(|k| k[..lanes(node.ty)].iter().all(|k| *k == 0.0))
+            self.constant_factor(id)
+                .is_some_and(|k| k[..component_count(node.ty)].iter().all(|k| *k == 0.0))
         };
         match (&node.op, &node.args[..]) {
             (Op::Unary(UnaryOp::Exp), [x]) => {
-                let exponent = self.scaled(b, *x, LOG2_E, new);
+                let exponent = self.build_scaled(b, *x, LOG2_E, new);
                 Some(b.add(Op::Unary(UnaryOp::Exp2), [exponent], node.ty))
             }
             (Op::Binary(BinaryOp::Add), [zero, x] | [x, zero]) if is_zero(*zero) => new[x.0 as usize],
-            (Op::Binary(BinaryOp::Mul | BinaryOp::Div), _) => match self.factor(id) {
-                Some((x, k)) if self.absorbs(x) || node.op == Op::Binary(BinaryOp::Div) => {
-                    Some(self.scaled(b, x, k, new))
+            (Op::Binary(BinaryOp::Mul | BinaryOp::Div), _) => match self.split_factor(id) {
+                Some((x, k)) if self.absorbs_factor(x) || node.op == Op::Binary(BinaryOp::Div) => {
+                    Some(self.build_scaled(b, x, k, new))
                 }
                 Some(_) => None,
                 None => self.shared_quotient(b, id, new),
@@ -193,23 +197,23 @@ impl Replace for Fast<'_> {
     }
 }
 
-fn lanes(ty: Type) -> usize {
-    usize::from(ty.components())
+fn component_count(ty: Type) -> usize {
+    usize::from(ty.component_count())
 }
 
 /// Returns the divisor of a node, if it is a single number and no constant, and the number of quotients.
-fn divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
+fn common_divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
     let node = g.node(id);
     let ([_, below], true) = (&node.args[..], node.op == Op::Binary(BinaryOp::Div)) else {
         return None;
     };
-    let is_float = node.ty.kind() == Some(Scalar::F32);
+    let is_float = node.ty.scalar_kind() == Some(Scalar::F32);
     let of = match &g.node(*below).op {
         Op::Splat => g.node(*below).args[0],
         _ if node.ty.is_scalar() => *below,
         _ => return None,
     };
-    (is_float && g.constant(of).is_none()).then_some((of, u32::from(node.ty.components())))
+    (is_float && g.constant_bits(of).is_none()).then_some((of, u32::from(node.ty.component_count())))
 }
 
 /// Returns whether constants are 0 or in the range of normal numbers of half precision: then no product with one of them underflows or
@@ -219,9 +223,9 @@ fn is_held(factors: &[f32]) -> bool {
     factors.iter().all(|k| held(*k))
 }
 
-fn constant(b: &mut Builder<'_>, ty: Type, values: Factor) -> NodeId {
+fn build_constant(b: &mut Builder<'_>, ty: Type, values: Factor) -> NodeId {
     let mut bits = [0; 4];
-    for (bits, value) in bits.iter_mut().zip(values).take(lanes(ty)) {
+    for (bits, value) in bits.iter_mut().zip(values).take(component_count(ty)) {
         *bits = value.to_bits();
     }
     b.constant(ty, bits)

@@ -21,18 +21,21 @@ const LARGE: f32 = 1.0e30;
 /// # Errors
 ///
 /// If a loop or branch is left: how often its reads happen is not known.
-pub fn floor(graph: &Graph) -> Result<Graph, String> {
+pub fn build_floor(graph: &Graph) -> Result<Graph, String> {
     let is_kept = |op: &Op| matches!(op, Op::Loop(_) | Op::If(..));
     if graph.has_effects() {
         return Err("it writes more than its results, and how often depends on what it computes".to_owned());
     }
-    let live = cone(graph, graph.outputs());
-    if graph.ids().any(|id| live[id.0 as usize] && is_kept(&graph.node(id).op)) {
+    let live = dependent_nodes(graph, graph.outputs());
+    if graph
+        .node_ids()
+        .any(|id| live[id.0 as usize] && is_kept(&graph.node(id).op))
+    {
         return Err("a loop or branch is left, and how often its reads happen is not known".to_owned());
     }
     let mut builder = Builder::new(&Exact);
     copy_tables(graph, builder.graph_mut());
-    let mut floor = Floor {
+    let mut floor = FloorBuilder {
         old: graph,
         builder,
         ids: vec![None; graph.nodes.len()],
@@ -40,41 +43,41 @@ pub fn floor(graph: &Graph) -> Result<Graph, String> {
         moved: 0,
     };
     let reads: Vec<NodeId> = graph
-        .ids()
+        .node_ids()
         .filter(|id| live[id.0 as usize] && graph.node(*id).op.is_read())
         .collect();
-    floor.plain();
+    floor.copy_plain();
     // Places that are kept come first, so that no other is chosen where they are.
     let (kept, moved): (Vec<NodeId>, Vec<NodeId>) = reads.iter().partition(|id| floor.is_placed(**id));
     for id in kept.into_iter().chain(moved) {
-        floor.read(id);
+        floor.add_read(id);
     }
     let mut outputs = Vec::new();
     for output in graph.outputs() {
-        let needed = cone(graph, &[*output]);
+        let needed = dependent_nodes(graph, &[*output]);
         let summed: Vec<NodeId> = reads.iter().filter(|id| needed[id.0 as usize]).copied().collect();
-        let sum = floor.sum(&summed);
-        outputs.push(floor.shaped(sum, graph.ty(*output)));
+        let sum = floor.sum_reads(&summed);
+        outputs.push(floor.color_to_type(sum, graph.ty(*output)));
     }
     Ok(floor.builder.finish(outputs))
 }
 
 /// By node, whether one of `from` depends on it.
-fn cone(graph: &Graph, from: &[NodeId]) -> Vec<bool> {
+fn dependent_nodes(graph: &Graph, from: &[NodeId]) -> Vec<bool> {
     let mut inside = vec![false; graph.nodes.len()];
     let mut pending = from.to_vec();
     while let Some(id) = pending.pop() {
         if !std::mem::replace(&mut inside[id.0 as usize], true) {
             pending.extend(&graph.node(id).args);
             for region in graph.regions_of(id) {
-                pending.extend(graph.region(region).leaving());
+                pending.extend(graph.region(region).yielded_values());
             }
         }
     }
     inside
 }
 
-struct Floor<'g> {
+struct FloorBuilder<'g> {
     old: &'g Graph,
     builder: Builder<'g>,
     /// By old node, its new one: of what needs no read and no transcendental function, and of reads.
@@ -85,15 +88,15 @@ struct Floor<'g> {
     moved: u32,
 }
 
-impl Floor<'_> {
+impl FloorBuilder<'_> {
     /// Takes over what needs no read and no transcendental function.
-    fn plain(&mut self) {
-        for id in self.old.ids() {
+    fn copy_plain(&mut self) {
+        for id in self.old.node_ids() {
             let node = self.old.node(id);
             let is_dear = match &node.op {
                 Op::Unary(op) => op.is_transcendental(),
                 Op::Binary(BinaryOp::Pow | BinaryOp::Atan2) => true,
-                Op::Param(..) | Op::Result(_) | Op::Message(_) | Op::Derivative(_) => true,
+                Op::Param(..) | Op::Result(_) | Op::QuadSwap(_) | Op::Derivative(_) => true,
                 op => op.is_read(),
             };
             let args: Option<Vec<NodeId>> = node.args.iter().map(|a| self.ids[a.0 as usize]).collect();
@@ -120,14 +123,14 @@ impl Floor<'_> {
         args.all(|arg| self.ids[arg.0 as usize].is_some() && !self.old.node(*arg).op.is_read())
     }
 
-    fn read(&mut self, id: NodeId) {
+    fn add_read(&mut self, id: NodeId) {
         let node = self.old.node(id).clone();
-        let op = node.op.clone().shared();
+        let op = node.op.clone().without_site();
         let new = if self.is_placed(id) {
             let args: Vec<_> = node.args.iter().filter_map(|a| self.ids[a.0 as usize]).collect();
             self.builder.add(op, args, node.ty)
         } else {
-            let awaited = self.awaited(&node.args);
+            let awaited = self.awaited_read(&node.args);
             loop {
                 let args = self.moved_args(&op, &node.args, awaited);
                 self.moved += 1;
@@ -142,10 +145,10 @@ impl Floor<'_> {
     }
 
     /// The last read that arguments wait for, as a number.
-    fn awaited(&mut self, args: &[NodeId]) -> Option<NodeId> {
-        let needed = cone(self.old, args);
+    fn awaited_read(&mut self, args: &[NodeId]) -> Option<NodeId> {
+        let needed = dependent_nodes(self.old, args);
         let is_read = |id: &NodeId| needed[id.0 as usize] && self.old.node(*id).op.is_read();
-        let last = self.old.ids().rev().find(is_read)?;
+        let last = self.old.node_ids().rev().find(is_read)?;
         let last = self.ids[last.0 as usize]?;
         let float = self.as_floats(last);
         Some(match self.builder.graph().ty(float).is_scalar() {
@@ -156,7 +159,7 @@ impl Floor<'_> {
 
     /// Arguments for a read whose place cannot be computed as in the kernel.
     fn moved_args(&mut self, op: &Op, old: &[NodeId], awaited: Option<NodeId>) -> Vec<NodeId> {
-        let step = self.step(awaited);
+        let step = self.build_step(awaited);
         let first = match op {
             Op::Load { texture, .. } => {
                 let texture = *texture;
@@ -184,7 +187,7 @@ impl Floor<'_> {
     }
 
     /// A step from the pixel, another one for each that is asked for; one that only a read decides if one is awaited.
-    fn step(&mut self, awaited: Option<NodeId>) -> NodeId {
+    fn build_step(&mut self, awaited: Option<NodeId>) -> NodeId {
         let (x, y) = ((self.moved % 5) as i32 - 2, (self.moved / 5) as i32 - 2);
         let near = self.builder.constant(PAIR, [x as u32, y as u32, 0, 0]);
         let Some(awaited) = awaited else { return near };
@@ -198,7 +201,7 @@ impl Floor<'_> {
     fn size(&mut self, texture: Option<u32>) -> NodeId {
         match texture {
             Some(texture) if !self.old.textures[texture as usize].framed => {
-                let ty = self.old.textures[texture as usize].kind.coordinate();
+                let ty = self.old.textures[texture as usize].kind.coordinate_type();
                 let size = self.builder.add(Op::TextureSize(texture), Vec::new(), ty);
                 match ty {
                     PAIR => size,
@@ -213,11 +216,11 @@ impl Floor<'_> {
     }
 
     /// A pair with as many components as `ty` has, the third of them `last`.
-    fn extended(&mut self, pair: NodeId, last: NodeId, ty: Type) -> NodeId {
-        if ty.components() == 2 {
+    fn extend_pair(&mut self, pair: NodeId, last: NodeId, ty: Type) -> NodeId {
+        if ty.component_count() == 2 {
             return pair;
         }
-        let part = Type::scalar(ty.kind().unwrap_or(Scalar::F32));
+        let part = Type::scalar(ty.scalar_kind().unwrap_or(Scalar::F32));
         let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), [pair], part));
         self.builder.add(Op::Compose, [x, y, last], ty)
     }
@@ -242,7 +245,11 @@ impl Floor<'_> {
         let at = self.binary(BinaryOp::Add, pixel, step);
         let inside = self.builder.add(Op::Clamp, [at, zero, last], PAIR);
         let slice = self.builder.i32(0);
-        self.extended(inside, slice, self.old.textures[texture as usize].kind.coordinate())
+        self.extend_pair(
+            inside,
+            slice,
+            self.old.textures[texture as usize].kind.coordinate_type(),
+        )
     }
 
     /// A place near the pixel, from 0 to 1.
@@ -257,9 +264,11 @@ impl Floor<'_> {
         let own = self.binary(BinaryOp::Div, centre, frame);
         let away = self.binary(BinaryOp::Div, step, size);
         let place = self.binary(BinaryOp::Add, own, away);
-        let ty = texture.map_or(PLACE, |texture| self.old.textures[texture as usize].kind.place());
+        let ty = texture.map_or(PLACE, |texture| {
+            self.old.textures[texture as usize].kind.position_type()
+        });
         let middle = self.builder.f32(0.5);
-        self.extended(place, middle, ty)
+        self.extend_pair(place, middle, ty)
     }
 
     /// An index inside a buffer.
@@ -286,12 +295,12 @@ impl Floor<'_> {
     }
 
     /// The sum of reads as a colour: those of as many lanes are added up first.
-    fn sum(&mut self, reads: &[NodeId]) -> NodeId {
+    fn sum_reads(&mut self, reads: &[NodeId]) -> NodeId {
         let mut sums: [Option<NodeId>; 4] = [None; 4];
         for read in reads {
             let Some(new) = self.ids[read.0 as usize] else { continue };
             let floats = self.as_floats(new);
-            let slot = usize::from(self.builder.graph().ty(floats).components()) - 1;
+            let slot = usize::from(self.builder.graph().ty(floats).component_count()) - 1;
             sums[slot] = Some(match sums[slot] {
                 Some(sum) => self.binary(BinaryOp::Add, sum, floats),
                 None => floats,
@@ -300,7 +309,7 @@ impl Floor<'_> {
         let mut total: Option<NodeId> = None;
         for (k, sum) in sums.into_iter().enumerate() {
             let Some(sum) = sum else { continue };
-            let colour = self.colour(sum, k + 1);
+            let colour = self.as_color(sum, k + 1);
             total = Some(match total {
                 Some(total) => self.binary(BinaryOp::Add, total, colour),
                 None => colour,
@@ -310,8 +319,8 @@ impl Floor<'_> {
     }
 
     /// A colour's first components as a result of another type.
-    fn shaped(&mut self, colour: NodeId, ty: Type) -> NodeId {
-        let lanes = ty.components();
+    fn color_to_type(&mut self, colour: NodeId, ty: Type) -> NodeId {
+        let lanes = ty.component_count();
         let floats = Type::value(Scalar::F32, lanes);
         let mut value = colour;
         if lanes < 4 {
@@ -331,7 +340,7 @@ impl Floor<'_> {
     }
 
     /// A value of so many lanes in the lanes of a colour.
-    fn colour(&mut self, value: NodeId, lanes: usize) -> NodeId {
+    fn as_color(&mut self, value: NodeId, lanes: usize) -> NodeId {
         match lanes {
             1 => self.builder.add(Op::Splat, [value], COLOUR),
             4 => value,

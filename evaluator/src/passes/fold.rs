@@ -13,20 +13,20 @@ pub struct Exact;
 
 impl Rules for Exact {
     fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
-        constant(b, op, args, ty)
-            .or_else(|| shape(b, op, args, ty))
-            .or_else(|| array(b, op, args, ty))
-            .or_else(|| ranges::within(b.graph(), op, args, ty))
-            .or_else(|| ranges::clamp(b, op, args, ty))
-            .or_else(|| ranges::compared(b, op, args))
+        fold_constant(b, op, args, ty)
+            .or_else(|| fold_shape(b, op, args, ty))
+            .or_else(|| fold_array(b, op, args, ty))
+            .or_else(|| ranges::fold_inner_clamp(b.graph(), op, args, ty))
+            .or_else(|| ranges::fold_frame_clamp(b, op, args, ty))
+            .or_else(|| ranges::fold_comparison(b, op, args))
             .or_else(|| edges::at_constants(b, op, args, ty))
-            .or_else(|| algebra(b, op, args))
-            .or_else(|| exchanged(b, op, args, ty))
+            .or_else(|| fold_algebra(b, op, args))
+            .or_else(|| find_swapped(b, op, args, ty))
     }
 }
 
 /// Known arguments: the result is known.
-fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+fn fold_constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let (first, last) = (args.first()?, args.last()?);
     if ty.is_array() {
         return None;
@@ -34,29 +34,29 @@ fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<N
     let mut operands = [[0; 4]; arith::MOST_OPERANDS];
     let operands = operands.get_mut(..args.len())?;
     for (operand, arg) in operands.iter_mut().zip(args) {
-        *operand = b.graph().constant(*arg)?;
+        *operand = b.graph().constant_bits(*arg)?;
     }
     let operand = b.graph().ty(if matches!(op, Op::Select) { *last } else { *first });
-    let bits = arith::fold(op, operand, operands, ty)?;
+    let bits = arith::fold_op(op, operand, operands, ty)?;
     Some(b.constant(ty, bits))
 }
 
 /// Finds a node with exchanged arguments: `b + a` for `a + b`, `b > a` for `a < b`.
-fn exchanged(b: &Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+fn find_swapped(b: &Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let Op::Binary(op) = op else { return None };
     let other = match op {
         BinaryOp::Lt => BinaryOp::Gt,
         BinaryOp::Gt => BinaryOp::Lt,
         BinaryOp::Le => BinaryOp::Ge,
         BinaryOp::Ge => BinaryOp::Le,
-        op if op.commutes() => *op,
+        op if op.is_commutative() => *op,
         _ => return None,
     };
-    b.find(&Op::Binary(other), &[args[1], args[0]], ty)
+    b.find_node(&Op::Binary(other), &[args[1], args[0]], ty)
 }
 
 /// Vectors taken apart as they were put together; selections that are decided.
-fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let node = |id: NodeId| b.graph().node(id);
     match op {
         Op::Extract(lane) => match &node(args[0]).op {
@@ -77,11 +77,11 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
                 .all(|(k, part)| node(*part).op == Op::Extract(k as u8) && node(*part).args[0] == whole);
             (parts && b.graph().ty(whole) == ty).then_some(whole)
         }
-        Op::Select if args[1] == args[2] || node(args[2]).op == Op::Unused => Some(args[1]),
-        Op::Select if node(args[1]).op == Op::Unused => Some(args[2]),
+        Op::Select if args[1] == args[2] || node(args[2]).op == Op::Undef => Some(args[1]),
+        Op::Select if node(args[1]).op == Op::Undef => Some(args[2]),
         Op::Select => b
             .graph()
-            .constant(args[0])
+            .constant_bits(args[0])
             .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
         Op::Exact if node(args[0]).op == Op::Exact => Some(args[0]),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
@@ -106,25 +106,25 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
             Some(b.add(Op::Convert, [narrow], ty))
         }
         // A constant or uniform is the same in every lane; two equal messages in a row cancel.
-        Op::Message(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
-        Op::Message(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
+        Op::QuadSwap(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
+        Op::QuadSwap(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
         _ => None,
     }
 }
 
 /// Elements read back at known indices.
-fn array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+fn fold_array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     if *op != Op::ArrayGet {
         return None;
     }
-    let Some(index) = b.graph().constant(args[1]).map(|bits| bits[0]) else {
+    let Some(index) = b.graph().constant_bits(args[1]).map(|bits| bits[0]) else {
         return read_in_order(b, args[0], args[1], ty);
     };
     let node = b.graph().node(args[0]).clone();
     match node.op {
         Op::MakeArray => Some(*node.args.get(index as usize).or(node.args.last())?),
         Op::ArraySet => {
-            let written = b.graph().constant(node.args[1])?[0];
+            let written = b.graph().constant_bits(node.args[1])?[0];
             let Type::Array { len, .. } = node.ty else { return None };
             if written >= len || index >= len {
                 None
@@ -147,12 +147,12 @@ fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) ->
     else {
         return None;
     };
-    let (element, from) = (*element, g.constant(*from)?[0]);
+    let (element, from) = (*element, g.constant_bits(*from)?[0]);
     let at = |part: &NodeId| {
         let node = g.node(*part);
-        let same = node.op.clone().shared() == first.op.clone().shared() && node.args[0] == element;
+        let same = node.op.clone().without_site() == first.op.clone().without_site() && node.args[0] == element;
         if same {
-            g.constant(*node.args.get(1)?).map(|bits| bits[0])
+            g.constant_bits(*node.args.get(1)?).map(|bits| bits[0])
         } else {
             None
         }
@@ -164,7 +164,7 @@ fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) ->
     }
     // An index outside is that of the last element, a negative one too.
     let last = parts.len() as u32 - 1;
-    let inside = ranges::bounds(g, index).is_some_and(|(low, high)| low >= 0 && high <= i64::from(last));
+    let inside = ranges::integer_bounds(g, index).is_some_and(|(low, high)| low >= 0 && high <= i64::from(last));
     let index = match inside {
         true => index,
         false => {
@@ -181,19 +181,19 @@ fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) ->
     Some(b.add(first.op, [element, at], ty))
 }
 
-fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
+fn fold_algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
     let g = b.graph();
     match op {
         Op::Unary(UnaryOp::Neg) if g.node(args[0]).op == Op::Unary(UnaryOp::Neg) => Some(g.node(args[0]).args[0]),
         Op::Unary(UnaryOp::Not) if g.node(args[0]).op == Op::Unary(UnaryOp::Not) => Some(g.node(args[0]).args[0]),
         Op::Clamp if g.node(args[0]).op == Op::Clamp && g.node(args[0]).args[1..] == args[1..] => Some(args[0]),
-        Op::Select if g.ty(args[1]) == Type::BOOL => chosen(b, args[0], args[1], args[2]),
+        Op::Select if g.ty(args[1]) == Type::BOOL => fold_bool_select(b, args[0], args[1], args[2]),
         Op::Binary(op) => {
             let (x, y) = (args[0], args[1]);
-            match g.ty(x).kind()? {
-                Scalar::F32 => float(g, *op, x, y).or_else(|| square(b, *op, x, y)),
-                Scalar::I32 | Scalar::U32 | Scalar::Usize => integer(b, *op, x, y),
-                Scalar::Bool => boolean(b, *op, x, y),
+            match g.ty(x).scalar_kind()? {
+                Scalar::F32 => fold_float(g, *op, x, y).or_else(|| fold_square(b, *op, x, y)),
+                Scalar::I32 | Scalar::U32 | Scalar::Usize => fold_integer(b, *op, x, y),
+                Scalar::Bool => fold_boolean(b, *op, x, y),
             }
         }
         _ => None,
@@ -201,8 +201,8 @@ fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
 }
 
 /// A choice of booleans of which one is known is a conjunction or disjunction.
-fn chosen(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Option<NodeId> {
-    let known = |b: &Builder<'_>, id| b.graph().constant(id).map(|bits| bits[0] != 0);
+fn fold_bool_select(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Option<NodeId> {
+    let known = |b: &Builder<'_>, id| b.graph().constant_bits(id).map(|bits| bits[0] != 0);
     let (op, negated, other) = match (known(b, yes), known(b, no)) {
         (Some(true), Some(false)) => return Some(condition),
         (Some(false), Some(true)) => return Some(b.add(Op::Unary(UnaryOp::Not), [condition], Type::BOOL)),
@@ -219,18 +219,18 @@ fn chosen(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Op
     Some(b.add(Op::Binary(op), [condition, other], Type::BOOL))
 }
 
-fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+fn fold_float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     let is = |id: NodeId, value: f32| all_lanes(g, id, value.to_bits());
     match op {
         // -0 + 0 is 0, so a zero may only go where the other side is never -0; x + -0 is x for every x.
-        BinaryOp::Add if is(y, -0.0) || (is(y, 0.0) && ranges::nonnegative(g, x)) => Some(x),
-        BinaryOp::Add if is(x, -0.0) || (is(x, 0.0) && ranges::nonnegative(g, y)) => Some(y),
+        BinaryOp::Add if is(y, -0.0) || (is(y, 0.0) && ranges::is_nonnegative(g, x)) => Some(x),
+        BinaryOp::Add if is(x, -0.0) || (is(x, 0.0) && ranges::is_nonnegative(g, y)) => Some(y),
         BinaryOp::Sub if is(y, 0.0) => Some(x),
         BinaryOp::Mul | BinaryOp::Div if is(y, 1.0) => Some(x),
         BinaryOp::Mul if is(x, 1.0) => Some(y),
         // The smaller of 0 and what is never negative; of 0 and a NaN it is 0 too, but of vectors only if the 0 comes last.
-        BinaryOp::Min if is(x, 0.0) && ranges::nonnegative(g, y) && g.ty(x).is_scalar() => Some(x),
-        BinaryOp::Min if is(y, 0.0) && ranges::nonnegative(g, x) => Some(y),
+        BinaryOp::Min if is(x, 0.0) && ranges::is_nonnegative(g, y) && g.ty(x).is_scalar() => Some(x),
+        BinaryOp::Min if is(y, 0.0) && ranges::is_nonnegative(g, x) => Some(y),
         // A value that is bounded already; what `min` gave is no NaN.
         BinaryOp::Min if bounded_by(g, y, x) => Some(y),
         BinaryOp::Min if bounded_by(g, x, y) => Some(x),
@@ -240,29 +240,29 @@ fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
 }
 
 /// The square of what has been computed with the other sign: rounding is the same on both sides of zero.
-fn square(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+fn fold_square(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     if op != BinaryOp::Mul || x != y {
         return None;
     }
-    let opposite = opposite(b, x).filter(|opposite| *opposite < x)?;
+    let opposite = find_negation(b, x).filter(|opposite| *opposite < x)?;
     let ty = b.graph().ty(x);
     Some(b.add(Op::Binary(op), [opposite, opposite], ty))
 }
 
 /// The node that computes `-id`, if there is one already: `b - a` of `a - b`, and what is divided by the same.
-fn opposite(b: &Builder<'_>, id: NodeId) -> Option<NodeId> {
+fn find_negation(b: &Builder<'_>, id: NodeId) -> Option<NodeId> {
     let node = b.graph().node(id);
     let args = match node.op {
         Op::Binary(BinaryOp::Sub) => vec![node.args[1], node.args[0]],
-        Op::Binary(BinaryOp::Div) => vec![opposite(b, node.args[0])?, node.args[1]],
+        Op::Binary(BinaryOp::Div) => vec![find_negation(b, node.args[0])?, node.args[1]],
         _ => return None,
     };
-    b.find(&node.op, &args, node.ty)
+    b.find_node(&node.op, &args, node.ty)
 }
 
 /// Returns whether `id` is never more than the non-zero constant `bound`, and never a NaN.
 fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
-    let is_bound = g.constant(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31);
+    let is_bound = g.constant_bits(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31);
     is_bound && at_most(g, id, bound)
 }
 
@@ -270,7 +270,7 @@ fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     let node = g.node(id);
     match node.op {
         _ if id == bound => !g
-            .constant(bound)
+            .constant_bits(bound)
             .is_some_and(|lanes| lanes.iter().any(|x| f32::from_bits(*x).is_nan())),
         Op::Exact | Op::Tally(_) => at_most(g, node.args[0], bound),
         // Of vectors the last argument stands for a NaN in the first.
@@ -287,7 +287,7 @@ fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     }
 }
 
-fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+fn fold_integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     if matches!(op, BinaryOp::Div | BinaryOp::Rem)
         && let Some(divisor) = without_zeros(b, y)
     {
@@ -295,12 +295,12 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         return Some(b.add(Op::Binary(op), [x, divisor], ty));
     }
     if op == BinaryOp::Add
-        && let Some(sum) = steps(b, x, y)
+        && let Some(sum) = merge_steps(b, x, y)
     {
         return Some(sum);
     }
     if op == BinaryOp::Sub
-        && let (Some(step), Op::Pixel) = (b.graph().constant(y), &b.graph().node(x).op)
+        && let (Some(step), Op::Pixel) = (b.graph().constant_bits(y), &b.graph().node(x).op)
     {
         // Canonical form of a neighbour's coordinate.
         let ty = b.graph().ty(y);
@@ -335,9 +335,9 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
 
 /// Rewrites `(pixel + a) + b` as `pixel + (a + b)`: integers wrap, so their order is free. Neighbours of neighbours then have the same
 /// form, and their reads are shared.
-fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
+fn merge_steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
     let ty = b.graph().ty(x);
-    let (inner, second) = match (b.graph().constant(x), b.graph().constant(y)) {
+    let (inner, second) = match (b.graph().constant_bits(x), b.graph().constant_bits(y)) {
         (None, Some(step)) => (b.graph().node(x), step),
         (Some(step), None) => (b.graph().node(y), step),
         _ => return None,
@@ -352,7 +352,7 @@ fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
         _ => return None,
     };
     let mut sum = [0; 4];
-    for (k, slot) in sum.iter_mut().enumerate().take(ty.components() as usize) {
+    for (k, slot) in sum.iter_mut().enumerate().take(ty.component_count() as usize) {
         *slot = first[k].wrapping_add(second[k]);
     }
     let sum = b.constant(ty, sum);
@@ -367,7 +367,7 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     match node.op {
         Op::Const(bits) if ty == Type::USIZE && bits[1] != 0 => None,
         Op::Const(mut bits) => {
-            let lanes = &mut bits[..ty.components() as usize];
+            let lanes = &mut bits[..ty.component_count() as usize];
             if !lanes.contains(&0) {
                 return None;
             }
@@ -379,7 +379,7 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
             if !node.args.iter().any(|lane| zero(b, *lane)) {
                 return None;
             }
-            let one = b.constant(Type::scalar(ty.kind()?), [1, 0, 0, 0]);
+            let one = b.constant(Type::scalar(ty.scalar_kind()?), [1, 0, 0, 0]);
             let lanes = node.args.iter().map(|lane| if zero(b, *lane) { one } else { *lane });
             let lanes: Vec<_> = lanes.collect();
             Some(b.add(Op::Compose, lanes, ty))
@@ -388,14 +388,14 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     }
 }
 
-fn boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+fn fold_boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
         BinaryOp::Eq | BinaryOp::Ne | BinaryOp::Xor if x == y => {
             let ty = g.ty(x);
             let same = u32::from(op == BinaryOp::Eq);
-            let lane = |k| if k < ty.components() as usize { same } else { 0 };
+            let lane = |k| if k < ty.component_count() as usize { same } else { 0 };
             Some(b.constant(ty, std::array::from_fn(lane)))
         }
         BinaryOp::Eq | BinaryOp::Ne => {
@@ -429,9 +429,9 @@ fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
 /// Returns whether `id` is a constant with `bits` in every lane.
 fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
     let lanes = match g.ty(id) {
-        Type::USIZE => return g.constant(id).is_some_and(|c| usize_value(&c) == u64::from(bits)),
-        ty => ty.components() as usize,
+        Type::USIZE => return g.constant_bits(id).is_some_and(|c| usize_value(&c) == u64::from(bits)),
+        ty => ty.component_count() as usize,
     };
-    g.constant(id)
+    g.constant_bits(id)
         .is_some_and(|c| c[..lanes].iter().all(|lane| *lane == bits))
 }

@@ -8,8 +8,8 @@
 //! File tests: `evaluator/tests/filetests/passes/gathers`.
 
 use super::fold::Exact;
-use super::offsets::offsets;
-use super::schedule::schedule;
+use super::offsets::pixel_offsets;
+use super::schedule::schedule_graph;
 use crate::ir::{
     BinaryOp, Builder, Graph, Invocation, Naming, NodeId, Op, Origin, Rebuild, Replace, Sampler, Scalar, TextureKind,
     Type, rebuild_replacing,
@@ -44,7 +44,7 @@ pub struct Gathered {
 
 impl Gathered {
     /// The texture, its layer where there are several, and the component, for people.
-    pub fn of(&self) -> String {
+    pub fn display_name(&self) -> String {
         let component = ["x", "y", "z", "w"][usize::from(self.component & 3)];
         match self.layer {
             Some(layer) => format!("{}[{layer}].{component}", self.texture),
@@ -68,13 +68,13 @@ type Reads = BTreeMap<Offset, Vec<NodeId>>;
 /// # Errors
 ///
 /// Why the kernel has no such form.
-pub fn gathers(graph: &Graph) -> Result<(Graph, Vec<Gathered>), String> {
+pub fn form_gathers(graph: &Graph) -> Result<(Graph, Vec<Gathered>), String> {
     match graph.invocation {
         Invocation::Pixel | Invocation::MayBeOutside | Invocation::Block(_) => {}
         Invocation::Lane => return Err("the lanes of a quad read for each other already".to_owned()),
         Invocation::Group(_) => return Err("its threads share what they read by their workgroup".to_owned()),
     }
-    let squares = squares(graph);
+    let squares = choose_squares(graph);
     if squares.is_empty() {
         return Ok((graph.clone(), Vec::new()));
     }
@@ -106,9 +106,9 @@ pub fn gathers(graph: &Graph) -> Result<(Graph, Vec<Gathered>), String> {
 type Square = (Source, Offset, Vec<(NodeId, [usize; 2])>);
 
 /// Squares of two by two texels that are worth a gather, in the order in which they are chosen: those first that the most reads are left for.
-fn squares(graph: &Graph) -> Vec<Square> {
+fn choose_squares(graph: &Graph) -> Vec<Square> {
     let mut chosen = Vec::new();
-    for (source, mut reads) in sources(graph) {
+    for (source, mut reads) in gatherable_reads(graph) {
         loop {
             let corners: BTreeSet<[i32; 2]> = reads
                 .keys()
@@ -135,12 +135,12 @@ fn squares(graph: &Graph) -> Vec<Square> {
 const PLACES: [[usize; 2]; 4] = [[0, 0], [1, 0], [0, 1], [1, 1]];
 
 /// Reads that could be gathered.
-fn sources(graph: &Graph) -> BTreeMap<Source, Reads> {
-    let schedule = schedule(graph, ReadOrder::Source);
-    let (offsets, used) = (offsets(graph), super::tiles::components(graph));
+fn gatherable_reads(graph: &Graph) -> BTreeMap<Source, Reads> {
+    let schedule = schedule_graph(graph, ReadOrder::Source);
+    let (offsets, used) = (pixel_offsets(graph), super::tiles::components_used(graph));
     let mut all: BTreeMap<Source, Reads> = BTreeMap::new();
     for id in graph
-        .ids()
+        .node_ids()
         .filter(|id| schedule.place[id.0 as usize] == Some(Graph::BODY))
     {
         let node = graph.node(id);
@@ -151,7 +151,7 @@ fn sources(graph: &Graph) -> BTreeMap<Source, Reads> {
             && matches!(of.kind, TextureKind::Flat | TextureKind::Layers)
             && node.args.len() == 1 + usize::from(of.kind.is_indexed());
         let layer = match node.args.get(1) {
-            Some(layer) => graph.constant(*layer).map(|bits| Some(bits[0])),
+            Some(layer) => graph.constant_bits(*layer).map(|bits| Some(bits[0])),
             None => Some(None),
         };
         let component = match used[id.0 as usize].iter().collect::<Vec<_>>()[..] {
@@ -184,7 +184,7 @@ impl<'g> Gathering<'g> {
         Gathering {
             old,
             sampler: Sampler {
-                name: super::tiles::unused(&super::tiles::taken(old), SAMPLER.to_owned()),
+                name: super::tiles::unused_name(&super::tiles::taken_names(old), SAMPLER.to_owned()),
                 comparison: false,
                 filters: false,
             },
@@ -194,7 +194,7 @@ impl<'g> Gathering<'g> {
     }
 
     /// The corner that the texels of a square share, as a sampler has it.
-    fn place(b: &mut Builder<'_>, [x, y]: Offset) -> NodeId {
+    fn build_corner(b: &mut Builder<'_>, [x, y]: Offset) -> NodeId {
         let (pixel, frame) = (
             b.add(Op::Pixel, Vec::new(), PAIR),
             b.add(Op::FrameSize, Vec::new(), PAIR),
@@ -202,27 +202,27 @@ impl<'g> Gathering<'g> {
         let one = b.constant(PLACE, [1.0f32.to_bits(), 1.0f32.to_bits(), 0, 0]);
         let size = b.add(Op::Convert, [frame], PLACE);
         let texel = b.add(Op::Binary(BinaryOp::Div), [one, size], PLACE);
-        named(b, texel, "texel");
+        name_node(b, texel, "texel");
         let mut corner = b.add(Op::Convert, [pixel], PLACE);
         if [x, y] != [-1, -1] {
             let by = b.constant(PLACE, [((x + 1) as f32).to_bits(), ((y + 1) as f32).to_bits(), 0, 0]);
             corner = b.add(Op::Binary(BinaryOp::Add), [corner, by], PLACE);
         }
         let corner = b.add(Op::Binary(BinaryOp::Mul), [corner, texel], PLACE);
-        named(b, corner, "corner");
+        name_node(b, corner, "corner");
         corner
     }
 }
 
 impl Replace for Gathering<'_> {
-    fn begin(&mut self, b: &mut Builder<'_>) {
+    fn add_prologue(&mut self, b: &mut Builder<'_>) {
         b.graph_mut().samplers.push(self.sampler.clone());
     }
 
-    fn node(&mut self, b: &mut Builder<'_>, id: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
+    fn replace_node(&mut self, b: &mut Builder<'_>, id: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
         let (square, [across, down]) = *self.reads.get(&id)?;
         let ((texture, component, layer), corner, _) = &self.squares[square];
-        let mut args = vec![Gathering::place(b, *corner)];
+        let mut args = vec![Gathering::build_corner(b, *corner)];
         args.extend(layer.map(|layer| b.constant(Type::I32, [layer, 0, 0, 0])));
         let op = Op::Gather {
             texture: *texture,
@@ -244,7 +244,7 @@ impl Replace for Gathering<'_> {
 }
 
 /// Names a value that is nowhere in the source.
-fn named(b: &mut Builder<'_>, id: NodeId, name: &str) {
+fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
     if b.graph().origin(id).is_none() {
         let origin = Origin {
             name: name.into(),

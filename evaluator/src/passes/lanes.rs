@@ -2,8 +2,8 @@
 
 use super::fold::Exact;
 use crate::ir::{
-    Axis, BinaryOp, Builder, Counter, Direction, Event, Graph, Invocation, NodeId, Op, Origin, Rebuild, RegionId,
-    Rules, Scalar, Texture, TextureKind, Type, copy_tables, rebuild,
+    Axis, BinaryOp, Builder, Counter, Event, Graph, Invocation, NodeId, Op, Origin, QuadDirection, Rebuild, RegionId,
+    Rules, Scalar, Texture, TextureKind, Type, copy_tables, rebuild_graph,
 };
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
@@ -14,7 +14,7 @@ const PAIR: Type = Type::value(Scalar::I32, 2);
 /// # Errors
 ///
 /// Why the kernel's pixels cannot run in step: a structured loop or branch that they may take differently.
-pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
+pub fn expand_lanes(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
     if graph.has_effects() {
         return Err("it writes to buffers, and pixels that lie outside of the frame would too".to_owned());
     }
@@ -30,8 +30,8 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
             name: varying.name,
             kind: TextureKind::Flat,
             scalar: Scalar::F32,
-            components: varying.ty.components(),
-            declared: varying.ty.components(),
+            components: varying.ty.component_count(),
+            declared: varying.ty.component_count(),
             framed: true,
         });
     }
@@ -46,7 +46,7 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
     };
     expansion.regions[0] = Some(Graph::BODY);
     let mut events = graph.events.iter().peekable();
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
             expansion.event(*event);
         }
@@ -102,7 +102,7 @@ impl Expansion<'_> {
             let times = if k == 0 { 1 } else { self.lanes };
             let mut ids: Vec<NodeId> = made.by_ref().take(times).collect();
             ids.resize(self.lanes, ids[0]);
-            self.keep(*param, ids);
+            self.record_lanes(*param, ids);
         }
     }
 
@@ -111,10 +111,10 @@ impl Expansion<'_> {
         let new: Vec<NodeId> = match &node.op {
             Op::Loop(body) => {
                 for bound in &node.args[..2] {
-                    self.alike(*bound, "a loop whose trip count may differ from pixel to pixel")?;
+                    self.require_uniform(*bound, "a loop whose trip count may differ from pixel to pixel")?;
                 }
                 if let Some(stop) = self.old.region(*body).stop {
-                    self.alike(stop, "a loop that each pixel may leave in another round")?;
+                    self.require_uniform(stop, "a loop that each pixel may leave in another round")?;
                 }
                 let mut args = vec![
                     self.ids[node.args[0].0 as usize][0],
@@ -122,31 +122,31 @@ impl Expansion<'_> {
                 ];
                 args.extend(node.args[2..].iter().flat_map(|a| self.ids[a.0 as usize].clone()));
                 self.set_results(*body);
-                let op = Op::Loop(self.region(*body));
+                let op = Op::Loop(self.new_region(*body));
                 vec![self.builder.add(op, args, node.ty); self.lanes]
             }
             Op::If(then, otherwise) => {
-                self.alike(node.args[0], "a branch of which each pixel may take another side")?;
+                self.require_uniform(node.args[0], "a branch of which each pixel may take another side")?;
                 self.set_results(*then);
                 self.set_results(*otherwise);
-                let op = Op::If(self.region(*then), self.region(*otherwise));
+                let op = Op::If(self.new_region(*then), self.new_region(*otherwise));
                 let condition = self.ids[node.args[0].0 as usize][0];
                 vec![self.builder.add(op, [condition], node.ty); self.lanes]
             }
             _ => (0..self.lanes).map(|lane| self.in_lane(id, lane)).collect(),
         };
-        self.keep(id, new);
+        self.record_lanes(id, new);
         Ok(())
     }
 
-    fn region(&self, old: RegionId) -> RegionId {
+    fn new_region(&self, old: RegionId) -> RegionId {
         self.regions[old.0 as usize].expect("regions are opened before their owner is built")
     }
 
     fn set_results(&mut self, region: RegionId) {
         let results = self.old.region(region).results.iter();
         let results = results.flat_map(|r| self.ids[r.0 as usize].clone()).collect();
-        let new = self.region(region);
+        let new = self.new_region(region);
         self.builder.graph_mut().regions[new.0 as usize].results = results;
         if let Some(stop) = self.old.region(region).stop {
             let stop = self.ids[stop.0 as usize][0];
@@ -155,7 +155,7 @@ impl Expansion<'_> {
     }
 
     /// Refuses what differs between lanes.
-    fn alike(&self, id: NodeId, what: &str) -> Result<(), String> {
+    fn require_uniform(&self, id: NodeId, what: &str) -> Result<(), String> {
         let lanes = &self.ids[id.0 as usize];
         if lanes.iter().all(|lane| *lane == lanes[0]) {
             return Ok(());
@@ -168,14 +168,14 @@ impl Expansion<'_> {
         let arg = |k: usize, lane: usize| self.ids[node.args[k].0 as usize][lane];
         match &node.op {
             Op::Const(bits) => self.builder.constant(node.ty, *bits),
-            Op::Pixel => self.pixel(lane),
+            Op::Pixel => self.lane_pixel(lane),
             Op::Lane => {
                 let [x, y] = self.position(lane);
                 self.builder.constant(PAIR, [x % 2, y % 2, 0, 0])
             }
-            Op::Message(direction) => {
+            Op::QuadSwap(direction) => {
                 let [x, y] = self.position(lane);
-                let [right, below] = direction.bits();
+                let [right, below] = direction.axis_bits();
                 arg(0, self.lane([x ^ right, y ^ below]))
             }
             Op::Derivative(axis) => {
@@ -186,7 +186,7 @@ impl Expansion<'_> {
                 self.builder.add(Op::Binary(BinaryOp::Sub), [to, from], node.ty)
             }
             Op::Varying(k) => {
-                let inside = self.inside(lane);
+                let inside = self.clamped_pixel(lane);
                 let texture = self.first_varying + k;
                 self.builder.add(Op::Load { texture, site: 0 }, [inside], node.ty)
             }
@@ -210,7 +210,7 @@ impl Expansion<'_> {
         (y * self.size[0] + x) as usize
     }
 
-    fn pixel(&mut self, lane: usize) -> NodeId {
+    fn lane_pixel(&mut self, lane: usize) -> NodeId {
         let [x, y] = self.position(lane);
         let corner = self.builder.add(Op::Pixel, Vec::new(), PAIR);
         let offset = self.builder.constant(PAIR, [x, y, 0, 0]);
@@ -218,8 +218,8 @@ impl Expansion<'_> {
     }
 
     /// The lane's pixel, or the nearest one in the frame.
-    fn inside(&mut self, lane: usize) -> NodeId {
-        let pixel = self.pixel(lane);
+    fn clamped_pixel(&mut self, lane: usize) -> NodeId {
+        let pixel = self.lane_pixel(lane);
         let frame = self.builder.add(Op::FrameSize, Vec::new(), PAIR);
         let one = self.builder.constant(PAIR, [1, 1, 0, 0]);
         let zero = self.builder.constant(PAIR, [0; 4]);
@@ -228,7 +228,7 @@ impl Expansion<'_> {
     }
 
     /// Notes what a node became, and gives the new ones its name, with the lane where they differ.
-    fn keep(&mut self, old: NodeId, new: Vec<NodeId>) {
+    fn record_lanes(&mut self, old: NodeId, new: Vec<NodeId>) {
         let alike = new.iter().all(|id| *id == new[0]);
         if let Some(origin) = self.old.origin(old) {
             for (lane, id) in new.iter().enumerate() {
@@ -262,7 +262,7 @@ pub fn by_derivatives(graph: &Graph) -> Result<Graph, String> {
     let unfit = graph
         .nodes
         .iter()
-        .find(|n| matches!(n.op, Op::Message(_)) && !n.ty.is_float());
+        .find(|n| matches!(n.op, Op::QuadSwap(_)) && !n.ty.is_float());
     if let Some(node) = unfit {
         return Err(format!(
             "a message of {}, and derivatives are of floats alone",
@@ -273,7 +273,7 @@ pub fn by_derivatives(graph: &Graph) -> Result<Graph, String> {
         rules: &Derivatives,
         share_loads: false,
     };
-    Ok(rebuild(graph, &pass))
+    Ok(rebuild_graph(graph, &pass))
 }
 
 struct Derivatives;
@@ -281,11 +281,11 @@ struct Derivatives;
 impl Rules for Derivatives {
     fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
         match op {
-            Op::Message(Direction::Horizontal) => Some(across(b, Axis::X, args[0], ty)),
-            Op::Message(Direction::Vertical) => Some(across(b, Axis::Y, args[0], ty)),
-            Op::Message(Direction::Diagonal) => {
-                let vertical = across(b, Axis::Y, args[0], ty);
-                Some(across(b, Axis::X, vertical, ty))
+            Op::QuadSwap(QuadDirection::Horizontal) => Some(neighbour_value(b, Axis::X, args[0], ty)),
+            Op::QuadSwap(QuadDirection::Vertical) => Some(neighbour_value(b, Axis::Y, args[0], ty)),
+            Op::QuadSwap(QuadDirection::Diagonal) => {
+                let vertical = neighbour_value(b, Axis::Y, args[0], ty);
+                Some(neighbour_value(b, Axis::X, vertical, ty))
             }
             _ => Exact.simplify(b, op, args, ty),
         }
@@ -293,7 +293,7 @@ impl Rules for Derivatives {
 }
 
 /// value + derivative, or value - derivative in the lane that the difference is taken from.
-fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
+fn neighbour_value(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     let pair = Type::value(Scalar::F32, 2);
     let lane = b.add(Op::Lane, Vec::new(), PAIR);
     let lane = b.add(Op::Convert, [lane], pair);
@@ -311,7 +311,7 @@ fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
         b.set_origin(towards, &origin);
     }
     let mut sign = b.add(Op::Extract(axis as u8), [towards], Type::F32);
-    if ty.components() > 1 {
+    if ty.component_count() > 1 {
         sign = b.add(Op::Splat, [sign], ty);
     }
     let slope = b.add(Op::Derivative(axis), [value], ty);

@@ -1,6 +1,6 @@
 //! Passes over the graph.
 //!
-//! A pass takes a graph and builds another. [`schedule`] alone decides order and place.
+//! A pass takes a graph and builds another. [`schedule_graph`] alone decides order and place.
 
 mod coordinates;
 mod count;
@@ -20,23 +20,23 @@ mod schedule;
 mod tiles;
 
 pub use coordinates::by_component;
-pub use count::{count, layers_read};
-pub use exactness::{exact_places, exactness};
-pub use fast::fast;
-pub use floor::floor;
+pub use count::{count_operations, layers_read};
+pub use exactness::{exact_places, mark_exact_ops};
+pub use fast::apply_fast_math;
+pub use floor::build_floor;
 pub use fold::Exact;
-pub use gathers::{Gathered, gathers};
-pub use lanes::{by_derivatives, expand};
+pub use gathers::{Gathered, form_gathers};
+pub use lanes::{by_derivatives, expand_lanes};
 pub use origin::from_below;
-pub use ranges::{bounds, component_bounds, float_bounds};
-pub use schedule::{Block, Schedule, Step, schedule};
-pub use tiles::{Apart, Sharing, Tile, by_workgroup};
+pub use ranges::{component_bounds, float_bounds, integer_bounds};
+pub use schedule::{Block, Schedule, Step, schedule_graph};
+pub use tiles::{Sharing, Tile, UnsharedReads, by_workgroup};
 
-use crate::ir::{Graph, Rebuild, rebuild};
+use crate::ir::{Graph, Rebuild, rebuild_graph};
 
 /// Makes reads of the same texel one read, and with them all that is computed from them alike.
 pub fn share_loads(graph: &Graph) -> Graph {
-    rebuild(
+    rebuild_graph(
         graph,
         &Rebuild {
             rules: &Exact,
@@ -46,8 +46,8 @@ pub fn share_loads(graph: &Graph) -> Graph {
 }
 
 /// Drops what the result does not depend on, and applies the exact rules to what is left.
-pub fn clean(graph: &Graph) -> Graph {
-    rebuild(
+pub fn clean_graph(graph: &Graph) -> Graph {
+    rebuild_graph(
         graph,
         &Rebuild {
             rules: &Exact,

@@ -26,13 +26,13 @@ type Places = [Option<Place>; 2];
 
 /// By node, the offset from the pixel at which a texel with this coordinate lies, before it is brought into the frame. `None` where
 /// it is no such coordinate.
-pub fn offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
+pub fn pixel_offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
     let mut places: Vec<Places> = Vec::with_capacity(graph.nodes.len());
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         let node = graph.node(id);
-        let is_integer = node.ty.kind() == Some(Scalar::I32) && !node.ty.is_array();
+        let is_integer = node.ty.scalar_kind() == Some(Scalar::I32) && !node.ty.is_array();
         places.push(match is_integer {
-            true => [0, 1].map(|component| place(graph, node, component, &places)),
+            true => [0, 1].map(|component| component_place(graph, node, component, &places)),
             false => [None; 2],
         });
     }
@@ -48,8 +48,8 @@ pub fn offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
 }
 
 /// A component of a node's value.
-fn place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Option<Place> {
-    if component >= usize::from(node.ty.components()) {
+fn component_place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Option<Place> {
+    if component >= usize::from(node.ty.component_count()) {
         return None;
     }
     let whole = |id: NodeId, component: usize| places[id.0 as usize].get(component).copied().flatten();
@@ -68,11 +68,11 @@ fn place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Opt
             _ => return None,
         },
         Op::Binary(BinaryOp::Add) => match (arg(0)?, arg(1)?) {
-            (Known(n), other) | (other, Known(n)) => moved(other, n)?,
+            (Known(n), other) | (other, Known(n)) => move_place(other, n)?,
             _ => return None,
         },
         Op::Binary(BinaryOp::Sub) => match (arg(0)?, arg(1)?) {
-            (other, Known(n)) => moved(other, -n)?,
+            (other, Known(n)) => move_place(other, -n)?,
             _ => return None,
         },
         Op::Binary(BinaryOp::Max) => match (arg(0)?, arg(1)?) {
@@ -93,7 +93,7 @@ fn place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Opt
     (-FARTHEST..=FARTHEST).contains(&n).then_some(found)
 }
 
-fn moved(place: Place, by: i64) -> Option<Place> {
+fn move_place(place: Place, by: i64) -> Option<Place> {
     Some(match place {
         Known(n) => Known(n + by),
         Size(axis, n) => Size(axis, n + by),

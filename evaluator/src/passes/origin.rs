@@ -1,7 +1,9 @@
 //! Rows that count from below.
 
 use super::fold::Exact;
-use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Scalar, TextureKind, Type, rebuild};
+use crate::ir::{
+    BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Scalar, TextureKind, Type, rebuild_graph,
+};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
@@ -16,7 +18,7 @@ pub fn from_below(graph: &Graph) -> Graph {
         rules: &FromBelow { graph },
         share_loads: false,
     };
-    rebuild(graph, &pass)
+    rebuild_graph(graph, &pass)
 }
 
 struct FromBelow<'g> {
@@ -32,16 +34,16 @@ impl Rules for FromBelow<'_> {
         match op {
             Op::Load { texture, .. } => {
                 let indexed = usize::from(kind.is_some_and(TextureKind::is_indexed));
-                let coordinate = self.texel(b, *texture, args[0], args.get(1 + indexed));
+                let coordinate = self.flip_texel(b, *texture, args[0], args.get(1 + indexed));
                 let args = [&[coordinate], &args[1..]].concat();
                 Some(b.intern(op.clone(), args, ty))
             }
             Op::Sample { .. } | Op::Compare { .. } => {
-                let args = [&[place(b, args[0])], &args[1..]].concat();
+                let args = [&[flip_place(b, args[0])], &args[1..]].concat();
                 Some(b.intern(op.clone(), args, ty))
             }
             Op::Gather { .. } | Op::GatherCompare { .. } => {
-                let args = [&[place(b, args[0])], &args[1..]].concat();
+                let args = [&[flip_place(b, args[0])], &args[1..]].concat();
                 let texels = b.intern(op.clone(), args, ty);
                 // Lower left, lower right, upper right, upper left.
                 let turned = [3, 2, 1, 0].map(|k| b.add(Op::Extract(k), [texels], Type::F32));
@@ -54,7 +56,7 @@ impl Rules for FromBelow<'_> {
 
 impl FromBelow<'_> {
     /// A texel by its row from below. Coordinates have been clamped into the texture by now.
-    fn texel(&self, b: &mut Builder<'_>, texture: u32, coordinate: NodeId, level: Option<&NodeId>) -> NodeId {
+    fn flip_texel(&self, b: &mut Builder<'_>, texture: u32, coordinate: NodeId, level: Option<&NodeId>) -> NodeId {
         let size = match self.graph.textures[texture as usize].framed {
             true => Op::FrameSize,
             false => Op::TextureSize(texture),
@@ -67,7 +69,7 @@ impl FromBelow<'_> {
             height = b.add(Op::Binary(BinaryOp::Max), [halved, one], Type::I32);
         }
         let last = b.add(Op::Binary(BinaryOp::Sub), [height, one], Type::I32);
-        named(b, last, "last_row", coordinate);
+        name_node(b, last, "last_row", coordinate);
         let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), [coordinate], Type::I32));
         let row = b.add(Op::Binary(BinaryOp::Sub), [last, y], Type::I32);
         b.add(Op::Compose, [x, row], PAIR)
@@ -75,17 +77,17 @@ impl FromBelow<'_> {
 }
 
 /// A place between 0 and 1 by its height from below.
-fn place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
+fn flip_place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
     let [u, v] = [0, 1].map(|k| b.add(Op::Extract(k), [place], Type::F32));
     let one = b.constant(Type::F32, [1.0f32.to_bits(), 0, 0, 0]);
     let turned = b.add(Op::Binary(BinaryOp::Sub), [one, v], Type::F32);
     let at = b.add(Op::Compose, [u, turned], PLACE);
-    named(b, at, "from_below", place);
+    name_node(b, at, "from_below", place);
     at
 }
 
 /// Gives a value a name, at the place in the source that another has.
-fn named(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
+fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
     if let Some(origin) = b.graph().origin(like).cloned() {
         let origin = Origin {
             name: name.into(),

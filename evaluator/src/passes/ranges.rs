@@ -17,7 +17,7 @@ const LONGEST_BUFFER: i64 = 1 << 28;
 const FARTHEST_PIXEL: i64 = LARGEST_FRAME + 64;
 
 /// Returns whether every lane of a float is +0, positive or NaN: never negative and never -0.
-pub fn nonnegative(g: &Graph, id: NodeId) -> bool {
+pub fn is_nonnegative(g: &Graph, id: NodeId) -> bool {
     at_depth(g, id, DEPTH)
 }
 
@@ -28,7 +28,7 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
     let node = g.node(id);
     let known = |k: usize| at_depth(g, node.args[k], depth - 1);
     match &node.op {
-        Op::Const(bits) => bits[..node.ty.components() as usize].iter().all(|lane| {
+        Op::Const(bits) => bits[..node.ty.component_count() as usize].iter().all(|lane| {
             let x = f32::from_bits(*lane);
             x.is_nan() || x.is_sign_positive()
         }),
@@ -49,11 +49,11 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
 }
 
 /// The smallest and the largest value that a scalar integer can have, as far as constants, counters and floats tell.
-pub fn bounds(g: &Graph, id: NodeId) -> Option<(i64, i64)> {
+pub fn integer_bounds(g: &Graph, id: NodeId) -> Option<(i64, i64)> {
     bounds_at(g, id, 0, DEPTH)
 }
 
-/// As [`bounds`], of one component of an integer vector.
+/// As [`integer_bounds`], of one component of an integer vector.
 pub fn component_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(i64, i64)> {
     bounds_at(g, id, component, DEPTH)
 }
@@ -65,8 +65,8 @@ pub fn float_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(f32, f32)> 
 }
 
 /// Every value of an integer type.
-fn whole(ty: Type) -> (i64, i64) {
-    match ty.kind() {
+fn full_range(ty: Type) -> (i64, i64) {
+    match ty.scalar_kind() {
         Some(Scalar::U32) => (0, i64::from(u32::MAX)),
         // The largest `i64` stands for all that is beyond it.
         Some(Scalar::Usize) => (0, i64::MAX),
@@ -83,14 +83,14 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
         return None;
     }
     let of = |k: usize| bounds_at(g, node.args[k], component, depth - 1);
-    let (smallest, largest) = whole(node.ty);
+    let (smallest, largest) = full_range(node.ty);
     let (unsigned, wide) = (smallest == 0, node.ty == Type::USIZE);
     // Values outside of the type's range wrap.
     let fits = |(low, high): (i64, i64)| {
         (low >= smallest && high <= largest && !(wide && high == largest)).then_some((low, high))
     };
     let known = |id: NodeId| {
-        let bits = g.constant(id)?;
+        let bits = g.constant_bits(id)?;
         if wide {
             return i64::try_from(usize_value(&bits)).ok();
         }
@@ -119,7 +119,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
             _ => None,
         },
         Op::Param(region, 0) => {
-            let owner = g.ids().find(|id| g.node(*id).op == Op::Loop(*region))?;
+            let owner = g.node_ids().find(|id| g.node(*id).op == Op::Loop(*region))?;
             let bound = |k: usize| bounds_at(g, g.node(owner).args[k], 0, depth - 1);
             match (bound(0)?, bound(1)?) {
                 ((low, _), (_, i64::MAX)) => Some((low, i64::MAX)),
@@ -148,7 +148,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
             Some((0, mask))
         }
         Op::Binary(BinaryOp::Shr) => {
-            let count = g.constant(node.args[1])?[component as usize] % if wide { 64 } else { 32 };
+            let count = g.constant_bits(node.args[1])?[component as usize] % if wide { 64 } else { 32 };
             let (low, high) = of(0).unwrap_or((smallest, largest));
             Some((low >> count, high >> count))
         }
@@ -183,7 +183,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
             // A NaN becomes 0.
             Some((whole(low).min(0), whole(high).max(0)))
         }
-        Op::Convert if g.ty(node.args[0]).kind() == Some(Scalar::Bool) => Some((0, 1)),
+        Op::Convert if g.ty(node.args[0]).scalar_kind() == Some(Scalar::Bool) => Some((0, 1)),
         Op::Convert => fits(of(0)?),
         _ => None,
     };
@@ -216,10 +216,10 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
         }
         Op::Convert => {
             let from = g.ty(node.args[0]);
-            let (low, high) = match from.kind()? {
+            let (low, high) = match from.scalar_kind()? {
                 Scalar::F32 => return of(0),
                 Scalar::Bool => (0, 1),
-                _ => bounds_at(g, node.args[0], component, depth - 1).unwrap_or(whole(from)),
+                _ => bounds_at(g, node.args[0], component, depth - 1).unwrap_or(full_range(from)),
             };
             if high == i64::MAX {
                 return Some((low as f32, u64::MAX as f32));
@@ -270,7 +270,7 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
 }
 
 /// Clamping of an integer that is inside already.
-pub fn within(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+pub fn fold_inner_clamp(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     if *op != Op::Clamp || !ty.is_integer() || ty.is_array() {
         return None;
     }
@@ -279,12 +279,12 @@ pub fn within(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
         let ((low, high), (_, least), (most, _)) = (bounds(0)?, bounds(1)?, bounds(2)?);
         Some(low >= least && high <= most)
     };
-    let all = (0..ty.components()).all(|component| inside(component) == Some(true));
+    let all = (0..ty.component_count()).all(|component| inside(component) == Some(true));
     all.then_some(args[0])
 }
 
 /// Integers that are compared, or of which the smaller or the larger is taken, where their ranges decide it.
-pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
+pub fn fold_comparison(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
     let (Op::Binary(op), g) = (op, b.graph()) else {
         return None;
     };
@@ -301,10 +301,10 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
             _ => {}
         }
     }
-    let range = |id, component| component_bounds(g, id, component).unwrap_or(whole(ty));
+    let range = |id, component| component_bounds(g, id, component).unwrap_or(full_range(ty));
     // Compares the first's largest value with the second's smallest by `less`, in every component.
     let all = |less: fn(i64, i64) -> bool, first, second| {
-        (0..ty.components()).all(|component| less(range(first, component).1, range(second, component).0))
+        (0..ty.component_count()).all(|component| less(range(first, component).1, range(second, component).0))
     };
     let below = |first, second| all(|a, b| a < b, first, second);
     let not_above = |first, second| all(|a, b| a <= b, first, second);
@@ -330,7 +330,7 @@ pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
 fn sum_of(g: &Graph, x: NodeId, y: NodeId) -> Option<bool> {
     let is_sum = |sum: NodeId, part: NodeId| {
         let node = g.node(sum);
-        let fits = || bounds(g, sum).is_some_and(|(_, high)| high < i64::MAX);
+        let fits = || integer_bounds(g, sum).is_some_and(|(_, high)| high < i64::MAX);
         node.ty == Type::USIZE && node.op == Op::Binary(BinaryOp::Add) && node.args.contains(&part) && fits()
     };
     match (is_sum(x, y), is_sum(y, x)) {
@@ -342,7 +342,7 @@ fn sum_of(g: &Graph, x: NodeId, y: NodeId) -> Option<bool> {
 
 /// Clamping of a neighbour's coordinate to the frame: the pixel itself is inside, so a step to the right can only
 /// leave on the right.
-pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+pub fn fold_frame_clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let g = b.graph();
     if *op != Op::Clamp || !is_zero(g, args[1]) || !is_last(g, args[2]) {
         return None;
@@ -383,7 +383,7 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
                 BinaryOp::Min => bound == args[2],
                 _ => bound == args[1],
             };
-            let brought = again.then(|| clamp(b, op, &inner, ty)).flatten();
+            let brought = again.then(|| fold_frame_clamp(b, op, &inner, ty)).flatten();
             (brought == Some(args[0])).then_some(args[0])
         }
         _ => None,
@@ -394,7 +394,7 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
 const MAX_STEP: i32 = 1 << 30;
 
 fn is_zero(g: &Graph, id: NodeId) -> bool {
-    g.constant(id) == Some([0; 4])
+    g.constant_bits(id) == Some([0; 4])
 }
 
 /// The frame's size less one.
@@ -402,5 +402,5 @@ fn is_last(g: &Graph, id: NodeId) -> bool {
     let node = g.node(id);
     node.op == Op::Binary(BinaryOp::Sub)
         && g.node(node.args[0]).op == Op::FrameSize
-        && g.constant(node.args[1]).is_some_and(|c| c[0] == 1 && c[1] == 1)
+        && g.constant_bits(node.args[1]).is_some_and(|c| c[0] == 1 && c[1] == 1)
 }

@@ -12,9 +12,9 @@ const PIXEL: f64 = 4096.0;
 pub fn rows_first(graph: &Graph, place: &[Option<RegionId>], steps: &mut [Vec<NodeId>]) {
     let mut values: Vec<Value> = Vec::with_capacity(graph.nodes.len());
     let mut plain = Vec::with_capacity(graph.nodes.len());
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         let node = graph.node(id);
-        values.push(value(node, &values));
+        values.push(node_value(node, &values));
         let here = |arg: &&NodeId| place[arg.0 as usize] == place[id.0 as usize];
         plain.push(is_arithmetic(graph, id) && node.args.iter().filter(here).all(|arg| plain[arg.0 as usize]));
     }
@@ -25,7 +25,7 @@ pub fn rows_first(graph: &Graph, place: &[Option<RegionId>], steps: &mut [Vec<No
         for id in steps.iter() {
             let node = graph.node(*id);
             if node.op.is_read() && node.args.iter().filter(here).all(|arg| plain[arg.0 as usize]) {
-                moved.extend(key(graph, node, &values).map(|key| (key, *id)));
+                moved.extend(sort_key(graph, node, &values).map(|key| (key, *id)));
             }
         }
         moved.sort_by(|(a, x), (b, y)| {
@@ -59,14 +59,14 @@ fn is_arithmetic(graph: &Graph, id: NodeId) -> bool {
         || !graph.regions_of(id).is_empty()
         || matches!(
             node.op,
-            Op::Result(_) | Op::ArrayGet | Op::Message(_) | Op::Derivative(_)
+            Op::Result(_) | Op::ArrayGet | Op::QuadSwap(_) | Op::Derivative(_)
         );
     !waits
 }
 
 /// Sort key of a read: texture or buffer, then layer, level and the like, then row and column. `None` if its place is not relative to the
 /// pixel.
-fn key(graph: &Graph, node: &Node, values: &[Value]) -> Option<Vec<f64>> {
+fn sort_key(graph: &Graph, node: &Node, values: &[Value]) -> Option<Vec<f64>> {
     let resource = match (&node.op, node.op.texture()) {
         (_, Some(texture)) => f64::from(texture),
         (Op::BufferLoad { buffer, .. }, _) => f64::from(graph.textures.len() as u32 + buffer),
@@ -85,9 +85,9 @@ fn key(graph: &Graph, node: &Node, values: &[Value]) -> Option<Vec<f64>> {
 type Value = Option<Vec<f64>>;
 
 /// That of a node, from those of the nodes before it.
-fn value(node: &Node, values: &[Value]) -> Value {
-    let lanes = usize::from(node.ty.components());
-    let scalar = node.ty.kind()?;
+fn node_value(node: &Node, values: &[Value]) -> Value {
+    let lanes = usize::from(node.ty.component_count());
+    let scalar = node.ty.scalar_kind()?;
     let args: Vec<&Vec<f64>> = node
         .args
         .iter()

@@ -22,7 +22,7 @@ pub struct Schedule {
 
 impl Schedule {
     /// Returns whether a node is evaluated.
-    pub fn has(&self, id: NodeId) -> bool {
+    pub fn has_node(&self, id: NodeId) -> bool {
         self.place[id.0 as usize].is_some()
     }
 }
@@ -58,11 +58,11 @@ pub enum Step {
 }
 
 /// Places and orders the nodes that the output depends on.
-pub fn schedule(graph: &Graph, reads: ReadOrder) -> Schedule {
-    let mut places = Places::new(graph);
-    places.run();
+pub fn schedule_graph(graph: &Graph, reads: ReadOrder) -> Schedule {
+    let mut places = Placement::new(graph);
+    places.place_nodes();
     let mut steps: Vec<Vec<NodeId>> = vec![Vec::new(); graph.regions.len()];
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         if let Some(region) = places.place[id.0 as usize]
             && !matches!(graph.node(id).op, Op::Param(..))
         {
@@ -72,7 +72,7 @@ pub fn schedule(graph: &Graph, reads: ReadOrder) -> Schedule {
     if reads == ReadOrder::Rows {
         rows_first(graph, &places.place, &mut steps);
     }
-    let body = block(graph, &steps, Graph::BODY);
+    let body = build_block(graph, &steps, Graph::BODY);
     Schedule {
         body,
         uses: places.uses,
@@ -80,16 +80,16 @@ pub fn schedule(graph: &Graph, reads: ReadOrder) -> Schedule {
     }
 }
 
-fn block(graph: &Graph, steps: &[Vec<NodeId>], region: RegionId) -> Block {
+fn build_block(graph: &Graph, steps: &[Vec<NodeId>], region: RegionId) -> Block {
     let step = |id: &NodeId| match graph.node(*id).op {
         Op::Loop(body) => Step::Loop {
             node: *id,
-            body: block(graph, steps, body),
+            body: build_block(graph, steps, body),
         },
         Op::If(then, otherwise) => Step::If {
             node: *id,
-            then: block(graph, steps, then),
-            otherwise: block(graph, steps, otherwise),
+            then: build_block(graph, steps, then),
+            otherwise: build_block(graph, steps, otherwise),
         },
         _ => Step::Eval(*id),
     };
@@ -98,7 +98,7 @@ fn block(graph: &Graph, steps: &[Vec<NodeId>], region: RegionId) -> Block {
     }
 }
 
-struct Places<'g> {
+struct Placement<'g> {
     graph: &'g Graph,
     /// Depth of nesting of each region, and of loops alone.
     depth: Vec<u32>,
@@ -111,7 +111,7 @@ struct Places<'g> {
     uses: Vec<u32>,
 }
 
-impl<'g> Places<'g> {
+impl<'g> Placement<'g> {
     fn new(graph: &'g Graph) -> Self {
         let mut depth = vec![0; graph.regions.len()];
         let mut loops = vec![0; graph.regions.len()];
@@ -127,7 +127,7 @@ impl<'g> Places<'g> {
                 happens[id.0 as usize] = Some(RegionId(k as u32));
             }
         }
-        Places {
+        Placement {
             graph,
             depth,
             loops,
@@ -138,9 +138,9 @@ impl<'g> Places<'g> {
         }
     }
 
-    fn run(&mut self) {
-        for id in self.graph.ids() {
-            self.early[id.0 as usize] = self.earliest(id);
+    fn place_nodes(&mut self) {
+        for id in self.graph.node_ids() {
+            self.early[id.0 as usize] = self.earliest_region(id);
         }
         // Latest place: the common region of all uses. Users have larger ids, so one sweep down sees them first;
         // a region's results are used at its end, seen when its owner is.
@@ -152,16 +152,16 @@ impl<'g> Places<'g> {
         for effect in &self.graph.regions[0].effects {
             late[effect.0 as usize] = Some(Graph::BODY);
         }
-        for id in self.graph.ids().rev() {
+        for id in self.graph.node_ids().rev() {
             let Some(latest) = late[id.0 as usize] else { continue };
-            let here = self.choose(id, latest);
+            let here = self.choose_region(id, latest);
             self.place[id.0 as usize] = Some(here);
             for arg in &self.graph.node(id).args {
-                self.used(&mut late, *arg, here);
+                self.record_use(&mut late, *arg, here);
             }
             for region in self.graph.regions_of(id) {
-                for result in self.graph.region(region).leaving() {
-                    self.used(&mut late, result, region);
+                for result in self.graph.region(region).yielded_values() {
+                    self.record_use(&mut late, result, region);
                 }
                 for effect in &self.graph.region(region).effects {
                     late[effect.0 as usize].get_or_insert(region);
@@ -173,17 +173,17 @@ impl<'g> Places<'g> {
         }
     }
 
-    fn used(&mut self, late: &mut [Option<RegionId>], id: NodeId, at: RegionId) {
+    fn record_use(&mut self, late: &mut [Option<RegionId>], id: NodeId, at: RegionId) {
         self.uses[id.0 as usize] += 1;
         let slot = &mut late[id.0 as usize];
         *slot = Some(match *slot {
             None => at,
-            Some(other) => self.common(other, at),
+            Some(other) => self.common_region(other, at),
         });
     }
 
     /// The region of the innermost parameter that a node depends on.
-    fn earliest(&self, id: NodeId) -> RegionId {
+    fn earliest_region(&self, id: NodeId) -> RegionId {
         let node = self.graph.node(id);
         if let Op::Param(region, _) = node.op {
             return region;
@@ -208,7 +208,7 @@ impl<'g> Places<'g> {
     }
 
     /// From the latest place outwards to the earliest: the innermost one with the fewest loops around it.
-    fn choose(&self, id: NodeId, latest: RegionId) -> RegionId {
+    fn choose_region(&self, id: NodeId, latest: RegionId) -> RegionId {
         let early = self.early[id.0 as usize];
         let node = self.graph.node(id);
         if !self.graph.regions_of(id).is_empty() || matches!(node.op, Op::Param(..)) || node.op.is_effect() {
@@ -220,7 +220,7 @@ impl<'g> Places<'g> {
         // A literal is a value as others are. Versions that follow from writes stay where they were made, as do reads of them.
         if (node.ty.is_array() && node.op != Op::MakeArray) || matches!(node.op, Op::ArrayGet) {
             // Not before what it is made of: a branch that it was made after may have given that.
-            let home = self.common(self.graph.homes[id.0 as usize], latest);
+            let home = self.common_region(self.graph.homes[id.0 as usize], latest);
             let deeper = self.depth[early.0 as usize] > self.depth[home.0 as usize];
             return if deeper { early } else { home };
         }
@@ -242,7 +242,7 @@ impl<'g> Places<'g> {
         self.early[owner.0 as usize]
     }
 
-    fn common(&self, mut a: RegionId, mut b: RegionId) -> RegionId {
+    fn common_region(&self, mut a: RegionId, mut b: RegionId) -> RegionId {
         while a != b {
             let deeper = if self.depth[a.0 as usize] >= self.depth[b.0 as usize] {
                 &mut a

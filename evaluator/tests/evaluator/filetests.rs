@@ -20,7 +20,7 @@ fn now(text: &str) -> Result<String, String> {
         };
     }
     let graph = parsed.map_err(|e| e.to_string())?;
-    let verified = verify::verify(&graph);
+    let verified = verify::verify_graph(&graph);
     if let Some(expected) = directive(text, "verify") {
         return match verified {
             Err(why) if why.contains(expected) => Ok(text.to_owned()),
@@ -29,16 +29,16 @@ fn now(text: &str) -> Result<String, String> {
     }
     verified?;
     let made = match directive(text, "run").ok_or("no directive")? {
-        "clean" => passes::clean(&graph),
+        "clean" => passes::clean_graph(&graph),
         "share-loads" => passes::share_loads(&graph),
-        "coordinates" => passes::clean(&passes::by_component(&graph)),
-        "exactness" => passes::clean(&passes::exactness(&graph)),
-        "fast" => passes::clean(&passes::fast(&graph)),
-        "gathers" => passes::clean(&passes::gathers(&graph)?.0),
-        "share-by-workgroup" => passes::clean(&passes::by_workgroup(&graph, [4, 4])?.0),
+        "coordinates" => passes::clean_graph(&passes::by_component(&graph)),
+        "exactness" => passes::clean_graph(&passes::mark_exact_ops(&graph)),
+        "fast" => passes::clean_graph(&passes::apply_fast_math(&graph)),
+        "gathers" => passes::clean_graph(&passes::form_gathers(&graph)?.0),
+        "share-by-workgroup" => passes::clean_graph(&passes::by_workgroup(&graph, [4, 4])?.0),
         other => return Err(format!("there is no pass `{other}`")),
     };
-    verify::verify(&made)?;
+    verify::verify_graph(&made)?;
     Ok(with_output(input, &print(&made)))
 }
 

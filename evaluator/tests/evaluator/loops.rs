@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Errors, File};
-use straightline_evaluator::eval::{Evaluated, evaluate};
+use straightline_evaluator::eval::{Evaluated, evaluate_kernel};
 use straightline_evaluator::ir::Invocation;
 use straightline_evaluator::limits::{Limits, Meter};
 use straightline_evaluator::policy::{Policy, Unroll};
@@ -28,7 +28,7 @@ fn evaluated(text: &str, unroll: Unroll) -> (Result<Evaluated, Errors>, u64) {
     let text = text.to_owned();
     let files = Arc::new(vec![File { path, text }]);
     let mut parsed = front::parse(&files, "k").unwrap_or_else(|e| panic!("{e}"));
-    let mistyped = infer::infer(&mut parsed.library, &parsed.reached)
+    let mistyped = infer::infer_types(&mut parsed.library, &parsed.reached)
         .err()
         .unwrap_or_default();
     let wrong = [parsed.errors, mistyped].concat();
@@ -38,7 +38,7 @@ fn evaluated(text: &str, unroll: Unroll) -> (Result<Evaluated, Errors>, u64) {
         ..Policy::default()
     };
     let meter = Meter::open(Limits::DEFAULT);
-    let found = evaluate(&parsed.library, &files, "k", &[], &policy, Invocation::Pixel);
+    let found = evaluate_kernel(&parsed.library, &files, "k", &[], &policy, Invocation::Pixel);
     (found, meter.work())
 }
 
@@ -47,7 +47,7 @@ fn fates(text: &str, unroll: Unroll) -> Vec<String> {
     let found = evaluated(text, unroll).0.unwrap_or_else(|e| panic!("{e}\n{text}"));
     let fates = found.loops.iter();
     fates
-        .map(|report| format!("{} {}", report.path(), report.unroll))
+        .map(|report| format!("{} {}", report.policy_path(), report.unroll))
         .collect()
 }
 

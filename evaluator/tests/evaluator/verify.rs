@@ -1,8 +1,9 @@
 //! Every rule of the verifier is broken by one change of a graph that keeps all of them.
 
 use straightline_evaluator::ir::{
-    Access, AtomicOp, BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Memory, Node, NodeId, Op,
-    RegionId, Rules, Sampler, Scalar, Shared, Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    Access, AtomicOp, BinaryOp, Buffer, Builder, Element, Graph, Invocation, Memory, Node, NodeId, Op, QuadDirection,
+    RegionId, Rules, Sampler, Scalar, SharedArray, Target, Texture, TextureKind, Type, UnaryOp, Uniform,
+    verify::verify_graph,
 };
 
 struct Nothing;
@@ -125,7 +126,7 @@ fn node(graph: &mut Graph, k: usize) -> &mut Node {
 
 #[test]
 fn a_whole_graph_is_verified() {
-    assert_eq!(verify(&whole()), Ok(()));
+    assert_eq!(verify_graph(&whole()), Ok(()));
 }
 
 #[test]
@@ -255,11 +256,11 @@ fn every_rule_is_checked() {
             }
         }),
         ("the target destination is of no numbers, or there are two of it", |g| {
-            g.targets.push(Target::colour())
+            g.targets.push(Target::default_color())
         }),
         // 6: lanes.
         ("no lane", |g| {
-            node(g, 25).op = Op::Message(Direction::Vertical);
+            node(g, 25).op = Op::QuadSwap(QuadDirection::Vertical);
             g.invocation = Invocation::Pixel;
         }),
     ];
@@ -267,7 +268,7 @@ fn every_rule_is_checked() {
     for (k, (expected, change)) in cases.iter().enumerate() {
         let mut graph = whole();
         change(&mut graph);
-        let said = std::panic::catch_unwind(|| verify(&graph));
+        let said = std::panic::catch_unwind(|| verify_graph(&graph));
         match said {
             Ok(Err(why)) if why.contains(expected) => {}
             other => wrong.push(format!("case {k}, `{expected}`: {other:?}")),
@@ -290,7 +291,7 @@ fn writing() -> Graph {
     let first = b.open_region(&[]);
     let op = AtomicOp::Add;
     let memory = Memory::Buffer(0);
-    b.effect(Op::Atomic { memory, op }, vec![holds, index, value], Type::U32);
+    b.add_effect(Op::Atomic { memory, op }, vec![holds, index, value], Type::U32);
     b.close_region(Vec::new());
     let second = b.open_region(&[]);
     b.close_region(Vec::new());
@@ -300,7 +301,7 @@ fn writing() -> Graph {
 
 #[test]
 fn rules_of_effects_are_checked() {
-    verify(&writing()).unwrap_or_else(|why| panic!("{why}"));
+    verify_graph(&writing()).unwrap_or_else(|why| panic!("{why}"));
     type Change = fn(&mut Graph);
     let cases: [(&str, Change); 9] = [
         ("no effect of the region", |g| g.regions[1].effects.clear()),
@@ -333,7 +334,7 @@ fn rules_of_effects_are_checked() {
     for (expected, change) in cases {
         let mut graph = writing();
         change(&mut graph);
-        let said = match verify(&graph) {
+        let said = match verify_graph(&graph) {
             Err(said) => said,
             Ok(()) => panic!("`{expected}` is not refused"),
         };
@@ -346,11 +347,11 @@ fn rules_of_effects_are_checked() {
 fn passes_keep_effects() {
     let mut graph = writing();
     graph.regions[0].effects.clear();
-    let passes = straightline_evaluator::passes::clean;
+    let passes = straightline_evaluator::passes::clean_graph;
     assert_eq!(passes(&graph).nodes.len(), 0, "what happens nowhere is dropped");
     let kept = passes(&writing());
     assert_eq!(kept.nodes.iter().filter(|n| n.op.is_effect()).count(), 1);
-    verify(&kept).unwrap_or_else(|why| panic!("{why}"));
+    verify_graph(&kept).unwrap_or_else(|why| panic!("{why}"));
     let mut never = writing();
     node(&mut never, 0).op = Op::Const([0; 4]);
     assert!(!passes(&passes(&never)).has_effects());
@@ -361,7 +362,7 @@ fn sharing() -> Graph {
     let mut b = Builder::new(&Nothing);
     b.graph_mut().targets.clear();
     b.graph_mut().invocation = Invocation::Group([2, 1]);
-    b.graph_mut().shared = vec![Shared {
+    b.graph_mut().shared = vec![SharedArray {
         name: "sums".to_owned(),
         element: Type::F32,
         len: 2,
@@ -370,15 +371,15 @@ fn sharing() -> Graph {
     }];
     let (holds, index, value) = (b.bool(true), b.i32(1), b.f32(0.5));
     let memory = Memory::Shared(0);
-    b.effect(Op::Store(memory), vec![holds, index, value], Type::Results);
-    b.effect(Op::Barrier { buffers: false }, Vec::new(), Type::Results);
-    b.effect(Op::SharedLoad(0), vec![holds, index], Type::F32);
+    b.add_effect(Op::Store(memory), vec![holds, index, value], Type::Results);
+    b.add_effect(Op::Barrier { buffers: false }, Vec::new(), Type::Results);
+    b.add_effect(Op::SharedLoad(0), vec![holds, index], Type::F32);
     b.finish(Vec::new())
 }
 
 #[test]
 fn rules_of_workgroups_are_checked() {
-    verify(&sharing()).unwrap_or_else(|why| panic!("{why}"));
+    verify_graph(&sharing()).unwrap_or_else(|why| panic!("{why}"));
     type Change = fn(&mut Graph);
     let cases: [(&str, Change); 7] = [
         ("no such memory", |g| g.invocation = Invocation::Pixel),
@@ -394,14 +395,14 @@ fn rules_of_workgroups_are_checked() {
     for (expected, change) in cases {
         let mut graph = sharing();
         change(&mut graph);
-        let said = match verify(&graph) {
+        let said = match verify_graph(&graph) {
             Err(said) => said,
             Ok(()) => panic!("`{expected}` is not refused"),
         };
         assert!(said.contains(expected), "`{expected}`: {said}");
     }
     // A read of workgroup memory whose value is unused is removed.
-    let clean = straightline_evaluator::passes::clean(&sharing());
+    let clean = straightline_evaluator::passes::clean_graph(&sharing());
     assert!(!clean.nodes.iter().any(|n| n.op == Op::SharedLoad(0)));
     assert!(clean.nodes.iter().any(|n| n.op == Op::Barrier { buffers: false }));
 }

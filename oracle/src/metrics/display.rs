@@ -13,7 +13,7 @@ pub(super) struct Shown {
 }
 
 /// Clamps and encodes both pictures.
-pub(super) fn shown(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Shown {
+pub(super) fn encode_for_display(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Shown {
     assert_eq!(test.size(), reference.size(), "pictures of one size");
     let mut shown = Shown {
         test: Vec::with_capacity(test.texels().len()),
@@ -22,7 +22,7 @@ pub(super) fn shown(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Shown {
     };
     for (index, (test, reference)) in test.texels().iter().zip(reference.texels()).enumerate() {
         let (test, reference) = (test.truncate(), reference.truncate());
-        let encoded = |color: Vec3| color.clamp(Vec3::ZERO, Vec3::ONE).map(srgb::encode);
+        let encoded = |color: Vec3| color.clamp(Vec3::ZERO, Vec3::ONE).map(srgb::from_linear);
         let right = if reference.is_finite() {
             encoded(reference)
         } else {

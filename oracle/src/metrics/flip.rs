@@ -1,7 +1,7 @@
 //! FLIP: how visible a difference is to someone who flips between both pictures (Andersson et al. 2020), by `flip-rs`, a port
 //! of NVIDIA's version 1.7.
 
-use super::display::shown;
+use super::display::encode_for_display;
 use flip_rs::{DEFAULT_PPD, RgbImage, ldr_flip};
 use glam::{Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
@@ -15,7 +15,7 @@ pub fn flip(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
 /// Visibility of the difference at each pixel, row by row from the top, 0 to 1: LDR-FLIP for a display of 3840 pixels in 0.7 m,
 /// seen from 0.7 m, which is the authors' default. 1 where a picture is not finite.
 pub fn flip_map(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> Vec<f32> {
-    let shown = shown(test, reference);
+    let shown = encode_for_display(test, reference);
     let (width, height) = (test.size().x as usize, test.size().y as usize);
     let image = |texels: &[Vec3]| {
         let channels = texels.iter().flat_map(|texel| texel.to_array()).collect::<Vec<f32>>();

@@ -15,6 +15,6 @@ mod tests;
 
 pub use flip::{flip, flip_map};
 pub use psnr::{
-    MOST_DB, max_abs_difference, max_abs_difference_to, mse, mse_where, non_finite, psnr, psnr_where, worst,
+    MOST_DB, max_abs_difference, max_abs_difference_to, mse, mse_where, non_finite, psnr, psnr_where, worst_error,
 };
 pub use ssim::ssim;

@@ -28,7 +28,7 @@ pub fn mse(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
 pub fn mse_where(test: &Frame<Vec4>, reference: &Frame<Vec4>, mask: impl Fn(usize) -> bool) -> f64 {
     let mut sum = 0.0;
     let mut count = 0u64;
-    for (index, (test, reference)) in pairs(test, reference).enumerate() {
+    for (index, (test, reference)) in texel_pairs(test, reference).enumerate() {
         if mask(index) {
             sum += squared_error(test, reference);
             count += 3;
@@ -38,8 +38,8 @@ pub fn mse_where(test: &Frame<Vec4>, reference: &Frame<Vec4>, mask: impl Fn(usiz
 }
 
 /// The error that one pixel in a thousand exceeds, 0 to 1: the root of the mean square of what red, green and blue are off.
-pub fn worst(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
-    let squared = pairs(test, reference).map(|(test, reference)| squared_error(test, reference) / 3.0);
+pub fn worst_error(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
+    let squared = texel_pairs(test, reference).map(|(test, reference)| squared_error(test, reference) / 3.0);
     let mut squared: Vec<f64> = squared.collect();
     let beyond = squared.len() / 1000;
     if squared.is_empty() {
@@ -53,7 +53,7 @@ pub fn worst(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
 /// error of a computation. Two components that are both NaN, or the same infinity, do not differ; anything
 /// else that is not finite differs infinitely.
 pub fn max_abs_difference(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
-    pairs(test, reference).fold(0.0, |largest, (test, reference)| {
+    texel_pairs(test, reference).fold(0.0, |largest, (test, reference)| {
         largest.max(largest_difference(test, reference.to_array().map(f64::from)))
     })
 }
@@ -75,7 +75,7 @@ pub fn non_finite(frame: &Frame<Vec4>) -> usize {
     frame.texels().iter().filter(|texel| !texel.is_finite()).count()
 }
 
-fn pairs<'a>(test: &'a Frame<Vec4>, reference: &'a Frame<Vec4>) -> impl Iterator<Item = (Vec4, Vec4)> + 'a {
+fn texel_pairs<'a>(test: &'a Frame<Vec4>, reference: &'a Frame<Vec4>) -> impl Iterator<Item = (Vec4, Vec4)> + 'a {
     assert_eq!(test.size(), reference.size(), "pictures of one size");
     test.texels().iter().copied().zip(reference.texels().iter().copied())
 }
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
     use glam::{uvec2, vec4};
 
-    fn row(texels: &[Vec4]) -> Frame<Vec4> {
+    fn row_frame(texels: &[Vec4]) -> Frame<Vec4> {
         Frame::new(uvec2(texels.len() as u32, 1), texels.to_vec())
     }
 
@@ -123,7 +123,7 @@ mod tests {
 
     #[test]
     fn equal_pictures_are_infinitely_good() {
-        let picture = row(&[GREY, Vec4::ZERO]);
+        let picture = row_frame(&[GREY, Vec4::ZERO]);
         assert_eq!(psnr(&picture, &picture), f64::INFINITY);
         assert_eq!(
             (mse(&picture, &picture), max_abs_difference(&picture, &picture)),
@@ -134,29 +134,29 @@ mod tests {
     #[test]
     fn hand_computed() {
         // Squared errors of the six components: 0.25², 0, 0.5² and 0, 0, 0; their mean 0.3125 / 6 = 0.052083.
-        let reference = row(&[GREY, GREY]);
-        let test = row(&[vec4(0.75, 0.5, 0.0, 0.0), GREY]);
+        let reference = row_frame(&[GREY, GREY]);
+        let test = row_frame(&[vec4(0.75, 0.5, 0.0, 0.0), GREY]);
         assert!((mse(&test, &reference) - 0.3125 / 6.0).abs() < 1e-15);
         assert!((psnr(&test, &reference) - 12.833_012).abs() < 1e-6);
         // Alpha counts here, and only here.
         assert_eq!(max_abs_difference(&test, &reference), 1.0);
         // A difference of 0.1 in every component is 20 dB, up to the rounding of 0.6 and 0.5 to f32.
-        let test = row(&[vec4(0.6, 0.6, 0.6, 1.0)]);
-        assert!((psnr(&test, &row(&[GREY])) - 20.0).abs() < 1e-5);
+        let test = row_frame(&[vec4(0.6, 0.6, 0.6, 1.0)]);
+        assert!((psnr(&test, &row_frame(&[GREY])) - 20.0).abs() < 1e-5);
     }
 
     #[test]
     fn colour_is_clamped_to_what_a_display_shows() {
-        let reference = row(&[vec4(1.0, 0.0, 0.5, 1.0)]);
-        let test = row(&[vec4(7.0, -3.0, 0.5, 1.0)]);
+        let reference = row_frame(&[vec4(1.0, 0.0, 0.5, 1.0)]);
+        let test = row_frame(&[vec4(7.0, -3.0, 0.5, 1.0)]);
         assert_eq!(psnr(&test, &reference), f64::INFINITY);
         assert_eq!(max_abs_difference(&test, &reference), 6.0);
     }
 
     #[test]
     fn a_mask_chooses_pixels_by_index() {
-        let reference = row(&[GREY, GREY, GREY]);
-        let test = row(&[GREY, vec4(1.0, 1.0, 1.0, 1.0), GREY]);
+        let reference = row_frame(&[GREY, GREY, GREY]);
+        let test = row_frame(&[GREY, vec4(1.0, 1.0, 1.0, 1.0), GREY]);
         assert_eq!(psnr_where(&test, &reference, |index| index != 1), f64::INFINITY);
         assert!((psnr_where(&test, &reference, |index| index == 1) - 6.020_599_9).abs() < 1e-6);
         assert!(psnr_where(&test, &reference, |_| false).is_nan());
@@ -164,9 +164,9 @@ mod tests {
 
     #[test]
     fn what_is_not_finite_is_as_wrong_as_can_be() {
-        let reference = row(&[GREY, GREY]);
+        let reference = row_frame(&[GREY, GREY]);
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            let test = row(&[vec4(0.5, bad, 0.5, 1.0), GREY]);
+            let test = row_frame(&[vec4(0.5, bad, 0.5, 1.0), GREY]);
             assert_eq!(mse(&test, &reference), 0.5);
             assert_eq!(mse(&reference, &test), 0.5);
             assert_eq!(max_abs_difference(&test, &reference), f64::INFINITY);
@@ -174,7 +174,7 @@ mod tests {
             assert_eq!(non_finite(&test), 1);
         }
         // Alpha is no part of the error, but is part of the count.
-        let test = row(&[vec4(0.5, 0.5, 0.5, f32::NAN), GREY]);
+        let test = row_frame(&[vec4(0.5, 0.5, 0.5, f32::NAN), GREY]);
         assert_eq!(
             (mse(&test, &reference), non_finite(&test), non_finite(&reference)),
             (0.0, 1, 0)
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn against_double_precision() {
-        let test = row(&[vec4(0.25, 0.5, 0.75, f32::NAN)]);
+        let test = row_frame(&[vec4(0.25, 0.5, 0.75, f32::NAN)]);
         assert_eq!(
             max_abs_difference_to(&test, &[[0.25, 0.5 + 1e-12, 0.75, f64::NAN]]),
             0.500000000001 - 0.5
@@ -194,6 +194,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "pictures of one size")]
     fn sizes_must_agree() {
-        psnr(&row(&[GREY]), &row(&[GREY, GREY]));
+        psnr(&row_frame(&[GREY]), &row_frame(&[GREY, GREY]));
     }
 }

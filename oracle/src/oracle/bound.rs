@@ -14,7 +14,7 @@
 use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
     Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Plane, Projection,
-    Search, SraaParams, Tap, bounded, is_finite, turned,
+    Search, SraaParams, Tap, clamp_difference, is_finite, normal_distance,
 };
 use rayon::prelude::*;
 use straightline_scene::inputs::Inputs;
@@ -69,14 +69,14 @@ struct Range {
 impl Range {
     /// A difference of surfaces, 0 or more, that may be off by so much.
     fn around(value: f64, off: f64) -> Range {
-        let far = bounded(f64::INFINITY);
+        let far = clamp_difference(f64::INFINITY);
         match (value.is_nan(), off.is_nan()) {
             // Of what is read as no number, in any precision.
             (true, _) => Range { low: far, high: far },
             (false, true) => Range { low: 0.0, high: far },
             (false, false) => Range {
-                low: bounded((value - off).max(0.0)),
-                high: bounded(value + off),
+                low: clamp_difference((value - off).max(0.0)),
+                high: clamp_difference(value + off),
             },
         }
     }
@@ -160,14 +160,14 @@ pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
 }
 
 /// Most that any component of every pixel may be off, row by row, in whatever a shader with these options makes of these
-/// inputs; see [`oracle::sraa`](super::sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is left,
+/// inputs; see [`resolve_sraa`](super::resolve_sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is left,
 /// nor where a quotient may overflow: infinity.
 ///
 /// # Errors
 ///
 /// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit; [`OracleError::BadValue`] with
 /// earlier frames.
-pub fn sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> Result<Vec<f64>, OracleError> {
+pub fn bound_sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> Result<Vec<f64>, OracleError> {
     if params.history > 0 {
         return Err(OracleError::BadValue {
             option: "history".to_owned(),
@@ -196,7 +196,7 @@ struct Reach {
 
 impl Definition<'_> {
     fn most_off(&self, pixel: [i32; 2], rounding: &Rounding) -> f64 {
-        let reconstructed = self.reconstructed();
+        let reconstructed = self.sample_shares();
         let total: f64 = reconstructed.iter().map(|(_, share)| share).sum();
         let mut shares = Vec::new();
         let mut largest = Range { low: 0.0, high: 0.0 };
@@ -204,7 +204,7 @@ impl Definition<'_> {
         for (at, share) in reconstructed {
             let taps = self.taps(pixel, at);
             let looked_at: Vec<bool> = taps.iter().map(|tap| self.is_looked_at(at, tap)).collect();
-            let near = self.reach(pixel, at, taps, 0.0, rounding);
+            let near = self.tap_reaches(pixel, at, taps, 0.0, rounding);
             let compared = near.iter().zip(looked_at).filter(|(_, is_looked_at)| *is_looked_at);
             largest = compared.fold(largest, |most, (tap, _)| most.max(tap.range));
             let (reach, most) = self.searched_reach(pixel, at, near, rounding);
@@ -246,7 +246,7 @@ impl Definition<'_> {
         self.within_range(pixel, [0.0; 4]).1
     }
 
-    fn reach(
+    fn tap_reaches(
         &self,
         pixel: [i32; 2],
         at: ([i32; 2], usize),
@@ -257,7 +257,7 @@ impl Definition<'_> {
         let reached = taps.into_iter().map(|tap| {
             let range = match tap.at == at {
                 true => Range { low: 0.0, high: 0.0 },
-                false => self.range(pixel, at, tap.at, rounding),
+                false => self.difference_range(pixel, at, tap.at, rounding),
             };
             Reach {
                 falloff: tap.falloff,
@@ -294,7 +294,7 @@ impl Definition<'_> {
         // exp of at most the square of four pixels and a half.
         let falloff_off =
             2.0 * rounding.unit * (rounding.exponential + 2.0 * 21.0 * std::f64::consts::LOG2_E) + 21.0 * rounding.unit;
-        let mut around = self.reach(pixel, at, self.taps_around(pixel, at), falloff_off, rounding);
+        let mut around = self.tap_reaches(pixel, at, self.taps_around(pixel, at), falloff_off, rounding);
         let is_seen = nearest(|tap| tap.difference) <= most;
         let decided = is_decided(here) && (is_seen || around.iter().all(|tap| is_decided(tap.range)));
         let apart = match decided {
@@ -326,7 +326,13 @@ impl Definition<'_> {
     }
 
     /// Returns the range in which the computed difference of two surfaces lies.
-    fn range(&self, pixel: [i32; 2], at: ([i32; 2], usize), tap: ([i32; 2], usize), rounding: &Rounding) -> Range {
+    fn difference_range(
+        &self,
+        pixel: [i32; 2],
+        at: ([i32; 2], usize),
+        tap: ([i32; 2], usize),
+        rounding: &Rounding,
+    ) -> Range {
         let u = rounding.unit;
         let reading = |(away, sample): ([i32; 2], usize)| {
             let there = [pixel[0] + away[0], pixel[1] + away[1]];
@@ -341,7 +347,7 @@ impl Definition<'_> {
         if self.params.escapes && (may_be_dropped || rs.is_below || rt.is_below) {
             return Range {
                 low: 0.0,
-                high: bounded(f64::INFINITY),
+                high: clamp_difference(f64::INFINITY),
             };
         }
         let step = s.depth - t.depth;
@@ -370,7 +376,7 @@ impl Definition<'_> {
         let by_depth = || match (s.depth == DEEPEST, t.depth == DEEPEST) {
             // In f32 the sky less a surface is the sky, to the bit.
             (true, false) | (false, true) if s.depth.min(t.depth).abs() < DEEPEST * u / 4.0 => {
-                let value = bounded(scale * DEEPEST);
+                let value = clamp_difference(scale * DEEPEST);
                 match rounding.largest < DEEPEST && s.depth == DEEPEST {
                     // In f16 it is less than that.
                     true => Range { low: 0.0, high: value },
@@ -393,10 +399,10 @@ impl Definition<'_> {
                 });
                 let reading = each * sizes + 2.0 * rs.normal * size + 6.0 * each * each;
                 let off = reading + 6.0 * u * (square + products) + 4.0 * rounding.smallest;
-                return Range::around(turned(self.params, s.normal, t.normal), off);
+                return Range::around(normal_distance(self.params, s.normal, t.normal), off);
             }
             let turn = [0, 1, 2].map(|axis| s.normal[axis] - t.normal[axis]);
-            let value = turned(self.params, s.normal, t.normal);
+            let value = normal_distance(self.params, s.normal, t.normal);
             if (0..4).all(|lane| rs.texel[lane].to_bits() == rt.texel[lane].to_bits()) {
                 return Range::around(value, 0.0);
             }
@@ -424,7 +430,7 @@ impl Definition<'_> {
             };
             let sizes: f64 = (0..3).map(|axis| ray(axis) * s.normal[axis].abs()).sum();
             let [_, right, down] = self.gbuffer.rays().unwrap_or_default();
-            let away = [0, 1].map(|axis| (self.place(tap)[axis] - self.place(at)[axis]).abs());
+            let away = [0, 1].map(|axis| (self.sample_position(tap)[axis] - self.sample_position(at)[axis]).abs());
             let spans: f64 = (0..3)
                 .map(|axis| (away[0] * right[axis].abs() + away[1] * down[axis].abs()) * s.normal[axis].abs())
                 .sum();
@@ -498,7 +504,7 @@ impl Definition<'_> {
         let summed = (reach.len() as f64 + 8.0) * rounding.unit;
         let own = reach.iter().zip(ends).map(|(tap, (low, high))| {
             let exact = weight(tap) / total.max(epsilon);
-            let most = ratio(high, (lows - low + high).max(epsilon)).min(1.0);
+            let most = ratio_or_one(high, (lows - low + high).max(epsilon)).min(1.0);
             // In few bits the divisor is bounded by the smallest number that there is.
             let least = epsilon.max(if epsilon > 0.0 {
                 rounding.smallest
@@ -523,6 +529,6 @@ impl Definition<'_> {
     }
 }
 
-fn ratio(part: f64, whole: f64) -> f64 {
+fn ratio_or_one(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 1.0 }
 }

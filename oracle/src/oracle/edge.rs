@@ -78,12 +78,12 @@ impl Stalker {
         let depth = |p: IVec2| {
             let d = f64::from(geometry.depth.load(p));
             if self.linear_depth {
-                1.0 / bounded(d).max(NEAREST)
+                1.0 / clamp_depth(d).max(NEAREST)
             } else {
                 d
             }
         };
-        each(geometry.depth.size(), |p| {
+        map_pixels(geometry.depth.size(), |p| {
             let mut margin = f64::INFINITY;
             let (mut alike, mut flat) = (0, 0);
             for (x, y) in AXES {
@@ -91,13 +91,15 @@ impl Stalker {
                 let (d, d1, d2) = (depth(p), depth(p + away), depth(p - away));
                 let bend = (2.0 * d - d1 - d2).abs();
                 let size = d.abs().max(d1.abs()).max(d2.abs()).max(self.depth_barrier);
-                margin = margin.min(decided((bend - self.depth_barrier).abs() / size));
+                margin = margin.min(decided_margin((bend - self.depth_barrier).abs() / size));
                 flat += i32::from(bend <= self.depth_barrier);
                 if x * y != 0 {
                     for neighbour in [p + away, p - away] {
-                        let cosine = cosine(geometry.normal, p, neighbour);
+                        let cosine = normal_cosine(geometry.normal, p, neighbour);
                         let cosine = if self.printed { cosine.abs() } else { cosine };
-                        margin = margin.min(decided((cosine - self.normal_barrier).abs() / cosine.abs().max(1.0)));
+                        margin = margin.min(decided_margin(
+                            (cosine - self.normal_barrier).abs() / cosine.abs().max(1.0),
+                        ));
                         alike += i32::from(cosine >= self.normal_barrier);
                     }
                 }
@@ -112,14 +114,14 @@ impl Stalker {
     }
 
     /// The filtered picture, row by row from the top.
-    pub fn antialiased(&self, geometry: &Geometry, color: &Frame<Vec4>) -> Vec<[f64; 4]> {
+    pub fn filter_picture(&self, geometry: &Geometry, color: &Frame<Vec4>) -> Vec<[f64; 4]> {
         let edges = self.edges(geometry);
         let width = color.size().x as i32;
-        each(color.size(), |p| {
+        map_pixels(color.size(), |p| {
             let kernel = if self.printed { self.kernel } else { self.kernel / 2.0 };
             let reach = edges[(p.y * width + p.x) as usize].weight * kernel;
             let corners = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];
-            let taps = corners.map(|(x, y)| between(color, p, [x * reach, y * reach]));
+            let taps = corners.map(|(x, y)| interpolate_color(color, p, [x * reach, y * reach]));
             [0, 1, 2, 3].map(|lane| taps.iter().map(|tap| tap[lane]).sum::<f64>() / 4.0)
         })
     }
@@ -128,8 +130,8 @@ impl Stalker {
 impl TabulaRasa {
     /// Returns the edge of each pixel, row by row from the top.
     pub fn edges(&self, geometry: &Geometry) -> Vec<Edge> {
-        let depth = |p: IVec2| bounded(f64::from(geometry.depth.load(p)));
-        each(geometry.depth.size(), |p| {
+        let depth = |p: IVec2| clamp_depth(f64::from(geometry.depth.load(p)));
+        map_pixels(geometry.depth.size(), |p| {
             let mut margin = f64::INFINITY;
             let mut edges = 0;
             for (x, y) in AXES {
@@ -142,8 +144,8 @@ impl TabulaRasa {
                 margin = margin.min((g1.max(g2) - needed).abs() / size.max(needed));
 
                 let (c1, c2) = (
-                    cosine(geometry.normal, p, p + away),
-                    cosine(geometry.normal, p, p - away),
+                    normal_cosine(geometry.normal, p, p + away),
+                    normal_cosine(geometry.normal, p, p - away),
                 );
                 let changes = match self.printed {
                     true => [(c1 - c2).abs(); 2],
@@ -152,7 +154,7 @@ impl TabulaRasa {
                 let size = c1.abs().max(c2.abs()).max(1.0);
                 let mut edge = g1.max(g2) >= needed;
                 for change in changes.map(|change| change * self.normal_sensibility) {
-                    margin = margin.min(decided((change - 0.4).abs() / size));
+                    margin = margin.min(decided_margin((change - 0.4).abs() / size));
                     // A change that is not a number is an edge.
                     edge |= change >= 0.4 || change.is_nan();
                 }
@@ -164,19 +166,19 @@ impl TabulaRasa {
     }
 
     /// The filtered picture, row by row from the top.
-    pub fn antialiased(&self, geometry: &Geometry, color: &Frame<Vec4>) -> Vec<[f64; 4]> {
+    pub fn filter_picture(&self, geometry: &Geometry, color: &Frame<Vec4>) -> Vec<[f64; 4]> {
         let edges = self.edges(geometry);
         let width = color.size().x as i32;
-        each(color.size(), |p| {
+        map_pixels(color.size(), |p| {
             let reach = edges[(p.y * width + p.x) as usize].weight * self.weight;
-            let mut sum = own(color, p).map(|lane| 0.2 * lane);
+            let mut sum = finite_color(color, p).map(|lane| 0.2 * lane);
             for y in -1..=1 {
                 for x in -1..=1 {
                     if (x, y) == (0, 0) {
                         continue;
                     }
                     let share = 0.1;
-                    let tap = between(color, p, [f64::from(x) * reach, f64::from(y) * reach]);
+                    let tap = interpolate_color(color, p, [f64::from(x) * reach, f64::from(y) * reach]);
                     sum.iter_mut().zip(tap).for_each(|(sum, tap)| *sum += share * tap);
                 }
             }
@@ -186,7 +188,7 @@ impl TabulaRasa {
 }
 
 /// At most 10³⁰, by definition of both filters; what is infinite or not a number is as deep.
-fn bounded(depth: f64) -> f64 {
+fn clamp_depth(depth: f64) -> f64 {
     let deepest = f64::from(1.0e30_f32);
     if depth.abs() < deepest { depth } else { deepest }
 }
@@ -195,18 +197,18 @@ fn bounded(depth: f64) -> f64 {
 const NEAREST: f64 = 1.0e-30;
 
 /// A margin; of what is not a number, which is decided in any precision, an infinite one.
-fn decided(margin: f64) -> f64 {
+fn decided_margin(margin: f64) -> f64 {
     if margin.is_nan() { f64::INFINITY } else { margin }
 }
 
-fn each<T>(size: UVec2, pixel: impl Fn(IVec2) -> T) -> Vec<T> {
+fn map_pixels<T>(size: UVec2, pixel: impl Fn(IVec2) -> T) -> Vec<T> {
     let size = size.as_ivec2();
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| IVec2::new(x, y)));
     pixels.map(pixel).collect()
 }
 
 /// The colour of a pixel, black if it is not finite.
-fn own(color: &Frame<Vec4>, p: IVec2) -> [f64; 4] {
+fn finite_color(color: &Frame<Vec4>, p: IVec2) -> [f64; 4] {
     let own = color.load(p);
     if own.is_finite() {
         own.as_dvec4().to_array()
@@ -215,13 +217,13 @@ fn own(color: &Frame<Vec4>, p: IVec2) -> [f64; 4] {
     }
 }
 
-fn cosine(normal: &Frame<Vec3>, a: IVec2, b: IVec2) -> f64 {
+fn normal_cosine(normal: &Frame<Vec3>, a: IVec2, b: IVec2) -> f64 {
     normal.load(a).as_dvec3().dot(normal.load(b).as_dvec3())
 }
 
 /// The colour `away` from the centre of `p` in pixels: the mean of the texels around, each weighted by a tent of one
 /// pixel on each axis. If one of them is not finite it is that of `p`, and black if that is not either.
-fn between(color: &Frame<Vec4>, p: IVec2, away: [f64; 2]) -> [f64; 4] {
+fn interpolate_color(color: &Frame<Vec4>, p: IVec2, away: [f64; 2]) -> [f64; 4] {
     let mut sum = [0.0; 4];
     let reach = away.map(|a| a.abs().ceil() as i32 + 1);
     for y in -reach[1]..=reach[1] {
@@ -231,7 +233,7 @@ fn between(color: &Frame<Vec4>, p: IVec2, away: [f64; 2]) -> [f64; 4] {
             if weight > 0.0 {
                 let texel = color.load(p + IVec2::new(x, y)).as_dvec4().to_array();
                 if texel.iter().any(|lane| !lane.is_finite()) {
-                    return own(color, p);
+                    return finite_color(color, p);
                 }
                 sum.iter_mut()
                     .zip(texel)

@@ -10,7 +10,7 @@ use straightline_scene::inputs::Inputs;
 /// # Errors
 ///
 /// [`OracleError::Input`] if an image or a number that the decision needs is missing or does not fit.
-pub fn extra(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Placed>, OracleError> {
+pub fn extra_samples(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Placed>, OracleError> {
     let params = SraaParams {
         extra: false,
         ..params.clone()
@@ -18,11 +18,11 @@ pub fn extra(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Placed>, Oracle
     let definition = Definition::new(inputs, &params)?;
     let (width, height) = (inputs.size.x as i32, inputs.size.y as i32);
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    Ok(pixels.map(|pixel| definition.wanted(pixel)).collect())
+    Ok(pixels.map(|pixel| definition.wanted_sample(pixel)).collect())
 }
 
 impl Definition<'_> {
-    fn wanted(&self, pixel: [i32; 2]) -> Placed {
+    fn wanted_sample(&self, pixel: [i32; 2]) -> Placed {
         let mut sure = true;
         let mut sample = self.samples.len();
         for k in (0..self.samples.len()).rev() {
@@ -42,7 +42,7 @@ impl Definition<'_> {
         let nearest = around.map(|step| {
             let away = [0, 1].map(|axis| at.0[axis] + step[axis]);
             let there = [0, 1].map(|axis| pixel[axis] + away[axis]);
-            self.apart(pixel, at, (away, self.gbuffer.shaded_at(there, self.shaded[0])))
+            self.sample_difference(pixel, at, (away, self.gbuffer.shaded_at(there, self.shaded[0])))
         });
         self.is_apart(nearest.fold(f64::INFINITY, f64::min), sure)
     }
@@ -53,11 +53,11 @@ impl Definition<'_> {
         let samples = 0..self.samples.len();
         beside.into_iter().any(|away| {
             let first = samples.clone().find(|k| self.is_unseen(pixel, (away, *k), sure));
-            first.is_some_and(|first| !self.is_apart(self.apart(pixel, at, (away, first)), sure))
+            first.is_some_and(|first| !self.is_apart(self.sample_difference(pixel, at, (away, first)), sure))
         })
     }
 
-    fn apart(&self, pixel: [i32; 2], a: ([i32; 2], usize), b: ([i32; 2], usize)) -> f64 {
+    fn sample_difference(&self, pixel: [i32; 2], a: ([i32; 2], usize), b: ([i32; 2], usize)) -> f64 {
         self.difference(&self.point(pixel, a), &self.point(pixel, b))
     }
 
@@ -72,16 +72,20 @@ impl Definition<'_> {
         let radius = self.params.search_radius().max(1);
         let pixels = (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |x| [x, y]));
         let tap = |away: [i32; 2]| {
-            let (sample, light) = self.gbuffer.further([0, 1].map(|axis| pixel[axis] + away[axis]))?;
+            let (sample, light) = self.gbuffer.extra_light([0, 1].map(|axis| pixel[axis] + away[axis]))?;
             let tap = (away, sample);
             let square: f64 = (0..2)
-                .map(|axis| (self.place(tap)[axis] - self.place(at)[axis]).powi(2))
+                .map(|axis| (self.sample_position(tap)[axis] - self.sample_position(at)[axis]).powi(2))
                 .sum();
             Some(Tap {
                 at: tap,
                 falloff: (-0.5 * square).exp(),
-                difference: if tap == at { 0.0 } else { self.apart(pixel, at, tap) },
-                color: self.repainted(pixel, at, tap, light, true),
+                difference: if tap == at {
+                    0.0
+                } else {
+                    self.sample_difference(pixel, at, tap)
+                },
+                color: self.repaint_tap(pixel, at, tap, light, true),
                 is_earlier: false,
             })
         };

@@ -112,9 +112,9 @@ struct Stored<'a> {
 
 impl<'a> GBuffer<'a> {
     pub fn new(inputs: &'a Inputs, params: &'a SraaParams) -> Result<Self, OracleError> {
-        let samples = params.samples().len();
+        let samples = params.sample_offsets().len();
         let packed = params.normals == Normals::Packed;
-        let stored = |name: &str| stored(inputs, params, samples, name);
+        let stored = |name: &str| find_stored(inputs, params, samples, name);
         let shared = if packed { Some("packed") } else { None };
         let depth = match params.metric {
             Metric::Normals => None,
@@ -125,31 +125,31 @@ impl<'a> GBuffer<'a> {
             _ => Some(stored(shared.unwrap_or("normal"))?),
         };
         let colors = match params.shaded_samples().len() {
-            1 => images(inputs, "color", 1)?,
-            several => images(inputs, "colors", several)?,
+            1 => find_images(inputs, "color", 1)?,
+            several => find_images(inputs, "colors", several)?,
         };
         let albedo = match params.demodulate {
             Demodulate::None => None,
             Demodulate::Albedo | Demodulate::AlbedoShadow => Some(stored("albedo")?),
         };
         let direct = match params.demodulate {
-            Demodulate::AlbedoShadow => Some(&images(inputs, "direct", 1)?[0]),
+            Demodulate::AlbedoShadow => Some(&find_images(inputs, "direct", 1)?[0]),
             Demodulate::None | Demodulate::Albedo => None,
         };
         let rest = match params.demodulate {
-            Demodulate::Albedo | Demodulate::AlbedoShadow if params.rest => Some(&images(inputs, "rest", 1)?[0]),
+            Demodulate::Albedo | Demodulate::AlbedoShadow if params.rest => Some(&find_images(inputs, "rest", 1)?[0]),
             _ => None,
         };
         let place = match params.shading {
-            Shading::Placed => Some(integers(inputs, "place")?),
+            Shading::Placed => Some(find_integers(inputs, "place")?),
             Shading::Sample0 | Shading::Centre | Shading::Listed => None,
         };
         let extra = match params.extra {
             false => None,
             true => {
-                let image = |name: &str| images(inputs, name, 1).map(|frames| &frames[0]);
+                let image = |name: &str| find_images(inputs, name, 1).map(|frames| &frames[0]);
                 Some(Extra {
-                    sample: integers(inputs, "extra")?,
+                    sample: find_integers(inputs, "extra")?,
                     color: image("extra_color")?,
                     direct: direct.map(|_| image("extra_direct")).transpose()?,
                     rest: rest.map(|_| image("extra_rest")).transpose()?,
@@ -160,19 +160,19 @@ impl<'a> GBuffer<'a> {
             // The picture's place makes no difference in a parallel projection.
             Metric::PlanesNormals => Some([
                 match params.projection {
-                    Projection::Perspective => vector(inputs, "ray_corner")?,
+                    Projection::Perspective => find_vector(inputs, "ray_corner")?,
                     Projection::Parallel => [0.0; 3],
                 },
-                vector(inputs, "ray_right")?,
-                vector(inputs, "ray_down")?,
+                find_vector(inputs, "ray_right")?,
+                find_vector(inputs, "ray_down")?,
             ]),
             _ => None,
         };
         let forward = match (params.metric, params.projection) {
-            (Metric::PlanesNormals, Projection::Parallel) => Some(vector(inputs, "ray_forward")?),
+            (Metric::PlanesNormals, Projection::Parallel) => Some(find_vector(inputs, "ray_forward")?),
             _ => None,
         };
-        let number = |name: &str| vector::<1>(inputs, name).map(|[value]| value);
+        let number = |name: &str| find_vector::<1>(inputs, name).map(|[value]| value);
         let planes = match (params.depth, &depth) {
             (Depth::Linear, _) | (_, None) => [1.0, 1.0],
             (Depth::ReversedInfinite, _) => [number("near")?, f64::INFINITY],
@@ -193,7 +193,7 @@ impl<'a> GBuffer<'a> {
             normal,
             rays,
             forward,
-            origin: vector(inputs, "origin").unwrap_or([0.0; 2]),
+            origin: find_vector(inputs, "origin").unwrap_or([0.0; 2]),
             planes,
         })
     }
@@ -205,7 +205,7 @@ impl<'a> GBuffer<'a> {
 
     /// The geometry sample at which `pixel` is shaded that would be at `sample` otherwise.
     pub fn shaded_at(&self, pixel: [i32; 2], sample: usize) -> usize {
-        let [x, y] = self.inside(pixel);
+        let [x, y] = self.clamp_pixel(pixel);
         self.place.map_or(sample, |place| {
             let texel = place.texels()[y as usize * self.width as usize + x as usize];
             (texel.x as usize).min(self.samples)
@@ -214,40 +214,40 @@ impl<'a> GBuffer<'a> {
 
     /// Colour of shading sample `k` of `pixel`, or of the nearest one inside.
     pub fn color(&self, pixel: [i32; 2], k: usize) -> [f64; 4] {
-        numbers(texel(&self.colors[k], self.inside(pixel)))
+        texel_to_f64(texel(&self.colors[k], self.clamp_pixel(pixel)))
     }
 
     /// Light of shading sample `k` of `pixel`, or of the nearest one inside.
     pub fn light(&self, pixel: [i32; 2], k: usize) -> Light {
         Light {
             color: self.color(pixel, k),
-            direct: self.part(self.direct, pixel),
-            rest: self.part(self.rest, pixel),
+            direct: self.light_part(self.direct, pixel),
+            rest: self.light_part(self.rest, pixel),
         }
     }
 
     /// The geometry sample at which `pixel`, or the nearest one inside, is shaded once more, and its light; `None` where it is not.
-    pub fn further(&self, pixel: [i32; 2]) -> Option<(usize, Light)> {
+    pub fn extra_light(&self, pixel: [i32; 2]) -> Option<(usize, Light)> {
         let extra = self.extra.as_ref()?;
-        let [x, y] = self.inside(pixel);
+        let [x, y] = self.clamp_pixel(pixel);
         let sample = extra.sample.texels()[y as usize * self.width as usize + x as usize].x as usize;
         let light = Light {
-            color: numbers(texel(extra.color, [x, y])),
-            direct: self.part(extra.direct, pixel),
-            rest: self.part(extra.rest, pixel),
+            color: texel_to_f64(texel(extra.color, [x, y])),
+            direct: self.light_part(extra.direct, pixel),
+            rest: self.light_part(extra.rest, pixel),
         };
         (sample < self.samples).then_some((sample, light))
     }
 
-    fn part(&self, of: Option<&Frame<Vec4>>, pixel: [i32; 2]) -> [f64; 3] {
-        let light = of.map(|frame| numbers(texel(frame, self.inside(pixel))));
+    fn light_part(&self, of: Option<&Frame<Vec4>>, pixel: [i32; 2]) -> [f64; 3] {
+        let light = of.map(|frame| texel_to_f64(texel(frame, self.clamp_pixel(pixel))));
         light.map_or([0.0; 3], |[red, green, blue, _]| [red, green, blue])
     }
 
     /// Albedo at `sample` of `pixel`, or of the nearest one inside, by which colours may be divided, and the share of the direct
     /// light there. `None` if that is not asked for.
-    pub fn paint(&self, pixel: [i32; 2], sample: usize) -> Option<([f64; 3], f64)> {
-        let [red, green, blue, lit] = self.texel(self.albedo.as_ref()?, self.inside(pixel), sample);
+    pub fn surface_paint(&self, pixel: [i32; 2], sample: usize) -> Option<([f64; 3], f64)> {
+        let [red, green, blue, lit] = self.texel(self.albedo.as_ref()?, self.clamp_pixel(pixel), sample);
         let least = self.params.albedo_floor;
         let within = |value: f64, least: f64, most: f64| if value > least { value.min(most) } else { least };
         let albedo = [red, green, blue].map(|channel| within(channel, least, BRIGHTEST));
@@ -256,14 +256,14 @@ impl<'a> GBuffer<'a> {
 
     /// The surface at `sample` of `pixel`, or of the nearest one inside, seen along the ray through `ray_at`.
     pub fn point(&self, pixel: [i32; 2], sample: usize, ray_at: [f64; 2]) -> Point {
-        let pixel = self.inside(pixel);
+        let pixel = self.clamp_pixel(pixel);
         let depth = self.depth.as_ref().map_or(1.0, |stored| {
             let texel = self.texel(stored, pixel, sample);
-            let depth = self.linear(self.stored_depth(texel));
+            let depth = self.linear_depth(self.stored_depth(texel));
             if depth.abs() < DEEPEST { depth } else { DEEPEST }
         });
         let normal = self.normal.as_ref().map_or([0.0, 0.0, 1.0], |stored| {
-            self.decoded(self.texel(stored, pixel, sample))
+            self.decode_normal(self.texel(stored, pixel, sample))
         });
         let [base, ray] = self.ray(ray_at);
         Point {
@@ -288,7 +288,7 @@ impl<'a> GBuffer<'a> {
     }
 
     /// A unit vector as normals are compared that are not read from the G-buffer; any where the metric compares none.
-    pub(super) fn compared(&self, normal: [f64; 3]) -> [f64; 3] {
+    pub(super) fn compared_normal(&self, normal: [f64; 3]) -> [f64; 3] {
         match self.normal {
             Some(_) => normal,
             None => [0.0, 0.0, 1.0],
@@ -307,11 +307,11 @@ impl<'a> GBuffer<'a> {
             Normals::Unorm if params.as_stored() => (LEAST_SQUARE..=MOST_SQUARE).contains(&square),
             Normals::Unorm | Normals::Octahedral | Normals::Packed => true,
         };
-        point.depth < self.backdrop() && has_normal
+        point.depth < self.backdrop_depth() && has_normal
     }
 
     /// Linear depth from which on nothing is drawn.
-    pub(super) fn backdrop(&self) -> f64 {
+    pub(super) fn backdrop_depth(&self) -> f64 {
         match self.params.depth {
             Depth::Linear | Depth::ReversedInfinite => BACKDROP,
             Depth::Perspective | Depth::Reversed => {
@@ -325,7 +325,7 @@ impl<'a> GBuffer<'a> {
     }
 
     /// Linear depth that is infinite in earlier frames, as this frame has it.
-    pub(super) fn deepest(&self) -> f64 {
+    pub(super) fn deepest_depth(&self) -> f64 {
         match self.params.depth {
             Depth::Linear | Depth::ReversedInfinite => f64::INFINITY,
             Depth::Perspective | Depth::Reversed => self.planes[1],
@@ -341,7 +341,7 @@ impl<'a> GBuffer<'a> {
 
     /// Returns how far off a filter in less than `f64` may read a point.
     pub fn reading(&self, pixel: [i32; 2], sample: usize, rounding: &Rounding) -> Reading {
-        let pixel = self.inside(pixel);
+        let pixel = self.clamp_pixel(pixel);
         let (unit, read) = (rounding.unit, rounding.read);
         let mut reading = Reading::default();
         if let Some(stored) = &self.depth {
@@ -354,7 +354,7 @@ impl<'a> GBuffer<'a> {
                 _ if value.is_nan() => f64::INFINITY,
                 _ => value,
             };
-            let depth = self.linear(value);
+            let depth = self.linear_depth(value);
             reading.is_below = depth <= -DEEPEST;
             let [near, far] = self.planes;
             // (stored / depth) d depth / d stored, of the definitions below.
@@ -403,10 +403,10 @@ impl<'a> GBuffer<'a> {
 
     fn texel(&self, stored: &Stored, pixel: [i32; 2], sample: usize) -> [f64; 4] {
         if let (Some(centre), true) = (stored.centre, sample == self.samples) {
-            return numbers(texel(centre, pixel));
+            return texel_to_f64(texel(centre, pixel));
         }
         if self.params.layout != Layout::Superresolution {
-            return numbers(texel(&stored.images[sample], pixel));
+            return texel_to_f64(texel(&stored.images[sample], pixel));
         }
         let columns = (self.samples as f64).sqrt().ceil() as usize;
         let rows = self.samples.div_ceil(columns);
@@ -414,16 +414,16 @@ impl<'a> GBuffer<'a> {
             pixel[0] * columns as i32 + (sample % columns) as i32,
             pixel[1] * rows as i32 + (sample / columns) as i32,
         ];
-        numbers(texel(&stored.images[0], at))
+        texel_to_f64(texel(&stored.images[0], at))
     }
 
-    fn inside(&self, pixel: [i32; 2]) -> [i32; 2] {
+    fn clamp_pixel(&self, pixel: [i32; 2]) -> [i32; 2] {
         [pixel[0].clamp(0, self.width - 1), pixel[1].clamp(0, self.height - 1)]
     }
 
     /// Distance along the view direction, from the definition of the projections: d = (f / (f - n)) (1 - n / z), and the
     /// same with 1 - d, and n / z.
-    fn linear(&self, stored: f64) -> f64 {
+    fn linear_depth(&self, stored: f64) -> f64 {
         let [near, far] = self.planes;
         let whole = 1.0 / (1.0 - near / far);
         match self.params.depth {
@@ -436,25 +436,30 @@ impl<'a> GBuffer<'a> {
         }
     }
 
-    fn decoded(&self, texel: [f64; 4]) -> [f64; 3] {
+    fn decode_normal(&self, texel: [f64; 4]) -> [f64; 3] {
         let signed = texel.map(|axis| 2.0 * axis - 1.0);
         match self.params.normals {
             Normals::Float => [texel[0], texel[1], texel[2]],
             Normals::Unorm if self.params.as_stored() => [signed[0], signed[1], signed[2]],
             Normals::Unorm => unit([signed[0], signed[1], signed[2]]),
-            Normals::Octahedral => folded([signed[0], signed[1]]),
-            Normals::Packed => folded([texel[0], texel[1]]),
+            Normals::Octahedral => fold_octahedron([signed[0], signed[1]]),
+            Normals::Packed => fold_octahedron([texel[0], texel[1]]),
         }
     }
 }
 
 /// The images of `name` in the layout of the options.
-fn stored<'a>(inputs: &'a Inputs, params: &SraaParams, samples: usize, name: &str) -> Result<Stored<'a>, OracleError> {
+fn find_stored<'a>(
+    inputs: &'a Inputs,
+    params: &SraaParams,
+    samples: usize,
+    name: &str,
+) -> Result<Stored<'a>, OracleError> {
     let apart = matches!(params.shading, Shading::Centre | Shading::Placed);
     let count = samples + usize::from(apart);
     let layers = match (params.layout, name) {
         (Layout::Split, "depth") => Some(Cow::Owned(frames_of(inputs, "depth_buffer", count)?)),
-        (Layout::Layers | Layout::Split, _) => Some(Cow::Borrowed(images(inputs, name, count)?)),
+        (Layout::Layers | Layout::Split, _) => Some(Cow::Borrowed(find_images(inputs, name, count)?)),
         _ => None,
     };
     if let Some(images) = layers {
@@ -465,11 +470,11 @@ fn stored<'a>(inputs: &'a Inputs, params: &SraaParams, samples: usize, name: &st
         _ => ("samples", samples),
     };
     let centre = match apart {
-        true => Some(&images(inputs, &format!("centre_{name}"), 1)?[0]),
+        true => Some(&find_images(inputs, &format!("centre_{name}"), 1)?[0]),
         false => None,
     };
     Ok(Stored {
-        images: Cow::Borrowed(images(inputs, &format!("{name}_{suffix}"), count)?),
+        images: Cow::Borrowed(find_images(inputs, &format!("{name}_{suffix}"), count)?),
         centre,
     })
 }
@@ -491,7 +496,7 @@ fn frames_of(inputs: &Inputs, name: &str, count: usize) -> Result<Vec<Frame<Vec4
     }
 }
 
-fn images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame<Vec4>], OracleError> {
+fn find_images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame<Vec4>], OracleError> {
     let found = inputs.images.iter().rev().find(|(known, _)| known == name);
     match found {
         Some((_, images)) if images.len() >= count => Ok(images),
@@ -502,7 +507,7 @@ fn images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame
     }
 }
 
-fn integers<'a>(inputs: &'a Inputs, name: &str) -> Result<&'a Frame<UVec4>, OracleError> {
+fn find_integers<'a>(inputs: &'a Inputs, name: &str) -> Result<&'a Frame<UVec4>, OracleError> {
     let found = inputs.integers.iter().rev().find(|(known, _)| known == name);
     let first = found.and_then(|(_, layers)| layers.first());
     first.ok_or_else(|| OracleError::Input {
@@ -511,7 +516,7 @@ fn integers<'a>(inputs: &'a Inputs, name: &str) -> Result<&'a Frame<UVec4>, Orac
     })
 }
 
-fn vector<const N: usize>(inputs: &Inputs, name: &str) -> Result<[f64; N], OracleError> {
+fn find_vector<const N: usize>(inputs: &Inputs, name: &str) -> Result<[f64; N], OracleError> {
     let found = inputs.uniforms.iter().rev().find(|(known, _)| known == name);
     found
         .and_then(|(_, lanes)| lanes.as_slice().try_into().ok())
@@ -526,12 +531,12 @@ fn texel(image: &Frame<Vec4>, at: [i32; 2]) -> Vec4 {
     image.texels()[at[1] as usize * width + at[0] as usize]
 }
 
-fn numbers(texel: Vec4) -> [f64; 4] {
+fn texel_to_f64(texel: Vec4) -> [f64; 4] {
     texel.to_array().map(f64::from)
 }
 
 /// The point of the octahedron |x| + |y| + |z| = 1 whose lower half was unfolded outwards, at length 1.
-fn folded([x, y]: [f64; 2]) -> [f64; 3] {
+fn fold_octahedron([x, y]: [f64; 2]) -> [f64; 3] {
     let z = 1.0 - x.abs() - y.abs();
     if z >= 0.0 {
         return unit([x, y, z]);

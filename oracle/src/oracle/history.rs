@@ -79,7 +79,7 @@ impl Definition<'_> {
         falloff: impl Fn([f64; 2]) -> f64,
     ) -> Vec<Tap> {
         let centre = self.point(pixel, at);
-        let place = self.place(at);
+        let place = self.sample_position(at);
         let mut taps = Vec::new();
         for frame in &self.history.frames {
             let [x, y, deeper, _] = texel(frame.motion, pixel);
@@ -97,13 +97,13 @@ impl Definition<'_> {
                     }
                     let [nx, ny, nz, depth] = texel(frame.surface, [column, row]);
                     // The sky is as deep as the far plane.
-                    let depth = (depth - deeper).min(self.gbuffer.deepest());
+                    let depth = (depth - deeper).min(self.gbuffer.deepest_depth());
                     let [base, ray] = self
                         .gbuffer
                         .ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis]));
                     let seen = Point {
                         depth: if depth.abs() < DEEPEST { depth } else { DEEPEST },
-                        normal: self.gbuffer.compared([nx, ny, nz]),
+                        normal: self.gbuffer.compared_normal([nx, ny, nz]),
                         base,
                         ray,
                     };
@@ -111,7 +111,7 @@ impl Definition<'_> {
                         at: ([column - pixel[0], row - pixel[1]], usize::MAX),
                         falloff,
                         difference: self.difference(&centre, &seen).max(0.0),
-                        color: self.painted(frame, (pixel, at), [column, row]),
+                        color: self.repaint_earlier(frame, (pixel, at), [column, row]),
                         is_earlier: true,
                     });
                 }
@@ -121,10 +121,15 @@ impl Definition<'_> {
     }
 
     /// The colour of an earlier frame's shading sample, which is light where paint is known, on the paint of the geometry sample `at`.
-    fn painted(&self, frame: &Earlier, (pixel, at): ([i32; 2], ([i32; 2], usize)), there: [i32; 2]) -> [f64; 4] {
+    fn repaint_earlier(
+        &self,
+        frame: &Earlier,
+        (pixel, at): ([i32; 2], ([i32; 2], usize)),
+        there: [i32; 2],
+    ) -> [f64; 4] {
         let color = texel(frame.color, there);
         let own = [pixel[0] + at.0[0], pixel[1] + at.0[1]];
-        let Some((albedo, _)) = self.gbuffer.paint(own, at.1) else {
+        let Some((albedo, _)) = self.gbuffer.surface_paint(own, at.1) else {
             return color;
         };
         let rest = frame.rest.map_or([0.0; 4], |rest| texel(rest, there));

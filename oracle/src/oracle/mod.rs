@@ -38,12 +38,12 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use straightline_scene::inputs::Inputs;
 
-pub use extra::extra;
+pub use extra::extra_samples;
 pub use params::{
     Demodulate, Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError,
     Pattern, Plane, Projection, Resolve, Search, Shading, SraaParams, Turn, Variation,
 };
-pub use place::{Placed, place};
+pub use place::{Placed, place_shading};
 
 /// Result of the definition for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,13 +76,13 @@ const NEAREST: f64 = 1.0e-30;
 /// # Errors
 ///
 /// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit.
-pub fn sraa(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Resolved>, OracleError> {
+pub fn resolve_sraa(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Resolved>, OracleError> {
     let definition = Definition::new(inputs, params)?;
     let (width, height) = (inputs.size.x as i32, inputs.size.y as i32);
     let pixels = (0..height).into_par_iter();
     Ok(pixels
         .flat_map_iter(|y| (0..width).map(move |x| [x, y]))
-        .map(|pixel| definition.pixel(pixel))
+        .map(|pixel| definition.resolve_pixel(pixel))
         .collect())
 }
 
@@ -113,18 +113,18 @@ impl<'a> Definition<'a> {
             params,
             gbuffer: GBuffer::new(inputs, params)?,
             history: History::new(inputs, params)?,
-            samples: params.samples(),
+            samples: params.sample_offsets(),
             shaded: params.shaded_samples(),
         })
     }
 
-    fn pixel(&self, pixel: [i32; 2]) -> Resolved {
+    fn resolve_pixel(&self, pixel: [i32; 2]) -> Resolved {
         let (mut color, mut shares, mut sure, mut largest) = ([0.0; 4], 0.0, true, 0.0f64);
-        for (at, share) in self.reconstructed() {
+        for (at, share) in self.sample_shares() {
             let taps = self.taps(pixel, at);
             let looked_at = taps.iter().filter(|tap| self.is_looked_at(at, tap));
             largest = looked_at.map(|tap| tap.difference).fold(largest, f64::max);
-            let (taps, is_decided) = self.searched(pixel, at, taps);
+            let (taps, is_decided) = self.search_taps(pixel, at, taps);
             let (reconstructed, is_sure) = self.reconstruct(&taps);
             add(&mut color, reconstructed, share);
             shares += share;
@@ -160,8 +160,8 @@ impl<'a> Definition<'a> {
     /// The mean over all finite colours, each by its weight in the whole pixel.
     fn without_bad(&self, pixel: [i32; 2]) -> [f64; 4] {
         let (mut color, mut sum) = ([0.0; 4], 0.0);
-        for (at, share) in self.reconstructed() {
-            let (taps, _) = self.searched(pixel, at, self.taps(pixel, at));
+        for (at, share) in self.sample_shares() {
+            let (taps, _) = self.search_taps(pixel, at, self.taps(pixel, at));
             let weights = self.weights(&taps);
             let total = self.total(&weights);
             for (tap, weight) in taps.iter().zip(weights) {
@@ -187,9 +187,9 @@ impl<'a> Definition<'a> {
         if self.params.demodulate != Demodulate::None {
             return (color.map(|axis| if axis < 0.0 { 0.0 } else { axis }), true);
         }
-        let total: f64 = self.reconstructed().iter().map(|(_, share)| share).sum();
+        let total: f64 = self.sample_shares().iter().map(|(_, share)| share).sum();
         let mut used: BTreeMap<([i32; 2], usize), (f64, [f64; 4])> = BTreeMap::new();
-        for (at, share) in self.reconstructed() {
+        for (at, share) in self.sample_shares() {
             let taps = self.taps(pixel, at);
             let weights = self.weights(&taps);
             let sum = self.total(&weights);
@@ -218,7 +218,7 @@ impl<'a> Definition<'a> {
     }
 
     /// Geometry samples that have a share in the pixel: relative pixel and number, and the share.
-    fn reconstructed(&self) -> Vec<(([i32; 2], usize), f64)> {
+    fn sample_shares(&self) -> Vec<(([i32; 2], usize), f64)> {
         let own = (0..self.samples.len()).map(|sample| (([0, 0], sample), 1.0));
         match self.params.resolve {
             Resolve::Box => own.collect(),
@@ -237,15 +237,20 @@ impl<'a> Definition<'a> {
                 };
                 let pixels = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
                 let all = pixels.flat_map(|pixel| (0..self.samples.len()).map(move |sample| (pixel, sample)));
-                all.map(|at| (at, share(self.place(at).map(|away| away / self.params.resolve_radius))))
-                    .filter(|(_, share)| *share != 0.0)
-                    .collect()
+                all.map(|at| {
+                    (
+                        at,
+                        share(self.sample_position(at).map(|away| away / self.params.resolve_radius)),
+                    )
+                })
+                .filter(|(_, share)| *share != 0.0)
+                .collect()
             }
         }
     }
 
     /// From the centre of the pixel that is filtered, in pixels.
-    fn place(&self, (pixel, sample): ([i32; 2], usize)) -> [f64; 2] {
+    fn sample_position(&self, (pixel, sample): ([i32; 2], usize)) -> [f64; 2] {
         let offset = self.samples.get(sample).copied().unwrap_or(self.history.jitter);
         [0, 1].map(|axis| f64::from(pixel[axis]) + offset[axis])
     }
@@ -323,7 +328,8 @@ impl<'a> Definition<'a> {
             for x in at.0[0] - radius..=at.0[0] + radius {
                 let there = [pixel[0] + x, pixel[1] + y];
                 for (k, sample) in self.shaded.iter().enumerate() {
-                    let away = [0, 1].map(|axis| self.place(([x, y], *sample))[axis] - self.place(at)[axis]);
+                    let away = [0, 1]
+                        .map(|axis| self.sample_position(([x, y], *sample))[axis] - self.sample_position(at)[axis]);
                     let falloff = falloff(away);
                     if falloff > 0.0 {
                         let tap = ([x, y], self.gbuffer.shaded_at(there, *sample));
@@ -335,7 +341,7 @@ impl<'a> Definition<'a> {
                             at: tap,
                             falloff,
                             difference,
-                            color: self.repainted(pixel, at, tap, self.gbuffer.light(there, k), true),
+                            color: self.repaint_tap(pixel, at, tap, self.gbuffer.light(there, k), true),
                             is_earlier: false,
                         });
                     }
@@ -348,7 +354,7 @@ impl<'a> Definition<'a> {
     /// The colour of a tap with the light that falls on it, on the surface at a geometry sample: of its direct light the share that
     /// arrives there, and of both what that surface reflects; and what is no such light. If the tap's surface may be another
     /// than the sample's, its light is that of a lighter one.
-    fn repainted(
+    fn repaint_tap(
         &self,
         pixel: [i32; 2],
         at: ([i32; 2], usize),
@@ -359,7 +365,7 @@ impl<'a> Definition<'a> {
         let there = |(away, sample): ([i32; 2], usize)| ([pixel[0] + away[0], pixel[1] + away[1]], sample);
         let paint = |at| {
             let (pixel, sample) = there(at);
-            self.gbuffer.paint(pixel, sample)
+            self.gbuffer.surface_paint(pixel, sample)
         };
         let (Some((onto, arrives)), Some((from, arrived))) = (paint(at), paint(tap)) else {
             return light.color;
@@ -376,7 +382,7 @@ impl<'a> Definition<'a> {
 
     /// Returns the taps that a geometry sample takes its colour from: `near`, or those that a search finds; and whether 32 bits
     /// decide so too.
-    fn searched(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
+    fn search_taps(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
         if self.params.search == Search::None && !self.params.extra && !self.takes_less_by_other_surfaces() {
             return (near, true);
         }
@@ -416,13 +422,13 @@ impl<'a> Definition<'a> {
         near.retain(|tap| !tap.is_earlier);
         for tap in &mut near {
             let light = self.gbuffer.light([0, 1].map(|axis| pixel[axis] + tap.at.0[axis]), 0);
-            tap.color = self.repainted(pixel, at, tap.at, light, false);
+            tap.color = self.repaint_tap(pixel, at, tap.at, light, false);
         }
         near
     }
 
     fn point(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Point {
-        let place = self.place(at);
+        let place = self.sample_position(at);
         let ray_at = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + place[axis]);
         self.gbuffer
             .point([pixel[0] + at.0[0], pixel[1] + at.0[1]], at.1, ray_at)
@@ -482,19 +488,19 @@ impl<'a> Definition<'a> {
                 .sum();
             scale * apart.abs()
         };
-        let turned = || turned(self.params, sample.normal, tap.normal);
+        let turned = || normal_distance(self.params, sample.normal, tap.normal);
         match self.params.metric {
-            Metric::PlanesNormals => bounded(plane()).max(bounded(turned())),
-            Metric::DepthNormals => bounded(depths()).max(bounded(turned())),
-            Metric::Normals => bounded(turned()),
-            Metric::Depth => bounded(depths()),
+            Metric::PlanesNormals => clamp_difference(plane()).max(clamp_difference(turned())),
+            Metric::DepthNormals => clamp_difference(depths()).max(clamp_difference(turned())),
+            Metric::Normals => clamp_difference(turned()),
+            Metric::Depth => clamp_difference(depths()),
         }
     }
 }
 
 /// Returns the distance of the normal `b` from that of a sample, `a`; by cosine no more than 0 from a sample of which the
 /// normal is 0, as where nothing is drawn.
-fn turned(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
+fn normal_distance(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
     if params.by_cosine() {
         (0..3).map(|axis| a[axis] * (a[axis] - b[axis])).sum()
     } else {
@@ -503,7 +509,7 @@ fn turned(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Limits a difference to [`FAR`], which also stands for one that is not a number.
-fn bounded(difference: f64) -> f64 {
+fn clamp_difference(difference: f64) -> f64 {
     if difference < FAR { difference } else { FAR }
 }
 

@@ -405,7 +405,7 @@ impl SraaParams {
     /// # Errors
     ///
     /// [`OracleError`] for an option or a value that there is not.
-    pub fn of(options: &OptionValues) -> Result<Self, OracleError> {
+    pub fn from_options(options: &OptionValues) -> Result<Self, OracleError> {
         let mut params = SraaParams::default();
         for (option, value) in options {
             params.set(option, value)?;
@@ -420,45 +420,47 @@ impl SraaParams {
     /// [`OracleError`] for an option or a value that there is not.
     pub fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), OracleError> {
         match option {
-            "pattern" => self.pattern = choice(option, value, Pattern::ALL, Pattern::name)?,
-            "offsets" => self.offsets = numbers(option, value)?,
+            "pattern" => self.pattern = parse_choice(option, value, Pattern::ALL, Pattern::name)?,
+            "offsets" => self.offsets = parse_numbers(option, value)?,
             // A pattern's being a Latin square does not change the result.
             "latin" => {}
-            "shading" => self.shading = choice(option, value, Shading::ALL, Shading::name)?,
-            "shaded" => self.shaded = numbers(option, value)?,
-            "metric" => self.metric = choice(option, value, Metric::ALL, Metric::name)?,
-            "difference" => self.difference = choice(option, value, Difference::ALL, Difference::name)?,
-            "projection" => self.projection = choice(option, value, Projection::ALL, Projection::name)?,
-            "depth" => self.depth = choice(option, value, Depth::ALL, Depth::name)?,
-            "normals" => self.normals = choice(option, value, Normals::ALL, Normals::name)?,
-            "layout" => self.layout = choice(option, value, Layout::ALL, Layout::name)?,
-            "falloff" => self.falloff = choice(option, value, Falloff::ALL, Falloff::name)?,
-            "sharpness" => self.sharpness = number(option, value)?,
-            "sigma" => self.sigma = number(option, value)?,
-            "radius" => self.radius = number(option, value)?,
-            "resolve-radius" => self.resolve_radius = number(option, value)?,
-            "plane" => self.plane = choice(option, value, Plane::ALL, Plane::name)?,
-            "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
-            "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
-            "extra" => self.extra = flag(option, value)?,
-            "search" => self.search = choice(option, value, Search::ALL, Search::name)?,
-            "search-threshold" => self.search_threshold = number(option, value)?,
-            "unseen" => self.unseen = number(option, value)?,
-            "demodulate" => self.demodulate = choice(option, value, Demodulate::ALL, Demodulate::name)?,
-            "albedo-floor" => self.albedo_floor = number(option, value)?,
-            "unseen-floor" => self.unseen_floor = number(option, value)?,
-            "rest" => self.rest = flag(option, value)?,
-            "history" => self.history = number(option, value)? as usize,
-            "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
-            "variation" => self.variation = choice(option, value, Variation::ALL, Variation::name)?,
-            "mask-threshold" => self.mask_threshold = number(option, value)?,
-            "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
-            "turn" => self.turn = choice(option, value, Turn::ALL, Turn::name)?,
-            "renormalise" => self.renormalise = flag(option, value)?,
+            "shading" => self.shading = parse_choice(option, value, Shading::ALL, Shading::name)?,
+            "shaded" => self.shaded = parse_numbers(option, value)?,
+            "metric" => self.metric = parse_choice(option, value, Metric::ALL, Metric::name)?,
+            "difference" => self.difference = parse_choice(option, value, Difference::ALL, Difference::name)?,
+            "projection" => self.projection = parse_choice(option, value, Projection::ALL, Projection::name)?,
+            "depth" => self.depth = parse_choice(option, value, Depth::ALL, Depth::name)?,
+            "normals" => self.normals = parse_choice(option, value, Normals::ALL, Normals::name)?,
+            "layout" => self.layout = parse_choice(option, value, Layout::ALL, Layout::name)?,
+            "falloff" => self.falloff = parse_choice(option, value, Falloff::ALL, Falloff::name)?,
+            "sharpness" => self.sharpness = parse_number(option, value)?,
+            "sigma" => self.sigma = parse_number(option, value)?,
+            "radius" => self.radius = parse_number(option, value)?,
+            "resolve-radius" => self.resolve_radius = parse_number(option, value)?,
+            "plane" => self.plane = parse_choice(option, value, Plane::ALL, Plane::name)?,
+            "normalisation" => {
+                self.normalisation = parse_choice(option, value, Normalisation::ALL, Normalisation::name)?
+            }
+            "resolve" => self.resolve = parse_choice(option, value, Resolve::ALL, Resolve::name)?,
+            "extra" => self.extra = parse_flag(option, value)?,
+            "search" => self.search = parse_choice(option, value, Search::ALL, Search::name)?,
+            "search-threshold" => self.search_threshold = parse_number(option, value)?,
+            "unseen" => self.unseen = parse_number(option, value)?,
+            "demodulate" => self.demodulate = parse_choice(option, value, Demodulate::ALL, Demodulate::name)?,
+            "albedo-floor" => self.albedo_floor = parse_number(option, value)?,
+            "unseen-floor" => self.unseen_floor = parse_number(option, value)?,
+            "rest" => self.rest = parse_flag(option, value)?,
+            "history" => self.history = parse_number(option, value)? as usize,
+            "mask" => self.mask = parse_choice(option, value, Mask::ALL, Mask::name)?,
+            "variation" => self.variation = parse_choice(option, value, Variation::ALL, Variation::name)?,
+            "mask-threshold" => self.mask_threshold = parse_number(option, value)?,
+            "non-finite" => self.non_finite = parse_choice(option, value, NonFinite::ALL, NonFinite::name)?,
+            "turn" => self.turn = parse_choice(option, value, Turn::ALL, Turn::name)?,
+            "renormalise" => self.renormalise = parse_flag(option, value)?,
             // The kind of guard does not change the result, except that some numbers that are not finite may escape.
             "guards" => self.escapes = value.choice() != Some("inline"),
-            "tau" => self.tau = number(option, value)?,
-            "depth-scale" => self.depth_scale = number(option, value)?,
+            "tau" => self.tau = parse_number(option, value)?,
+            "depth-scale" => self.depth_scale = parse_number(option, value)?,
             _ => {
                 return Err(OracleError::UnknownOption {
                     option: option.to_owned(),
@@ -498,8 +500,8 @@ impl SraaParams {
     }
 
     /// Offsets of the geometry samples from the pixel's centre, in pixels, y down.
-    pub fn samples(&self) -> Vec<[f64; 2]> {
-        super::pattern::samples(self.pattern, &self.offsets)
+    pub fn sample_offsets(&self) -> Vec<[f64; 2]> {
+        super::pattern::pattern_offsets(self.pattern, &self.offsets)
     }
 
     /// The geometry sample of each shading sample; the one after the last is the pixel's centre. Of shading that is placed the
@@ -507,13 +509,13 @@ impl SraaParams {
     pub fn shaded_samples(&self) -> Vec<usize> {
         match self.shading {
             Shading::Sample0 => vec![0],
-            Shading::Centre | Shading::Placed => vec![self.samples().len()],
+            Shading::Centre | Shading::Placed => vec![self.sample_offsets().len()],
             Shading::Listed => self.shaded.iter().map(|k| *k as usize).collect(),
         }
     }
 }
 
-fn choice<T: Copy>(
+fn parse_choice<T: Copy>(
     option: &str,
     value: &OptionValue,
     all: &[T],
@@ -528,16 +530,16 @@ fn choice<T: Copy>(
         })
 }
 
-fn flag(option: &str, value: &OptionValue) -> Result<bool, OracleError> {
+fn parse_flag(option: &str, value: &OptionValue) -> Result<bool, OracleError> {
     value.flag().ok_or_else(|| bad_value(option, value, "true or false"))
 }
 
-fn number(option: &str, value: &OptionValue) -> Result<f64, OracleError> {
+fn parse_number(option: &str, value: &OptionValue) -> Result<f64, OracleError> {
     let number = value.number().filter(|number| number.is_finite() && *number >= 0.0);
     number.ok_or_else(|| bad_value(option, value, "a number of at least 0"))
 }
 
-fn numbers(option: &str, value: &OptionValue) -> Result<Vec<f64>, OracleError> {
+fn parse_numbers(option: &str, value: &OptionValue) -> Result<Vec<f64>, OracleError> {
     let numbers = value.numbers().map(<[f64]>::to_vec);
     numbers.ok_or_else(|| bad_value(option, value, "numbers"))
 }
@@ -554,7 +556,7 @@ fn bad_value(option: &str, value: &OptionValue, expected: impl Display) -> Oracl
 mod tests {
     use super::*;
 
-    fn named(choice: &str) -> OptionValue {
+    fn choice_value(choice: &str) -> OptionValue {
         OptionValue::Choice(choice.to_owned())
     }
 
@@ -562,12 +564,12 @@ mod tests {
     fn options_are_set_by_name() {
         let mut params = SraaParams::default();
         for (option, value) in [
-            ("pattern", named("listed")),
+            ("pattern", choice_value("listed")),
             ("offsets", OptionValue::Numbers(vec![0.25, -0.25])),
-            ("shading", named("sample0")),
-            ("metric", named("depth")),
-            ("falloff", named("none")),
-            ("normalisation", named("paper")),
+            ("shading", choice_value("sample0")),
+            ("metric", choice_value("depth")),
+            ("falloff", choice_value("none")),
+            ("normalisation", choice_value("paper")),
             ("tau", OptionValue::Number(12.5)),
             ("depth-scale", OptionValue::Number(0.0)),
         ] {
@@ -592,18 +594,18 @@ mod tests {
         let mut params = SraaParams::default();
         assert!(
             params
-                .set("patern", &named("latin4"))
+                .set("patern", &choice_value("latin4"))
                 .unwrap_err()
                 .to_string()
                 .contains("patern")
         );
-        let error = params.set("falloff", &named("gauss")).unwrap_err();
+        let error = params.set("falloff", &choice_value("gauss")).unwrap_err();
         assert_eq!(error.to_string(), "falloff=gauss: expected none, tent, gaussian");
         let numbers = [-1.0, f64::NAN, f64::INFINITY].map(OptionValue::Number);
-        for bad in numbers.into_iter().chain([named("many"), OptionValue::Uniform]) {
+        for bad in numbers.into_iter().chain([choice_value("many"), OptionValue::Uniform]) {
             assert!(params.set("tau", &bad).is_err(), "{bad}");
         }
-        assert!(params.set("extra", &named("yes")).is_err());
+        assert!(params.set("extra", &choice_value("yes")).is_err());
         assert_eq!(params, SraaParams::default());
     }
 }

@@ -40,7 +40,7 @@ fn sixteenths(pattern: Pattern) -> &'static [[i32; 2]] {
 }
 
 /// Offsets from the pixel's centre, in pixels, y down. Of [`Pattern::Listed`], `listed` in pairs.
-pub(super) fn samples(pattern: Pattern, listed: &[f64]) -> Vec<[f64; 2]> {
+pub(super) fn pattern_offsets(pattern: Pattern, listed: &[f64]) -> Vec<[f64; 2]> {
     match pattern {
         Pattern::Listed => listed.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
         _ => {
@@ -63,7 +63,7 @@ mod tests {
 
     /// Vulkan counts from the pixel's top left corner.
     fn from_corner(pattern: Pattern) -> Vec<[f64; 2]> {
-        samples(pattern, &[])
+        pattern_offsets(pattern, &[])
             .iter()
             .map(|offset| offset.map(|axis| axis + 0.5))
             .collect()
@@ -106,7 +106,7 @@ mod tests {
             Pattern::Latin16,
             Pattern::Standard16,
         ] {
-            let samples = samples(pattern, &[]);
+            let samples = pattern_offsets(pattern, &[]);
             for axis in 0..2 {
                 let mut cells: Vec<i64> = samples
                     .iter()

@@ -19,7 +19,7 @@ pub struct Placed {
 /// # Errors
 ///
 /// [`OracleError::Input`] if an image or a number that the decision needs is missing or does not fit.
-pub fn place(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Placed>, OracleError> {
+pub fn place_shading(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Placed>, OracleError> {
     let params = SraaParams {
         shading: Shading::Centre,
         ..params.clone()
@@ -27,11 +27,11 @@ pub fn place(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Placed>, Oracle
     let definition = Definition::new(inputs, &params)?;
     let (width, height) = (inputs.size.x as i32, inputs.size.y as i32);
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    Ok(pixels.map(|pixel| definition.placed(pixel)).collect())
+    Ok(pixels.map(|pixel| definition.place_pixel(pixel)).collect())
 }
 
 impl Definition<'_> {
-    fn placed(&self, pixel: [i32; 2]) -> Placed {
+    fn place_pixel(&self, pixel: [i32; 2]) -> Placed {
         let samples = self.samples.len();
         let mut placed = Placed {
             sample: samples,

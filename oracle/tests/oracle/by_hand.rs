@@ -23,9 +23,9 @@ fn inputs(
     normal: impl Fn(usize, usize) -> Vec3,
 ) -> Inputs {
     Inputs::new(size)
-        .image("color", image(size, color))
-        .layers("depth", layers(size, 17, |layer, i| Vec4::splat(depth(layer, i))))
-        .layers("normal", layers(size, 17, |layer, i| normal(layer, i).extend(0.0)))
+        .with_image("color", image(size, color))
+        .with_layers("depth", layers(size, 17, |layer, i| Vec4::splat(depth(layer, i))))
+        .with_layers("normal", layers(size, 17, |layer, i| normal(layer, i).extend(0.0)))
 }
 
 fn sraa(inputs: &Inputs, params: &SraaParams) -> Vec<[f64; 4]> {
@@ -33,7 +33,7 @@ fn sraa(inputs: &Inputs, params: &SraaParams) -> Vec<[f64; 4]> {
 }
 
 fn resolved(inputs: &Inputs, params: &SraaParams) -> Vec<Resolved> {
-    oracle::sraa(inputs, params).expect("all is there")
+    oracle::resolve_sraa(inputs, params).expect("all is there")
 }
 
 /// Weight of each of the 3×3 pixels around one in a uniform region, row by row.
@@ -302,13 +302,13 @@ fn an_infinite_depth_is_like_any_other() {
 #[test]
 fn a_missing_layer_is_noticed() {
     let inputs = Inputs::new(uvec2(2, 2))
-        .image("color", image(uvec2(2, 2), |_| Vec4::ONE))
-        .layers("depth", layers(uvec2(2, 2), 4, |_, _| Vec4::ONE));
+        .with_image("color", image(uvec2(2, 2), |_| Vec4::ONE))
+        .with_layers("depth", layers(uvec2(2, 2), 4, |_, _| Vec4::ONE));
     let params = SraaParams {
         metric: Metric::Depth,
         ..Default::default()
     };
-    let error = oracle::sraa(&inputs, &params)
+    let error = oracle::resolve_sraa(&inputs, &params)
         .expect_err("a layer is missing")
         .to_string();
     assert_eq!(error, "the oracle of SRAA needs `depth`: 5 images");

@@ -74,7 +74,7 @@ pub fn compile_kernel(state: &mut State, request: &CompileRequest) -> Result<Val
     let shaders = shaders.collect::<Result<Vec<Value>, Refusal>>()?;
     let loops = compiled.loops.iter().map(|report| {
         json!({
-            "loop": report.path(), "unroll": report.unroll.to_string(), "copies": report.copies,
+            "loop": report.policy_path(), "unroll": report.unroll.to_string(), "copies": report.copies,
             "operations": report.operations, "reason": report.reason,
         })
     });

@@ -42,12 +42,12 @@ pub fn interpret_kernel(state: &mut State, request: &InterpretRequest) -> Result
     let interpreter = Interpreter::<f32>::new(&compiled.graph, &compiled.schedule, request.size, &bindings)
         .map_err(|why| Refusal::from_message(&why.to_string()))?;
     let [width, height] = request.size.map(|n| n as usize);
-    let [across, down] = compiled.graph.invocation.pixels().map(|n| n as usize);
+    let [across, down] = compiled.graph.invocation.block_size().map(|n| n as usize);
     let mut texels = vec![[0.0_f32; 4]; width * height];
-    let mut scratch = interpreter.scratch();
+    let mut scratch = interpreter.new_scratch();
     for y in (0..height).step_by(down) {
         for x in (0..width).step_by(across) {
-            let computed = interpreter.invocation(x as u32, y as u32, &mut scratch);
+            let computed = interpreter.run_invocation(x as u32, y as u32, &mut scratch);
             for (k, texel) in computed.into_iter().enumerate() {
                 let (x, y) = (x + k % across, y + k / across);
                 if x < width && y < height {

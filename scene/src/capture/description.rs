@@ -99,7 +99,7 @@ pub(super) struct Description {
 
 impl Description {
     /// The description of `capture`, which need not be valid.
-    pub(super) fn of(capture: &Capture) -> Self {
+    pub(super) fn from_capture(capture: &Capture) -> Self {
         Description {
             schema: SCHEMA,
             size: capture.size.to_array(),
@@ -142,7 +142,7 @@ impl Description {
         self.size.into()
     }
 
-    pub(super) fn samples(&self) -> Vec<Vec2> {
+    pub(super) fn sample_offsets(&self) -> Vec<Vec2> {
         self.samples.iter().map(|sample| (*sample).into()).collect()
     }
 
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(description.size(), UVec2::new(1280, 720));
         assert_eq!(description.shading(), ShadingSample::Centre);
         let sixteenths: Vec<_> = description
-            .samples()
+            .sample_offsets()
             .iter()
             .map(|sample| (*sample * 16.0).to_array())
             .collect();
@@ -306,7 +306,7 @@ mod tests {
     }
 
     /// The error for the documented example with `from` replaced by `to`.
-    fn broken(from: &str, to: &str) -> String {
+    fn error_after_edit(from: &str, to: &str) -> String {
         assert!(documented().contains(from), "{from}");
         parse(&documented().replace(from, to)).expect_err(to).to_string()
     }
@@ -358,7 +358,7 @@ mod tests {
             ("\"vertical_fov\": 1.0472, ", "", &["camera", "angle is 0 radians"]),
             ("\"linear\"", "\"reversed-z\"", &["`reversed-z`", "`linear`"]),
         ] {
-            let message = broken(from, to);
+            let message = error_after_edit(from, to);
             assert!(
                 message.contains("there/capture.json") || message.contains("there\\capture.json"),
                 "{message}"

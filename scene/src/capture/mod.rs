@@ -113,7 +113,7 @@ impl Capture {
 
     /// The rays through the pixels, in the space that normals are in: from the eye to depth 1 through the picture's upper left
     /// corner, and how they change from pixel to pixel to the right and down. `None` without a camera, and of a parallel projection.
-    pub fn rays(&self) -> Option<[Vec3; 3]> {
+    pub fn perspective_rays(&self) -> Option<[Vec3; 3]> {
         let camera = self.camera.filter(|camera| camera.parallel_height.is_none())?;
         Some(self.normal_space.rays(&camera, self.size))
     }
@@ -127,7 +127,7 @@ impl Capture {
 }
 
 /// The mean of pictures of one size; `None` of none.
-pub fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
+pub fn mean_frame(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
     let size = frames.first()?.size();
     let share = 1.0 / frames.len() as f32;
     let texel = |k: usize| frames.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() * share;

@@ -3,7 +3,7 @@
 use super::description::{Description, STATED_BY};
 use super::{
     ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
-    REFERENCE, REST, ShadingSample, layer_count, layer_name, mean,
+    REFERENCE, REST, ShadingSample, layer_count, layer_name, mean_frame,
 };
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
@@ -30,40 +30,40 @@ impl Capture {
             dir,
             description: &description,
         };
-        let (color, colors) = layout.shading()?;
-        let place = layout.place()?;
-        let depth = layout.layers(DEPTH, ["Z"], "channel Z", |[z]| z)?;
-        let normal = match layout.optional(NORMAL) {
+        let (color, colors) = layout.read_shading()?;
+        let place = layout.read_places()?;
+        let depth = layout.read_layers(DEPTH, ["Z"], "channel Z", |[z]| z)?;
+        let normal = match layout.optional_path(NORMAL) {
             Some(path) => {
-                let normal = layout.layers(NORMAL, ["X", "Y", "Z"], "channels X, Y and Z", Vec3::from)?;
+                let normal = layout.read_layers(NORMAL, ["X", "Y", "Z"], "channels X, Y and Z", Vec3::from)?;
                 for (layer, frame) in normal.layers().iter().enumerate() {
-                    let name = format!("layer `{}`", layer_name(layer, description.samples().len()));
-                    finite(&path, &name, frame, |normal| normal.is_finite())?;
+                    let name = format!("layer `{}`", layer_name(layer, description.sample_offsets().len()));
+                    check_finite(&path, &name, frame, |normal| normal.is_finite())?;
                 }
                 Some(normal)
             }
             None => None,
         };
-        let albedo = layout.optional(ALBEDO).map(|_| layout.albedo()).transpose()?;
+        let albedo = layout.optional_path(ALBEDO).map(|_| layout.read_albedo()).transpose()?;
         let once = |file: &str, what: &str| {
             layout
-                .optional(file)
-                .map(|path| layout.once(&path, file, what))
+                .optional_path(file)
+                .map(|path| layout.read_color_part(&path, file, what))
                 .transpose()
         };
         let direct = once(DIRECT, "direct light")?;
         let rest = once(REST, "what does not follow the albedo")?;
-        let reference = match layout.optional(REFERENCE) {
+        let reference = match layout.optional_path(REFERENCE) {
             Some(path) => {
-                let reference = layout.color(REFERENCE, "the reference")?;
-                finite(&path, "its colour", &reference, |colour| colour.is_finite())?;
+                let reference = layout.read_color_file(REFERENCE, "the reference")?;
+                check_finite(&path, "its colour", &reference, |colour| colour.is_finite())?;
                 Some(reference)
             }
             None => None,
         };
         Ok(Capture {
             size: description.size(),
-            samples: description.samples(),
+            samples: description.sample_offsets(),
             shading: description.shading(),
             normal_space: description.normals,
             color,
@@ -81,7 +81,7 @@ impl Capture {
 }
 
 /// Refuses an image with a texel that is infinite or not a number, with its place.
-fn finite<T: Copy + std::fmt::Debug>(
+fn check_finite<T: Copy + std::fmt::Debug>(
     path: &Path,
     layer: &str,
     frame: &Frame<T>,
@@ -165,33 +165,33 @@ impl Layout<'_> {
         self.description.size()
     }
 
-    fn optional(&self, file: &str) -> Option<PathBuf> {
+    fn optional_path(&self, file: &str) -> Option<PathBuf> {
         Some(self.dir.join(file)).filter(|path| path.exists())
     }
 
-    fn required(&self, file: &str, contents: &str) -> Result<PathBuf, CaptureError> {
-        self.optional(file).ok_or_else(|| CaptureError::MissingFile {
+    fn required_path(&self, file: &str, contents: &str) -> Result<PathBuf, CaptureError> {
+        self.optional_path(file).ok_or_else(|| CaptureError::MissingFile {
             path: self.dir.join(file),
             contents: contents.to_owned(),
         })
     }
 
-    fn color(&self, file: &str, contents: &str) -> Result<Frame<Vec4>, CaptureError> {
-        let path = self.required(file, contents)?;
+    fn read_color_file(&self, file: &str, contents: &str) -> Result<Frame<Vec4>, CaptureError> {
+        let path = self.required_path(file, contents)?;
         Ok(read_color(&path, Some((self.size(), STATED_BY)))?)
     }
 
     /// The colour of each pixel, and of several shading samples a pixel each by itself.
-    fn shading(&self) -> Result<(Frame<Vec4>, Vec<Frame<Vec4>>), CaptureError> {
+    fn read_shading(&self) -> Result<(Frame<Vec4>, Vec<Frame<Vec4>>), CaptureError> {
         let ShadingSample::Samples(shaded) = self.description.shading() else {
             let one = "the shading, one sample a pixel, in channels R, G and B";
-            return Ok((self.color(COLOR, one)?, Vec::new()));
+            return Ok((self.read_color_file(COLOR, one)?, Vec::new()));
         };
-        let samples = self.description.samples().len();
+        let samples = self.description.sample_offsets().len();
         let names: Vec<String> = shaded.iter().map(|sample| layer_name(*sample, samples)).collect();
         let contents = format!("the shading of {} with {RGB} each", in_words(&names));
         let colors = self.color_layers(COLOR, &names, &contents)?;
-        let color = mean(&colors).ok_or_else(|| CaptureError::MissingFile {
+        let color = mean_frame(&colors).ok_or_else(|| CaptureError::MissingFile {
             path: self.dir.join(COLOR),
             contents: "the shading".to_owned(),
         })?;
@@ -199,8 +199,8 @@ impl Layout<'_> {
     }
 
     /// The albedo of every layer of the geometry.
-    fn albedo(&self) -> Result<FrameLayers<Vec4>, CaptureError> {
-        let samples = self.description.samples().len();
+    fn read_albedo(&self) -> Result<FrameLayers<Vec4>, CaptureError> {
+        let samples = self.description.sample_offsets().len();
         let count = layer_count(samples, &self.description.shading());
         let names: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
         let layers = self.color_layers(ALBEDO, &names, &format!("a layer a sample with {RGB}"))?;
@@ -208,14 +208,14 @@ impl Layout<'_> {
     }
 
     /// A part of the colour of each pixel's only shading sample.
-    fn once(&self, path: &Path, file: &str, what: &str) -> Result<Frame<Vec4>, CaptureError> {
+    fn read_color_part(&self, path: &Path, file: &str, what: &str) -> Result<Frame<Vec4>, CaptureError> {
         check_once(path, what, &self.description.shading())?;
-        self.color(file, what)
+        self.read_color_file(file, what)
     }
 
     /// The layers of a file by their names, each a colour; alpha is 1 where there is none.
     fn color_layers(&self, file: &str, names: &[String], contents: &str) -> Result<Vec<Frame<Vec4>>, CaptureError> {
-        let path = self.required(file, contents)?;
+        let path = self.required_path(file, contents)?;
         let source = Source::open(&path)?;
         self.refuse_surplus(&path, &source, names)?;
         let found = source.layer_channels();
@@ -224,12 +224,12 @@ impl Layout<'_> {
             let alpha = found.iter().any(|(layer, channel)| layer == name && channel == "A");
             alphas.push(alpha);
             for channel in ["R", "G", "B"].into_iter().chain(alpha.then_some("A")) {
-                let plane = source.find(name, channel, RGB)?;
-                source.check(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
+                let plane = source.find_plane(name, channel, RGB)?;
+                source.check_plane(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
                 planes.push(plane);
             }
         }
-        let mut values = source.read(&planes)?.into_iter();
+        let mut values = source.read_planes(&planes)?.into_iter();
         let mut colors = Vec::new();
         for alpha in alphas {
             let own: Vec<Vec<f32>> = values.by_ref().take(3 + usize::from(alpha)).collect();
@@ -240,18 +240,18 @@ impl Layout<'_> {
     }
 
     /// The layer in whose place each pixel is shaded, if `capture.json` says that there are such places.
-    fn place(&self) -> Result<Option<Frame<u32>>, CaptureError> {
+    fn read_places(&self) -> Result<Option<Frame<u32>>, CaptureError> {
         if self.description.shading() != ShadingSample::Placed {
             return Ok(None);
         }
         let wanted = "channel Y";
         let contents = "the number of the layer in whose place each pixel is shaded, in channel Y of layer `place`";
-        let path = self.required(PLACE, contents)?;
+        let path = self.required_path(PLACE, contents)?;
         let source = Source::open(&path)?;
         self.refuse_surplus(&path, &source, &[PLACE_LAYER.to_owned()])?;
-        let plane = source.find(PLACE_LAYER, PLACE_CHANNEL, wanted)?;
-        source.check(plane, "layer `place`", self.size(), STATED_BY)?;
-        let values = source.read(&[plane])?.pop().unwrap_or_default();
+        let plane = source.find_plane(PLACE_LAYER, PLACE_CHANNEL, wanted)?;
+        source.check_plane(plane, "layer `place`", self.size(), STATED_BY)?;
+        let values = source.read_planes(&[plane])?.pop().unwrap_or_default();
         // A value that is not such a number becomes a number that does not occur.
         let number = |value: f32| {
             if value.fract() == 0.0 && value >= 0.0 {
@@ -261,33 +261,33 @@ impl Layout<'_> {
             }
         };
         let place = Frame::new(self.size(), values.into_iter().map(number).collect());
-        check_place(&path, self.description.samples().len(), &place)?;
+        check_place(&path, self.description.sample_offsets().len(), &place)?;
         Ok(Some(place))
     }
 
     /// Reads `channels` of every layer of `file`, and makes a texel of each set of values.
-    fn layers<const N: usize, T: Copy>(
+    fn read_layers<const N: usize, T: Copy>(
         &self,
         file: &str,
         channels: [&str; N],
         wanted: &str,
         texel: impl Fn([f32; N]) -> T,
     ) -> Result<FrameLayers<T>, CaptureError> {
-        let samples = self.description.samples().len();
+        let samples = self.description.sample_offsets().len();
         let count = layer_count(samples, &self.description.shading());
-        let path = self.required(file, &format!("a layer a sample with {wanted}"))?;
+        let path = self.required_path(file, &format!("a layer a sample with {wanted}"))?;
         let source = Source::open(&path)?;
         let names: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
         self.refuse_surplus(&path, &source, &names)?;
         let mut planes = Vec::with_capacity(count * N);
         for name in &names {
             for channel in channels {
-                let plane = source.find(name, channel, wanted)?;
-                source.check(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
+                let plane = source.find_plane(name, channel, wanted)?;
+                source.check_plane(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
                 planes.push(plane);
             }
         }
-        let values = source.read(&planes)?;
+        let values = source.read_planes(&planes)?;
         let frames = values.chunks_exact(N).map(|planes| {
             let texels = (0..planes[0].len()).map(|i| texel(std::array::from_fn(|channel| planes[channel][i])));
             Frame::new(self.size(), texels.collect())
@@ -311,7 +311,7 @@ impl Layout<'_> {
             Some(problem) => Err(CaptureError::Layers {
                 path: path.to_owned(),
                 problem,
-                samples: self.description.samples().len(),
+                samples: self.description.sample_offsets().len(),
                 expected: in_words(expected),
             }),
             None => Ok(()),

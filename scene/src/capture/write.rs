@@ -21,7 +21,7 @@ impl Capture {
     /// The folder appears when it is complete; after an error it is as it was. A capture that is there already is
     /// replaced; a folder with anything else in it is refused.
     pub fn write(&self, dir: &Path) -> Result<(), CaptureError> {
-        let description = Description::of(self);
+        let description = Description::from_capture(self);
         self.check(&description, dir)?;
         // A link to a folder stays a link: what it points at is replaced.
         let dir = &fs::canonicalize(dir).unwrap_or_else(|_| dir.to_owned());
@@ -34,8 +34,8 @@ impl Capture {
         let above = Folders::make(dir.parent().unwrap_or(Path::new(""))).map_err(refused)?;
         let scrap = Scrap::beside(dir, "partial").map_err(refused)?;
         fs::create_dir(scrap.path()).map_err(refused)?;
-        self.fill(&description, scrap.path())?;
-        replace(scrap.path(), dir).map_err(refused)?;
+        self.write_files(&description, scrap.path())?;
+        replace_dir(scrap.path(), dir).map_err(refused)?;
         above.keep();
         Ok(())
     }
@@ -121,7 +121,7 @@ impl Capture {
     }
 
     /// Writes every file into `dir`.
-    fn fill(&self, description: &Description, dir: &Path) -> Result<(), CaptureError> {
+    fn write_files(&self, description: &Description, dir: &Path) -> Result<(), CaptureError> {
         let path = dir.join(DESCRIPTION);
         let json = description.to_json().map_err(|source| CaptureError::Json {
             path: path.clone(),
@@ -137,23 +137,28 @@ impl Capture {
                 let name = |sample: &usize| layer_name(*sample, self.samples.len());
                 let layers = shaded.iter().zip(&self.colors);
                 let layers = layers.map(|(sample, frame)| Layer::new(name(sample), picture::color_channels(frame)));
-                exr::write(&dir.join(COLOR), self.size, layers.collect())?;
+                exr::write_layers(&dir.join(COLOR), self.size, layers.collect())?;
             }
             ShadingSample::Sample(_) | ShadingSample::Centre | ShadingSample::Placed => {
                 picture::write_exr(&dir.join(COLOR), &self.color)?;
             }
         }
         if let Some(place) = &self.place {
-            let layer = Layer::new(PLACE_LAYER, vec![(PLACE_CHANNEL, plane(place, |layer| layer as f32))]);
-            exr::write(&dir.join(PLACE), self.size, vec![layer])?;
+            let layer = Layer::new(
+                PLACE_LAYER,
+                vec![(PLACE_CHANNEL, component_plane(place, |layer| layer as f32))],
+            );
+            exr::write_layers(&dir.join(PLACE), self.size, vec![layer])?;
         }
-        self.write_layers(&dir.join(DEPTH), &self.depth, |depth| vec![("Z", plane(depth, |z| z))])?;
+        self.write_layers(&dir.join(DEPTH), &self.depth, |depth| {
+            vec![("Z", component_plane(depth, |z| z))]
+        })?;
         if let Some(normal) = &self.normal {
             self.write_layers(&dir.join(NORMAL), normal, |normal| {
                 vec![
-                    ("X", plane(normal, |n| n.x)),
-                    ("Y", plane(normal, |n| n.y)),
-                    ("Z", plane(normal, |n| n.z)),
+                    ("X", component_plane(normal, |n| n.x)),
+                    ("Y", component_plane(normal, |n| n.y)),
+                    ("Z", component_plane(normal, |n| n.z)),
                 ]
             })?;
         }
@@ -184,11 +189,11 @@ impl Capture {
             .iter()
             .enumerate()
             .map(|(index, frame)| Layer::new(name(index), channels(frame)));
-        exr::write(path, self.size, layers.collect())
+        exr::write_layers(path, self.size, layers.collect())
     }
 }
 
-fn plane<T: Copy>(frame: &Frame<T>, component: impl Fn(T) -> f32) -> Vec<f32> {
+fn component_plane<T: Copy>(frame: &Frame<T>, component: impl Fn(T) -> f32) -> Vec<f32> {
     frame.texels().iter().map(|texel| component(*texel)).collect()
 }
 
@@ -222,7 +227,7 @@ fn refuse_occupied(dir: &Path) -> Result<(), CaptureError> {
 }
 
 /// Puts the folder `new` in the place of `dir`. If that fails, `dir` is what it was.
-fn replace(new: &Path, dir: &Path) -> io::Result<()> {
+fn replace_dir(new: &Path, dir: &Path) -> io::Result<()> {
     if !dir.exists() {
         return fs::rename(new, dir);
     }

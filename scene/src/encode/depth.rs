@@ -84,8 +84,8 @@ impl DepthStorage {
     pub fn round(self, value: f64) -> f64 {
         match self {
             DepthStorage::Float32 => f64::from(value as f32),
-            DepthStorage::Unorm24 => super::normal::unorm(value, 24),
-            DepthStorage::Unorm16 => super::normal::unorm(value, 16),
+            DepthStorage::Unorm24 => super::normal::round_to_unorm(value, 24),
+            DepthStorage::Unorm16 => super::normal::round_to_unorm(value, 16),
         }
     }
 }
@@ -97,7 +97,7 @@ mod tests {
     const NEAR: f64 = 0.1;
     const FAR: f64 = 500.0;
 
-    fn all() -> [DepthEncoding; 4] {
+    fn all_encodings() -> [DepthEncoding; 4] {
         [
             DepthEncoding::Linear,
             DepthEncoding::Perspective { near: NEAR, far: FAR },
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn what_is_encoded_is_decoded() {
-        for encoding in all() {
+        for encoding in all_encodings() {
             for depth in depths() {
                 let back = encoding.decode(encoding.encode(depth));
                 // Perspective loses as much near 1 in double precision.
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn ends_and_order() {
-        let [_, perspective, reversed, infinite] = all();
+        let [_, perspective, reversed, infinite] = all_encodings();
         assert_eq!([perspective.encode(NEAR), perspective.encode(FAR)], [0.0, 1.0]);
         assert_eq!([reversed.encode(NEAR), reversed.encode(FAR)], [1.0, 0.0]);
         assert_eq!((infinite.encode(NEAR), infinite.decode(0.0)), (1.0, f64::INFINITY));
@@ -146,7 +146,7 @@ mod tests {
     /// The projection of a scene's camera is the infinite reversed one.
     #[test]
     fn infinite_reversed_depth_is_what_the_camera_projects_to() {
-        let camera = crate::scene::Scene::named("roof").expect("a scene").camera;
+        let camera = crate::scene::Scene::from_name("roof").expect("a scene").camera;
         let projection = camera.projection(glam::uvec2(16, 9), glam::Vec2::ZERO);
         for depth in depths() {
             let clip = projection * glam::vec4(0.0, 0.0, -depth as f32, 1.0);
@@ -169,7 +169,7 @@ mod tests {
             let error = |depth: f64| (encoding.decode(storage.round(encoding.encode(depth))) / depth - 1.0).abs();
             depths().filter(|d| *d < most).map(error).fold(0.0, f64::max)
         };
-        let [linear, perspective, reversed, infinite] = all();
+        let [linear, perspective, reversed, infinite] = all_encodings();
         use DepthStorage::{Float32, Unorm16, Unorm24};
         // Floats are fine where small numbers are far away, and no better than 24 bits where 1 is.
         assert!(worst(linear, Float32, FAR) < 1.0e-7);

@@ -1,6 +1,6 @@
 //! G-buffers in other formats: what a renderer that stores depth and normals in fewer bits would hand to a filter.
 //!
-//! A capture has linear depth and unit normals in whole floats. [`depth`] and [`normal`] make of them what a texture of
+//! A capture has linear depth and unit normals in whole floats. [`encode_depths`] and [`encode_normals`] make of them what a texture of
 //! another format reads as, in the numbers that a shader gets from a load: 0 to 1 where the format is normalised
 //! (`unorm`). How each is read back, [`DepthEncoding::decode`] and [`NormalEncoding::decode`], is its definition, in
 //! double precision; tests compare kernels with that.
@@ -16,13 +16,13 @@ pub use depth::{DepthEncoding, DepthStorage};
 pub use normal::NormalEncoding;
 
 /// Depth of every layer as `encoding` stores it with the precision of `storage`.
-pub fn depth(linear: &FrameLayers<f32>, encoding: DepthEncoding, storage: DepthStorage) -> FrameLayers<f32> {
-    each(linear, |depth| storage.round(encoding.encode(f64::from(depth))) as f32)
+pub fn encode_depths(linear: &FrameLayers<f32>, encoding: DepthEncoding, storage: DepthStorage) -> FrameLayers<f32> {
+    map_texels(linear, |depth| storage.round(encoding.encode(f64::from(depth))) as f32)
 }
 
 /// Normals of every layer as the components that a shader reads; those that the format lacks are 0, alpha 1.
-pub fn normal(normals: &FrameLayers<Vec3>, encoding: NormalEncoding) -> FrameLayers<Vec4> {
-    each(normals, |normal| {
+pub fn encode_normals(normals: &FrameLayers<Vec3>, encoding: NormalEncoding) -> FrameLayers<Vec4> {
+    map_texels(normals, |normal| {
         let [x, y, z] = encoding.encode(normal.as_dvec3().to_array());
         vec4(x as f32, y as f32, z as f32, 1.0)
     })
@@ -33,17 +33,24 @@ pub fn normal(normals: &FrameLayers<Vec3>, encoding: NormalEncoding) -> FrameLay
 /// from 1/8 to 65504, and steps of 2⁻²⁴ below.
 ///
 /// Panics unless both have as many layers.
-pub fn packed(normals: &FrameLayers<Vec3>, linear: &FrameLayers<f32>, encoding: DepthEncoding) -> FrameLayers<Vec4> {
+pub fn pack_normals_depths(
+    normals: &FrameLayers<Vec3>,
+    linear: &FrameLayers<f32>,
+    encoding: DepthEncoding,
+) -> FrameLayers<Vec4> {
     assert_eq!(normals.layers().len(), linear.layers().len(), "layers of both");
     let layers = normals.layers().iter().zip(linear.layers()).map(|(normals, depths)| {
         let texels = normals.texels().iter().zip(depths.texels());
-        Frame::new(normals.size(), texels.map(|(n, d)| pack(*n, *d, encoding)).collect())
+        Frame::new(
+            normals.size(),
+            texels.map(|(n, d)| pack_texel(*n, *d, encoding)).collect(),
+        )
     });
     FrameLayers::new(layers.collect())
 }
 
-fn pack(normal: Vec3, depth: f32, encoding: DepthEncoding) -> Vec4 {
-    let [x, y] = normal::unfolded(normal.as_dvec3().to_array());
+fn pack_texel(normal: Vec3, depth: f32, encoding: DepthEncoding) -> Vec4 {
+    let [x, y] = normal::unfold_octahedron(normal.as_dvec3().to_array());
     let largest = f16::MAX.to_f64();
     let stored = encoding.encode(f64::from(depth)).clamp(-largest, largest);
     let coarse = f16::from_f64(stored);
@@ -52,12 +59,12 @@ fn pack(normal: Vec3, depth: f32, encoding: DepthEncoding) -> Vec4 {
 }
 
 /// Rounds texels to 16-bit floats, which every device can multisample.
-pub fn halved(texels: &FrameLayers<Vec4>) -> FrameLayers<Vec4> {
+pub fn round_to_half(texels: &FrameLayers<Vec4>) -> FrameLayers<Vec4> {
     let half = |texel: Vec4| Vec4::from_array(texel.to_array().map(|c| f16::from_f32(c).to_f32()));
-    each(texels, half)
+    map_texels(texels, half)
 }
 
-fn each<A: Copy, B: Copy>(stack: &FrameLayers<A>, texel: impl Fn(A) -> B) -> FrameLayers<B> {
+fn map_texels<A: Copy, B: Copy>(stack: &FrameLayers<A>, texel: impl Fn(A) -> B) -> FrameLayers<B> {
     let layer = |layer: &Frame<A>| Frame::new(layer.size(), layer.texels().iter().map(|t| texel(*t)).collect());
     FrameLayers::new(stack.layers().iter().map(layer).collect())
 }
@@ -71,7 +78,7 @@ mod tests {
     fn a_packed_depth_keeps_22_bits() {
         for k in 1..2000 {
             let depth = 0.013 * k as f32 * k as f32;
-            let texel = pack(Vec3::Z, depth, DepthEncoding::Linear);
+            let texel = pack_texel(Vec3::Z, depth, DepthEncoding::Linear);
             let back = f64::from(texel.z) + f64::from(texel.w);
             let apart = (back - f64::from(depth)).abs();
             assert!(
@@ -87,7 +94,7 @@ mod tests {
         let normals = FrameLayers::new(vec![Frame::new(size, vec![Vec3::Z, Vec3::NEG_X])]);
         let depths = FrameLayers::new(vec![Frame::new(size, vec![4.0, 8.0])]);
         let encoding = DepthEncoding::InfiniteReversed { near: 1.0 };
-        let stack = packed(&normals, &depths, encoding);
+        let stack = pack_normals_depths(&normals, &depths, encoding);
         let texels = stack.layers()[0].texels();
         for (texel, (normal, depth)) in texels.iter().zip([(Vec3::Z, 4.0), (Vec3::NEG_X, 8.0)]) {
             let square = [texel.x, texel.y].map(|c| 0.5 + 0.5 * f64::from(c));

@@ -24,10 +24,10 @@ impl NormalEncoding {
         }
         match self {
             NormalEncoding::Float => normal.map(|c| f64::from(c as f32)),
-            NormalEncoding::Rgb8 => normal.map(|c| unorm(0.5 * c + 0.5, 8)),
-            NormalEncoding::Rgb10A2 => normal.map(|c| unorm(0.5 * c + 0.5, 10)),
-            NormalEncoding::Octahedral8 => octahedral(normal, 8),
-            NormalEncoding::Octahedral16 => octahedral(normal, 16),
+            NormalEncoding::Rgb8 => normal.map(|c| round_to_unorm(0.5 * c + 0.5, 8)),
+            NormalEncoding::Rgb10A2 => normal.map(|c| round_to_unorm(0.5 * c + 0.5, 10)),
+            NormalEncoding::Octahedral8 => encode_octahedral(normal, 8),
+            NormalEncoding::Octahedral16 => encode_octahedral(normal, 16),
         }
     }
 
@@ -40,30 +40,34 @@ impl NormalEncoding {
             NormalEncoding::Octahedral8 | NormalEncoding::Octahedral16 => {
                 let [x, y, _] = signed;
                 let z = 1.0 - x.abs() - y.abs();
-                let [x, y] = if z < 0.0 { folded(x, y) } else { [x, y] };
+                let [x, y] = if z < 0.0 { mirror_at_diagonal(x, y) } else { [x, y] };
                 unit([x, y, z])
             }
         }
     }
 }
 
-fn octahedral(normal: [f64; 3], bits: u32) -> [f64; 3] {
-    let [x, y] = unfolded(normal);
-    [unorm(0.5 * x + 0.5, bits), unorm(0.5 * y + 0.5, bits), 0.0]
+fn encode_octahedral(normal: [f64; 3], bits: u32) -> [f64; 3] {
+    let [x, y] = unfold_octahedron(normal);
+    [
+        round_to_unorm(0.5 * x + 0.5, bits),
+        round_to_unorm(0.5 * y + 0.5, bits),
+        0.0,
+    ]
 }
 
 /// Onto the octahedron |x| + |y| + |z| = 1, its lower half folded out to the corners of the square from -1 to 1.
-pub(super) fn unfolded([x, y, z]: [f64; 3]) -> [f64; 2] {
+pub(super) fn unfold_octahedron([x, y, z]: [f64; 3]) -> [f64; 2] {
     let size = x.abs() + y.abs() + z.abs();
     if size == 0.0 {
         return [0.0; 2];
     }
     let [x, y] = [x / size, y / size];
-    if z < 0.0 { folded(x, y) } else { [x, y] }
+    if z < 0.0 { mirror_at_diagonal(x, y) } else { [x, y] }
 }
 
 /// Mirrored at the diagonal of its quadrant; 0 counts as above 0. The same in both directions.
-fn folded(x: f64, y: f64) -> [f64; 2] {
+fn mirror_at_diagonal(x: f64, y: f64) -> [f64; 2] {
     let sign = |c: f64| if c < 0.0 { -1.0 } else { 1.0 };
     [(1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y)]
 }
@@ -74,7 +78,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 }
 
 /// The nearest of the numbers from 0 to 1 that `bits` bits hold.
-pub(super) fn unorm(value: f64, bits: u32) -> f64 {
+pub(super) fn round_to_unorm(value: f64, bits: u32) -> f64 {
     let most = f64::from((1u32 << bits) - 1);
     (value.clamp(0.0, 1.0) * most).round() / most
 }
@@ -109,7 +113,7 @@ mod tests {
     }
 
     /// The angle between two unit vectors in degrees, exact for small ones.
-    fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    fn angle_degrees(a: [f64; 3], b: [f64; 3]) -> f64 {
         let chord = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
         (2.0 * (0.5 * chord).asin()).to_degrees()
     }
@@ -128,7 +132,7 @@ mod tests {
             for normal in normals() {
                 let texel = encoding.encode(normal);
                 let back = encoding.decode(texel);
-                worst = worst.max(apart(normal, back));
+                worst = worst.max(angle_degrees(normal, back));
                 let length = back.iter().map(|c| c * c).sum::<f64>().sqrt();
                 assert!(
                     (length - 1.0).abs() < 1.0e-6,

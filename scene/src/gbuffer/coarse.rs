@@ -1,6 +1,6 @@
 //! Detects depth that is held in steps which a metric takes for edges.
 
-use super::{choice, depth_encoding, planes};
+use super::{choice_or_default, depth_encoding, depth_planes};
 use crate::capture::Capture;
 use crate::encode::{DepthEncoding, DepthStorage};
 use crate::scene::SKY_DEPTH;
@@ -32,16 +32,16 @@ const MANY: f64 = 0.35;
 
 /// Detects depths that, as a shader with these options reads them, lie in steps which its metric takes for more than its
 /// smallest threshold in many samples; `None` if there are none, and of a metric that reads no depth.
-pub fn coarse(capture: &Capture, options: &OptionValues) -> Option<Coarse> {
-    if choice(options, "metric", "depth-normals") == "normals" {
+pub fn detect_coarse_depth(capture: &Capture, options: &OptionValues) -> Option<Coarse> {
+    if choice_or_default(options, "metric", "depth-normals") == "normals" {
         return None;
     }
-    let encoding = depth_encoding(options, planes(capture, options).ok()?);
+    let encoding = depth_encoding(options, depth_planes(capture, options).ok()?);
     let number = |name: &str, default: f64| options.number(name).unwrap_or(default);
     let scale = number("depth-scale", 1.0);
-    let relative = choice(options, "difference", "absolute") == "relative";
+    let relative = choice_or_default(options, "difference", "absolute") == "relative";
     let (name, threshold) = smallest_threshold(options, number);
-    let layers = read(capture, encoding);
+    let layers = read_depths(capture, encoding);
     if !in_steps(&layers) {
         return None;
     }
@@ -113,10 +113,10 @@ fn off_planes(capture: &Capture, layers: &[Vec<f64>]) -> Vec<(f64, f64)> {
 /// The least difference that changes what a filter does, and the option that says so.
 fn smallest_threshold(options: &OptionValues, number: impl Fn(&str, f64) -> f64) -> (&'static str, f64) {
     let mut all = vec![("tau", 1.0 / number("tau", 500.0).max(1.0e-30))];
-    if choice(options, "mask", "none") != "none" {
+    if choice_or_default(options, "mask", "none") != "none" {
         all.push(("mask-threshold", number("mask-threshold", 0.002)));
     }
-    if choice(options, "search", "none") != "none" {
+    if choice_or_default(options, "search", "none") != "none" {
         all.push(("search-threshold", number("search-threshold", 0.05)));
     }
     let smallest = all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
@@ -124,7 +124,7 @@ fn smallest_threshold(options: &OptionValues, number: impl Fn(&str, f64) -> f64)
 }
 
 /// Linear depths of every layer, as a shader reads them; not a number where nothing is drawn.
-fn read(capture: &Capture, encoding: DepthEncoding) -> Vec<Vec<f64>> {
+fn read_depths(capture: &Capture, encoding: DepthEncoding) -> Vec<Vec<f64>> {
     let stored = |depth: f32| match depth.is_finite() && depth < SKY_DEPTH {
         true => encoding.decode(DepthStorage::Float32.round(encoding.encode(f64::from(depth)))),
         false => f64::NAN,

@@ -12,10 +12,10 @@ use glam::{UVec2, UVec4, Vec2, Vec3, Vec4};
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
-pub use coarse::{Coarse, coarse};
-pub use offsets::{Misplaced, misplaced};
+pub use coarse::{Coarse, detect_coarse_depth};
+pub use offsets::{Misplaced, find_misplaced};
 pub(crate) use pattern::pattern_of;
-pub use pattern::{PATTERNS, sampled_at, samples};
+pub use pattern::{PATTERNS, pattern_offsets, sampled_at};
 pub use space::{bent_normals, has_planes};
 
 /// Why a capture cannot feed a shader.
@@ -66,7 +66,7 @@ pub enum GBufferError {
 }
 
 /// Choice of a compiled kernel's option, or its default.
-fn choice<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
+fn choice_or_default<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
     options.choice(name).unwrap_or(default)
 }
 
@@ -79,7 +79,7 @@ fn choice<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a st
 ///
 /// [`GBufferError`] if the capture lacks normals, a camera or samples that the options need, and for `history`, as no capture has
 /// earlier frames: [`sequence`](crate::sequence) has.
-pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
+pub fn sraa_inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
     if let Some(history) = options.get("history").filter(|frames| frames.number() != Some(0.0)) {
         return Err(GBufferError::Missing {
             what: "earlier frames",
@@ -94,7 +94,7 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
             help: "use extra=false; `straightline study error` has renderers that shade some",
         });
     }
-    let projection = choice(options, "projection", "perspective");
+    let projection = choice_or_default(options, "projection", "perspective");
     let found = pattern::projection_of(capture);
     if capture.camera.is_some() && projection != found {
         return Err(GBufferError::Projection {
@@ -102,11 +102,11 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
             asked: projection.to_owned(),
         });
     }
-    let metric = choice(options, "metric", "depth-normals");
-    let layout = choice(options, "layout", "layers");
-    let needed = match choice(options, "pattern", "latin4") {
+    let metric = choice_or_default(options, "metric", "depth-normals");
+    let layout = choice_or_default(options, "layout", "layers");
+    let needed = match choice_or_default(options, "pattern", "latin4") {
         "listed" => options.numbers("offsets").map_or(0, |axes| axes.len() / 2),
-        name => samples(name).map_or(0, |samples| samples.len()),
+        name => pattern_offsets(name).map_or(0, |samples| samples.len()),
     };
     if needed != capture.samples.len() {
         return Err(GBufferError::Samples {
@@ -114,7 +114,7 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
             found: capture.samples.len(),
         });
     }
-    let planes = planes(capture, options)?;
+    let planes = depth_planes(capture, options)?;
     let depth_encoding = depth_encoding(options, planes);
     let normals = match (metric, &capture.normal) {
         ("depth", _) => None,
@@ -128,47 +128,50 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
         }
     };
     let mut images = Vec::new();
-    match (choice(options, "normals", "float"), normals) {
+    match (choice_or_default(options, "normals", "float"), normals) {
         ("packed", Some(normals)) => {
-            images.push(("packed", encode::packed(normals, &capture.depth, depth_encoding)));
+            images.push((
+                "packed",
+                encode::pack_normals_depths(normals, &capture.depth, depth_encoding),
+            ));
         }
         (normals_as, normals) => {
             if metric != "normals" {
-                let stored = encode::depth(&capture.depth, depth_encoding, DepthStorage::Float32);
-                images.push(("depth", texels(&stored)));
+                let stored = encode::encode_depths(&capture.depth, depth_encoding, DepthStorage::Float32);
+                images.push(("depth", splat_depths(&stored)));
             }
             if let Some(normals) = normals {
-                let stored = encode::normal(normals, normal_encoding(normals_as));
+                let stored = encode::encode_normals(normals, normal_encoding(normals_as));
                 images.push(("normal", stored));
             }
         }
     }
-    let demodulate = choice(options, "demodulate", "none");
+    let demodulate = choice_or_default(options, "demodulate", "none");
     if demodulate != "none" {
         images.push(("albedo", needed_of(&capture.albedo, "albedo (albedo.exr)", demodulate)?));
     }
-    let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
+    let mut inputs = Inputs::new(capture.size).with_image("color", capture.color.clone());
     if demodulate == "albedo-shadow" {
-        inputs = inputs.image(
+        inputs = inputs.with_image(
             "direct",
             needed_of(&capture.direct, "direct light (direct.exr)", demodulate)?,
         );
     }
     if demodulate != "none" && options.flag("rest") == Some(true) {
         let rest = needed_of(&capture.rest, "what does not follow the albedo (rest.exr)", demodulate)?;
-        inputs = inputs.image("rest", rest);
+        inputs = inputs.with_image("rest", rest);
     }
     if !capture.colors.is_empty() {
-        inputs = inputs.layers("colors", capture.colors.clone());
+        inputs = inputs.with_layers("colors", capture.colors.clone());
     }
     if let Some(place) = &capture.place {
-        inputs = inputs.integers("place", vec![places(place)]);
+        inputs = inputs.with_integers("place", vec![encode_places(place)]);
     }
     let apart = capture.layer_count() > capture.samples.len();
     for (name, stack) in images {
         // Formats that every device can multisample: a single component in whole floats, more in half.
         let stack = if layout == "multisampled" && name != "depth" {
-            encode::halved(&stack)
+            encode::round_to_half(&stack)
         } else {
             stack
         };
@@ -182,8 +185,8 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
         );
     }
     let inputs = inputs
-        .uniform("near", &[f64::from(planes.x)])
-        .uniform("far", &[f64::from(planes.y)]);
+        .with_uniform("near", &[f64::from(planes.x)])
+        .with_uniform("far", &[f64::from(planes.y)]);
     if metric == "planes-normals" {
         if capture.camera.is_none() {
             return Err(GBufferError::Missing {
@@ -192,9 +195,9 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
                 help: "write `camera` into capture.json, or use metric=depth-normals",
             });
         }
-        space::check(capture)?;
+        space::check_normal_space(capture)?;
     }
-    Ok(match (capture.rays(), capture.parallel_rays()) {
+    Ok(match (capture.perspective_rays(), capture.parallel_rays()) {
         (Some(rays), _) => with_rays(inputs, "ray_corner", rays),
         (None, Some(rays)) => with_rays(inputs, "ray_forward", rays),
         (None, None) => inputs,
@@ -202,7 +205,7 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
 }
 
 /// Encodes the shading position of each pixel for the binding `place`.
-pub fn places(place: &Frame<u32>) -> Frame<UVec4> {
+pub fn encode_places(place: &Frame<u32>) -> Frame<UVec4> {
     let texels = place.texels().iter().map(|layer| UVec4::new(*layer, 0, 0, 1));
     Frame::new(place.size(), texels.collect())
 }
@@ -224,16 +227,16 @@ fn with_rays(inputs: Inputs, name: &str, [first, right, down]: [Vec3; 3]) -> Inp
         _ => "ray_corner",
     };
     inputs
-        .uniform(name, &numbers(first))
-        .uniform(other, &[0.0; 3])
-        .uniform("ray_right", &numbers(right))
-        .uniform("ray_down", &numbers(down))
-        .uniform("origin", &[0.0, 0.0])
+        .with_uniform(name, &numbers(first))
+        .with_uniform(other, &[0.0; 3])
+        .with_uniform("ray_right", &numbers(right))
+        .with_uniform("ray_down", &numbers(down))
+        .with_uniform("origin", &[0.0, 0.0])
 }
 
 /// Near and far plane that depth is encoded with.
-fn planes(capture: &Capture, options: &OptionValues) -> Result<Vec2, GBufferError> {
-    let camera = match (&capture.camera, choice(options, "depth", "linear")) {
+fn depth_planes(capture: &Capture, options: &OptionValues) -> Result<Vec2, GBufferError> {
+    let camera = match (&capture.camera, choice_or_default(options, "depth", "linear")) {
         (Some(camera), _) => camera,
         (None, "linear") => return Ok(Vec2::ONE),
         (None, encoding) => {
@@ -254,8 +257,8 @@ fn planes(capture: &Capture, options: &OptionValues) -> Result<Vec2, GBufferErro
 
 fn depth_encoding(options: &OptionValues, planes: Vec2) -> DepthEncoding {
     let (near, far) = (f64::from(planes.x), f64::from(planes.y));
-    let is_parallel = choice(options, "projection", "perspective") == "parallel";
-    match choice(options, "depth", "linear") {
+    let is_parallel = choice_or_default(options, "projection", "perspective") == "parallel";
+    match choice_or_default(options, "depth", "linear") {
         "perspective" if is_parallel => DepthEncoding::Parallel { near, far },
         "reversed" if is_parallel => DepthEncoding::ParallelReversed { near, far },
         "perspective" => DepthEncoding::Perspective { near, far },
@@ -274,12 +277,12 @@ fn normal_encoding(name: &str) -> NormalEncoding {
     }
 }
 
-fn texels(depths: &FrameLayers<f32>) -> FrameLayers<Vec4> {
+fn splat_depths(depths: &FrameLayers<f32>) -> FrameLayers<Vec4> {
     let layer = |l: &Frame<f32>| Frame::new(l.size(), l.texels().iter().map(|z| Vec4::splat(*z)).collect());
     FrameLayers::new(depths.layers().iter().map(layer).collect())
 }
 
-fn numbers(texel: Vec4) -> [f64; 4] {
+fn texel_to_f64(texel: Vec4) -> [f64; 4] {
     texel.to_array().map(f64::from)
 }
 
@@ -295,18 +298,18 @@ fn laid_out(
     match (layout, name) {
         ("split", "depth") => {
             let texels = layers.iter().flat_map(|layer| layer.texels());
-            return inputs.buffer("depth_buffer", texels.map(|texel| numbers(*texel)).collect());
+            return inputs.with_buffer("depth_buffer", texels.map(|texel| texel_to_f64(*texel)).collect());
         }
-        ("layers" | "split", _) => return inputs.layers(name, layers),
+        ("layers" | "split", _) => return inputs.with_layers(name, layers),
         _ => {}
     }
     let inputs = match (apart, layers.len() > samples) {
-        (true, true) => inputs.image(&format!("centre_{name}"), layers.remove(samples)),
+        (true, true) => inputs.with_image(&format!("centre_{name}"), layers.remove(samples)),
         _ => inputs,
     };
     match layout {
-        "superresolution" => inputs.image(&format!("{name}_grid"), side_by_side(&layers)),
-        _ => inputs.layers(&format!("{name}_samples"), layers),
+        "superresolution" => inputs.with_image(&format!("{name}_grid"), side_by_side(&layers)),
+        _ => inputs.with_layers(&format!("{name}_samples"), layers),
     }
 }
 

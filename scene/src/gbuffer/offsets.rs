@@ -26,7 +26,7 @@ impl Misplaced {
     ];
 
     /// Returns the true offset of a sample whose stated offset is `offset`.
-    fn of(self, offset: Vec2) -> Vec2 {
+    fn true_offset(self, offset: Vec2) -> Vec2 {
         match self {
             Misplaced::FlippedY => Vec2::new(offset.x, -offset.y),
             Misplaced::FlippedX => Vec2::new(-offset.x, offset.y),
@@ -36,7 +36,7 @@ impl Misplaced {
     }
 
     /// Returns the problem and its remedy, in words.
-    pub fn words(self) -> &'static str {
+    pub fn describe_remedy(self) -> &'static str {
         match self {
             Misplaced::FlippedY => {
                 "the depths are those of samples with y upside down: offsets in `samples` count y down, so negate each y there, or shift \
@@ -75,7 +75,7 @@ const MORE: f32 = 2.0;
 
 /// Finds the way in which the sample offsets of a capture are stated wrongly, if the depths of even ground show it: they fit
 /// planes much better in that way than as stated. `None` also where too little is even, or where nothing fits.
-pub fn misplaced(capture: &Capture) -> Option<Misplaced> {
+pub fn find_misplaced(capture: &Capture) -> Option<Misplaced> {
     let layer = *capture.shaded_layers().first()?;
     let origin = capture.samples.get(layer).copied().unwrap_or(Vec2::ZERO);
     let parallel = capture.camera.is_some_and(|camera| camera.parallel_height.is_some());
@@ -120,7 +120,7 @@ pub fn misplaced(capture: &Capture) -> Option<Misplaced> {
                 let fits = |expected: f32| usize::from((value(depth) - expected).abs() <= FITS * whole);
                 let stated = expected(*offset, origin);
                 for (count, way) in counts.iter_mut().zip(Misplaced::ALL) {
-                    let other = expected(way.of(*offset), way.of(origin));
+                    let other = expected(way.true_offset(*offset), way.true_offset(origin));
                     // Count only samples for which the two ways differ clearly.
                     if (other - stated).abs() > 2.5 * FITS * whole {
                         count.all += 1;

@@ -8,7 +8,7 @@ use straightline_kernels::sraa::{Pattern, Sraa};
 pub const PATTERNS: [&str; 6] = ["ordered4", "latin4", "standard8", "ordered16", "latin16", "standard16"];
 
 /// The pattern of a name, one of [`PATTERNS`].
-fn named(name: &str) -> Option<Pattern> {
+fn pattern_from_name(name: &str) -> Option<Pattern> {
     Some(match name {
         "ordered4" => Pattern::Ordered4,
         "latin4" => Pattern::Latin4,
@@ -22,8 +22,8 @@ fn named(name: &str) -> Option<Pattern> {
 
 /// Offsets of the geometry samples of a pattern, in pixels from the pixel's centre, y down: of one of [`PATTERNS`], or of
 /// numbers separated by commas, x and y in turn. `None` for any other text, and for places outside the pixel.
-pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
-    let Some(pattern) = named(pattern) else {
+pub fn pattern_offsets(pattern: &str) -> Option<Vec<Vec2>> {
+    let Some(pattern) = pattern_from_name(pattern) else {
         let numbers: Option<Vec<f32>> = pattern.split(',').map(|part| part.trim().parse().ok()).collect();
         let numbers = numbers.filter(|n| n.len() % 2 == 0 && n.iter().all(|axis| axis.abs() <= 0.5))?;
         return Some(numbers.chunks_exact(2).map(Vec2::from_slice).collect());
@@ -39,7 +39,7 @@ pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
 fn name_of(offsets: &[Vec2]) -> Option<&'static str> {
     let near = |a: &Vec2, b: &Vec2| (*a - *b).abs().max_element() < 1.0e-4;
     let is = |name: &&str| {
-        let known = samples(name).unwrap_or_default();
+        let known = pattern_offsets(name).unwrap_or_default();
         known.len() == offsets.len() && known.iter().zip(offsets).all(|(a, b)| near(a, b))
     };
     PATTERNS.into_iter().find(is)
@@ -47,7 +47,7 @@ fn name_of(offsets: &[Vec2]) -> Option<&'static str> {
 
 /// The pattern of such samples, if it has a name.
 pub(crate) fn pattern_of(offsets: &[Vec2]) -> Option<Pattern> {
-    name_of(offsets).and_then(named)
+    name_of(offsets).and_then(pattern_from_name)
 }
 
 /// The projection of a capture's camera, by the name of its option; without a camera the default.
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn patterns_are_centred_but_for_the_hardwares_sixteen() {
         for name in PATTERNS {
-            let offsets = samples(name).expect("a pattern");
+            let offsets = pattern_offsets(name).expect("a pattern");
             let mean = offsets.iter().sum::<Vec2>() / offsets.len() as f32;
             let expected = match name {
                 "standard16" => Vec2::splat(-1.0 / 32.0),

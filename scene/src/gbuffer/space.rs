@@ -25,7 +25,7 @@ const EVEN: [f32; 2] = [1.0e-4, 0.01];
 /// Refuses normals that are off the planes of the depths in the space that the capture says, and far less so in the other one. Normals
 /// that are as far off in both, such as those of bumps, tell nothing, and so do those of a camera that is not turned: then it makes no
 /// difference.
-pub(super) fn check(capture: &Capture) -> Result<(), GBufferError> {
+pub(super) fn check_normal_space(capture: &Capture) -> Result<(), GBufferError> {
     let stated = capture.normal_space;
     let Some(off) = off_planes(capture) else {
         return Ok(());
@@ -58,7 +58,7 @@ pub fn bent_normals(capture: &Capture) -> Option<f64> {
 
 /// Returns whether depths and normals give planes: both are there, with a camera, and in the space that the capture says.
 pub fn has_planes(capture: &Capture) -> bool {
-    capture.camera.is_some() && capture.normal.is_some() && check(capture).is_ok()
+    capture.camera.is_some() && capture.normal.is_some() && check_normal_space(capture).is_ok()
 }
 
 /// Share of the normals on even ground that are off the planes that depths make, were they in view space, and in the world's; `None`

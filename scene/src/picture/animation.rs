@@ -13,9 +13,9 @@ use straightline_kernels::prelude::Frame;
 /// # Errors
 ///
 /// If there is no frame, one has another size or too many pixels, or the encoder fails.
-pub fn animation(frames: &[Frame<Vec4>], milliseconds: u16) -> Result<Vec<u8>, PictureError> {
+pub fn encode_animation(frames: &[Frame<Vec4>], milliseconds: u16) -> Result<Vec<u8>, PictureError> {
     let path = Path::new("an animation in memory");
-    let refused = |why: &str| super::refused(path)(io::Error::new(io::ErrorKind::InvalidInput, why));
+    let refused = |why: &str| super::write_error(path)(io::Error::new(io::ErrorKind::InvalidInput, why));
     let Some(first) = frames.first() else {
         return Err(refused("it has no frame"));
     };
@@ -24,7 +24,7 @@ pub fn animation(frames: &[Frame<Vec4>], milliseconds: u16) -> Result<Vec<u8>, P
     if frames.iter().any(|frame| frame.size() != size) {
         return Err(refused("its frames differ in size"));
     }
-    let failure = |error: EncodingError| super::refused(path)(io::Error::other(error));
+    let failure = |error: EncodingError| super::write_error(path)(io::Error::other(error));
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, size.x, size.y);
     encoder.set_color(ColorType::Rgba);
@@ -55,7 +55,7 @@ mod tests {
     fn every_frame_is_in_the_animation() {
         let frames =
             [Vec4::W, Vec4::ONE, Vec4::new(1.0, 0.0, 0.0, 1.0)].map(|color| Frame::new(uvec2(3, 2), vec![color; 6]));
-        let bytes = animation(&frames, 40).expect("an animation");
+        let bytes = encode_animation(&frames, 40).expect("an animation");
         let mut reader = Decoder::new(Cursor::new(&bytes)).read_info().expect("a picture");
         let control = reader.info().animation_control.expect("it is animated");
         assert_eq!((control.num_frames, control.num_plays), (3, 0));
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn what_is_no_animation_is_refused() {
         let [small, large] = [1, 2].map(|side| Frame::new(uvec2(side, side), vec![Vec4::ONE; (side * side) as usize]));
-        assert!(animation(&[], 40).is_err());
-        assert!(animation(&[small, large], 40).is_err());
+        assert!(encode_animation(&[], 40).is_err());
+        assert!(encode_animation(&[small, large], 40).is_err());
     }
 }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The operating system refused.
-    #[error("cannot {action} {}: {source}{}", .path.display(), advice(.source.kind()))]
+    #[error("cannot {action} {}: {source}{}", .path.display(), io_advice(.source.kind()))]
     Io {
         /// Operation that failed: `read`, `write`, ...
         action: &'static str,
@@ -114,7 +114,7 @@ pub enum PictureError {
 }
 
 /// Help for the commonest refusals.
-fn advice(kind: io::ErrorKind) -> &'static str {
+fn io_advice(kind: io::ErrorKind) -> &'static str {
     match kind {
         io::ErrorKind::NotFound => "; check the spelling, and that the folder exists",
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {

@@ -3,7 +3,7 @@
 //! Reading works on blocks rather than on whole images: only the channels that are wanted are decompressed, into
 //! memory whose size was checked first, whatever else the file claims to hold.
 
-use super::{MAX_BYTES, PictureError, check_size, refused};
+use super::{MAX_BYTES, PictureError, check_size, write_error};
 use ::exr::block::UncompressedBlock;
 use ::exr::block::reader::{ChunksReader, Reader};
 use ::exr::compression::Compression;
@@ -59,7 +59,7 @@ impl Layer {
 }
 
 /// Writes layers of one size, each as a part of its own, compressed without loss. Whole or not at all.
-pub(crate) fn write(path: &Path, size: UVec2, layers: Vec<Layer>) -> Result<(), PictureError> {
+pub(crate) fn write_layers(path: &Path, size: UVec2, layers: Vec<Layer>) -> Result<(), PictureError> {
     check_size(path, size)?;
     let extent = ExrVec2(size.x as usize, size.y as usize);
     let layers: Vec<_> = layers.into_iter().map(|layer| layer.encode(extent)).collect();
@@ -68,9 +68,9 @@ pub(crate) fn write(path: &Path, size: UVec2, layers: Vec<Layer>) -> Result<(), 
         image
             .write()
             .to_buffered(file)
-            .map_err(|error| failure("write", path, error))
+            .map_err(|error| to_picture_error("write", path, error))
     };
-    files::fill_file(path, encode, refused(path))
+    files::fill_file(path, encode, write_error(path))
 }
 
 /// Reads the first layer with channels `R`, `G` and `B`, and `A` if it has that. `expected` is the size that
@@ -81,9 +81,9 @@ pub(crate) fn read_color(path: &Path, expected: Option<(UVec2, &str)>) -> Result
     let size = source.size(planes[0]);
     let (expected, by) = expected.unwrap_or((size, ""));
     for plane in &planes {
-        source.check(*plane, "its colour", expected, by)?;
+        source.check_plane(*plane, "its colour", expected, by)?;
     }
-    let values = source.read(&planes)?;
+    let values = source.read_planes(&planes)?;
     let texel = |i: usize| {
         Vec4::new(
             values[0][i],
@@ -96,7 +96,7 @@ pub(crate) fn read_color(path: &Path, expected: Option<(UVec2, &str)>) -> Result
 }
 
 /// Names of the layers of a file without a colour, in order.
-pub(crate) fn layers(path: &Path) -> Result<Vec<String>, PictureError> {
+pub(crate) fn layer_names(path: &Path) -> Result<Vec<String>, PictureError> {
     let source = Source::open(path)?;
     if source.find_color().is_ok() {
         return Ok(Vec::new());
@@ -128,13 +128,13 @@ pub(crate) fn read_layer(path: &Path, layer: &str) -> Result<Frame<Vec4>, Pictur
     };
     let mut planes = Vec::new();
     for channel in &channels {
-        let plane = source.find(layer, channel, "channels R, G and B, or X, Y and Z, or a single one")?;
+        let plane = source.find_plane(layer, channel, "channels R, G and B, or X, Y and Z, or a single one")?;
         let expected = planes.first().map_or(source.size(plane), |first| source.size(*first));
-        source.check(plane, &format!("layer `{layer}`"), expected, "its first channel")?;
+        source.check_plane(plane, &format!("layer `{layer}`"), expected, "its first channel")?;
         planes.push(plane);
     }
     let size = source.size(planes[0]);
-    let values = source.read(&planes)?;
+    let values = source.read_planes(&planes)?;
     let texel = |i: usize| match &values[..] {
         [only] => Vec4::splat(only[i]),
         [x, y, z] => Vec4::new(x[i], y[i], z[i], 1.0),
@@ -165,7 +165,8 @@ impl Source {
             source,
         })?;
         // Not pedantic: what other programs write is read wherever its meaning is clear.
-        let reader = ::exr::block::read(BufReader::new(file), false).map_err(|error| failure("read", path, error))?;
+        let reader =
+            ::exr::block::read(BufReader::new(file), false).map_err(|error| to_picture_error("read", path, error))?;
         Ok(Source {
             path: path.to_owned(),
             reader,
@@ -176,7 +177,7 @@ impl Source {
     /// multi-part files write it: channel `layer.channel` of any part.
     ///
     /// `wanted` describes all channels that the layer should have, for the error.
-    pub(crate) fn find(&self, layer: &str, channel: &str, wanted: &str) -> Result<Plane, PictureError> {
+    pub(crate) fn find_plane(&self, layer: &str, channel: &str, wanted: &str) -> Result<Plane, PictureError> {
         let prefixed = format!("{layer}.{channel}");
         for (part, header) in self.reader.headers().iter().enumerate() {
             let named = part_name(header).as_deref() == Some(layer);
@@ -267,7 +268,7 @@ impl Source {
 
     /// Refuses a plane of `layer` (in words) that is not of size `expected`, which `expected_by` states, that is
     /// cropped, shifted or subsampled.
-    pub(crate) fn check(
+    pub(crate) fn check_plane(
         &self,
         plane: Plane,
         layer: &str,
@@ -299,7 +300,7 @@ impl Source {
     }
 
     /// Values of each of `planes`, row by row from the top. Every plane must have been checked.
-    pub(crate) fn read(self, planes: &[Plane]) -> Result<Vec<Vec<f32>>, PictureError> {
+    pub(crate) fn read_planes(self, planes: &[Plane]) -> Result<Vec<Vec<f32>>, PictureError> {
         let path = self.path;
         let sizes: Vec<ExrVec2<usize>> = planes
             .iter()
@@ -320,10 +321,10 @@ impl Source {
                 chunks.decompress_parallel(false, |meta, block| {
                     targets
                         .iter_mut()
-                        .try_for_each(|target| target.take(&meta.headers, &block))
+                        .try_for_each(|target| target.copy_lines(&meta.headers, &block))
                 })
             });
-        result.map_err(|error| failure("read", &path, error))?;
+        result.map_err(|error| to_picture_error("read", &path, error))?;
         if targets.iter().any(|target| !target.is_full()) {
             let problem = "some rows are missing or there twice".to_owned();
             return Err(PictureError::Damaged {
@@ -390,7 +391,7 @@ impl Target {
     }
 
     /// Copies this channel's lines out of a block.
-    fn take(&mut self, headers: &[Header], block: &UncompressedBlock) -> UnitResult {
+    fn copy_lines(&mut self, headers: &[Header], block: &UncompressedBlock) -> UnitResult {
         if block.index.layer != self.plane.part {
             return Ok(());
         }
@@ -434,7 +435,7 @@ fn part_name(header: &Header) -> Option<String> {
     header.own_attributes.layer_name.as_ref().map(ToString::to_string)
 }
 
-fn failure(action: &'static str, path: &Path, error: ExrError) -> PictureError {
+fn to_picture_error(action: &'static str, path: &Path, error: ExrError) -> PictureError {
     let path = path.to_owned();
     match error {
         ExrError::Io(source) => PictureError::Io { action, path, source },

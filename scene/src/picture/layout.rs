@@ -13,7 +13,7 @@ const GLYPH: u32 = 8;
 ///
 /// Text is as large as suits the pictures, the same for all; a label wider than its picture widens the column,
 /// so none is cut. Characters other than Latin-1's show as `?`. Without columns the result is one dark texel.
-pub fn montage(columns: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
+pub fn compose_montage(columns: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
     let scale = text_scale(columns);
     let gap = GLYPH * scale / 2;
     let strip = GLYPH * scale + 2 * gap;
@@ -37,7 +37,7 @@ pub fn montage(columns: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
 /// The `width` × `height` texels whose top left one is (`x`, `y`), each enlarged to `zoom` × `zoom`.
 ///
 /// What would reach over the border is moved inside, and cut to the frame's size; sizes and zoom of 0 count as 1.
-pub fn detail(frame: &Frame<Vec4>, x: u32, y: u32, width: u32, height: u32, zoom: u32) -> Frame<Vec4> {
+pub fn enlarge_detail(frame: &Frame<Vec4>, x: u32, y: u32, width: u32, height: u32, zoom: u32) -> Frame<Vec4> {
     let size = uvec2(width, height).clamp(UVec2::ONE, frame.size());
     let corner = uvec2(x, y).min(frame.size() - size);
     let zoom = zoom.max(1);
@@ -50,16 +50,16 @@ pub fn detail(frame: &Frame<Vec4>, x: u32, y: u32, width: u32, height: u32, zoom
 }
 
 /// Enlarges one square of several pictures of one size, side by side under their names.
-pub fn details(pictures: &[(&str, &Frame<Vec4>)], corner: UVec2, side: u32, zoom: u32) -> Frame<Vec4> {
-    let of = |frame: &Frame<Vec4>| detail(frame, corner.x, corner.y, side, side, zoom);
+pub fn compare_details(pictures: &[(&str, &Frame<Vec4>)], corner: UVec2, side: u32, zoom: u32) -> Frame<Vec4> {
+    let of = |frame: &Frame<Vec4>| enlarge_detail(frame, corner.x, corner.y, side, side, zoom);
     let details: Vec<(&str, Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, of(frame))).collect();
     let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(name, frame)| (*name, frame)).collect();
-    montage(&columns)
+    compose_montage(&columns)
 }
 
 /// Finds the square in which antialiasing has most to do: returns the corner of the one in which a plain picture is farthest
 /// from the reference. Squares begin every 16 texels.
-pub fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>, side: u32) -> UVec2 {
+pub fn find_busiest_square(plain: &Frame<Vec4>, reference: &Frame<Vec4>, side: u32) -> UVec2 {
     let size = plain.size();
     let side = UVec2::splat(side).min(size);
     let error = |p: UVec2| {
@@ -98,7 +98,7 @@ fn text_width(text: &str, scale: u32) -> u32 {
 }
 
 /// Rows of a character, the lowest bit leftmost.
-fn glyph(character: char) -> [u8; 8] {
+fn glyph_rows(character: char) -> [u8; 8] {
     BASIC_FONTS
         .get(character)
         .or_else(|| LATIN_FONTS.get(character))
@@ -134,7 +134,7 @@ impl Canvas {
 
     fn text(&mut self, text: &str, corner: UVec2, scale: u32) {
         for (index, character) in text.chars().enumerate() {
-            let rows = glyph(character);
+            let rows = glyph_rows(character);
             let left = corner + uvec2(index as u32 * GLYPH * scale, 0);
             for y in 0..GLYPH * scale {
                 for x in 0..GLYPH * scale {
@@ -155,7 +155,7 @@ impl Canvas {
 mod tests {
     use super::*;
 
-    fn numbered(width: u32, height: u32) -> Frame<Vec4> {
+    fn numbered_frame(width: u32, height: u32) -> Frame<Vec4> {
         Frame::new(
             uvec2(width, height),
             (0..width * height).map(|i| Vec4::splat(i as f32)).collect(),
@@ -164,8 +164,8 @@ mod tests {
 
     #[test]
     fn pictures_keep_their_texels_and_labels_their_letters() {
-        let (a, b) = (numbered(20, 30), numbered(9, 12));
-        let result = montage(&[("1x", &a), ("I", &b)]);
+        let (a, b) = (numbered_frame(20, 30), numbered_frame(9, 12));
+        let result = compose_montage(&[("1x", &a), ("I", &b)]);
         // Scale 1: strip 8 + 2·4, gap 4.
         assert_eq!(result.size(), uvec2(20 + 4 + 9, 16 + 30));
         let texel = |x: u32, y: u32| result.texels()[(y * result.size().x + x) as usize];
@@ -185,14 +185,14 @@ mod tests {
 
     #[test]
     fn a_long_label_widens_its_column() {
-        let narrow = numbered(3, 3);
-        let result = montage(&[("sixteen", &narrow), ("16×", &narrow)]);
+        let narrow = numbered_frame(3, 3);
+        let result = compose_montage(&[("sixteen", &narrow), ("16×", &narrow)]);
         assert_eq!(result.size().x, 7 * 8 + 4 + 3 * 8);
     }
 
     #[test]
     fn text_grows_with_the_pictures() {
-        let large = numbered(400, 450);
+        let large = numbered_frame(400, 450);
         assert_eq!(text_scale(&[("SRAA 16", &large)]), 3);
         assert_eq!(
             text_scale(&[("SRAA 16", &large), ("a label of thirty-two letters...", &large)]),
@@ -202,19 +202,19 @@ mod tests {
 
     #[test]
     fn no_columns_give_one_texel() {
-        assert_eq!(montage(&[]).size(), UVec2::ONE);
+        assert_eq!(compose_montage(&[]).size(), UVec2::ONE);
     }
 
     #[test]
     fn characters_without_a_glyph_show_as_a_question_mark() {
-        assert_eq!(glyph('漢'), glyph('?'));
-        assert_ne!(glyph('×'), glyph('?'));
-        assert_ne!(glyph('A'), glyph('B'));
+        assert_eq!(glyph_rows('漢'), glyph_rows('?'));
+        assert_ne!(glyph_rows('×'), glyph_rows('?'));
+        assert_ne!(glyph_rows('A'), glyph_rows('B'));
     }
 
     #[test]
     fn a_detail_repeats_each_texel() {
-        let result = detail(&numbered(4, 3), 1, 1, 2, 2, 2);
+        let result = enlarge_detail(&numbered_frame(4, 3), 1, 1, 2, 2, 2);
         let row = |a: f32, b: f32| [a, a, b, b].map(Vec4::splat);
         assert_eq!(result.size(), uvec2(4, 4));
         assert_eq!(
@@ -225,9 +225,12 @@ mod tests {
 
     #[test]
     fn a_detail_over_the_border_is_moved_inside() {
-        let frame = numbered(4, 3);
-        assert_eq!(detail(&frame, 100, 100, 2, 1, 1), detail(&frame, 2, 2, 2, 1, 1));
-        assert_eq!(detail(&frame, 1, 1, 99, 99, 1), frame);
-        assert_eq!(detail(&frame, 0, 0, 0, 0, 0).size(), UVec2::ONE);
+        let frame = numbered_frame(4, 3);
+        assert_eq!(
+            enlarge_detail(&frame, 100, 100, 2, 1, 1),
+            enlarge_detail(&frame, 2, 2, 2, 1, 1)
+        );
+        assert_eq!(enlarge_detail(&frame, 1, 1, 99, 99, 1), frame);
+        assert_eq!(enlarge_detail(&frame, 0, 0, 0, 0, 0).size(), UVec2::ONE);
     }
 }

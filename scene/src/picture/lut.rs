@@ -23,14 +23,14 @@ pub fn read_cube(path: &Path) -> Result<Vec<Frame<Vec4>>, PictureError> {
         path: path.to_owned(),
         source,
     })?;
-    slices(&text).map_err(|problem| PictureError::Damaged {
+    parse_cube(&text).map_err(|problem| PictureError::Damaged {
         path: path.to_owned(),
         format: "a .cube table",
         problem,
     })
 }
 
-fn slices(text: &str) -> Result<Vec<Frame<Vec4>>, String> {
+fn parse_cube(text: &str) -> Result<Vec<Frame<Vec4>>, String> {
     let mut steps: Option<u32> = None;
     let mut colours = Vec::new();
     for (k, line) in (1..).zip(text.lines()) {
@@ -46,14 +46,14 @@ fn slices(text: &str) -> Result<Vec<Frame<Vec4>>, String> {
             "LUT_1D_SIZE" => return Err(format!("line {k}: a table of one dimension is no volume")),
             "DOMAIN_MIN" | "DOMAIN_MAX" => {
                 let wanted = if word == "DOMAIN_MIN" { 0.0 } else { 1.0 };
-                if numbers(rest) != Some([wanted; 3]) {
+                if parse_numbers(rest) != Some([wanted; 3]) {
                     return Err(format!(
                         "line {k}: its domain is not 0 to 1, and places in a volume are"
                     ));
                 }
             }
             _ => {
-                let [red, green, blue] = numbers(line).ok_or_else(|| format!("line {k}: it is no colour"))?;
+                let [red, green, blue] = parse_numbers(line).ok_or_else(|| format!("line {k}: it is no colour"))?;
                 colours.push(Vec4::new(red, green, blue, 1.0));
             }
         }
@@ -72,7 +72,7 @@ fn slices(text: &str) -> Result<Vec<Frame<Vec4>>, String> {
         .collect())
 }
 
-fn numbers(text: &str) -> Option<[f32; 3]> {
+fn parse_numbers(text: &str) -> Option<[f32; 3]> {
     let found: Option<Vec<f32>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
     found?
         .try_into()
@@ -82,7 +82,7 @@ fn numbers(text: &str) -> Option<[f32; 3]> {
 
 /// The slices of a picture that shows them from left to right, each as wide as it is high; `None` if it is not as wide as
 /// that.
-pub fn strip(picture: &Frame<Vec4>) -> Option<Vec<Frame<Vec4>>> {
+pub fn slice_strip(picture: &Frame<Vec4>) -> Option<Vec<Frame<Vec4>>> {
     let size = picture.size();
     if size.y < 2 || u64::from(size.x) != u64::from(size.y) * u64::from(size.y) {
         return None;
@@ -103,7 +103,7 @@ mod tests {
     fn a_table_is_read_red_first() {
         let colours = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
         let text = format!("# made by hand\nTITLE \"same\"\nLUT_3D_SIZE 2\nDOMAIN_MIN 0 0 0\n{colours}");
-        let slices = slices(&text).expect("a table");
+        let slices = parse_cube(&text).expect("a table");
         assert_eq!(slices.len(), 2);
         for (blue, slice) in slices.iter().enumerate() {
             for (k, texel) in slice.texels().iter().enumerate() {
@@ -124,7 +124,7 @@ mod tests {
             ("LUT_3D_SIZE 2\nDOMAIN_MAX 2 2 2\n", "line 2: its domain"),
         ];
         for (text, why) in cases {
-            let error = slices(text).expect_err(text);
+            let error = parse_cube(text).expect_err(text);
             assert!(error.contains(why), "{text}: {error}");
         }
     }
@@ -132,11 +132,11 @@ mod tests {
     #[test]
     fn a_strip_has_its_slices_side_by_side() {
         let texels = (0..8).map(|k| Vec4::splat(k as f32)).collect();
-        let slices = strip(&Frame::new(uvec2(4, 2), texels)).expect("two slices");
+        let slices = slice_strip(&Frame::new(uvec2(4, 2), texels)).expect("two slices");
         let values = slices
             .iter()
             .map(|s| s.texels().iter().map(|t| t.x).collect::<Vec<_>>());
         assert_eq!(values.collect::<Vec<_>>(), [[0.0, 1.0, 4.0, 5.0], [2.0, 3.0, 6.0, 7.0]]);
-        assert!(strip(&Frame::new(uvec2(3, 2), vec![Vec4::ZERO; 6])).is_none());
+        assert!(slice_strip(&Frame::new(uvec2(3, 2), vec![Vec4::ZERO; 6])).is_none());
     }
 }

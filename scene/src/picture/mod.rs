@@ -1,6 +1,6 @@
 //! Single pictures: files, and what is shown beside one another.
 //!
-//! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write()`] chooses the format by the file's extension:
+//! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write_picture()`] chooses the format by the file's extension:
 //! PNG for looking at (8 bits, sRGB) or EXR for measuring (32-bit floats, linear). The latter needs the feature `exr`.
 
 mod animation;
@@ -17,10 +17,10 @@ use std::path::Path;
 use straightline_files as files;
 use straightline_kernels::prelude::Frame;
 
-pub use animation::animation;
+pub use animation::encode_animation;
 pub use error::PictureError;
-pub use layout::{busiest, detail, details, montage};
-pub use lut::{read_cube, strip};
+pub use layout::{compare_details, compose_montage, enlarge_detail, find_busiest_square};
+pub use lut::{read_cube, slice_strip};
 
 /// Widest and tallest picture that is read or written, in pixels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -28,14 +28,14 @@ pub const MAX_SIDE: u32 = 16_384;
 /// Most pixels of a picture that is read or written; 8K video has half as many.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
-/// Extensions that [`read`] and [`write()`] know.
+/// Extensions that [`read_picture`] and [`write_picture()`] know.
 pub const EXTENSIONS: [&str; 2] = ["png", "exr"];
 
 /// Longest file of a picture that is read, in bytes.
 pub(crate) const MAX_BYTES: u64 = 1 << 34;
 
 /// Makes the error of the system's refusal to write `path`.
-pub(crate) fn refused(path: &Path) -> impl Fn(std::io::Error) -> PictureError + '_ {
+pub(crate) fn write_error(path: &Path) -> impl Fn(std::io::Error) -> PictureError + '_ {
     |source| PictureError::Io {
         action: "write",
         path: path.to_owned(),
@@ -49,7 +49,7 @@ enum Format {
 }
 
 impl Format {
-    fn of(path: &Path) -> Result<Self, PictureError> {
+    fn from_path(path: &Path) -> Result<Self, PictureError> {
         let extension = path
             .extension()
             .and_then(|e| e.to_str())
@@ -65,18 +65,18 @@ impl Format {
 
 /// Writes a picture, as [`write_png`] or [`write_exr`] by the extension of `path`. A file of that name is
 /// replaced once the new one is complete; after an error it is as it was.
-pub fn write(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
-    match Format::of(path)? {
+pub fn write_picture(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
+    match Format::from_path(path)? {
         Format::Png => write_png(path, frame),
         Format::Exr => write_exr(path, frame),
     }
 }
 
 /// Writes linear colour as an 8-bit RGBA PNG in sRGB. Values are clamped to 0..=1 first; what is not a number
-/// becomes 0. Whole or not at all, as [`write()`].
+/// becomes 0. Whole or not at all, as [`write_picture()`].
 pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     check_size(path, frame.size())?;
-    files::fill_file(path, |file| png::encode(path, file, frame), refused(path))
+    files::fill_file(path, |file| png::encode_png(path, file, frame), write_error(path))
 }
 
 /// The bytes of what [`write_png`] writes.
@@ -86,7 +86,7 @@ pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
 /// If the encoder fails.
 pub fn png_bytes(frame: &Frame<Vec4>) -> Result<Vec<u8>, PictureError> {
     let mut bytes = Vec::new();
-    png::encode(Path::new("a picture in memory"), &mut bytes, frame)?;
+    png::encode_png(Path::new("a picture in memory"), &mut bytes, frame)?;
     Ok(bytes)
 }
 
@@ -94,16 +94,16 @@ pub fn png_bytes(frame: &Frame<Vec4>) -> Result<Vec<u8>, PictureError> {
 /// not finite stays as it is, so that no comparison takes it for black.
 pub fn at_eight_bits(frame: &Frame<Vec4>) -> Frame<Vec4> {
     let texels = frame.texels().iter().map(|texel| match texel.is_finite() {
-        true => png::rounded(*texel),
+        true => png::round_to_srgb8(*texel),
         false => *texel,
     });
     Frame::new(frame.size(), texels.collect())
 }
 
 /// Writes linear colour as it is: an EXR file of 32-bit float channels R, G, B and A, compressed without loss.
-/// Whole or not at all, as [`write()`].
+/// Whole or not at all, as [`write_picture()`].
 pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
-    exr::write(path, frame.size(), vec![exr::Layer::new("", color_channels(frame))])
+    exr::write_layers(path, frame.size(), vec![exr::Layer::new("", color_channels(frame))])
 }
 
 /// Reads a PNG (8 or 16 bits, taken as sRGB) or EXR (16- or 32-bit floats, taken as linear) as linear colour,
@@ -111,29 +111,29 @@ pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
 ///
 /// An EXR file's colour is that of the first part with channels `R`, `G` and `B`, whose data window must be
 /// the display window.
-pub fn read(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    match Format::of(path)? {
-        Format::Png => png::decode(path),
+pub fn read_picture(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    match Format::from_path(path)? {
+        Format::Png => png::decode_png(path),
         Format::Exr => exr::read_color(path, None),
     }
 }
 
-/// Reads a picture like [`read`], but takes the numbers of a PNG as they are, 0 to 1: as of data, such as depths and normals,
+/// Reads a picture like [`read_picture`], but takes the numbers of a PNG as they are, 0 to 1: as of data, such as depths and normals,
 /// not of colours.
 ///
 /// # Errors
 ///
-/// As [`read`].
+/// As [`read_picture`].
 pub fn read_linear(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    match Format::of(path)? {
+    match Format::from_path(path)? {
         Format::Png => png::decode_linear(path),
         Format::Exr => exr::read_color(path, None),
     }
 }
 
-/// Returns whether a file is read as sRGB by [`read`], and as it is by [`read_linear`].
+/// Returns whether a file is read as sRGB by [`read_picture`], and as it is by [`read_linear`].
 pub fn is_png(path: &Path) -> bool {
-    matches!(Format::of(path), Ok(Format::Png))
+    matches!(Format::from_path(path), Ok(Format::Png))
 }
 
 /// Reads the numbers of a PNG as they are stored, 0 to 255 or to 65535; components that it lacks are 0, and alpha the largest.
@@ -142,8 +142,8 @@ pub fn is_png(path: &Path) -> bool {
 ///
 /// If the file cannot be read, or is no PNG.
 pub fn read_integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
-    match Format::of(path)? {
-        Format::Png => png::integers(path),
+    match Format::from_path(path)? {
+        Format::Png => png::decode_integers(path),
         Format::Exr => Err(PictureError::Unusable {
             path: path.to_owned(),
             problem: "texels of integers are read from PNG files, as they are stored there".to_owned(),
@@ -157,10 +157,10 @@ pub fn read_integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
 /// # Errors
 ///
 /// If the file cannot be read.
-pub fn layers(path: &Path) -> Result<Vec<String>, PictureError> {
-    match Format::of(path)? {
+pub fn layer_names(path: &Path) -> Result<Vec<String>, PictureError> {
+    match Format::from_path(path)? {
         Format::Png => Ok(Vec::new()),
-        Format::Exr => exr::layers(path),
+        Format::Exr => exr::layer_names(path),
     }
 }
 

@@ -11,7 +11,7 @@ use straightline_files as files;
 use straightline_kernels::prelude::Frame;
 
 /// Writes `frame` to `file`, which errors call `path`.
-pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) -> Result<(), PictureError> {
+pub(super) fn encode_png(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     let bytes: Vec<u8> = frame.texels().iter().flat_map(|texel| to_srgb8(*texel)).collect();
     let size = frame.size();
     let mut encoder = Encoder::new(file, size.x, size.y);
@@ -30,21 +30,21 @@ pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) ->
 }
 
 /// Reads a PNG file as linear colour.
-pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+pub(super) fn decode_png(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     let stored = Stored::read(path)?;
-    let most = stored.most() as f32;
+    let most = stored.max_component() as f32;
     Ok(stored.frame(|[r, g, b, a]| from_srgb(Vec4::new(r as f32, g as f32, b as f32, a as f32) / most)))
 }
 
 /// Reads a PNG file as numbers from 0 to 1, in even steps.
 pub(super) fn decode_linear(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     let stored = Stored::read(path)?;
-    let most = stored.most() as f32;
+    let most = stored.max_component() as f32;
     Ok(stored.frame(|[r, g, b, a]| Vec4::new(r as f32, g as f32, b as f32, a as f32) / most))
 }
 
 /// Reads the numbers of a PNG file as they are stored.
-pub(super) fn integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
+pub(super) fn decode_integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
     let stored = Stored::read(path)?;
     // Grey is in one component, and what the file lacks is 0.
     let grey = matches!(stored.color, ColorType::Grayscale | ColorType::GrayscaleAlpha);
@@ -69,7 +69,7 @@ impl Stored {
             path: path.to_owned(),
             source,
         })?;
-        let failure = |error| failure(path, error);
+        let failure = |error| to_picture_error(path, error);
         // Sizes are checked here; what a decoder allocates besides is bounded by them.
         let mut decoder = Decoder::new_with_limits(BufReader::new(file), Limits { bytes: usize::MAX });
         let header = decoder.read_header_info().map_err(failure)?;
@@ -93,7 +93,7 @@ impl Stored {
     }
 
     /// The largest number of a component.
-    fn most(&self) -> u32 {
+    fn max_component(&self) -> u32 {
         match self.depth {
             BitDepth::Sixteen => 0xffff,
             _ => 0xff,
@@ -112,7 +112,7 @@ impl Stored {
             }
             _ => self.bytes.iter().copied().map(u32::from).collect(),
         };
-        let most = self.most();
+        let most = self.max_component();
         let texels = numbers.chunks_exact(width).map(|stored| {
             texel(match *stored {
                 [grey] => [grey, grey, grey, most],
@@ -131,25 +131,25 @@ impl Stored {
 pub(super) fn to_srgb8(texel: Vec4) -> [u8; 4] {
     // A cast from float to integer saturates, and takes NaN to 0.
     let byte = |value: f32| (value * 255.0).round() as u8;
-    let color = |light: f32| byte(srgb::encode(light.clamp(0.0, 1.0)));
+    let color = |light: f32| byte(srgb::from_linear(light.clamp(0.0, 1.0)));
     [color(texel.x), color(texel.y), color(texel.z), byte(texel.w)]
 }
 
 /// Returns the texel that [`decode`] reads from the one that [`encode`] writes.
-pub(super) fn rounded(texel: Vec4) -> Vec4 {
+pub(super) fn round_to_srgb8(texel: Vec4) -> Vec4 {
     from_srgb(Vec4::from_array(to_srgb8(texel).map(|byte| f32::from(byte) / 255.0)))
 }
 
 fn from_srgb(texel: Vec4) -> Vec4 {
     Vec4::new(
-        srgb::decode(texel.x),
-        srgb::decode(texel.y),
-        srgb::decode(texel.z),
+        srgb::to_linear(texel.x),
+        srgb::to_linear(texel.y),
+        srgb::to_linear(texel.z),
         texel.w,
     )
 }
 
-fn failure(path: &Path, error: DecodingError) -> PictureError {
+fn to_picture_error(path: &Path, error: DecodingError) -> PictureError {
     match error {
         // A file that ends too early is a damaged one, not a system's refusal.
         DecodingError::IoError(source) if source.kind() != io::ErrorKind::UnexpectedEof => PictureError::Io {

@@ -1,7 +1,7 @@
 //! The transfer function of sRGB (IEC 61966-2-1).
 
 /// Linear light of an sRGB value, both in 0..=1.
-pub fn decode(value: f32) -> f32 {
+pub fn to_linear(value: f32) -> f32 {
     if value <= 0.040_45 {
         value / 12.92
     } else {
@@ -10,7 +10,7 @@ pub fn decode(value: f32) -> f32 {
 }
 
 /// sRGB value of linear light, both in 0..=1.
-pub fn encode(light: f32) -> f32 {
+pub fn from_linear(light: f32) -> f32 {
     if light <= 0.003_130_8 {
         light * 12.92
     } else {
@@ -25,16 +25,19 @@ mod tests {
     #[test]
     fn known_values() {
         // Linear 0.18 (photographer's grey) is 118 of 255, sRGB 128 is 0.2158 of white.
-        assert_eq!((encode(0.18) * 255.0).round(), 118.0);
-        assert!((decode(128.0 / 255.0) - 0.215_86).abs() < 1e-5);
-        assert_eq!((encode(0.0), decode(0.0)), (0.0, 0.0));
-        assert!((encode(1.0) - 1.0).abs() < 1e-6 && (decode(1.0) - 1.0).abs() < 1e-6);
+        assert_eq!((from_linear(0.18) * 255.0).round(), 118.0);
+        assert!((to_linear(128.0 / 255.0) - 0.215_86).abs() < 1e-5);
+        assert_eq!((from_linear(0.0), to_linear(0.0)), (0.0, 0.0));
+        assert!((from_linear(1.0) - 1.0).abs() < 1e-6 && (to_linear(1.0) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn every_byte_survives_the_round_trip() {
         for byte in 0..=255u8 {
-            assert_eq!((encode(decode(f32::from(byte) / 255.0)) * 255.0).round() as u8, byte);
+            assert_eq!(
+                (from_linear(to_linear(f32::from(byte) / 255.0)) * 255.0).round() as u8,
+                byte
+            );
         }
     }
 }

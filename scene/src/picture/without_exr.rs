@@ -22,7 +22,7 @@ impl Layer {
     }
 }
 
-pub(crate) fn write(path: &Path, _size: UVec2, _layers: Vec<Layer>) -> Result<(), PictureError> {
+pub(crate) fn write_layers(path: &Path, _size: UVec2, _layers: Vec<Layer>) -> Result<(), PictureError> {
     not_built(path)
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn read_color(path: &Path, _expected: Option<(UVec2, &str)>) -> Resul
     not_built(path)
 }
 
-pub(crate) fn layers(path: &Path) -> Result<Vec<String>, PictureError> {
+pub(crate) fn layer_names(path: &Path) -> Result<Vec<String>, PictureError> {
     not_built(path)
 }
 
@@ -50,7 +50,7 @@ impl Source {
         not_built(path)
     }
 
-    pub(crate) fn find(&self, _layer: &str, _channel: &str, _wanted: &str) -> Result<Plane, PictureError> {
+    pub(crate) fn find_plane(&self, _layer: &str, _channel: &str, _wanted: &str) -> Result<Plane, PictureError> {
         match *self {}
     }
 
@@ -58,11 +58,11 @@ impl Source {
         match *self {}
     }
 
-    pub(crate) fn check(&self, _plane: Plane, _layer: &str, _size: UVec2, _by: &str) -> Result<(), PictureError> {
+    pub(crate) fn check_plane(&self, _plane: Plane, _layer: &str, _size: UVec2, _by: &str) -> Result<(), PictureError> {
         match *self {}
     }
 
-    pub(crate) fn read(self, _planes: &[Plane]) -> Result<Vec<Vec<f32>>, PictureError> {
+    pub(crate) fn read_planes(self, _planes: &[Plane]) -> Result<Vec<Vec<f32>>, PictureError> {
         match self {}
     }
 }

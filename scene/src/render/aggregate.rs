@@ -56,19 +56,19 @@ impl Aggregated {
 ///
 /// # Errors
 ///
-/// As [`Renderer::mean`].
-pub fn aggregated(renderer: &dyn Renderer, offsets: &[Vec2]) -> Result<Aggregated, RenderError> {
+/// As [`Renderer::draw_mean`].
+pub fn render_aggregated(renderer: &dyn Renderer, offsets: &[Vec2]) -> Result<Aggregated, RenderError> {
     check_offsets(offsets)?;
-    let layers: Result<Vec<Vec<Surface>>, RenderError> = offsets.iter().map(|o| renderer.surfaces(*o)).collect();
+    let layers: Result<Vec<Vec<Surface>>, RenderError> = offsets.iter().map(|o| renderer.draw_surfaces(*o)).collect();
     let (layers, size) = (layers?, renderer.size());
     let pixel = |k: u32| {
         let centre = uvec2(k % size.x, k / size.x).as_vec2() + 0.5;
         let samples: Vec<(Vec2, Surface)> = offsets.iter().zip(&layers).map(|(o, l)| (*o, l[k as usize])).collect();
-        split(&samples).map(|group| {
-            let (place, surface) = mean(&group);
+        split_samples(&samples).map(|group| {
+            let (place, surface) = mean_surface(&group);
             let color = match group.is_empty() {
                 true => Vec3::ZERO,
-                false => renderer.shade(&surface, centre + place),
+                false => renderer.shade_surface(&surface, centre + place),
             };
             Aggregate {
                 members: group.len(),
@@ -87,7 +87,7 @@ pub fn aggregated(renderer: &dyn Renderer, offsets: &[Vec2]) -> Result<Aggregate
 }
 
 /// Difference of two surfaces; the greatest of all if they cannot be averaged.
-fn apart(a: &Surface, b: &Surface) -> f32 {
+fn surface_difference(a: &Surface, b: &Surface) -> f32 {
     let is_sky = |surface: &Surface| surface.depth >= SKY_DEPTH;
     match (is_sky(a), is_sky(b)) {
         (true, true) => 0.0,
@@ -99,14 +99,16 @@ fn apart(a: &Surface, b: &Surface) -> f32 {
 }
 
 /// The samples by which of the two that differ most they are nearer to; one group if even those are alike.
-fn split(samples: &[(Vec2, Surface)]) -> [Vec<(Vec2, Surface)>; 2] {
+fn split_samples(samples: &[(Vec2, Surface)]) -> [Vec<(Vec2, Surface)>; 2] {
     let pairs = (0..samples.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let difference = |(i, j): &(usize, usize)| apart(&samples[*i].1, &samples[*j].1);
+    let difference = |(i, j): &(usize, usize)| surface_difference(&samples[*i].1, &samples[*j].1);
     let farthest = pairs.max_by(|a, b| difference(a).total_cmp(&difference(b)));
     match farthest.filter(|pair| difference(pair) > ALIKE) {
         None => [samples.to_vec(), Vec::new()],
         Some((i, j)) => {
-            let nearer = |s: &&(Vec2, Surface)| apart(&s.1, &samples[j].1) <= apart(&s.1, &samples[i].1);
+            let nearer = |s: &&(Vec2, Surface)| {
+                surface_difference(&s.1, &samples[j].1) <= surface_difference(&s.1, &samples[i].1)
+            };
             let (first, second): (Vec<_>, Vec<_>) = samples.iter().partition(nearer);
             let owned = |group: Vec<&(Vec2, Surface)>| group.into_iter().copied().collect();
             [owned(first), owned(second)]
@@ -116,18 +118,20 @@ fn split(samples: &[(Vec2, Surface)]) -> [Vec<(Vec2, Surface)>; 2] {
 
 /// Means of place and attributes, of the material that most of them have: of sky and of materials apart, a third in a pixel
 /// follows what it is nearest to.
-fn mean(group: &[(Vec2, Surface)]) -> (Vec2, Surface) {
+fn mean_surface(group: &[(Vec2, Surface)]) -> (Vec2, Surface) {
     let count = |surface: &Surface| {
         group
             .iter()
-            .filter(|(_, other)| apart(surface, other).is_finite())
+            .filter(|(_, other)| surface_difference(surface, other).is_finite())
             .count()
     };
     let commonest = group.iter().max_by_key(|(_, surface)| count(surface));
     let Some((_, kind)) = commonest else {
         return (Vec2::ZERO, Surface::SKY);
     };
-    let alike = group.iter().filter(|(_, surface)| apart(kind, surface).is_finite());
+    let alike = group
+        .iter()
+        .filter(|(_, surface)| surface_difference(kind, surface).is_finite());
     let share = 1.0 / alike.clone().count() as f32;
     let sum = |of: &dyn Fn(&Surface) -> Vec3| alike.clone().map(|(_, surface)| of(surface)).sum::<Vec3>();
     let surface = Surface {
@@ -166,25 +170,29 @@ mod tests {
             .zip(OFFSETS)
             .map(|((depth, x), offset)| (offset, surface(*depth, *x)))
             .collect();
-        let [near, far] = split(&samples).map(|group| group.len());
+        let [near, far] = split_samples(&samples).map(|group| group.len());
         assert_eq!((near.max(far), near.min(far)), (3, 1));
-        assert_eq!(split(&samples[..2])[1].len(), 0, "alike surfaces are one aggregate");
-        assert!((mean(&samples[..2]).1.depth - 1.005).abs() < 1.0e-6);
+        assert_eq!(
+            split_samples(&samples[..2])[1].len(),
+            0,
+            "alike surfaces are one aggregate"
+        );
+        assert!((mean_surface(&samples[..2]).1.depth - 1.005).abs() < 1.0e-6);
     }
 
     #[test]
     fn it_is_near_supersampling_and_better_than_one_sample() {
         let renderer =
-            CpuRenderer::new(&Scene::named("creases").expect("a scene"), uvec2(160, 90)).expect("a renderer");
-        let all = renderer.mean(&OFFSETS).expect("a picture");
+            CpuRenderer::new(&Scene::from_name("creases").expect("a scene"), uvec2(160, 90)).expect("a renderer");
+        let all = renderer.draw_mean(&OFFSETS).expect("a picture");
         let off = |picture: &Frame<Vec4>| {
             let pixels = (0..90).flat_map(|y| (0..160).map(move |x| ivec2(x, y)));
             let square = |at: IVec2| (picture.load(at) - all.load(at)).length_squared();
             pixels.map(square).sum::<f32>()
         };
         let (one, two) = (
-            off(&renderer.shaded(Vec2::ZERO).expect("a picture")),
-            off(&aggregated(&renderer, &OFFSETS).expect("a picture").picture()),
+            off(&renderer.draw_shaded(Vec2::ZERO).expect("a picture")),
+            off(&render_aggregated(&renderer, &OFFSETS).expect("a picture").picture()),
         );
         assert!(two < 0.1 * one, "{two} against {one}");
     }

@@ -1,7 +1,7 @@
 //! Captures of what a renderer draws.
 
-use super::{PlacedBy, RenderError, Renderer, placed};
-use crate::capture::{Capture, NormalSpace, ShadingSample, mean};
+use super::{PlacedBy, RenderError, Renderer, shade_placed};
+use crate::capture::{Capture, NormalSpace, ShadingSample, mean_frame};
 use crate::gbuffer;
 use glam::Vec2;
 use straightline_kernels::prelude::FrameLayers;
@@ -12,29 +12,33 @@ use straightline_kernels::prelude::FrameLayers;
 /// Shading is placed by depths: see [`capture_placed`].
 ///
 /// `samples` are in pixels from the pixel's centre, y down. There is no reference in the capture;
-/// [`reference`](super::reference()) makes one.
+/// [`render_reference`](super::render_reference()) makes one.
 ///
 /// # Errors
 ///
 /// [`RenderError::NoOffsets`] without samples, [`RenderError::ShadingSample`] if `shading` names one that there is
 /// not; what the renderer refuses.
-pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample) -> Result<Capture, RenderError> {
-    captured(renderer, samples, shading, PlacedBy::Depths)
+pub fn capture_scene(
+    renderer: &dyn Renderer,
+    samples: &[Vec2],
+    shading: ShadingSample,
+) -> Result<Capture, RenderError> {
+    capture_with(renderer, samples, shading, PlacedBy::Depths)
 }
 
 /// Draws the inputs of a filter with [`ShadingSample::Placed`], by the kernel `sraa_place` with the options of `by`.
 ///
 /// # Errors
 ///
-/// [`RenderError::Unnamed`] by planes if `samples` lie at no pattern that has a name; else as [`capture`].
+/// [`RenderError::Unnamed`] by planes if `samples` lie at no pattern that has a name; else as [`capture_scene`].
 pub fn capture_placed(renderer: &dyn Renderer, samples: &[Vec2], by: PlacedBy) -> Result<Capture, RenderError> {
     if by == PlacedBy::Planes && gbuffer::pattern_of(samples).is_none() {
         return Err(RenderError::Unnamed { samples: samples.len() });
     }
-    captured(renderer, samples, ShadingSample::Placed, by)
+    capture_with(renderer, samples, ShadingSample::Placed, by)
 }
 
-fn captured(
+fn capture_with(
     renderer: &dyn Renderer,
     samples: &[Vec2],
     shading: ShadingSample,
@@ -58,12 +62,12 @@ fn captured(
     };
     let mut colors = Vec::new();
     for place in shaded {
-        colors.push(renderer.shaded(place)?);
+        colors.push(renderer.draw_shaded(place)?);
     }
-    let color = mean(&colors).ok_or(RenderError::NoOffsets)?;
+    let color = mean_frame(&colors).ok_or(RenderError::NoOffsets)?;
     let (mut depth, mut normal) = (Vec::new(), Vec::new());
     for place in &places {
-        let (depths, normals) = renderer.geometry(*place)?;
+        let (depths, normals) = renderer.draw_geometry(*place)?;
         depth.push(depths);
         normal.push(normals);
     }
@@ -87,7 +91,7 @@ fn captured(
         reference: None,
     };
     if capture.shading == ShadingSample::Placed
-        && let Some(placed) = placed(&capture, renderer, by)?
+        && let Some(placed) = shade_placed(&capture, renderer, by)?
     {
         capture.color = placed.color;
         capture.place = Some(placed.place);

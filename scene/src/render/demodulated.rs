@@ -16,10 +16,10 @@ pub fn add_albedo(capture: &mut Capture, renderer: &dyn Renderer) -> Result<(), 
     if places.len() < capture.layer_count() {
         places.push(Vec2::ZERO);
     }
-    let layers: Result<Vec<_>, _> = places.iter().map(|place| renderer.albedo(*place)).collect();
+    let layers: Result<Vec<_>, _> = places.iter().map(|place| renderer.draw_albedo(*place)).collect();
     capture.albedo = Some(FrameLayers::new(layers?));
-    capture.direct = once_a_pixel(capture, &places, |place| renderer.sunlight(place))?;
-    capture.rest = once_a_pixel(capture, &places, |place| renderer.unpainted(place))?;
+    capture.direct = once_a_pixel(capture, &places, |place| renderer.draw_sunlight(place))?;
+    capture.rest = once_a_pixel(capture, &places, |place| renderer.draw_unpainted(place))?;
     Ok(())
 }
 
@@ -34,19 +34,19 @@ fn once_a_pixel(
         (ShadingSample::Sample(sample), _) => drawn(places[*sample]).map(Some),
         (ShadingSample::Placed, Some(chosen)) => {
             let centred = drawn(Vec2::ZERO)?;
-            placed::gathered(places, chosen, centred, drawn).map(Some)
+            placed::gather_placed(places, chosen, centred, drawn).map(Some)
         }
         (ShadingSample::Centre | ShadingSample::Placed, _) => drawn(Vec2::ZERO).map(Some),
     }
 }
 
 /// Draws a picture of what `of` returns for each pixel's surface, seen `offset` from its centre.
-pub(super) fn frame<R: Renderer + ?Sized>(
+pub(super) fn map_surfaces<R: Renderer + ?Sized>(
     renderer: &R,
     offset: Vec2,
     of: impl Fn(&Surface, Vec2) -> Vec4,
 ) -> Result<Frame<Vec4>, RenderError> {
-    let (size, surfaces): (UVec2, _) = (renderer.size(), renderer.surfaces(offset)?);
+    let (size, surfaces): (UVec2, _) = (renderer.size(), renderer.draw_surfaces(offset)?);
     let texel = |(k, surface): (usize, &Surface)| {
         let pixel = uvec2(k as u32 % size.x, k as u32 / size.x);
         of(surface, pixel.as_vec2() + 0.5 + offset)

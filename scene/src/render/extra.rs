@@ -1,6 +1,6 @@
 //! Further shading samples where no shading sample around shows a surface.
 
-use super::placed::{PlacedBy, Surfaces, gathered};
+use super::placed::{PlacedBy, Surfaces, gather_placed};
 use super::{RenderError, Renderer};
 use crate::capture::{Capture, ShadingSample};
 use crate::gbuffer::{self, GBufferError};
@@ -36,16 +36,16 @@ impl Extra {
     ///
     /// # Errors
     ///
-    /// As [`gbuffer::inputs`].
-    pub fn inputs(&self, capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
+    /// As [`gbuffer::sraa_inputs`].
+    pub fn sraa_inputs(&self, capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
         let mut alone = options.clone();
         alone.remove("extra");
         let counts = COUNTS.map(|count| [f64::from(count), 0.0, 0.0, 1.0]);
-        Ok(gbuffer::inputs(capture, &alone)?
-            .integers("extra", vec![gbuffer::places(&self.sample)])
-            .image("extra_color", self.color.clone())
-            .buffer("extra_counts", counts.to_vec())
-            .buffer("extra_list", vec![[0.0; 4]; self.budget]))
+        Ok(gbuffer::sraa_inputs(capture, &alone)?
+            .with_integers("extra", vec![gbuffer::encode_places(&self.sample)])
+            .with_image("extra_color", self.color.clone())
+            .with_buffer("extra_counts", counts.to_vec())
+            .with_buffer("extra_list", vec![[0.0; 4]; self.budget]))
     }
 }
 
@@ -67,7 +67,7 @@ pub fn listing_options(options: &[(String, String)]) -> Vec<(String, String)> {
 ///
 /// [`RenderError::Extra`] if the capture is not shaded at its first sample, at the pixels' centres or where they are placed, has no normals or
 /// no camera, or is not sampled at a pattern that has a name; what the renderer refuses.
-pub fn extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Result<Extra, RenderError> {
+pub fn shade_extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Result<Extra, RenderError> {
     let samples = capture.samples.len();
     let shading = match &capture.shading {
         ShadingSample::Centre => Shading::Centre,
@@ -97,7 +97,7 @@ pub fn extra(renderer: &dyn Renderer, capture: &Capture, budget: usize) -> Resul
     places.push(Vec2::ZERO);
     let nothing = Frame::new(capture.size, vec![Vec4::ZERO; sample.texels().len()]);
     Ok(Extra {
-        color: gathered(&places, &sample, nothing, |place| renderer.shaded(place))?,
+        color: gather_placed(&places, &sample, nothing, |place| renderer.draw_shaded(place))?,
         listed,
         wanted: counts.load(3) as usize,
         sample,

@@ -24,17 +24,17 @@ use crate::scene::{Camera, SKY_DEPTH};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 
-pub use aggregate::{Aggregate, Aggregated, aggregated};
-pub use captured::{capture, capture_placed};
+pub use aggregate::{Aggregate, Aggregated, render_aggregated};
+pub use captured::{capture_placed, capture_scene};
 pub use cpu::CpuRenderer;
 pub use demodulated::add_albedo;
 pub use error::RenderError;
-pub use extra::{Extra, extra, listing_options};
-pub use gpu::guard::guarded;
+pub use extra::{Extra, listing_options, shade_extra};
+pub use gpu::guard::with_error_scope;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples, Timestamps};
-pub(crate) use placed::gathered;
-pub use placed::{Placed, PlacedBy, placed};
-pub use reference::{grid, reference};
+pub(crate) use placed::gather_placed;
+pub use placed::{Placed, PlacedBy, shade_placed};
+pub use reference::{grid_offsets, render_reference};
 pub use shade::Surface;
 pub use shifted::Shifted;
 
@@ -56,7 +56,7 @@ pub trait Renderer {
     /// # Errors
     ///
     /// [`RenderError::Offset`] if `offset` is not finite; [`RenderError::Device`].
-    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError>;
+    fn draw_geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError>;
 
     /// Linear colour of each pixel shaded `offset` from its centre. RGB is in 0..=1 but on what is polished or shines by
     /// itself ([`Material::Glossy`](crate::scene::Material::Glossy), [`Material::Emissive`](crate::scene::Material::Emissive)):
@@ -64,53 +64,55 @@ pub trait Renderer {
     ///
     /// # Errors
     ///
-    /// As [`geometry`](Self::geometry).
-    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError>;
+    /// As [`draw_geometry`](Self::draw_geometry).
+    fn draw_shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError>;
 
     /// All that a G-buffer holds of what is seen `offset` from each pixel's centre, row by row from the top.
     ///
     /// # Errors
     ///
-    /// As [`geometry`](Self::geometry).
-    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError>;
+    /// As [`draw_geometry`](Self::draw_geometry).
+    fn draw_surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError>;
 
-    /// Linear colour of a surface that is seen `place` pixels from the picture's upper left corner, as [`shaded`](Self::shaded) has
+    /// Linear colour of a surface that is seen `place` pixels from the picture's upper left corner, as [`draw_shaded`](Self::draw_shaded) has
     /// it.
-    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3;
+    fn shade_surface(&self, surface: &Surface, place: Vec2) -> Vec3;
 
     /// Returns the albedo, and the share of the sun's light in alpha, of a surface that is seen `place` pixels from the
-    /// picture's upper left corner: see [`albedo`](Self::albedo). Filters that take light apart from paint and shadow read
+    /// picture's upper left corner: see [`draw_albedo`](Self::draw_albedo). Filters that take light apart from paint and shadow read
     /// these.
-    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4;
+    fn surface_paint(&self, surface: &Surface, place: Vec2) -> Vec4;
 
-    /// Linear RGB that the sun adds to [`shade`](Self::shade) of a surface where no shadow falls.
-    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3;
+    /// Linear RGB that the sun adds to [`shade_surface`](Self::shade_surface) of a surface where no shadow falls.
+    fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3;
 
     /// Albedo of what is seen `offset` from each pixel's centre, linear RGB, and in alpha the share of the sun's light that no
     /// shadow keeps away. Of what shines by itself the albedo is what it shines with; of the sky 1.
     ///
     /// # Errors
     ///
-    /// As [`geometry`](Self::geometry).
-    fn albedo(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
-        demodulated::frame(self, offset, |surface, place| self.paint(surface, place))
+    /// As [`draw_geometry`](Self::draw_geometry).
+    fn draw_albedo(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::map_surfaces(self, offset, |surface, place| self.surface_paint(surface, place))
     }
 
-    /// Draws the light that the sun adds to [`shaded`](Self::shaded) at `offset` where no shadow falls: linear RGB, alpha 0.
+    /// Draws the light that the sun adds to [`draw_shaded`](Self::draw_shaded) at `offset` where no shadow falls: linear RGB, alpha 0.
     ///
     /// # Errors
     ///
-    /// As [`geometry`](Self::geometry).
-    fn sunlight(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
-        demodulated::frame(self, offset, |surface, place| self.direct(surface, place).extend(0.0))
+    /// As [`draw_geometry`](Self::draw_geometry).
+    fn draw_sunlight(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::map_surfaces(self, offset, |surface, place| {
+            self.direct_light(surface, place).extend(0.0)
+        })
     }
 
-    /// Linear RGB of [`shade`](Self::shade) that does not follow the albedo: highlights and haze. Of the sky 0, whose albedo is 1.
-    fn rest(&self, surface: &Surface, place: Vec2) -> Vec3 {
+    /// Linear RGB of [`shade_surface`](Self::shade_surface) that does not follow the albedo: highlights and haze. Of the sky 0, whose albedo is 1.
+    fn unpainted_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
         match surface.depth >= SKY_DEPTH {
             true => Vec3::ZERO,
             // Black paint has nothing else.
-            false => self.shade(
+            false => self.shade_surface(
                 &Surface {
                     color: Vec3::ZERO,
                     ..*surface
@@ -120,21 +122,23 @@ pub trait Renderer {
         }
     }
 
-    /// Draws the part of [`shaded`](Self::shaded) at `offset` that does not follow the albedo: linear RGB, alpha 0.
+    /// Draws the part of [`draw_shaded`](Self::draw_shaded) at `offset` that does not follow the albedo: linear RGB, alpha 0.
     ///
     /// # Errors
     ///
-    /// As [`geometry`](Self::geometry).
-    fn unpainted(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
-        demodulated::frame(self, offset, |surface, place| self.rest(surface, place).extend(0.0))
+    /// As [`draw_geometry`](Self::draw_geometry).
+    fn draw_unpainted(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::map_surfaces(self, offset, |surface, place| {
+            self.unpainted_light(surface, place).extend(0.0)
+        })
     }
 
     /// Mean of the pictures shaded at each of `offsets`.
     ///
     /// # Errors
     ///
-    /// As [`geometry`](Self::geometry), and [`RenderError::NoOffsets`] if there are none.
-    fn mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
+    /// As [`draw_geometry`](Self::draw_geometry), and [`RenderError::NoOffsets`] if there are none.
+    fn draw_mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
         check_offsets(offsets)?;
         reference::mean_of(self, offsets)
     }

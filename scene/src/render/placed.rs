@@ -32,7 +32,7 @@ pub enum PlacedBy {
 
 impl PlacedBy {
     /// Returns the metric that goes with the options of a filter.
-    pub fn of(options: &OptionValues) -> PlacedBy {
+    pub fn from_options(options: &OptionValues) -> PlacedBy {
         match options.choice("metric") {
             Some("planes-normals") => PlacedBy::Planes,
             _ => PlacedBy::Depths,
@@ -112,7 +112,7 @@ impl Surfaces {
         let [ray_corner, ray_right, ray_down] = match by {
             PlacedBy::Depths => [Vec3::ZERO; 3],
             // Of a pattern without a name it is not known where a sample lies.
-            PlacedBy::Planes => pattern.and_then(|_| capture.rays())?,
+            PlacedBy::Planes => pattern.and_then(|_| capture.perspective_rays())?,
         };
         let with_fourth = |layer: &Frame<Vec3>| {
             let texels = layer.texels().iter().map(|n| n.extend(0.0));
@@ -156,20 +156,20 @@ pub struct Placed {
 /// # Errors
 ///
 /// What the renderer refuses.
-pub fn placed(capture: &Capture, renderer: &dyn Renderer, by: PlacedBy) -> Result<Option<Placed>, RenderError> {
-    let Some(place) = choose(capture, by) else {
+pub fn shade_placed(capture: &Capture, renderer: &dyn Renderer, by: PlacedBy) -> Result<Option<Placed>, RenderError> {
+    let Some(place) = choose_places(capture, by) else {
         return Ok(None);
     };
     let mut places = capture.samples.clone();
     places.push(Vec2::ZERO);
     let moved = |centred: &Frame<Vec4>, drawn: &dyn Fn(Vec2) -> Result<Frame<Vec4>, RenderError>| {
-        gathered(&places, &place, centred.clone(), drawn)
+        gather_placed(&places, &place, centred.clone(), drawn)
     };
-    let color = moved(&capture.color, &|offset| renderer.shaded(offset))?;
+    let color = moved(&capture.color, &|offset| renderer.draw_shaded(offset))?;
     let direct = capture.direct.as_ref();
-    let direct = direct.map(|centred| moved(centred, &|offset| renderer.sunlight(offset)));
+    let direct = direct.map(|centred| moved(centred, &|offset| renderer.draw_sunlight(offset)));
     let rest = capture.rest.as_ref();
-    let rest = rest.map(|centred| moved(centred, &|offset| renderer.unpainted(offset)));
+    let rest = rest.map(|centred| moved(centred, &|offset| renderer.draw_unpainted(offset)));
     Ok(Some(Placed {
         color,
         direct: direct.transpose()?,
@@ -179,7 +179,7 @@ pub fn placed(capture: &Capture, renderer: &dyn Renderer, by: PlacedBy) -> Resul
 }
 
 /// The layer in whose place each pixel is to be shaded: the kernel `sraa_place`, as rustc compiles it.
-fn choose(capture: &Capture, by: PlacedBy) -> Option<Frame<u32>> {
+fn choose_places(capture: &Capture, by: PlacedBy) -> Option<Frame<u32>> {
     let Surfaces { cfg, gbuffer, view } = &Surfaces::new(capture, by)?;
     let size = capture.size;
     let rows = (0..size.y as i32).into_par_iter();
@@ -189,7 +189,7 @@ fn choose(capture: &Capture, by: PlacedBy) -> Option<Frame<u32>> {
 
 /// The picture with each pixel drawn in the place of the layer that `chosen` names, of those at `places`; `centred` is drawn in the
 /// last place.
-pub(crate) fn gathered(
+pub(crate) fn gather_placed(
     places: &[Vec2],
     chosen: &Frame<u32>,
     centred: Frame<Vec4>,

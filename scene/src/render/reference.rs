@@ -5,7 +5,7 @@ use glam::{DVec4, Vec2, Vec4, uvec2};
 use straightline_kernels::prelude::Frame;
 
 /// Offsets of a regular grid of `side` × `side` samples from a pixel's centre, row by row.
-pub fn grid(side: u32) -> Vec<Vec2> {
+pub fn grid_offsets(side: u32) -> Vec<Vec2> {
     let place = |x, y| (uvec2(x, y).as_vec2() + 0.5) / side as f32 - 0.5;
     (0..side).flat_map(|y| (0..side).map(move |x| place(x, y))).collect()
 }
@@ -16,26 +16,26 @@ pub fn grid(side: u32) -> Vec<Vec2> {
 /// # Errors
 ///
 /// [`RenderError::NoOffsets`] for a side of 0; those of the renderer.
-pub fn reference(
+pub fn render_reference(
     renderer: &dyn Renderer,
     side: u32,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Frame<Vec4>, RenderError> {
-    let offsets = grid(side);
+    let offsets = grid_offsets(side);
     super::check_offsets(&offsets)?;
     let size = renderer.size();
     let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
     let mut done = 0usize;
     // A row at a time: short sums lose nothing in a GPU's 32 bits, and the long one is kept here in 64.
     for row in offsets.chunks(side.max(1) as usize) {
-        let mean = renderer.mean(row)?;
+        let mean = renderer.draw_mean(row)?;
         for (sum, texel) in sums.iter_mut().zip(mean.texels()) {
             *sum += texel.as_dvec4() * row.len() as f64;
         }
         done += row.len();
         progress(done, offsets.len());
     }
-    Ok(divided(renderer, sums, offsets.len()))
+    Ok(divide_sums(renderer, sums, offsets.len()))
 }
 
 /// The default of [`Renderer::mean`].
@@ -43,15 +43,15 @@ pub(super) fn mean_of<R: Renderer + ?Sized>(renderer: &R, offsets: &[Vec2]) -> R
     let size = renderer.size();
     let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
     for offset in offsets {
-        let shaded = renderer.shaded(*offset)?;
+        let shaded = renderer.draw_shaded(*offset)?;
         for (sum, texel) in sums.iter_mut().zip(shaded.texels()) {
             *sum += texel.as_dvec4();
         }
     }
-    Ok(divided(renderer, sums, offsets.len()))
+    Ok(divide_sums(renderer, sums, offsets.len()))
 }
 
-fn divided<R: Renderer + ?Sized>(renderer: &R, sums: Vec<DVec4>, count: usize) -> Frame<Vec4> {
+fn divide_sums<R: Renderer + ?Sized>(renderer: &R, sums: Vec<DVec4>, count: usize) -> Frame<Vec4> {
     let share = 1.0 / count.max(1) as f64;
     let texels = sums.into_iter().map(|sum| (sum * share).as_vec4()).collect();
     Frame::new(renderer.size(), texels)

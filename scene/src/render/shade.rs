@@ -28,38 +28,38 @@ impl Surface {
 }
 
 /// Linear colour of a surface seen along `ray`, which has depth 1.
-pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
-    shaded(lighting, surface, ray, visibility(lighting, surface, ray))
+pub(super) fn shade_surface(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    shade_sunlit(lighting, surface, ray, sun_visibility(lighting, surface, ray))
 }
 
 /// Returns the light that the sun adds to a shaded surface where no shadow falls.
-pub(super) fn direct(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
-    shaded(lighting, surface, ray, 1.0) - shaded(lighting, surface, ray, 0.0)
+pub(super) fn direct_light(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    shade_sunlit(lighting, surface, ray, 1.0) - shade_sunlit(lighting, surface, ray, 0.0)
 }
 
 /// Returns a surface's inputs of a filter that takes light apart from paint and shadow: its albedo, as a sample of a G-buffer
 /// has it, and in the fourth component whether the sun reaches it, 1 or 0. Of an emissive surface the albedo is the light that
 /// it emits; of the sky 1.
-pub(super) fn paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec4 {
+pub(super) fn surface_paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec4 {
     if surface.depth >= SKY_DEPTH {
         return Vec4::ONE;
     }
     let reflected = match surface.material as u32 == Material::Emissive as u32 {
         true => surface.color * EMISSION,
-        false => albedo(lighting, surface, ray),
+        false => surface_albedo(lighting, surface, ray),
     };
-    reflected.extend(visibility(lighting, surface, ray))
+    reflected.extend(sun_visibility(lighting, surface, ray))
 }
 
 /// Returns the place of a surface in the world.
-fn place(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+fn world_position(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     (lighting.to_world * (ray * surface.depth).extend(1.0)).truncate()
 }
 
 /// Linear RGB that a surface reflects, with what its material paints on it.
-fn albedo(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+fn surface_albedo(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     let is = |material: Material| surface.material as u32 == material as u32;
-    let place = place(lighting, surface, ray);
+    let place = world_position(lighting, surface, ray);
     if is(Material::Tiles) {
         let footprint = surface.depth * lighting.extent.z / surface.normal.dot(-ray.normalize()).max(0.05);
         return surface.color * tiles(place.xz(), footprint);
@@ -71,23 +71,23 @@ fn albedo(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
 }
 
 /// The share of the sun's light that reaches a surface: 0 in the shadow of slats, else 1.
-fn visibility(lighting: &Lighting, surface: &Surface, ray: Vec3) -> f32 {
+fn sun_visibility(lighting: &Lighting, surface: &Surface, ray: Vec3) -> f32 {
     if surface.material as u32 != Material::Slats as u32 {
         return 1.0;
     }
     let towards_sun = lighting.to_world * lighting.sun_direction.truncate().extend(0.0);
-    slats(place(lighting, surface, ray), towards_sun.truncate())
+    slats(world_position(lighting, surface, ray), towards_sun.truncate())
 }
 
 /// Linear colour of a surface that a share `visible` of the sun's light reaches.
-fn shaded(lighting: &Lighting, surface: &Surface, ray: Vec3, visible: f32) -> Vec3 {
+fn shade_sunlit(lighting: &Lighting, surface: &Surface, ray: Vec3, visible: f32) -> Vec3 {
     let view = -ray.normalize();
     if surface.depth >= SKY_DEPTH {
         return sky(lighting, -view).clamp(Vec3::ZERO, Vec3::ONE);
     }
     let is = |material: Material| surface.material as u32 == material as u32;
     let normal = surface.normal;
-    let albedo = albedo(lighting, surface, ray);
+    let albedo = surface_albedo(lighting, surface, ray);
     let sun = lighting.sun_color.truncate();
     let facing = normal.dot(lighting.sun_direction.truncate()).max(0.0) * visible;
     let upwards = 0.5 + 0.5 * normal.dot(lighting.up.truncate());

@@ -22,27 +22,27 @@ impl Renderer for Shifted<'_> {
         self.renderer.camera()
     }
 
-    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
-        self.renderer.geometry(offset + self.by)
+    fn draw_geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+        self.renderer.draw_geometry(offset + self.by)
     }
 
-    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
-        self.renderer.shaded(offset + self.by)
+    fn draw_shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        self.renderer.draw_shaded(offset + self.by)
     }
 
-    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
-        self.renderer.surfaces(offset + self.by)
+    fn draw_surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
+        self.renderer.draw_surfaces(offset + self.by)
     }
 
-    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        self.renderer.shade(surface, place + self.by)
+    fn shade_surface(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.shade_surface(surface, place + self.by)
     }
 
-    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
-        self.renderer.paint(surface, place + self.by)
+    fn surface_paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        self.renderer.surface_paint(surface, place + self.by)
     }
 
-    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        self.renderer.direct(surface, place + self.by)
+    fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.direct_light(surface, place + self.by)
     }
 }

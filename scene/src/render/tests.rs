@@ -1,10 +1,10 @@
 //! Both renderers draw what geometry says, and the same.
 
 use super::*;
-use crate::scene::{Camera, Material, NAMES, SKY_DEPTH, Scene, Vertex, builtin};
+use crate::scene::{Camera, Material, NAMES, SKY_DEPTH, Scene, Vertex, builtin_scene};
 use glam::{IVec2, ivec2, uvec2, vec2};
 
-fn gpu(scene: &Scene, size: UVec2) -> Result<GpuRenderer, RenderError> {
+fn gpu_renderer(scene: &Scene, size: UVec2) -> Result<GpuRenderer, RenderError> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter =
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|error| {
@@ -15,15 +15,15 @@ fn gpu(scene: &Scene, size: UVec2) -> Result<GpuRenderer, RenderError> {
     GpuRenderer::new(&device, &queue, scene, size)
 }
 
-fn both(scene: &Scene, size: UVec2) -> [Box<dyn Renderer>; 2] {
+fn both_renderers(scene: &Scene, size: UVec2) -> [Box<dyn Renderer>; 2] {
     [
         Box::new(CpuRenderer::new(scene, size).expect("a renderer")),
-        Box::new(gpu(scene, size).expect("a renderer")),
+        Box::new(gpu_renderer(scene, size).expect("a renderer")),
     ]
 }
 
 /// A plane of `corners`, seen from (0, 1, 0) along -z.
-fn plane(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
+fn plane_scene(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
     let corner = |position| Vertex {
         position,
         normal,
@@ -42,20 +42,20 @@ fn plane(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
             parallel_height: None,
             near: 0.1,
         },
-        ..builtin()
+        ..builtin_scene()
     }
 }
 
 /// A floor from before what is seen to far ahead. Narrow where it is near: drivers lose digits on triangles that reach
 /// far beyond the picture.
-fn floor() -> Scene {
+fn floor_scene() -> Scene {
     let corners = [
         [-3.0, 0.0, -1.0],
         [3.0, 0.0, -1.0],
         [500.0, 0.0, -500.0],
         [-500.0, 0.0, -500.0],
     ];
-    plane(corners, [0.0, 1.0, 0.0])
+    plane_scene(corners, [0.0, 1.0, 0.0])
 }
 
 fn pixels(size: UVec2) -> impl Iterator<Item = IVec2> {
@@ -66,9 +66,9 @@ fn pixels(size: UVec2) -> impl Iterator<Item = IVec2> {
 #[test]
 fn depth_and_normal_are_those_of_the_plane() {
     let size = uvec2(61, 37);
-    for renderer in both(&floor(), size) {
+    for renderer in both_renderers(&floor_scene(), size) {
         for offset in [Vec2::ZERO, vec2(-0.375, 0.125), vec2(0.5, -0.5)] {
-            let (depth, normal) = renderer.geometry(offset).expect("geometry");
+            let (depth, normal) = renderer.draw_geometry(offset).expect("geometry");
             for pixel in pixels(size) {
                 let y = pixel.y as f32 + 0.5 + offset.y;
                 // Fall of the sample's ray in one unit ahead, from the camera one unit above the floor.
@@ -99,13 +99,13 @@ fn both_sides_are_seen_with_normals_towards_the_viewer() {
         [9.0, 9.0, -4.0],
         [-9.0, 9.0, -4.0],
     ];
-    let front = plane(corners, [0.0, 0.0, 1.0]);
+    let front = plane_scene(corners, [0.0, 0.0, 1.0]);
     let mut back = front.clone();
     back.vertices.iter_mut().for_each(|vertex| vertex.normal[2] = -1.0);
     back.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
     for scene in [front, back] {
-        for renderer in both(&scene, uvec2(5, 4)) {
-            let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
+        for renderer in both_renderers(&scene, uvec2(5, 4)) {
+            let (depth, normal) = renderer.draw_geometry(Vec2::ZERO).expect("geometry");
             assert!(depth.texels().iter().all(|z| (z - 4.0).abs() < 1.0e-5), "{depth:?}");
             assert!(
                 normal.texels().iter().all(|n| (*n - Vec3::Z).length() < 1.0e-6),
@@ -123,15 +123,15 @@ fn differs(a: (f32, Vec3), b: (f32, Vec3)) -> bool {
 #[test]
 fn the_cpu_and_the_gpu_draw_the_same() {
     let size = uvec2(641, 359);
-    let [cpu, gpu] = both(&builtin(), size);
+    let [cpu, gpu] = both_renderers(&builtin_scene(), size);
     for offset in [Vec2::ZERO, vec2(0.375, -0.125)] {
         let ((z0, n0), (z1, n1)) = (
-            cpu.geometry(offset).expect("geometry"),
-            gpu.geometry(offset).expect("geometry"),
+            cpu.draw_geometry(offset).expect("geometry"),
+            gpu.draw_geometry(offset).expect("geometry"),
         );
         let (c0, c1) = (
-            cpu.shaded(offset).expect("a picture"),
-            gpu.shaded(offset).expect("a picture"),
+            cpu.draw_shaded(offset).expect("a picture"),
+            gpu.draw_shaded(offset).expect("a picture"),
         );
         let apart = |pixel: IVec2| (c0.load(pixel) - c1.load(pixel)).abs().max_element();
         let (edges, faces): (Vec<IVec2>, Vec<IVec2>) = pixels(size).partition(|pixel| {
@@ -152,14 +152,14 @@ fn the_cpu_and_the_gpu_draw_the_same() {
 fn both_draw_every_scene_alike() {
     let size = uvec2(240, 135);
     for (name, _) in NAMES {
-        let [cpu, gpu] = both(&Scene::named(name).expect(name), size);
+        let [cpu, gpu] = both_renderers(&Scene::from_name(name).expect(name), size);
         let ((z0, n0), (z1, n1)) = (
-            cpu.geometry(Vec2::ZERO).expect("geometry"),
-            gpu.geometry(Vec2::ZERO).expect("geometry"),
+            cpu.draw_geometry(Vec2::ZERO).expect("geometry"),
+            gpu.draw_geometry(Vec2::ZERO).expect("geometry"),
         );
         let (c0, c1) = (
-            cpu.shaded(Vec2::ZERO).expect("a picture"),
-            gpu.shaded(Vec2::ZERO).expect("a picture"),
+            cpu.draw_shaded(Vec2::ZERO).expect("a picture"),
+            gpu.draw_shaded(Vec2::ZERO).expect("a picture"),
         );
         let apart = |pixel: IVec2| {
             let (a, b) = (c0.load(pixel), c1.load(pixel));
@@ -191,8 +191,8 @@ fn both_draw_every_scene_alike() {
 #[test]
 fn only_what_shines_is_brighter_than_white() {
     let brightest = |name: &str| {
-        let renderer = CpuRenderer::new(&Scene::named(name).expect(name), uvec2(320, 180)).expect("a renderer");
-        let picture = renderer.shaded(Vec2::ZERO).expect("a picture");
+        let renderer = CpuRenderer::new(&Scene::from_name(name).expect(name), uvec2(320, 180)).expect("a renderer");
+        let picture = renderer.draw_shaded(Vec2::ZERO).expect("a picture");
         picture.texels().iter().map(|c| c.max_element()).fold(0.0, f32::max)
     };
     assert!(
@@ -209,7 +209,7 @@ fn only_what_shines_is_brighter_than_white() {
 /// Through a chain-link fence one sees what is behind it, at most pixels.
 #[test]
 fn a_fence_has_holes() {
-    let mut scene = floor();
+    let mut scene = floor_scene();
     let first = scene.vertices.len() as u32;
     let link = |x: f32, y: f32| Vertex {
         position: [x, y, -2.0],
@@ -224,8 +224,8 @@ fn a_fence_has_holes() {
         .triangles
         .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
     let size = uvec2(300, 200);
-    for renderer in both(&scene, size) {
-        let (depth, _) = renderer.geometry(Vec2::ZERO).expect("geometry");
+    for renderer in both_renderers(&scene, size) {
+        let (depth, _) = renderer.draw_geometry(Vec2::ZERO).expect("geometry");
         let above: Vec<IVec2> = pixels(size).filter(|pixel| pixel.y < 100).collect();
         let count = |seen: &dyn Fn(f32) -> bool| above.iter().filter(|pixel| seen(depth.load(**pixel))).count();
         let wires = count(&|z| (z - 2.0).abs() < 1.0e-4);
@@ -238,14 +238,14 @@ fn a_fence_has_holes() {
 }
 
 /// A wall three away, with an image of 4x4 texels on each unit of it.
-fn painted(texels: [[u8; 4]; 16], cutoff: f32) -> Scene {
+fn painted_wall(texels: [[u8; 4]; 16], cutoff: f32) -> Scene {
     let corners = [
         [-9.0, -8.0, -3.0],
         [9.0, -8.0, -3.0],
         [9.0, 10.0, -3.0],
         [-9.0, 10.0, -3.0],
     ];
-    let mut scene = plane(corners, [0.0, 0.0, 1.0]);
+    let mut scene = plane_scene(corners, [0.0, 0.0, 1.0]);
     let (first, levels) = scene.textures.add(uvec2(4, 4), &texels).expect("room for it");
     let size = [4, 4];
     scene.textures.images.push(crate::scene::Image {
@@ -272,8 +272,8 @@ fn textures_are_seen_at_pixels_and_averaged_from_afar() {
         }
     });
     let size = uvec2(300, 200);
-    for renderer in both(&painted(board, 0.0), size) {
-        let near = renderer.shaded(Vec2::ZERO).expect("a picture");
+    for renderer in both_renderers(&painted_wall(board, 0.0), size) {
+        let near = renderer.draw_shaded(Vec2::ZERO).expect("a picture");
         // Above the horizon of (0, 1): a texel is a quarter of a unit, and a unit at a distance of 3 is 61 pixels.
         let unit = 200.0 / (2.0 * 0.5f32.tan() * 3.0);
         let at = |x: f32, y: f32| {
@@ -288,13 +288,13 @@ fn textures_are_seen_at_pixels_and_averaged_from_afar() {
         assert!((at(0.375, 1.375) - white).abs() < 0.1 && (at(0.625, 1.125) - white).abs() < 0.1);
         assert!((white - black).abs() > 0.5, "{white} {black}");
     }
-    let mut far = painted(board, 0.0);
+    let mut far = painted_wall(board, 0.0);
     for vertex in &mut far.vertices {
         // Forty times as many texels.
         (vertex.uv, vertex.density) = (vertex.uv.map(|c| c * 40.0), 160.0);
     }
-    for renderer in both(&far, size) {
-        let picture = renderer.shaded(Vec2::ZERO).expect("a picture");
+    for renderer in both_renderers(&far, size) {
+        let picture = renderer.draw_shaded(Vec2::ZERO).expect("a picture");
         let [least, most] = pixels(size)
             .map(|pixel| picture.load(pixel).x)
             .fold([f32::INFINITY, 0.0], |[l, m], x| [l.min(x), m.max(x)]);
@@ -307,10 +307,10 @@ fn textures_are_seen_at_pixels_and_averaged_from_afar() {
 fn alpha_makes_holes() {
     let half = std::array::from_fn(|k| [200, 150, 100, if k % 4 < 2 { 255 } else { 0 }]);
     let size = uvec2(300, 200);
-    let scene = painted(half, 0.5);
+    let scene = painted_wall(half, 0.5);
     let mut seen = Vec::new();
-    for renderer in both(&scene, size) {
-        let (depth, _) = renderer.geometry(Vec2::ZERO).expect("geometry");
+    for renderer in both_renderers(&scene, size) {
+        let (depth, _) = renderer.draw_geometry(Vec2::ZERO).expect("geometry");
         let there = pixels(size).filter(|pixel| depth.load(*pixel) < 4.0).count();
         let share = there as f64 / f64::from(size.element_product());
         assert!((share - 0.5).abs() < 0.03, "{share}");
@@ -318,8 +318,8 @@ fn alpha_makes_holes() {
     }
     let differ = pixels(size).filter(|pixel| (seen[0].load(*pixel) - seen[1].load(*pixel)).abs() > 1.0e-3);
     assert!(differ.count() < 300, "both renderers have the same holes");
-    let renderer = gpu(&scene, size).expect("a renderer");
-    let (depth, _) = renderer.multisampled().and_then(|g| g.read()).expect("geometry");
+    let renderer = gpu_renderer(&scene, size).expect("a renderer");
+    let (depth, _) = renderer.draw_multisampled().and_then(|g| g.read()).expect("geometry");
     let there = pixels(size).filter(|pixel| depth.load(*pixel, 2) < 4.0).count() as f64;
     assert!(
         (there / f64::from(size.element_product()) - 0.5).abs() < 0.03,
@@ -333,12 +333,12 @@ fn a_multisampled_pass_is_four_shifted_ones() {
     let size = uvec2(320, 180);
     let latin4 = [(-2.0, -6.0), (6.0, -2.0), (-6.0, 2.0), (2.0, 6.0)];
     for name in ["roof", "railings"] {
-        let renderer = gpu(&Scene::named(name).expect(name), size).expect("a renderer");
-        let (depth, normal) = renderer.multisampled().and_then(|g| g.read()).expect("geometry");
+        let renderer = gpu_renderer(&Scene::from_name(name).expect(name), size).expect("a renderer");
+        let (depth, normal) = renderer.draw_multisampled().and_then(|g| g.read()).expect("geometry");
         assert_eq!((depth.layers().len(), normal.layers().len()), (4, 4));
         let mut distinct = 0;
         for (sample, (x, y)) in latin4.into_iter().enumerate() {
-            let (z, n) = renderer.geometry(vec2(x, y) / 16.0).expect("geometry");
+            let (z, n) = renderer.draw_geometry(vec2(x, y) / 16.0).expect("geometry");
             let off = |pixel: &IVec2| {
                 let one = (depth.load(*pixel, sample), normal.load(*pixel, sample));
                 // Normals are halves.
@@ -361,10 +361,10 @@ fn a_multisampled_pass_is_four_shifted_ones() {
 #[test]
 fn a_whole_offset_shifts_the_picture() {
     let size = uvec2(160, 90);
-    for renderer in both(&builtin(), size) {
+    for renderer in both_renderers(&builtin_scene(), size) {
         let (here, there) = (
-            renderer.geometry(Vec2::ZERO).expect("geometry"),
-            renderer.geometry(vec2(1.0, -2.0)).expect("geometry"),
+            renderer.draw_geometry(Vec2::ZERO).expect("geometry"),
+            renderer.draw_geometry(vec2(1.0, -2.0)).expect("geometry"),
         );
         let inside = pixels(size).filter(|pixel| pixel.x + 1 < 160 && pixel.y >= 2);
         let moved = inside.filter(|pixel| {
@@ -382,13 +382,14 @@ fn a_whole_offset_shifts_the_picture() {
 
 #[test]
 fn the_reference_of_a_constant_is_the_constant() {
-    let mut scene = floor();
+    let mut scene = floor_scene();
     (scene.sun.color, scene.sky.haze) = ([0.0; 3], 0.0);
     let light = [0.2, 0.5, 0.7];
     (scene.sky.zenith, scene.sky.horizon, scene.sky.ground) = (light, light, light);
-    for renderer in both(&scene, uvec2(16, 16)) {
+    for renderer in both_renderers(&scene, uvec2(16, 16)) {
         let mut told = Vec::new();
-        let frame = reference(renderer.as_ref(), 4, &mut |done, total| told.push((done, total))).expect("a picture");
+        let frame =
+            render_reference(renderer.as_ref(), 4, &mut |done, total| told.push((done, total))).expect("a picture");
         assert_eq!(told.last(), Some(&(16, 16)));
         let sky = Vec4::new(0.2, 0.5, 0.7, 1.0);
         let ground = Vec4::new(0.1, 0.2, 0.21, 1.0);
@@ -409,12 +410,12 @@ fn the_reference_of_a_constant_is_the_constant() {
 
 #[test]
 fn a_reference_is_the_mean_of_its_pictures() {
-    for renderer in both(&builtin(), uvec2(40, 30)) {
-        let mean = reference(renderer.as_ref(), 3, &mut |_, _| {}).expect("a picture");
+    for renderer in both_renderers(&builtin_scene(), uvec2(40, 30)) {
+        let mean = render_reference(renderer.as_ref(), 3, &mut |_, _| {}).expect("a picture");
         let mut sums = vec![Vec4::ZERO; 40 * 30];
-        for offset in grid(3) {
+        for offset in grid_offsets(3) {
             assert!(offset.abs().max_element() < 0.5);
-            let one = renderer.shaded(offset).expect("a picture");
+            let one = renderer.draw_shaded(offset).expect("a picture");
             sums.iter_mut()
                 .zip(one.texels())
                 .for_each(|(sum, texel)| *sum += *texel / 9.0);
@@ -428,9 +429,9 @@ fn a_reference_is_the_mean_of_its_pictures() {
 #[test]
 fn pictures_of_any_size() {
     for size in [uvec2(1, 1), uvec2(1, 77), uvec2(301, 1), uvec2(65, 33)] {
-        for renderer in both(&builtin(), size) {
-            let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
-            let color = renderer.shaded(Vec2::ZERO).expect("a picture");
+        for renderer in both_renderers(&builtin_scene(), size) {
+            let (depth, normal) = renderer.draw_geometry(Vec2::ZERO).expect("geometry");
+            let color = renderer.draw_shaded(Vec2::ZERO).expect("a picture");
             assert_eq!((depth.size(), normal.size(), color.size()), (size, size, size));
             assert!(
                 color
@@ -446,10 +447,10 @@ fn pictures_of_any_size() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused() {
-    let scene = builtin();
+    let scene = builtin_scene();
     for size in [uvec2(0, 5), uvec2(5, 0), uvec2(1 << 20, 1)] {
         assert!(matches!(CpuRenderer::new(&scene, size), Err(RenderError::Size { .. })));
-        assert!(matches!(gpu(&scene, size), Err(RenderError::Size { .. })));
+        assert!(matches!(gpu_renderer(&scene, size), Err(RenderError::Size { .. })));
     }
     type Spoil = fn(&mut Scene);
     let spoilt: [(Spoil, &str); 5] = [
@@ -460,30 +461,33 @@ fn what_cannot_be_drawn_is_refused() {
         (|scene| scene.camera.near = 0.0, "near"),
     ];
     for (spoil, wanted) in spoilt {
-        let mut scene = builtin();
+        let mut scene = builtin_scene();
         spoil(&mut scene);
         let size = uvec2(4, 4);
-        let errors = [CpuRenderer::new(&scene, size).err(), gpu(&scene, size).err()];
+        let errors = [CpuRenderer::new(&scene, size).err(), gpu_renderer(&scene, size).err()];
         for error in errors {
             let message = error.expect("a refusal").to_string();
             assert!(message.contains(wanted), "{message}");
         }
     }
-    for renderer in both(&scene, uvec2(4, 4)) {
+    for renderer in both_renderers(&scene, uvec2(4, 4)) {
         let nowhere = vec2(f32::NAN, 0.0);
-        assert!(matches!(renderer.geometry(nowhere), Err(RenderError::Offset { .. })));
-        assert!(matches!(renderer.shaded(nowhere), Err(RenderError::Offset { .. })));
-        assert!(matches!(renderer.mean(&[]), Err(RenderError::NoOffsets)));
-        assert!(reference(renderer.as_ref(), 0, &mut |_, _| {}).is_err());
+        assert!(matches!(
+            renderer.draw_geometry(nowhere),
+            Err(RenderError::Offset { .. })
+        ));
+        assert!(matches!(renderer.draw_shaded(nowhere), Err(RenderError::Offset { .. })));
+        assert!(matches!(renderer.draw_mean(&[]), Err(RenderError::NoOffsets)));
+        assert!(render_reference(renderer.as_ref(), 0, &mut |_, _| {}).is_err());
     }
 }
 
 #[test]
 fn the_builtin_scene_has_wires_that_shading_samples_miss() {
     let size = uvec2(1280, 720);
-    let renderer = CpuRenderer::new(&builtin(), size).expect("a renderer");
-    let centre = renderer.geometry(Vec2::ZERO).expect("geometry").0;
-    let sample = renderer.geometry(vec2(-0.125, -0.375)).expect("geometry").0;
+    let renderer = CpuRenderer::new(&builtin_scene(), size).expect("a renderer");
+    let centre = renderer.draw_geometry(Vec2::ZERO).expect("geometry").0;
+    let sample = renderer.draw_geometry(vec2(-0.125, -0.375)).expect("geometry").0;
     let around: Vec<IVec2> = (0..9).map(|tap| ivec2(tap % 3 - 1, tap / 3 - 1)).collect();
     let alone = pixels(size).filter(|pixel| {
         let seen = sample.load(*pixel);
@@ -494,7 +498,7 @@ fn the_builtin_scene_has_wires_that_shading_samples_miss() {
 
 #[test]
 fn shading_is_placed_by_planes_at_patterns_that_have_a_name() {
-    let renderer = CpuRenderer::new(&Scene::named("roof").expect("a scene"), uvec2(32, 18)).expect("a renderer");
+    let renderer = CpuRenderer::new(&Scene::from_name("roof").expect("a scene"), uvec2(32, 18)).expect("a renderer");
     let samples = [vec2(0.1, 0.2), vec2(-0.3, 0.0)];
     let refused = capture_placed(&renderer, &samples, PlacedBy::Planes);
     assert!(

@@ -17,7 +17,7 @@ pub(super) struct Mesh {
 
 impl Mesh {
     /// Adds what `build` adds, moved by `place` relative to where things go now.
-    pub fn at(&mut self, place: Affine3A, build: impl FnOnce(&mut Mesh)) {
+    pub fn add_at(&mut self, place: Affine3A, build: impl FnOnce(&mut Mesh)) {
         let outer = self.place;
         self.place = outer * place;
         build(self);
@@ -25,35 +25,35 @@ impl Mesh {
     }
 
     /// Adds what `build` adds, of a material.
-    pub fn of(&mut self, material: Material, build: impl FnOnce(&mut Mesh)) {
+    pub fn add_with_material(&mut self, material: Material, build: impl FnOnce(&mut Mesh)) {
         let outer = std::mem::replace(&mut self.material, material);
         build(self);
         self.material = outer;
     }
 
     /// The material of what is added now.
-    pub fn material(&self) -> Material {
+    pub fn current_material(&self) -> Material {
         self.material
     }
 
     /// A flat convex polygon with corners counter-clockwise seen from its front. What is degenerate is left out.
-    pub fn polygon(&mut self, corners: &[Vec3], color: Vec3) {
-        self.patch(corners, color, self.material);
+    pub fn add_polygon(&mut self, corners: &[Vec3], color: Vec3) {
+        self.add_patch(corners, color, self.material);
     }
 
     /// [`polygon`](Self::polygon) of a material.
-    pub fn patch(&mut self, corners: &[Vec3], color: Vec3, material: Material) {
+    pub fn add_patch(&mut self, corners: &[Vec3], color: Vec3, material: Material) {
         // Newell's sum: twice the area along the normal, also if corners coincide.
         let next = |i: usize| corners[(i + 1) % corners.len()];
         let area = (0..corners.len()).fold(Vec3::ZERO, |sum, i| sum + corners[i].cross(next(i)));
         if let Some(normal) = area.try_normalize() {
             let corners: Vec<(Vec3, Vec3)> = corners.iter().map(|corner| (*corner, normal)).collect();
-            self.fan(&corners, color, material);
+            self.add_fan(&corners, color, material);
         }
     }
 
     /// A convex polygon of positions and normals, with corners as those of [`polygon`](Self::polygon).
-    pub fn fan(&mut self, corners: &[(Vec3, Vec3)], color: Vec3, material: Material) {
+    pub fn add_fan(&mut self, corners: &[(Vec3, Vec3)], color: Vec3, material: Material) {
         let first = self.vertices.len() as u32;
         for (position, normal) in corners {
             self.vertices.push(Vertex {
@@ -70,29 +70,29 @@ impl Mesh {
     }
 
     /// A box with its faces along the axes.
-    pub fn block(&mut self, min: Vec3, max: Vec3, color: Vec3) {
-        self.hexahedron([min, max].map(|y| rectangle(min, max, y.y)), color);
+    pub fn add_block(&mut self, min: Vec3, max: Vec3, color: Vec3) {
+        self.add_hexahedron([min, max].map(|y| level_rectangle(min, max, y.y)), color);
     }
 
     /// A solid with six quadrilateral faces: its lower and its upper one, each counter-clockwise seen from above.
-    pub fn hexahedron(&mut self, [lower, upper]: [[Vec3; 4]; 2], color: Vec3) {
+    pub fn add_hexahedron(&mut self, [lower, upper]: [[Vec3; 4]; 2], color: Vec3) {
         let [a, b, c, d] = lower;
-        self.polygon(&[d, c, b, a], color);
-        self.polygon(&upper, color);
+        self.add_polygon(&[d, c, b, a], color);
+        self.add_polygon(&upper, color);
         for i in 0..4 {
             let j = (i + 1) % 4;
-            self.polygon(&[lower[i], lower[j], upper[j], upper[i]], color);
+            self.add_polygon(&[lower[i], lower[j], upper[j], upper[i]], color);
         }
     }
 
     /// A straight bar from `from` to `to` with a regular cross-section of `sides` sides and flat faces.
-    pub fn bar(&mut self, from: Vec3, to: Vec3, radius: f32, sides: u32, color: Vec3) {
-        self.frustum([(from, radius), (to, radius)], sides, color, false);
+    pub fn add_bar(&mut self, from: Vec3, to: Vec3, radius: f32, sides: u32, color: Vec3) {
+        self.add_frustum([(from, radius), (to, radius)], sides, color, false);
     }
 
     /// A round solid between two parallel circles of given centre and radius. `smooth` gives its sides rounded
     /// normals.
-    pub fn frustum(&mut self, [(from, r0), (to, r1)]: [(Vec3, f32); 2], sides: u32, color: Vec3, smooth: bool) {
+    pub fn add_frustum(&mut self, [(from, r0), (to, r1)]: [(Vec3, f32); 2], sides: u32, color: Vec3, smooth: bool) {
         let axis = (to - from).normalize_or(Vec3::Y);
         let (u, v) = axis.any_orthonormal_pair();
         let around = |i: u32| {
@@ -106,19 +106,19 @@ impl Mesh {
                 let slope = axis * ((r0 - r1) / (to - from).length());
                 let normals = [a, b, b, a].map(|radial| (radial + slope).normalize_or(axis));
                 let corners: Vec<(Vec3, Vec3)> = corners.into_iter().zip(normals).collect();
-                self.fan(&corners, color, self.material);
+                self.add_fan(&corners, color, self.material);
             } else {
-                self.polygon(&corners, color);
+                self.add_polygon(&corners, color);
             }
         }
         let ring = |centre: Vec3, radius: f32| (0..sides).map(move |i| centre + around(i) * radius);
-        self.polygon(&ring(from, r0).rev().collect::<Vec<_>>(), color);
-        self.polygon(&ring(to, r1).collect::<Vec<_>>(), color);
+        self.add_polygon(&ring(from, r0).rev().collect::<Vec<_>>(), color);
+        self.add_polygon(&ring(to, r1).collect::<Vec<_>>(), color);
     }
 }
 
 /// Corners of a level rectangle at height `y`, counter-clockwise seen from above.
-fn rectangle(min: Vec3, max: Vec3, y: f32) -> [Vec3; 4] {
+fn level_rectangle(min: Vec3, max: Vec3, y: f32) -> [Vec3; 4] {
     [
         vec3(min.x, y, max.z),
         vec3(max.x, y, max.z),
@@ -152,8 +152,8 @@ mod tests {
     fn solids_are_closed_and_face_outwards() {
         let place = Affine3A::from_rotation_translation(Quat::from_rotation_y(0.7), vec3(3.0, -1.0, 2.0));
         let mut mesh = Mesh::default();
-        mesh.at(place, |mesh| {
-            mesh.block(vec3(-1.0, 0.0, 2.0), vec3(1.0, 3.0, 2.5), Vec3::ONE)
+        mesh.add_at(place, |mesh| {
+            mesh.add_block(vec3(-1.0, 0.0, 2.0), vec3(1.0, 3.0, 2.5), Vec3::ONE)
         });
         assert!((volume(&mesh) - 3.0).abs() < 1.0e-4);
         check_normals(&mesh);
@@ -161,7 +161,7 @@ mod tests {
         for smooth in [false, true] {
             let mut mesh = Mesh::default();
             let ends = [(vec3(1.0, 2.0, 3.0), 2.0), (vec3(1.0, 5.0, 3.0), 1.0)];
-            mesh.frustum(ends, 64, Vec3::ONE, smooth);
+            mesh.add_frustum(ends, 64, Vec3::ONE, smooth);
             let exact = std::f32::consts::PI * 3.0 / 3.0 * (4.0 + 2.0 + 1.0);
             assert!((volume(&mesh) / exact - 1.0).abs() < 5.0e-3, "{}", volume(&mesh));
             check_normals(&mesh);

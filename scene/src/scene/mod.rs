@@ -1,7 +1,7 @@
 //! Scenes that the testbed draws: triangles with materials, a sun, a sky and a camera.
 //!
-//! A [`Scene`] is plain data that every renderer reads alike. [`Scene::named`] makes one of [`NAMES`] without any file;
-//! [`load()`] reads a model, with the feature `models`. World space is right-handed with y up; lengths are in scene units.
+//! A [`Scene`] is plain data that every renderer reads alike. [`Scene::from_name`] makes one of [`NAMES`] without any file;
+//! [`load_scene()`] reads a model, with the feature `models`. World space is right-handed with y up; lengths are in scene units.
 
 mod builtin;
 mod camera;
@@ -15,15 +15,15 @@ mod textures;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-pub use builtin::builtin;
+pub use builtin::builtin_scene;
 pub use camera::{Camera, Viewpoint};
 pub use error::SceneError;
-pub use load::{load, load_seen};
+pub use load::{load_scene, load_seen};
 pub use named::{NAMES, OF_SHADING};
-pub(crate) use textures::decoded;
+pub(crate) use textures::decode_texel;
 pub use textures::{Image, Textures};
 
-/// File name extensions that [`load()`] knows, in lower case.
+/// File name extensions that [`load_scene()`] knows, in lower case.
 pub const EXTENSIONS: [&str; 3] = ["gltf", "glb", "obj"];
 
 /// Linear depth where no geometry is seen.

@@ -57,7 +57,7 @@ impl Textures {
         let (mut finer, mut levels) = (first, 1);
         while size.max_element() > 1 {
             let next = self.texels.len();
-            self.halve(finer, size);
+            self.add_half_level(finer, size);
             size = (size / 2).max(UVec2::ONE);
             (finer, levels) = (next, levels + 1);
         }
@@ -65,13 +65,13 @@ impl Textures {
     }
 
     /// Adds the next smaller level of one that begins at `first`: means of 2×2 texels, of those that are there.
-    fn halve(&mut self, first: usize, size: UVec2) {
+    fn add_half_level(&mut self, first: usize, size: UVec2) {
         let half = (size / 2).max(UVec2::ONE);
         for y in 0..half.y {
             for x in 0..half.x {
                 let texel = |k: u32| {
                     let at = (2 * uvec2(x, y) + uvec2(k % 2, k / 2)).min(size - 1);
-                    decoded(self.texels[first + (at.y * size.x + at.x) as usize])
+                    decode_texel(self.texels[first + (at.y * size.x + at.x) as usize])
                 };
                 let four = [0, 1, 2, 3].map(texel);
                 let alpha = four.iter().map(|t| t.w).sum::<f32>() * 0.25;
@@ -79,21 +79,21 @@ impl Textures {
                 let weights = four.map(|t| t.w.max(1.0e-3));
                 let weighed = four.iter().zip(weights).map(|(t, w)| t.truncate() * w);
                 let color = weighed.sum::<Vec3>() / weights.iter().sum::<f32>();
-                self.texels.push(encoded(color.extend(alpha)));
+                self.texels.push(encode_texel(color.extend(alpha)));
             }
         }
     }
 }
 
 /// Linear colour and alpha of a texel.
-pub(crate) fn decoded(texel: u32) -> Vec4 {
+pub(crate) fn decode_texel(texel: u32) -> Vec4 {
     let [r, g, b, a] = texel.to_le_bytes().map(|byte| f32::from(byte) / 255.0);
-    Vec4::new(srgb::decode(r), srgb::decode(g), srgb::decode(b), a)
+    Vec4::new(srgb::to_linear(r), srgb::to_linear(g), srgb::to_linear(b), a)
 }
 
-fn encoded(color: Vec4) -> u32 {
+fn encode_texel(color: Vec4) -> u32 {
     let byte = |value: f32| (value * 255.0).round() as u8;
-    let [r, g, b] = color.truncate().to_array().map(|light| byte(srgb::encode(light)));
+    let [r, g, b] = color.truncate().to_array().map(|light| byte(srgb::from_linear(light)));
     u32::from_le_bytes([r, g, b, byte(color.w)])
 }
 
@@ -108,7 +108,7 @@ mod tests {
         let bytes = [[255, 255, 255, 255], [0, 0, 0, 255], [0, 255, 0, 255], [255, 0, 0, 0]];
         assert_eq!(textures.add(uvec2(2, 2), &bytes), Ok((0, 2)));
         assert_eq!(textures.texels.len(), 5);
-        let mean = decoded(textures.texels[4]);
+        let mean = decode_texel(textures.texels[4]);
         let expected = Vec4::new(1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0, 0.75);
         assert!((mean - expected).abs().max_element() < 0.01, "{mean}");
         assert_eq!(textures.add(uvec2(5, 1), &[[0; 4]; 5]), Ok((5, 3)));

@@ -8,7 +8,7 @@ use std::path::Path;
 /// # Errors
 ///
 /// [`SceneError::NotBuilt`], or [`SceneError::UnknownExtension`] of what is no model.
-pub fn load(path: &Path) -> Result<Scene, SceneError> {
+pub fn load_scene(path: &Path) -> Result<Scene, SceneError> {
     load_seen(path, &Viewpoint::default())
 }
 

@@ -1,11 +1,11 @@
 //! Pictures in time: what a filter reads of the frames before, with where all that is seen has moved since.
 //!
 //! A [`Moment`] is one frame, shaded once a pixel at a place of its own. Of two moments whose scenes differ in where their vertices
-//! and their cameras are, [`motion`] says where each pixel's surface was.
+//! and their cameras are, [`motion_vectors`] says where each pixel's surface was.
 
 use crate::capture::{Capture, ShadingSample};
 use crate::inputs::Inputs;
-use crate::render::{self, CpuRenderer, RenderError, Renderer, Shifted, gathered};
+use crate::render::{self, CpuRenderer, RenderError, Renderer, Shifted, gather_placed};
 use crate::scene::{SKY_DEPTH, Scene};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3};
 use rayon::prelude::*;
@@ -51,7 +51,7 @@ impl Moment {
             by: jitter,
         };
         let from_there: Vec<Vec2> = samples.iter().map(|at| *at - jitter).collect();
-        let mut capture = render::capture(&moved, &from_there, shading)?;
+        let mut capture = render::capture_scene(&moved, &from_there, shading)?;
         capture.samples = samples.to_vec();
         Ok(Moment {
             renderer,
@@ -95,29 +95,29 @@ impl Moment {
     ///
     /// What the renderer refuses.
     pub fn with_history(&self, inputs: Inputs, earlier: &[&Moment]) -> Result<Inputs, RenderError> {
-        let motions: Result<Vec<_>, _> = earlier.iter().map(|then| motion(self, then)).collect();
+        let motions: Result<Vec<_>, _> = earlier.iter().map(|then| motion_vectors(self, then)).collect();
         let surfaces = earlier.iter().map(|then| then.surfaces_seen_by(self)).collect();
         let rests: Option<Vec<_>> = earlier.iter().map(|then| then.capture.rest.clone()).collect();
         let inputs = inputs
-            .layers("history_color", earlier.iter().map(|then| then.kept()).collect())
-            .layers("history_surface", surfaces)
-            .layers("history_motion", motions?)
-            .uniform("jitter", &self.jitter.to_array().map(f64::from));
+            .with_layers("history_color", earlier.iter().map(|then| then.kept_light()).collect())
+            .with_layers("history_surface", surfaces)
+            .with_layers("history_motion", motions?)
+            .with_uniform("jitter", &self.jitter.to_array().map(f64::from));
         Ok(match rests {
-            Some(rests) => inputs.layers("history_rest", rests),
+            Some(rests) => inputs.with_layers("history_rest", rests),
             None => inputs,
         })
     }
 
     /// The layer of the capture in whose place pixel `k` is shaded.
-    fn layer(&self, k: usize) -> usize {
+    fn shaded_layer(&self, k: usize) -> usize {
         let centre = self.capture.samples.len();
         let chosen = self.capture.place.as_ref();
         chosen.map_or(centre, |chosen| chosen.texels()[k] as usize)
     }
 
     /// Colours of the frame, or light if its albedo is known.
-    fn kept(&self) -> Frame<Vec4> {
+    fn kept_light(&self) -> Frame<Vec4> {
         let Capture {
             albedo, rest, color, ..
         } = &self.capture;
@@ -125,7 +125,7 @@ impl Moment {
             return color.clone();
         };
         let light = |(k, color): (usize, &Vec4)| {
-            let albedo = albedo.layers()[self.layer(k)].texels()[k].truncate();
+            let albedo = albedo.layers()[self.shaded_layer(k)].texels()[k].truncate();
             let painted = color.truncate() - rest.texels()[k].truncate();
             (painted / albedo.max(Vec3::splat(ALBEDO_FLOOR))).extend(color.w)
         };
@@ -136,12 +136,12 @@ impl Moment {
     fn surfaces_seen_by(&self, now: &Moment) -> Frame<Vec4> {
         let turned = Mat3::from_mat4(now.scene.camera.view()) * Mat3::from_mat4(self.scene.camera.view()).transpose();
         let texel = |k: usize| {
-            let depth = self.capture.depth.layers()[self.layer(k)].texels()[k];
+            let depth = self.capture.depth.layers()[self.shaded_layer(k)].texels()[k];
             let normals = self
                 .capture
                 .normal
                 .as_ref()
-                .map(|normals| normals.layers()[self.layer(k)].texels()[k]);
+                .map(|normals| normals.layers()[self.shaded_layer(k)].texels()[k]);
             let normal = normals.unwrap_or(Vec3::Z);
             match depth < SKY_DEPTH {
                 // Sky has the same normal whatever way one looks.
@@ -163,7 +163,7 @@ impl Moment {
 /// # Errors
 ///
 /// What the renderer refuses.
-pub fn motion(now: &Moment, then: &Moment) -> Result<Frame<Vec4>, RenderError> {
+pub fn motion_vectors(now: &Moment, then: &Moment) -> Result<Frame<Vec4>, RenderError> {
     // Colours of vertices are carried across a triangle as their places are: here the way back to where they were.
     let mut carried = now.scene.clone();
     for (vertex, then) in carried.vertices.iter_mut().zip(&then.scene.vertices) {
@@ -177,7 +177,7 @@ pub fn motion(now: &Moment, then: &Moment) -> Result<Frame<Vec4>, RenderError> {
         None => Ok(centred),
         Some(chosen) => {
             let places = [now.capture.samples.as_slice(), &[now.jitter]].concat();
-            gathered(&places, chosen, centred, at)
+            gather_placed(&places, chosen, centred, at)
         }
     }
 }
@@ -185,7 +185,7 @@ pub fn motion(now: &Moment, then: &Moment) -> Result<Frame<Vec4>, RenderError> {
 /// Returns the motion of the surfaces seen `place` from each pixel's centre. The colours of `carried` are the way back.
 fn motion_at(carried: &CpuRenderer, now: &Moment, then: &Moment, place: Vec2) -> Result<Frame<Vec4>, RenderError> {
     let size = carried.size();
-    let surfaces = carried.surfaces(place)?;
+    let surfaces = carried.draw_surfaces(place)?;
     let to_world = Mat3::from_mat4(now.scene.camera.view()).transpose();
     let to_view = Mat3::from_mat4(then.scene.camera.view());
     let back = Vec3::from(now.scene.camera.position) - Vec3::from(then.scene.camera.position);

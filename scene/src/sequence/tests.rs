@@ -2,15 +2,15 @@ use super::*;
 
 const SIZE: UVec2 = uvec2(96, 54);
 
-fn moved(by: Vec3) -> Scene {
-    let mut scene = Scene::named("railings").expect("a scene");
+fn moved_scene(by: Vec3) -> Scene {
+    let mut scene = Scene::from_name("railings").expect("a scene");
     for end in [&mut scene.camera.position, &mut scene.camera.target] {
         *end = (Vec3::from(*end) + by).into();
     }
     scene
 }
 
-fn draw(scene: Scene, jitter: Vec2) -> Moment {
+fn draw_moment(scene: Scene, jitter: Vec2) -> Moment {
     draw_shaded(scene, jitter, ShadingSample::Centre)
 }
 
@@ -19,14 +19,17 @@ fn draw_shaded(scene: Scene, jitter: Vec2, shading: ShadingSample) -> Moment {
 }
 
 /// Depths where the pixels' shading samples lie that are not moved.
-fn depths(moment: &Moment) -> &Frame<f32> {
+fn centre_depths(moment: &Moment) -> &Frame<f32> {
     &moment.capture.depth.layers()[PLACES.len()]
 }
 
 #[test]
 fn in_a_still_what_is_seen_lay_where_the_earlier_frame_was_not_jittered() {
-    let (now, then) = (draw(moved(Vec3::ZERO), PLACES[1]), draw(moved(Vec3::ZERO), PLACES[2]));
-    for texel in motion(&now, &then).expect("motion").texels() {
+    let (now, then) = (
+        draw_moment(moved_scene(Vec3::ZERO), PLACES[1]),
+        draw_moment(moved_scene(Vec3::ZERO), PLACES[2]),
+    );
+    for texel in motion_vectors(&now, &then).expect("motion").texels() {
         assert!((texel.truncate().truncate() + PLACES[2]).length() < 1.0e-4, "{texel}");
         assert!(texel.z.abs() < 1.0e-2, "{texel}");
     }
@@ -36,9 +39,9 @@ fn in_a_still_what_is_seen_lay_where_the_earlier_frame_was_not_jittered() {
 #[test]
 fn motion_leads_to_the_same_surface_in_the_earlier_frame() {
     let moves = vec3(0.11, 0.03, -0.08);
-    let then = draw(moved(Vec3::ZERO), PLACES[0]);
-    let now = draw(moved(moves), PLACES[3]);
-    let motion = motion(&now, &then).expect("motion");
+    let then = draw_moment(moved_scene(Vec3::ZERO), PLACES[0]);
+    let now = draw_moment(moved_scene(moves), PLACES[3]);
+    let motion = motion_vectors(&now, &then).expect("motion");
     let (mut farthest, mut inside, mut found) = (0.0f32, 0, 0);
     for k in (0..motion.texels().len()).step_by(61) {
         let texel = motion.texels()[k];
@@ -50,11 +53,11 @@ fn motion_leads_to_the_same_surface_in_the_earlier_frame() {
         if there.cmplt(Vec2::ZERO).any() || there.cmpge(SIZE.as_vec2()).any() {
             continue;
         }
-        let shaded_there = draw(moved(Vec3::ZERO), place - there - 0.5);
-        let foretold = depths(&now).texels()[k] + texel.z;
+        let shaded_there = draw_moment(moved_scene(Vec3::ZERO), place - there - 0.5);
+        let foretold = centre_depths(&now).texels()[k] + texel.z;
         inside += 1;
         farthest = farthest.max(way.length());
-        found += u32::from((depths(&shaded_there).load(there.as_ivec2()) - foretold).abs() <= 0.001 * foretold);
+        found += u32::from((centre_depths(&shaded_there).load(there.as_ivec2()) - foretold).abs() <= 0.001 * foretold);
     }
     assert!(farthest > 1.0, "nothing moved by more than {farthest} pixels");
     assert!(inside > 70 && found * 100 > inside * 90, "{found} of {inside} pixels");
@@ -62,15 +65,15 @@ fn motion_leads_to_the_same_surface_in_the_earlier_frame() {
 
 #[test]
 fn a_pixel_that_is_shaded_elsewhere_has_the_motion_of_what_is_seen_there() {
-    let (before, after) = (moved(Vec3::ZERO), moved(vec3(0.11, 0.03, -0.08)));
+    let (before, after) = (moved_scene(Vec3::ZERO), moved_scene(vec3(0.11, 0.03, -0.08)));
     let placed = draw_shaded(after.clone(), PLACES[3], ShadingSample::Placed);
-    let then = draw(before, PLACES[0]);
-    let found = motion(&placed, &then).expect("motion");
+    let then = draw_moment(before, PLACES[0]);
+    let found = motion_vectors(&placed, &then).expect("motion");
     let mut elsewhere = 0;
     for (layer, place) in PLACES.into_iter().chain([PLACES[3]]).enumerate() {
-        let there = motion(&draw(after.clone(), place), &then).expect("motion");
-        let shaded_there = draw(after.clone(), place);
-        for k in (0..found.texels().len()).filter(|k| placed.layer(*k) == layer) {
+        let there = motion_vectors(&draw_moment(after.clone(), place), &then).expect("motion");
+        let shaded_there = draw_moment(after.clone(), place);
+        for k in (0..found.texels().len()).filter(|k| placed.shaded_layer(*k) == layer) {
             assert_eq!(found.texels()[k], there.texels()[k]);
             assert_eq!(placed.capture.color.texels()[k], shaded_there.capture.color.texels()[k]);
             elsewhere += usize::from(layer < PLACES.len());

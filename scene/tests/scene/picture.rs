@@ -26,7 +26,7 @@ fn exr_keeps_every_bit() {
         let mut texels = gradient(size).texels().to_vec();
         texels[0] = vec4(f32::INFINITY, f32::NEG_INFINITY, -0.0, f32::MIN_POSITIVE / 4.0);
         let frame = Frame::new(size, texels);
-        picture::write(&path, &frame).unwrap();
+        picture::write_picture(&path, &frame).unwrap();
         let bits = |frame: &Frame<Vec4>| -> Vec<[u32; 4]> {
             frame
                 .texels()
@@ -34,7 +34,7 @@ fn exr_keeps_every_bit() {
                 .map(|texel| texel.to_array().map(f32::to_bits))
                 .collect()
         };
-        assert_eq!(bits(&picture::read(&path).unwrap()), bits(&frame), "{size}");
+        assert_eq!(bits(&picture::read_picture(&path).unwrap()), bits(&frame), "{size}");
     }
     assert_eq!(scratch.names(), ["picture.exr"]);
 }
@@ -48,12 +48,12 @@ fn png_is_srgb_and_clamped() {
         vec4(-1.0, 7.0, f32::NAN, 0.5),
         vec4(f32::INFINITY, f32::NEG_INFINITY, 0.001, f32::NAN),
     ];
-    picture::write(&path, &Frame::new(uvec2(3, 1), texels)).unwrap();
+    picture::write_picture(&path, &Frame::new(uvec2(3, 1), texels)).unwrap();
     let stored = image::open(&path).unwrap();
     assert_eq!(stored.color(), image::ColorType::Rgba8);
     let stored = stored.into_rgba8();
     assert_eq!(stored.as_raw()[..], [0, 118, 255, 255, 0, 255, 0, 128, 255, 0, 3, 0]);
-    let read = picture::read(&path).unwrap();
+    let read = picture::read_picture(&path).unwrap();
     assert_eq!(read.size(), uvec2(3, 1));
     assert!(
         (read.texels()[0] - vec4(0.0, 0.18, 1.0, 1.0)).abs().max_element() < 0.005,
@@ -67,8 +67,8 @@ fn at_eight_bits_is_what_a_png_gives_back() {
     let scratch = Scratch::new("picture-rounded");
     let path = scratch.join("picture.png");
     let frame = gradient(uvec2(40, 30));
-    picture::write(&path, &frame).unwrap();
-    assert_eq!(picture::read(&path).unwrap(), picture::at_eight_bits(&frame));
+    picture::write_picture(&path, &frame).unwrap();
+    assert_eq!(picture::read_picture(&path).unwrap(), picture::at_eight_bits(&frame));
     // Values that no PNG holds are not made black.
     let spoilt = Frame::new(
         uvec2(2, 1),
@@ -86,11 +86,11 @@ fn at_eight_bits_is_what_a_png_gives_back() {
 fn an_extension_that_is_unknown_is_refused() {
     let scratch = Scratch::new("picture-extension");
     for name in ["picture.jpg", "picture", ".png"] {
-        let error = picture::write(&scratch.join(name), &gradient(uvec2(2, 2))).unwrap_err();
+        let error = picture::write_picture(&scratch.join(name), &gradient(uvec2(2, 2))).unwrap_err();
         assert!(matches!(error, PictureError::UnknownExtension { .. }), "{error:?}");
         let message = error.to_string();
         assert!(message.contains(name) && message.contains(".png or .exr"), "{message}");
-        assert!(picture::read(&scratch.join(name)).is_err());
+        assert!(picture::read_picture(&scratch.join(name)).is_err());
     }
     assert!(scratch.names().is_empty());
 }
@@ -105,7 +105,7 @@ fn a_failed_write_leaves_nothing_behind() {
         ("absent/picture.exr", "folder exists"),
         ("taken.png", "write"),
     ] {
-        let message = picture::write(&scratch.join(path), &gradient(uvec2(5, 4)))
+        let message = picture::write_picture(&scratch.join(path), &gradient(uvec2(5, 4)))
             .unwrap_err()
             .to_string();
         assert!(
@@ -121,20 +121,20 @@ fn damaged_files_are_refused_by_name() {
     let scratch = Scratch::new("picture-damaged");
     for name in ["picture.png", "picture.exr"] {
         let path = scratch.join(name);
-        picture::write(&path, &gradient(uvec2(40, 30))).unwrap();
+        picture::write_picture(&path, &gradient(uvec2(40, 30))).unwrap();
         let whole = fs::read(&path).unwrap();
         for length in [0, 1, 4, 40, whole.len() / 2, whole.len() - 20] {
             fs::write(&path, &whole[..length]).unwrap();
-            let error = picture::read(&path).unwrap_err();
+            let error = picture::read_picture(&path).unwrap_err();
             assert!(matches!(error, PictureError::Damaged { .. }), "{length}: {error:?}");
             assert!(error.to_string().contains(name), "{error}");
         }
         fs::write(&path, "this is not a picture, but a sentence").unwrap();
         assert!(matches!(
-            picture::read(&path).unwrap_err(),
+            picture::read_picture(&path).unwrap_err(),
             PictureError::Damaged { .. }
         ));
     }
-    let missing = picture::read(&scratch.join("missing.exr")).unwrap_err();
+    let missing = picture::read_picture(&scratch.join("missing.exr")).unwrap_err();
     assert!(missing.to_string().contains("missing.exr"), "{missing}");
 }

@@ -68,7 +68,7 @@ fn luma_frame(linear: &Frame<Vec4>) -> Frame<f32> {
         let [r, g, b] = texel
             .truncate()
             .to_array()
-            .map(|c| picture::srgb::encode(c.clamp(0.0, 1.0)));
+            .map(|c| picture::srgb::from_linear(c.clamp(0.0, 1.0)));
         Vec3::new(r, g, b).dot(Vec3::new(0.2126, 0.7152, 0.0722))
     };
     Frame::new(linear.size(), linear.texels().iter().map(shown).collect())
@@ -146,7 +146,7 @@ mod tests {
     /// A straight edge: nearer to how much of each pixel it covers than the mean of the samples is.
     #[test]
     fn straight_edges_have_more_steps_than_samples() {
-        let offsets = straightline_scene::gbuffer::samples("latin4").expect("a pattern");
+        let offsets = straightline_scene::gbuffer::pattern_offsets("latin4").expect("a pattern");
         let size = UVec2::new(24, 12);
         let covered = |place: Vec2| place.y < 4.0 + 0.17 * place.x;
         let white = |inside: bool| {
@@ -163,7 +163,7 @@ mod tests {
         let samples: Vec<Frame<Vec4>> = offsets.iter().map(drawn).collect();
         let (found, plain) = (
             resolve_directional(&samples, &offsets),
-            straightline_scene::capture::mean(&samples),
+            straightline_scene::capture::mean_frame(&samples),
         );
         let plain = plain.expect("pictures");
         let exact = |k: u32| {

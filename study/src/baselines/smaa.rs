@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use straightline_bench::execute::{Bench, Clock, ExecuteError, texture_bytes};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Dimension, SampleType};
-use straightline_scene::render::{RenderError, guarded};
+use straightline_scene::render::{RenderError, with_error_scope};
 use wgpu::TextureFormat;
 
 /// Of the picture that it reads and the one that it writes: more than 8 bits, so that rounding is no part of its error, and
@@ -37,7 +37,7 @@ impl Smaa {
     /// If the device refuses them.
     pub fn new(bench: &Bench, size: UVec2, transfer: Transfer) -> Result<Smaa, ExecuteError> {
         let (device, queue) = (bench.device(), bench.queue());
-        let made = guarded(device, "making SMAA's passes", || {
+        let made = with_error_scope(device, "making SMAA's passes", || {
             let mode = SmaaMode::Smaa1X;
             let target = SmaaTarget::new(device, queue, size.x, size.y, FORMAT, mode);
             let output = device.create_texture(&wgpu::TextureDescriptor {
@@ -74,11 +74,11 @@ impl Smaa {
     pub fn run(&mut self, picture: &Frame<Vec4>) -> Result<Frame<Vec4>, ExecuteError> {
         let bench = self.bench.clone();
         let given = self.transfer.encode_picture(picture);
-        let given = bench.texture(&[given], Dimension::D2, SampleType::Unfilterable, 4)?;
-        let result = bench.target(picture.size(), TextureFormat::Rgba32Float);
+        let given = bench.create_texture(&[given], Dimension::D2, SampleType::Unfilterable, 4)?;
+        let result = bench.create_target(picture.size(), TextureFormat::Rgba32Float);
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let output = view(&self.output);
-        let ran = guarded(bench.device(), "running SMAA", || {
+        let ran = with_error_scope(bench.device(), "running SMAA", || {
             let frame = self.target.start_frame(bench.device(), bench.queue(), &output);
             self.copy_in.submit(&bench, &given, &frame);
             frame.resolve();

@@ -24,7 +24,7 @@ impl Transfer {
         map_colors(linear, |color| {
             let shown = color.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
             match self {
-                Transfer::Srgb => shown.map(srgb::encode),
+                Transfer::Srgb => shown.map(srgb::from_linear),
                 Transfer::Linear => shown,
             }
         })
@@ -33,7 +33,7 @@ impl Transfer {
     /// Makes a filter's result linear again.
     pub fn decode_picture(self, filtered: &Frame<Vec4>) -> Frame<Vec4> {
         match self {
-            Transfer::Srgb => map_colors(filtered, |color| color.map(|v| srgb::decode(v.clamp(0.0, 1.0)))),
+            Transfer::Srgb => map_colors(filtered, |color| color.map(|v| srgb::to_linear(v.clamp(0.0, 1.0)))),
             Transfer::Linear => filtered.clone(),
         }
     }

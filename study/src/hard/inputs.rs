@@ -39,29 +39,29 @@ pub fn build_reads(case: &Case, form: &Form, options: &OptionValues) -> Result<R
             });
             let normal = image_at_centres(case, |seen| normal_vector(seen).extend(0.0));
             Inputs::new(case.size)
-                .image("depth", depth)
-                .image("normal", normal)
-                .image("color", image_at_centres(case, |seen| seen.color))
+                .with_image("depth", depth)
+                .with_image("normal", normal)
+                .with_image("color", image_at_centres(case, |seen| seen.color))
         }
         Family::Upsampling => upsampling_inputs(case, options),
-        Family::Bilateral => Inputs::new(case.size).image(
+        Family::Bilateral => Inputs::new(case.size).with_image(
             "image",
             image_at_centres(case, |seen| seen.color.truncate().extend(seen.depth)),
         ),
-        Family::Convolution => Inputs::new(case.size).image("image", image_at_centres(case, |seen| seen.color)),
+        Family::Convolution => Inputs::new(case.size).with_image("image", image_at_centres(case, |seen| seen.color)),
         Family::Ssao => Inputs::new(case.size)
-            .image("depth", image_at_centres(case, |seen| Vec4::splat(seen.depth)))
-            .image("normal", image_at_centres(case, |seen| normal_vector(seen).extend(0.0))),
+            .with_image("depth", image_at_centres(case, |seen| Vec4::splat(seen.depth)))
+            .with_image("normal", image_at_centres(case, |seen| normal_vector(seen).extend(0.0))),
         Family::Pcf | Family::Pcss => Inputs::new(case.size)
-            .image(
+            .with_image(
                 "shadow",
                 image_from_fn(case.map, |texel| Vec4::splat(case.shadow_at(texel))),
             )
-            .image(
+            .with_image(
                 "coord",
                 image_from_fn(case.size, |pixel| case.coordinates_at(pixel).extend(0.0)),
             )
-            .image("lookup", cubic_table(form::shadow_filter_width(options) as f32 / 2.0)),
+            .with_image("lookup", cubic_table(form::shadow_filter_width(options) as f32 / 2.0)),
     };
     Ok(Reads { inputs, params: None })
 }
@@ -89,7 +89,10 @@ fn sraa_params(case: &Case, options: &OptionValues) -> Result<SraaParams, Oracle
 type OracleFailure = oracle::OracleError;
 
 fn sraa_inputs(case: &Case, params: &SraaParams) -> Inputs {
-    let places = params.samples().into_iter().map(|[x, y]| vec2(x as f32, y as f32));
+    let places = params
+        .sample_offsets()
+        .into_iter()
+        .map(|[x, y]| vec2(x as f32, y as f32));
     let mut places: Vec<(Vec2, Option<usize>)> = places.enumerate().map(|(k, at)| (at, Some(k))).collect();
     if matches!(params.shading, Shading::Centre | Shading::Placed) {
         places.push((Vec2::ZERO, None));
@@ -103,15 +106,15 @@ fn sraa_inputs(case: &Case, params: &SraaParams) -> Inputs {
     let size = case.size.as_dvec2();
     let [near, far] = case.planes.map(f64::from);
     let mut inputs = Inputs::new(case.size)
-        .image("color", image_at_centres(case, |seen| seen.color))
-        .uniform("near", &[near])
-        .uniform("far", &[far])
-        .uniform("ray_corner", &[-1.0, 1.0, -1.0])
-        .uniform("ray_right", &[2.0 / size.x, 0.0, 0.0])
-        .uniform("ray_down", &[0.0, -2.0 / size.y, 0.0])
-        .uniform("origin", &[0.0, 0.0])
-        .uniform("tau", &[params.tau])
-        .uniform("depth_scale", &[params.depth_scale]);
+        .with_image("color", image_at_centres(case, |seen| seen.color))
+        .with_uniform("near", &[near])
+        .with_uniform("far", &[far])
+        .with_uniform("ray_corner", &[-1.0, 1.0, -1.0])
+        .with_uniform("ray_right", &[2.0 / size.x, 0.0, 0.0])
+        .with_uniform("ray_down", &[0.0, -2.0 / size.y, 0.0])
+        .with_uniform("origin", &[0.0, 0.0])
+        .with_uniform("tau", &[params.tau])
+        .with_uniform("depth_scale", &[params.depth_scale]);
     if params.shading == Shading::Placed {
         // No two neighbours at the same sample.
         let layer = |pixel: UVec2| ((3 * pixel.x + 7 * pixel.y) % places.len() as u32) as usize;
@@ -122,24 +125,24 @@ fn sraa_inputs(case: &Case, params: &SraaParams) -> Inputs {
         let pixels = (0..case.size.y).flat_map(|y| (0..case.size.x).map(move |x| uvec2(x, y)));
         let texels = pixels.map(|pixel| UVec4::new(layer(pixel) as u32, 0, 0, 1));
         let place = Frame::new(case.size, texels.collect());
-        inputs = inputs.image("color", shaded).integers("place", vec![place]);
+        inputs = inputs.with_image("color", shaded).with_integers("place", vec![place]);
     }
     if params.normals == oracle::Normals::Packed {
         let part = |of: &dyn Fn(&Seen) -> Vec4| FrameLayers::new(layers(of));
         let normals = map_layers(&part(&|seen| normal_vector(seen).extend(0.0)), Vec4::truncate);
         let depths = map_layers(&part(&|seen| Vec4::splat(seen.depth)), |texel| texel.x);
-        let packed = encode::packed(&normals, &depths, DepthEncoding::Linear);
-        return inputs.layers("packed", packed.layers().to_vec());
+        let packed = encode::pack_normals_depths(&normals, &depths, DepthEncoding::Linear);
+        return inputs.with_layers("packed", packed.layers().to_vec());
     }
     let depths = layers(&|seen| Vec4::splat(encode_depth(case, params.depth, seen.depth)));
     inputs = match params.layout {
         oracle::Layout::Split => {
             let texels = depths.iter().flat_map(Frame::texels);
-            inputs.buffer("depth_buffer", texels.map(|depth| [f64::from(depth.x); 4]).collect())
+            inputs.with_buffer("depth_buffer", texels.map(|depth| [f64::from(depth.x); 4]).collect())
         }
-        _ => inputs.layers("depth", depths),
+        _ => inputs.with_layers("depth", depths),
     };
-    inputs.layers("normal", layers(&|seen| encode_normal(params.normals, seen)))
+    inputs.with_layers("normal", layers(&|seen| encode_normal(params.normals, seen)))
 }
 
 fn map_layers<A: Copy, B: Copy>(stack: &FrameLayers<A>, of: impl Fn(A) -> B) -> FrameLayers<B> {
@@ -222,16 +225,16 @@ fn upsampling_inputs(case: &Case, options: &OptionValues) -> Inputs {
         })
     };
     Inputs::new(case.size)
-        .image(
+        .with_image(
             "low",
             low(&|seen| match packed {
                 true => seen.color.truncate().extend(seen.depth),
                 false => seen.color,
             }),
         )
-        .image("low_surface", low(&|seen| normal_vector(seen).extend(seen.depth)))
-        .image("depth", image_at_centres(case, |seen| Vec4::splat(seen.depth)))
-        .image("normal", image_at_centres(case, |seen| normal_vector(seen).extend(0.0)))
+        .with_image("low_surface", low(&|seen| normal_vector(seen).extend(seen.depth)))
+        .with_image("depth", image_at_centres(case, |seen| Vec4::splat(seen.depth)))
+        .with_image("normal", image_at_centres(case, |seen| normal_vector(seen).extend(0.0)))
 }
 
 fn image_at_centres(case: &Case, texel: impl Fn(&Seen) -> Vec4) -> Frame<Vec4> {

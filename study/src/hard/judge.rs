@@ -8,7 +8,7 @@ use super::inputs::{Reads, build_reads};
 use super::reals::{Flushed, Loose};
 use crate::builtin::load_builtin;
 use crate::record::{Executor, HardResult};
-use straightline_bench::execute::{Bench, ExecuteError, Inputs, interpret};
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, interpret_kernel};
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
 use straightline_kernels::OptionText;
@@ -120,7 +120,7 @@ impl<'a> Trial<'a> {
     }
 
     fn interpret<R: Real>(&self, compiled: &Compiled, watch: bool) -> Result<Found, ExecuteError> {
-        let result = interpret::<R>(compiled, self.inputs(), watch)?;
+        let result = interpret_kernel::<R>(compiled, self.inputs(), watch)?;
         Ok(Found {
             texels: result.texels.iter().map(|t| t.map(Real::to_f64)).collect(),
             non_finite_origins: result.non_finite_origins,

@@ -81,8 +81,8 @@ pub fn run_cases(
                 };
                 let shader = shaders.entry((key.clone(), *precision)).or_insert_with(|| {
                     let kernel = compiled.get(key).ok_or("it was not compiled")?;
-                    let half = bench.clone().precision(*precision);
-                    half.pass(kernel, Stage::Compute)
+                    let half = bench.clone().with_precision(*precision);
+                    half.compile_pass(kernel, Stage::Compute)
                         .map_err(|error: ExecuteError| error.to_string())
                 });
                 results.push(match shader {

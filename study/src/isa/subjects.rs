@@ -44,7 +44,7 @@ const AGAIN: [&str; 2] = [
 /// among it. A compiler that is asked about the whole adds the other path, which it cannot know to be rare.
 fn taken_path_kernel() -> Result<Kernel, Errors> {
     let changed = |what: &str| {
-        Errors::of(Diagnostic::new(
+        Errors::from_diagnostic(Diagnostic::new(
             Code::Internal,
             format!("the source of `sraa` has changed: {what}"),
         ))

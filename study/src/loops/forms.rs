@@ -241,13 +241,13 @@ impl<'a> Stand<'a> {
         let mut made = Vec::new();
         for _ in 0..times.max(1) {
             let unseen = make_uncached(&emitted);
-            let pass = self.bench.made(&unseen, &options)?;
-            let uploaded = self.uploads.of(&unseen.manifest)?;
+            let pass = self.bench.create_pass(&unseen, &options)?;
+            let uploaded = self.uploads.upload_shared(&unseen.manifest)?;
             let first = self.time_frame(&pass, &uploaded)?;
             made.push((pass.creation_time(), first));
         }
-        let pass = self.bench.made(&emitted, &options)?;
-        let uploaded = self.uploads.of(&emitted.manifest)?;
+        let pass = self.bench.create_pass(&emitted, &options)?;
+        let uploaded = self.uploads.upload_shared(&emitted.manifest)?;
         Ok(Ready {
             kind,
             emitted,
@@ -260,7 +260,7 @@ impl<'a> Stand<'a> {
     /// Returns the duration of a frame, by the wall clock.
     fn time_frame(&self, pass: &Pass, uploaded: &Uploaded) -> Result<Duration, LoopsError> {
         let bench = self.bench;
-        let target = bench.target(self.inputs.size, pass.target_format());
+        let target = bench.create_target(self.inputs.size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = bench
             .device()

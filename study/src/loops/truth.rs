@@ -2,7 +2,7 @@
 
 use super::{Input, LoopsError, Subject};
 use glam::{UVec2, Vec4};
-use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::Compiled;
 use straightline_oracle::oracle::{self, SraaParams};
 use straightline_scene::capture::{Capture, ShadingSample};
@@ -42,7 +42,7 @@ impl<'a> Truth<'a> {
                 let mut inputs = test_inputs(&full.in_blocks().graph, self.size);
                 for (name, lanes) in &subject.uniforms {
                     inputs.uniforms.retain(|(known, _)| known != name);
-                    inputs = inputs.uniform(name, lanes);
+                    inputs = inputs.with_uniform(name, lanes);
                 }
                 Ok(inputs)
             }
@@ -57,16 +57,16 @@ impl<'a> Truth<'a> {
                         self.captures.len() - 1
                     }
                 };
-                Ok(gbuffer::inputs(&self.captures[at].1, &full.options)?)
+                Ok(gbuffer::sraa_inputs(&self.captures[at].1, &full.options)?)
             }
         }
     }
 
     fn capture(&self, pattern: &str) -> Result<Capture, LoopsError> {
-        let samples = gbuffer::samples(pattern).unwrap_or_default();
-        let scene = Scene::named(SCENE)?;
+        let samples = gbuffer::pattern_offsets(pattern).unwrap_or_default();
+        let scene = Scene::from_name(SCENE)?;
         let renderer = GpuRenderer::new(self.bench.device(), self.bench.queue(), &scene, self.size)?;
-        Ok(render::capture(&renderer, &samples, ShadingSample::Centre)?)
+        Ok(render::capture_scene(&renderer, &samples, ShadingSample::Centre)?)
     }
 }
 
@@ -102,14 +102,14 @@ pub fn expected_colors(
     inputs: &Inputs,
 ) -> Result<Vec<Option<[f64; 4]>>, LoopsError> {
     match subject.input {
-        Input::TestCard => Ok(interpret::<f64>(full, inputs, false)?
+        Input::TestCard => Ok(interpret_kernel::<f64>(full, inputs, false)?
             .texels
             .into_iter()
             .map(Some)
             .collect()),
         Input::Roof => {
-            let params = SraaParams::of(&full.options)?;
-            let resolved = oracle::sraa(inputs, &params)?;
+            let params = SraaParams::from_options(&full.options)?;
+            let resolved = oracle::resolve_sraa(inputs, &params)?;
             Ok(resolved
                 .into_iter()
                 .map(|pixel| pixel.sure.then_some(pixel.color))

@@ -12,8 +12,8 @@ use straightline_scene::scene::Scene;
 /// A rendered frame: its colours with depth, its depths, normals, and the angle of a pixel.
 pub fn screen_inputs(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, QuadsError> {
     let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, size)?;
-    let color = renderer.shaded(Vec2::ZERO)?;
-    let (depth, normal) = renderer.geometry(Vec2::ZERO)?;
+    let color = renderer.draw_shaded(Vec2::ZERO)?;
+    let (depth, normal) = renderer.draw_geometry(Vec2::ZERO)?;
     let with_depth = color
         .texels()
         .iter()
@@ -26,10 +26,10 @@ pub fn screen_inputs(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs
     let normal = Frame::new(size, turned.collect());
     let angle = 2.0 * scene.camera.half_extent(size).y / size.y as f32;
     Ok(Inputs::new(size)
-        .image("image", image)
-        .image("depth", depth)
-        .image("normal", normal)
-        .uniform("pixel_angle", &[f64::from(angle)]))
+        .with_image("image", image)
+        .with_image("depth", depth)
+        .with_image("normal", normal)
+        .with_uniform("pixel_angle", &[f64::from(angle)]))
 }
 
 /// Adds the inputs of upsampling: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
@@ -42,7 +42,7 @@ pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Input
         QUAD,
     )?;
     let occlusion = bench.run(&occlusion, Stage::Compute, full)?;
-    let mut low = full.clone().image("image", occlusion);
+    let mut low = full.clone().with_image("image", occlusion);
     low.size = full.size.map(|n| n.div_ceil(factor) + 1);
     let factor = if factor == 2 { "twice" } else { "four-times" };
     let down = |gives: &str| -> Result<Frame<Vec4>, QuadsError> {
@@ -50,5 +50,8 @@ pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Input
         Ok(bench.run(&compiled, Stage::Compute, &low)?)
     };
     let (packed, surface) = (down("packed")?, down("surface")?);
-    Ok(full.clone().image("low", packed).image("low_surface", surface))
+    Ok(full
+        .clone()
+        .with_image("low", packed)
+        .with_image("low_surface", surface))
 }

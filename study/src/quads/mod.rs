@@ -119,7 +119,7 @@ pub fn study_quads(
         quads.kind, quads.origin
     );
     let shadowed = Shadowed::new(bench, scene, setup.size, setup.texels, 9.0)?;
-    let of_triangles = shadowed.inputs(bench)?;
+    let of_triangles = shadowed.kernel_inputs(bench)?;
     let screen = screen_inputs(bench, scene, setup.size)?;
     let half = low_resolution(bench, &screen, 2)?;
     let quarter = low_resolution(bench, &screen, 4)?;
@@ -148,7 +148,7 @@ pub fn study_quads(
             }
         }
     }
-    let coordinates = shadowed.coordinates(bench)?;
+    let coordinates = shadowed.coordinate_pass(bench)?;
     let rounds = time_subjects(bench, setup, &subjects, &coordinates, progress)?;
     // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
     let drawn = of_triangles.images.iter().find(|(name, _)| name == "coord");

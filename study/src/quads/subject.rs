@@ -50,13 +50,13 @@ impl Subject {
             _ => Stage::Fragment,
         };
         let (drawn, image, counts) = if family.from == Source::Triangles && stage == Stage::Fragment {
-            let forward = bench.forward(&compiled, inputs, &shadowed.corners)?;
-            let image = bench.picture(&forward)?;
+            let forward = bench.prepare_forward(&compiled, inputs, &shadowed.corners)?;
+            let image = bench.draw_forward(&forward)?;
             let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([]));
             let counts = emitted.map_err(ExecuteError::from)?.manifest.counts;
             (Drawn::Forward(Box::new(forward)), image, counts)
         } else {
-            let (pass, manifest) = bench.pass(&compiled, stage)?;
+            let (pass, manifest) = bench.compile_pass(&compiled, stage)?;
             let uploaded = bench.upload(&manifest, inputs)?;
             let image = bench.run(&compiled, stage, inputs)?;
             (Drawn::Pass(Box::new(pass), uploaded), image, manifest.counts)
@@ -86,7 +86,7 @@ impl Subject {
                     uploaded,
                     size: setup.size,
                 };
-                bench.work(job, setup.least)
+                bench.job_work(job, setup.least)
             }
             Drawn::Forward(forward) => bench.draw_work(forward, setup.least),
         }

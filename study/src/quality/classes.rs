@@ -127,5 +127,5 @@ pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> 
 
 /// As a display shows it.
 fn display_color(color: Vec4) -> Vec3 {
-    color.truncate().clamp(Vec3::ZERO, Vec3::ONE).map(srgb::encode)
+    color.truncate().clamp(Vec3::ZERO, Vec3::ONE).map(srgb::from_linear)
 }

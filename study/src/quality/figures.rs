@@ -133,13 +133,13 @@ impl Figure {
     pub fn render_panes(&self, bench: &Bench, size: UVec2, progress: &mut dyn Progress) -> Result<Made, QualityError> {
         let listed = self.pane_methods();
         progress.begin(self.name, listed.len() + SIDE as usize);
-        let scene = Scene::named(self.scene).map_err(|error| QualityError::Capture(error.to_string()))?;
+        let scene = Scene::from_name(self.scene).map_err(|error| QualityError::Capture(error.to_string()))?;
         let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, size)?;
         let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
         let reference = render_supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
         let reference = picture::at_eight_bits(&reference);
         let plain = picture::at_eight_bits(&shot.any_capture()?.color);
-        let corner = picture::busiest(&plain, &reference, DETAIL);
+        let corner = picture::find_busiest_square(&plain, &reference, DETAIL);
         if self.panes.contains(&Interleaved) {
             let picture = interleave_samples(shot.any_capture()?, corner)?;
             return Ok(Made {
@@ -163,7 +163,7 @@ impl Figure {
         pictures.push(("256x", reference));
         let panes: Vec<(&str, &Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, frame)).collect();
         Ok(Made {
-            picture: picture::details(&panes, corner, DETAIL, ZOOM),
+            picture: picture::compare_details(&panes, corner, DETAIL, ZOOM),
             psnr,
         })
     }
@@ -185,7 +185,7 @@ impl Figure {
 /// The detail, of which each pixel is 2x2 texels.
 fn interleave_samples(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, QualityError> {
     let options = load_builtin("sraa")?.option_values(&[("layout".to_owned(), "superresolution".to_owned())])?;
-    let inputs = gbuffer::inputs(capture, &options)?;
+    let inputs = gbuffer::sraa_inputs(capture, &options)?;
     let grid = |name: &str, shown: &dyn Fn(Vec4) -> Vec4| {
         let found = inputs.images.iter().find(|(known, _)| known == name);
         let layers = found.map(|(_, layers)| layers);
@@ -208,7 +208,7 @@ fn interleave_samples(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, Q
     let facing = |texel: Vec4| (0.5 + 0.5 * texel).powf(2.2).with_w(1.0);
     let (depth, normal) = (grid("depth_grid", &near)?, grid("normal_grid", &facing)?);
     let panes = [("depth", &depth), ("normal", &normal)];
-    Ok(picture::details(&panes, corner * 2, 2 * DETAIL, ZOOM))
+    Ok(picture::compare_details(&panes, corner * 2, 2 * DETAIL, ZOOM))
 }
 
 #[cfg(test)]
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(names.len(), FIGURES.len());
         for figure in FIGURES {
             assert_eq!(figure.pane_methods().len(), figure.panes.len(), "{}", figure.name);
-            assert!(Scene::named(figure.scene).is_ok(), "{}", figure.name);
+            assert!(Scene::from_name(figure.scene).is_ok(), "{}", figure.name);
         }
     }
 }

@@ -69,7 +69,7 @@ fn tile_pictures(pictures: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
         few @ 0..=3 => few.max(1),
         many => (many as f64).sqrt().ceil() as usize,
     };
-    let rows: Vec<Frame<Vec4>> = pictures.chunks(columns).map(picture::montage).collect();
+    let rows: Vec<Frame<Vec4>> = pictures.chunks(columns).map(picture::compose_montage).collect();
     let width = rows.iter().map(|row| row.size().x).max().unwrap_or(1);
     let mut texels = Vec::new();
     for row in &rows {

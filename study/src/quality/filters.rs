@@ -118,7 +118,7 @@ impl<'a> Filters<'a> {
                 (Runner::Resolved(_), Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
                 // Depth and normal of every sample, which of two aggregates it is of, and what is known of those.
                 (Runner::Resolved(_), Kind::Aggregated) => {
-                    let samples = gbuffer::samples(method.pattern()).map_or(0, |samples| samples.len() as u64);
+                    let samples = gbuffer::pattern_offsets(method.pattern()).map_or(0, |samples| samples.len() as u64);
                     (samples * GEOMETRY + 2 * (GEOMETRY + PICTURE) + PICTURE) * pixels
                 }
                 // Four bits a sample say whose colour it has.
@@ -255,7 +255,7 @@ fn one_after_the_other<'a>(
         uploaded,
         size: *size,
     });
-    bench.following(&jobs.collect::<Vec<_>>())
+    bench.sequence_work(&jobs.collect::<Vec<_>>())
 }
 
 /// Filters a linear picture by MLAA.
@@ -282,7 +282,7 @@ impl Shader {
     fn new(bench: &Bench, kernel: &Kernel, options: &[OptionText]) -> Result<Shader, QualityError> {
         let settings = Settings::new().set_all(options.to_vec());
         let compiled = kernel.compile(&settings)?;
-        let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
+        let (pass, manifest) = bench.compile_pass(&compiled, Stage::Compute)?;
         Ok(Shader {
             compiled,
             pass,
@@ -292,8 +292,8 @@ impl Shader {
 
     fn traffic_bytes(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<u64, QualityError> {
         let (inputs, uploaded) = self.upload_inputs(bench, method, shot)?;
-        let target = bench.target(inputs.size, self.pass.target_format());
-        Ok(uploaded.bytes() + texture_bytes(&target))
+        let target = bench.create_target(inputs.size, self.pass.target_format());
+        Ok(uploaded.byte_size() + texture_bytes(&target))
     }
 
     /// Filters a shot.
@@ -315,8 +315,8 @@ impl Shader {
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
             Kind::Own => gbuffer_of(capture, &self.manifest)?,
             _ => match shot.extra_for(method) {
-                None => gbuffer::inputs(capture, &self.compiled.options)?,
-                Some(extra) => extra.inputs(capture, &self.compiled.options)?,
+                None => gbuffer::sraa_inputs(capture, &self.compiled.options)?,
+                Some(extra) => extra.sraa_inputs(capture, &self.compiled.options)?,
             },
         };
         let uploaded = bench.upload(&self.manifest, &inputs)?;
@@ -325,7 +325,7 @@ impl Shader {
 }
 
 fn of_the_picture(capture: &Capture, transfer: Transfer) -> Inputs {
-    Inputs::new(capture.size).image("color", transfer.encode_picture(&display_picture(capture)))
+    Inputs::new(capture.size).with_image("color", transfer.encode_picture(&display_picture(capture)))
 }
 
 /// The picture that a display is sent, which filters of pictures read: then their 16 bits, or whatever they compute in, give
@@ -360,9 +360,9 @@ fn one_a_pixel(capture: &Capture, compiled: &Compiled) -> Result<Inputs, Quality
     };
     let normal = normals.layers()[layer].texels().iter().map(stored).collect();
     Ok(Inputs::new(capture.size)
-        .image("depth", Frame::new(capture.size, depth))
-        .image("normal", Frame::new(capture.size, normal))
-        .image("color", capture.color.clone()))
+        .with_image("depth", Frame::new(capture.size, depth))
+        .with_image("normal", Frame::new(capture.size, normal))
+        .with_image("color", capture.color.clone()))
 }
 
 /// Returns the inputs of a kernel of the user's: the linear picture; depths along the view in the scene's units, and normals,

@@ -147,7 +147,7 @@ impl Method {
         };
         method.parse_options(&options)?;
         let method = method.with_options(options);
-        match gbuffer::samples(method.pattern()) {
+        match gbuffer::pattern_offsets(method.pattern()) {
             Some(_) => Ok(method),
             None => Err(OwnError::Pattern(name.to_owned(), method.pattern().to_owned())),
         }
@@ -234,7 +234,7 @@ impl Method {
 
     /// Returns the metric of surfaces where its picture is placed: planes if the filter goes by them.
     pub fn placed_by(&self) -> PlacedBy {
-        PlacedBy::of(&self.values)
+        PlacedBy::from_options(&self.values)
     }
 
     /// Returns whether the method reads albedo at every geometry sample.

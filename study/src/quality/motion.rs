@@ -12,7 +12,7 @@ use straightline_bench::execute::Bench;
 use straightline_codegen::{Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_oracle::metrics;
-use straightline_scene::capture::{ShadingSample, mean};
+use straightline_scene::capture::{ShadingSample, mean_frame};
 use straightline_scene::render::{CpuRenderer, Renderer};
 use straightline_scene::scene::{Scene, Vertex};
 use straightline_scene::sequence::{Moment, PLACES};
@@ -141,12 +141,12 @@ impl Sequence {
     ///
     /// [`QualityError::NotInMotion`] for another method; others if something cannot be drawn or run.
     pub fn make_pictures(&mut self, bench: &Bench, method: &Method) -> Result<Vec<Frame<Vec4>>, QualityError> {
-        let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
+        let samples = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
         let made: Result<Vec<Frame<Vec4>>, QualityError> = match method.kind {
             Kind::Supersampled(_) => {
                 let supersampled = |renderer: &CpuRenderer| {
-                    let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.shaded(*at)).collect();
-                    mean(&shaded?).ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
+                    let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.draw_shaded(*at)).collect();
+                    mean_frame(&shaded?).ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
                 };
                 self.renderers.iter().map(supersampled).collect()
             }
@@ -177,7 +177,7 @@ impl Sequence {
         let moments = &self.moments[&key];
         let picture = |frame: usize| {
             let now = &moments[before + frame];
-            let mut inputs = gbuffer::inputs(now.capture(), &alone)?;
+            let mut inputs = gbuffer::sraa_inputs(now.capture(), &alone)?;
             if history > 0 {
                 let earlier: Vec<&Moment> = moments[before + frame - history..before + frame].iter().collect();
                 inputs = now.with_history(inputs, &earlier)?;

@@ -1,5 +1,5 @@
 //! Antialiasing by samples that a renderer shades more than once a pixel: its pictures after their definitions, on the processor
-//! (`bounds`, [`straightline_scene::render::aggregated`]), and kernels that resolve the same samples on a device, to be timed.
+//! (`bounds`, [`straightline_scene::render::render_aggregated`]), and kernels that resolve the same samples on a device, to be timed.
 
 use super::QualityError;
 use super::bounds::{
@@ -40,7 +40,7 @@ pub fn resolve_picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, Qual
         Kind::Aggregated => shot.aggregated_for(method)?.picture(),
         Kind::Covered => by_coverage(&surfaces()?, shot.shaded_frames(16)?, &NEAR_LATIN4),
         Kind::Directional => {
-            let offsets = gbuffer::samples(method.pattern()).unwrap_or_default();
+            let offsets = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
             along_edges(&surfaces()?, shot.shaded_frames(4)?, &offsets)
         }
         Kind::Classified => where_edges_are(&surfaces()?, shot.shaded_frames(4)?),
@@ -82,38 +82,38 @@ pub fn resolve_inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, Quali
     if let Kind::Supersampled(samples) = method.kind {
         let shaded = shot.shaded_frames(samples)?;
         let size = shaded.first().ok_or_else(missing)?.size();
-        return Ok(vec![Inputs::new(size).layers("colors", shaded.to_vec())]);
+        return Ok(vec![Inputs::new(size).with_layers("colors", shaded.to_vec())]);
     }
     let capture = shot.capture_for(method)?;
     let surfaces = Surfaces::from_captures(&[capture]).ok_or_else(missing)?;
     let inputs = Inputs::new(capture.size);
     Ok(match method.kind {
         Kind::Multisampled | Kind::Directional => {
-            vec![inputs.layers("colors", multisampled_frames(&surfaces, shot.shaded_frames(4)?))]
+            vec![inputs.with_layers("colors", multisampled_frames(&surfaces, shot.shaded_frames(4)?))]
         }
         Kind::Covered => {
             let colors = shot.shaded_frames(16)?;
             let kept = NEAR_LATIN4.iter().filter_map(|sample| colors.get(*sample).cloned());
             vec![
                 inputs
-                    .layers("colors", kept.collect())
-                    .integers("codes", vec![sample_codes(&surfaces)]),
+                    .with_layers("colors", kept.collect())
+                    .with_integers("codes", vec![sample_codes(&surfaces)]),
             ]
         }
         Kind::Classified => {
             let normal = capture.normal.as_ref().ok_or_else(missing)?;
-            let rays = capture.rays().ok_or_else(missing)?;
+            let rays = capture.perspective_rays().ok_or_else(missing)?;
             let samples = capture.samples.len();
             let inputs = inputs
-                .layers(
+                .with_layers(
                     "depth",
                     map_frames(&capture.depth.layers()[..samples], |z| Vec4::splat(*z)),
                 )
-                .layers("normal", map_frames(&normal.layers()[..samples], |n| n.extend(0.0)))
-                .layers("colors", shot.shaded_frames(4)?.to_vec());
+                .with_layers("normal", map_frames(&normal.layers()[..samples], |n| n.extend(0.0)))
+                .with_layers("colors", shot.shaded_frames(4)?.to_vec());
             let rays = ["ray_corner", "ray_right", "ray_down"].into_iter().zip(rays);
             let numbers = |ray: Vec3| ray.to_array().map(f64::from);
-            vec![rays.fold(inputs, |inputs, (name, ray)| inputs.uniform(name, &numbers(ray)))]
+            vec![rays.fold(inputs, |inputs, (name, ray)| inputs.with_uniform(name, &numbers(ray)))]
         }
         _ => Vec::new(),
     })
@@ -145,12 +145,12 @@ fn of_aggregates(aggregated: &Aggregated) -> Vec<Inputs> {
     let color = |which: usize| of(&|k| aggregated.pixels[k][which].color.extend(1.0));
     vec![
         Inputs::new(aggregated.size)
-            .layers("geometry", layers(|surface| surface.normal.extend(surface.depth)))
-            .layers("paint", layers(|surface| surface.color.extend(surface.material))),
+            .with_layers("geometry", layers(|surface| surface.normal.extend(surface.depth)))
+            .with_layers("paint", layers(|surface| surface.color.extend(surface.material))),
         Inputs::new(aggregated.size)
-            .image("geometry_0", members(0))
-            .image("geometry_1", members(1))
-            .layers("colors", vec![color(0), color(1)]),
+            .with_image("geometry_0", members(0))
+            .with_image("geometry_1", members(1))
+            .with_layers("colors", vec![color(0), color(1)]),
     ]
 }
 

@@ -25,7 +25,7 @@ pub fn score_picture(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4
         psnr_geometry: of(&|k| classes.geometry[k]),
         psnr_shading: of(&|k| classes.shading[k]),
         psnr_flat: of(&|k| classes.is_flat(k)),
-        worst: Some(metrics::worst(made, reference)),
+        worst: Some(metrics::worst_error(made, reference)),
         gap_closed: None,
         temporal: None,
         time: None,

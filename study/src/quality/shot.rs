@@ -7,7 +7,7 @@ use glam::{DVec4, UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
-use straightline_scene::capture::{Capture, ShadingSample, mean};
+use straightline_scene::capture::{Capture, ShadingSample, mean_frame};
 use straightline_scene::gbuffer;
 use straightline_scene::render::{self, Aggregated, Extra, Renderer};
 
@@ -42,10 +42,10 @@ impl Shot {
         for method in methods {
             if let Entry::Vacant(vacant) = shot.captures.entry(method.capture_name()) {
                 check_stopped(progress)?;
-                let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
+                let samples = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
                 vacant.insert(match method.shading_sample() {
                     ShadingSample::Placed => render::capture_placed(renderer, &samples, method.placed_by())?,
-                    shading => render::capture(renderer, &samples, shading)?,
+                    shading => render::capture_scene(renderer, &samples, shading)?,
                 });
             }
             if let Some(capture) = shot.captures.get_mut(&method.capture_name())
@@ -61,13 +61,13 @@ impl Shot {
             {
                 check_stopped(progress)?;
                 let pixels = (capture.size.x * capture.size.y) as usize;
-                let further = render::extra(renderer, capture, pixels / BUDGET)?;
+                let further = render::shade_extra(renderer, capture, pixels / BUDGET)?;
                 shot.extra.insert(method.capture_name(), further);
             }
             if method.kind == Kind::Aggregated {
                 check_stopped(progress)?;
-                let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
-                let shaded = render::aggregated(renderer, &samples)?;
+                let samples = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
+                let shaded = render::render_aggregated(renderer, &samples)?;
                 shot.aggregated.insert(method.pattern().to_owned(), shaded);
             }
             let several = match method.kind {
@@ -78,8 +78,8 @@ impl Shot {
             };
             if let Entry::Vacant(vacant) = shot.shaded.entry(several) {
                 check_stopped(progress)?;
-                let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
-                let shaded = samples.iter().map(|offset| renderer.shaded(*offset));
+                let samples = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
+                let shaded = samples.iter().map(|offset| renderer.draw_shaded(*offset));
                 vacant.insert(shaded.collect::<Result<_, _>>()?);
             }
         }
@@ -134,7 +134,7 @@ impl Shot {
 
     /// The mean of those.
     pub fn supersampled_mean(&self, samples: usize) -> Result<Frame<Vec4>, QualityError> {
-        mean(self.shaded_frames(samples)?).ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
+        mean_frame(self.shaded_frames(samples)?).ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
     }
 }
 
@@ -148,10 +148,10 @@ pub fn render_supersampled(
 ) -> Result<Frame<Vec4>, QualityError> {
     let size: UVec2 = renderer.size();
     let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
-    for row in render::grid(side).chunks(side.max(1) as usize) {
+    for row in render::grid_offsets(side).chunks(side.max(1) as usize) {
         check_stopped(progress)?;
         let places: Vec<Vec2> = row.iter().map(|offset| *offset + shift).collect();
-        let mean = renderer.mean(&places)?;
+        let mean = renderer.draw_mean(&places)?;
         for (sum, texel) in sums.iter_mut().zip(mean.texels()) {
             *sum += texel.as_dvec4();
         }

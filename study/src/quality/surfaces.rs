@@ -79,7 +79,7 @@ impl<'a> Surfaces<'a> {
                 });
             }
         }
-        let rays = first.rays().filter(|_| has_planes(first));
+        let rays = first.perspective_rays().filter(|_| has_planes(first));
         Some(Surfaces {
             size: first.size,
             layers,

@@ -5,7 +5,7 @@ use super::classes::{Classes, varies_within};
 use super::surfaces::Surfaces;
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec3};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_scene::capture::{Capture, NormalSpace, ShadingSample, mean};
+use straightline_scene::capture::{Capture, NormalSpace, ShadingSample, mean_frame};
 use straightline_scene::scene::{Camera, SKY_DEPTH};
 
 const SIZE: UVec2 = uvec2(8, 6);
@@ -36,7 +36,7 @@ fn plane(normal: Vec3, through: Vec3, color: f32) -> Plane {
 
 /// Captures the planes that `seen` puts at each place, in pixels; `None` for the sky, which is black.
 fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>) {
-    let samples = straightline_scene::gbuffer::samples("latin4").expect("a pattern");
+    let samples = straightline_scene::gbuffer::pattern_offsets("latin4").expect("a pattern");
     let extent = CAMERA.half_extent(SIZE);
     let texel = |place: Vec2| {
         let at = place / SIZE.as_vec2() * 2.0 - 1.0;
@@ -146,7 +146,7 @@ fn what_no_shading_sample_saw_is_unseen_and_takes_the_nearest_colour() {
     let found = classes(&capture, &shaded);
     assert_eq!((columns(&found.geometry), columns(&found.unseen)), (vec![3], vec![3]));
     let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
-    let bound = mean(&shaded).expect("pictures");
+    let bound = mean_frame(&shaded).expect("pictures");
     let best = reconstruct_ideal(&surfaces, &shaded, &capture.color);
     for k in 0..best.texels().len() {
         let lost = k % SIZE.x as usize == 3;
@@ -161,7 +161,7 @@ fn what_was_seen_has_its_true_colour() {
     let right = plane(Vec3::Z, vec3(0.0, 0.0, -7.0), 1.0);
     let (capture, shaded) = captured(|place| Some(if place.x < 3.7 { left } else { right }));
     let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
-    let bound = mean(&shaded).expect("pictures");
+    let bound = mean_frame(&shaded).expect("pictures");
     assert_eq!(
         reconstruct_ideal(&surfaces, &shaded, &capture.color).texels(),
         bound.texels(),
@@ -181,7 +181,10 @@ fn deferred_multisampling_shades_every_sample_at_edges_alone() {
         _ => Some(wall(0.8)),
     });
     let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
-    let (found, all) = (where_edges_are(&surfaces, &shaded), mean(&shaded).expect("pictures"));
+    let (found, all) = (
+        where_edges_are(&surfaces, &shaded),
+        mean_frame(&shaded).expect("pictures"),
+    );
     for k in 0..found.texels().len() {
         let expected = if k % SIZE.x as usize == 3 { &all } else { &shaded[0] };
         assert_eq!(found.texels()[k], expected.texels()[k], "{k}");
@@ -195,7 +198,7 @@ fn coverage_counts_all_samples_and_colours_few() {
     let right = plane(Vec3::Z, vec3(0.0, 0.0, -7.0), 1.0);
     let (capture, shaded) = captured(|place| Some(if place.x < 3.7 { left } else { right }));
     let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
-    let all = mean(&shaded).expect("pictures");
+    let all = mean_frame(&shaded).expect("pictures");
     // Both surfaces are among the stored colours, wherever they are stored.
     let sides: Vec<usize> = (0..4).filter(|k| capture.samples[*k].x > 0.2).take(1).collect();
     let others: Vec<usize> = (0..4).filter(|k| capture.samples[*k].x < 0.0).take(1).collect();
@@ -222,5 +225,5 @@ fn multisampling_shades_a_surface_once() {
     let (capture, shaded) = captured(painted);
     let surfaces = Surfaces::from_captures(&[&capture]).expect("a capture");
     assert_eq!(once_a_surface(&surfaces, &shaded).texels(), shaded[0].texels());
-    assert_ne!(mean(&shaded).expect("pictures").texels(), shaded[0].texels());
+    assert_ne!(mean_frame(&shaded).expect("pictures").texels(), shaded[0].texels());
 }

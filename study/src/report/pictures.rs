@@ -60,7 +60,7 @@ impl Pictures {
     ) -> Result<Option<Compared>, PictureError> {
         let mut frames = Vec::new();
         for (name, file) in files.iter().copied().chain([("256× reference", reference)]) {
-            frames.push((name, picture::read(&folder.join(file))?));
+            frames.push((name, picture::read_picture(&folder.join(file))?));
         }
         let (Some((_, first)), Some((_, best))) = (frames.first(), frames.last()) else {
             return Ok(None);

@@ -7,7 +7,7 @@ use crate::record::{Measured, Swept};
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret};
+use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret_kernel};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, Format, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
@@ -58,7 +58,7 @@ pub fn measure_group(
         return Ok(Some(swept));
     };
     let inputs = give(&judge)?;
-    let exact = interpret::<f64>(&judge, &inputs, false)?.texels;
+    let exact = interpret_kernel::<f64>(&judge, &inputs, false)?.texels;
     let exact: Vec<_> = exact.into_iter().map(Some).collect();
     progress.step();
 
@@ -178,8 +178,8 @@ impl Stand<'_> {
         loops: Loops,
     ) -> Result<(Pass, Rc<Uploaded>, Frame<Vec4>), ExecuteError> {
         let options = PassOptions::default().unbounded_loops(loops == Loops::Unbounded);
-        let pass = self.bench.made(emitted, &options)?;
-        let uploaded = self.uploads.of(&emitted.manifest)?;
+        let pass = self.bench.create_pass(emitted, &options)?;
+        let uploaded = self.uploads.upload_shared(&emitted.manifest)?;
         let picture = self.bench.picture_of(&pass, &uploaded, self.inputs.size)?;
         Ok((pass, uploaded, picture))
     }
@@ -202,7 +202,7 @@ fn time_shaders(
             uploaded: &ready.uploaded,
             size,
         };
-        bench.work(job, sweep.least).map(drop)
+        bench.job_work(job, sweep.least).map(drop)
     };
     ready.retain(|ready| match work(ready) {
         Ok(()) => true,
@@ -216,7 +216,7 @@ fn time_shaders(
         uploaded: &ready.uploaded,
         size,
     });
-    let works: Result<Vec<Work<'_>>, _> = jobs.map(|job| bench.work(job, sweep.least)).collect();
+    let works: Result<Vec<Work<'_>>, _> = jobs.map(|job| bench.job_work(job, sweep.least)).collect();
     let mut works = works?;
     let base = ready.iter().position(|ready| Some(ready.at) == baseline);
     let mut rounds: Vec<Vec<f64>> = vec![Vec::new(); works.len()];

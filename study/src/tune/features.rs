@@ -46,12 +46,12 @@ pub struct Static {
 impl Static {
     /// Counts a compiled variant, as it computes in `f32`.
     pub fn from_compiled(compiled: &Compiled) -> Static {
-        let count = |schedule: &Schedule| passes::count(&compiled.graph, schedule);
+        let count = |schedule: &Schedule| passes::count_operations(&compiled.graph, schedule);
         let all = count(&compiled.schedule);
         let straight = count(&reduce_schedule(&compiled.schedule, without_loops));
         let always_run = reduce_schedule(&compiled.schedule, |_| Block::default());
         let always = count(&always_run);
-        let [width, height] = compiled.graph.invocation.pixels();
+        let [width, height] = compiled.graph.invocation.block_size();
         let pixels = f64::from(width * height);
         let text = compiled.text_counts();
         let statements = f64::from(text.statements) / pixels;
@@ -140,7 +140,7 @@ fn runtime_layers(graph: &Graph, block: &Block) -> u32 {
         Step::Eval(id) => {
             let node = graph.node(*id);
             let layer = node.args.get(1).filter(|_| matches!(node.op, Op::Load { .. }));
-            u32::from(layer.is_some_and(|layer| graph.constant(*layer).is_none()))
+            u32::from(layer.is_some_and(|layer| graph.constant_bits(*layer).is_none()))
         }
         Step::Loop { body, .. } => runtime_layers(graph, body),
         Step::If { .. } => 0,

@@ -68,13 +68,13 @@ impl Subject {
         let (mut captures, mut placed) = (Vec::new(), Vec::new());
         progress.begin("geometry", patterns.len());
         for pattern in patterns {
-            let samples = gbuffer::samples(pattern).unwrap_or_default();
-            let mut capture = render::capture(renderer, &samples, ShadingSample::Centre)?;
+            let samples = gbuffer::pattern_offsets(pattern).unwrap_or_default();
+            let mut capture = render::capture_scene(renderer, &samples, ShadingSample::Centre)?;
             if beyond.light {
                 render::add_albedo(&mut capture, renderer)?;
             }
             if beyond.placing {
-                placed.extend(render::placed(&capture, renderer, PlacedBy::Depths)?);
+                placed.extend(render::shade_placed(&capture, renderer, PlacedBy::Depths)?);
             }
             captures.push(capture);
             progress.step();
@@ -83,7 +83,7 @@ impl Subject {
             }
         }
         progress.begin("reference", REFERENCE_SIDE as usize);
-        let reference = render::reference(renderer, REFERENCE_SIDE, &mut |_, _| progress.step())?;
+        let reference = render::render_reference(renderer, REFERENCE_SIDE, &mut |_, _| progress.step())?;
         if progress.is_stopped() {
             return Ok(None);
         }
@@ -224,7 +224,7 @@ mod tests {
     }
 
     fn pattern(name: &str) -> Vec<Vec2> {
-        gbuffer::samples(name).unwrap()
+        gbuffer::pattern_offsets(name).unwrap()
     }
 
     #[test]

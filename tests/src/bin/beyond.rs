@@ -97,9 +97,9 @@ fn rows() -> Result<Vec<Frame<Vec4>>, Failure> {
 
 /// Where `with` is nearer to the reference than `without` by most, or where it is farthest from it if the `worst` is asked for.
 fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> {
-    let scene = Scene::named(row.scene)?;
+    let scene = Scene::from_name(row.scene)?;
     let renderer = CpuRenderer::new(&scene, SIZE)?;
-    let reference = render::reference(&renderer, 16, &mut |_, _| {})?;
+    let reference = render::render_reference(&renderer, 16, &mut |_, _| {})?;
     let drawn =
         |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[PlacedBy::Planes.options(), own].concat()));
     let (without, with) = (drawn(row.without.1)?, drawn(row.with.1)?);
@@ -132,14 +132,14 @@ fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> 
         (row.with.0, &with),
         ("256 samples", &reference),
     ];
-    Ok(picture::details(&pictures, corner, SIDE, ZOOM))
+    Ok(picture::compare_details(&pictures, corner, SIDE, ZOOM))
 }
 
 fn filtered(bench: &Bench, renderer: &CpuRenderer, set: &Options) -> Result<Frame<Vec4>, Failure> {
-    let samples = gbuffer::samples("latin4").ok_or("no such pattern")?;
+    let samples = gbuffer::pattern_offsets("latin4").ok_or("no such pattern")?;
     let mut capture = match value(set, "shading", "centre") {
         "placed" => render::capture_placed(renderer, &samples, PlacedBy::Planes)?,
-        _ => render::capture(renderer, &samples, ShadingSample::Centre)?,
+        _ => render::capture_scene(renderer, &samples, ShadingSample::Centre)?,
     };
     if value(set, "demodulate", "none") != "none" {
         render::add_albedo(&mut capture, renderer)?;
@@ -148,9 +148,9 @@ fn filtered(bench: &Bench, renderer: &CpuRenderer, set: &Options) -> Result<Fram
     let inputs = match value(set, "extra", "false") {
         "true" => {
             let budget = (SIZE.x * SIZE.y / 50) as usize;
-            render::extra(renderer, &capture, budget)?.inputs(&capture, &compiled.options)?
+            render::shade_extra(renderer, &capture, budget)?.sraa_inputs(&capture, &compiled.options)?
         }
-        _ => gbuffer::inputs(&capture, &compiled.options)?,
+        _ => gbuffer::sraa_inputs(&capture, &compiled.options)?,
     };
     Ok(bench.run(&compiled, Stage::Compute, &inputs)?)
 }

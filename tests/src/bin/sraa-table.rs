@@ -98,8 +98,8 @@ fn row(bench: &Bench, options: &Options, stage: Stage) -> Result<(f64, usize), S
     let compiled = compiled(options, Unroll::Full).map_err(|errors| format!("{options:?}:\n{errors}"))?;
     let result = bench.run(&compiled, stage, &inputs);
     let result = result.map_err(|error| format!("{options:?} {stage:?}: {error}"))?;
-    let params = SraaParams::of(&compiled.options).map_err(|error| error.to_string())?;
-    let expected = oracle::sraa(&inputs, &params).map_err(|error| error.to_string())?;
+    let params = SraaParams::from_options(&compiled.options).map_err(|error| error.to_string())?;
+    let expected = oracle::resolve_sraa(&inputs, &params).map_err(|error| error.to_string())?;
     let off = difference(&result, &expected);
     Ok((off.largest, off.non_finite))
 }

@@ -107,9 +107,9 @@ fn inputs(tile: &Tile) -> Inputs {
         offsets.map(|offset| layer(value, offset)).collect::<Vec<_>>()
     };
     Inputs::new(UVec2::new(tile.inputs_size.x, tile.inputs_size.y))
-        .image("color", layer(&color, Vec2::ZERO))
-        .layers("depth", stack(&depth))
-        .layers("normal", stack(&normal))
+        .with_image("color", layer(&color, Vec2::ZERO))
+        .with_layers("depth", stack(&depth))
+        .with_layers("normal", stack(&normal))
 }
 
 /// The most memory that this process has had, in MB, where the system tells.

@@ -73,18 +73,18 @@ pub fn rows(bench: &Bench) -> Result<Vec<Row>, String> {
 /// In words, if something cannot be drawn or run.
 pub fn of_scene(bench: &Bench, scene: &str, pattern: &str, sets: &[Options]) -> Result<Vec<Row>, String> {
     let words = |error: &dyn std::fmt::Display| format!("{scene}: {error}");
-    let world = Scene::named(scene).map_err(|e| words(&e))?;
+    let world = Scene::from_name(scene).map_err(|e| words(&e))?;
     let renderer = CpuRenderer::new(&world, SIZE).map_err(|e| words(&e))?;
-    let samples = gbuffer::samples(pattern).ok_or_else(|| words(&pattern))?;
-    let capture = render::capture(&renderer, &samples, ShadingSample::Centre).map_err(|e| words(&e))?;
+    let samples = gbuffer::pattern_offsets(pattern).ok_or_else(|| words(&pattern))?;
+    let capture = render::capture_scene(&renderer, &samples, ShadingSample::Centre).map_err(|e| words(&e))?;
     let mut rows = Vec::new();
     for options in sets {
         let compiled = compiled(options, Unroll::Full).map_err(|e| words(&e))?;
-        let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(|e| words(&e))?;
+        let inputs = gbuffer::sraa_inputs(&capture, &compiled.options).map_err(|e| words(&e))?;
         let found = bench.run(&compiled, Stage::Compute, &inputs).map_err(|e| words(&e))?;
-        let params = SraaParams::of(&compiled.options).map_err(|e| words(&e))?;
-        let expected = oracle::sraa(&inputs, &params).map_err(|e| words(&e))?;
-        let bounds = bound::sraa(&inputs, &params, &Rounding::SINGLE).map_err(|e| words(&e))?;
+        let params = SraaParams::from_options(&compiled.options).map_err(|e| words(&e))?;
+        let expected = oracle::resolve_sraa(&inputs, &params).map_err(|e| words(&e))?;
+        let bounds = bound::bound_sraa(&inputs, &params, &Rounding::SINGLE).map_err(|e| words(&e))?;
         let mut row = Row {
             scene: scene.to_owned(),
             options: options.clone(),

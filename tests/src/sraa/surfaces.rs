@@ -13,10 +13,10 @@ use straightline_scene::scene::{Camera, SKY_DEPTH};
 
 /// Surfaces sampled where the options of a set say, with random colours.
 pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
-    let params = SraaParams::of(&values(options));
+    let params = SraaParams::from_options(&values(options));
     let params = params.unwrap_or_else(|error| panic!("{error}"));
     let samples: Vec<Vec2> = params
-        .samples()
+        .sample_offsets()
         .into_iter()
         .map(|[x, y]| vec2(x as f32, y as f32))
         .collect();
@@ -121,9 +121,9 @@ pub fn inputs_of(capture: &Capture, options: &Options, seed: u64) -> Inputs {
     let mut alone = compiled.options;
     alone.remove("history");
     alone.remove("extra");
-    let inputs = gbuffer::inputs(capture, &alone).unwrap_or_else(|error| panic!("{options:?}: {error}"));
+    let inputs = gbuffer::sraa_inputs(capture, &alone).unwrap_or_else(|error| panic!("{options:?}: {error}"));
     let mut random = Random(seed ^ 0x5eed);
-    let inputs = inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect());
+    let inputs = inputs.with_layers("colors", (0..4).map(|_| colors(&mut random, size)).collect());
     let inputs = match value(options, "extra", "false") {
         "true" => with_extra(inputs, capture.samples.len(), size, seed),
         _ => inputs,
@@ -143,10 +143,10 @@ fn with_extra(inputs: Inputs, samples: usize, size: UVec2, seed: u64) -> Inputs 
     let lights = [light(), light(), light()];
     let [color, direct, rest] = lights;
     inputs
-        .integers("extra", vec![Frame::new(size, texels)])
-        .image("extra_color", color)
-        .image("extra_direct", direct)
-        .image("extra_rest", rest)
+        .with_integers("extra", vec![Frame::new(size, texels)])
+        .with_image("extra_color", color)
+        .with_image("extra_direct", direct)
+        .with_image("extra_rest", rest)
 }
 
 /// With four earlier frames of the same surfaces, each moved by some pixels on the whole, and by as much more here and there as to show
@@ -179,11 +179,11 @@ fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
         motion.push(Frame::new(size, pixels().map(&mut own).collect()));
     }
     inputs
-        .layers("history_color", color)
-        .layers("history_rest", (0..4).map(|_| colors(&mut random, size)).collect())
-        .layers("history_surface", seen)
-        .layers("history_motion", motion)
-        .uniform("jitter", &[-0.125, 0.3125])
+        .with_layers("history_color", color)
+        .with_layers("history_rest", (0..4).map(|_| colors(&mut random, size)).collect())
+        .with_layers("history_surface", seen)
+        .with_layers("history_motion", motion)
+        .with_uniform("jitter", &[-0.125, 0.3125])
 }
 
 fn colors(random: &mut Random, size: UVec2) -> Frame<Vec4> {

@@ -2,7 +2,7 @@
 
 use super::{bench, same_bits};
 use std::path::{Path, PathBuf};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Branches, Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_scene::picture;
@@ -42,7 +42,7 @@ impl Example {
         for (unroll, branches) in forms {
             let settings = Settings::new().unroll(unroll).branches(branches);
             let compiled = self.compile(&settings);
-            let found = interpret::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let found = interpret_kernel::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
             same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name} {unroll}, branches {branches}: {e}"));
             let shown = gpu
                 .run(&compiled, Stage::Compute, inputs)
@@ -94,7 +94,7 @@ pub fn save(name: &str, inputs: &Inputs, shown: &Frame<Vec4>) {
     let folder = PathBuf::from(folder);
     std::fs::create_dir_all(&folder).expect("a folder for pictures");
     for (input, layers) in &inputs.images {
-        picture::write(&folder.join(format!("{name}-{input}.png")), &layers[0]).expect("a picture is written");
+        picture::write_picture(&folder.join(format!("{name}-{input}.png")), &layers[0]).expect("a picture is written");
     }
-    picture::write(&folder.join(format!("{name}.png")), shown).expect("a picture is written");
+    picture::write_picture(&folder.join(format!("{name}.png")), shown).expect("a picture is written");
 }

@@ -5,12 +5,12 @@ use crate::common;
 
 use common::bench;
 use glam::{UVec2, Vec4, uvec2, vec4};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Compiled, Stage, Unroll};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_oracle::metrics::psnr;
 use straightline_oracle::oracle::{self, Resolved, SraaParams};
-use straightline_scene::capture::{Capture, ShadingSample, mean};
+use straightline_scene::capture::{Capture, ShadingSample, mean_frame};
 use straightline_scene::render::{self, CpuRenderer, Renderer};
 use straightline_scene::scene::Scene;
 use straightline_scene::{gbuffer, picture};
@@ -66,8 +66,8 @@ fn made(set: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
-    let params = SraaParams::of(&values(set)).expect("options");
-    oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
+    let params = SraaParams::from_options(&values(set)).expect("options");
+    oracle::resolve_sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 
 /// The largest difference to the definition, as a share of what is larger than `scale`; all of it is finite.
@@ -100,9 +100,9 @@ fn every_form_gives_what_the_definition_says() {
         let expected = defined(&set, &inputs);
         for unroll in [Unroll::Full, Unroll::None] {
             let (compiled, what) = (made(&set, unroll), format!("{set:?} {unroll}"));
-            let exact = interpret::<f64>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let exact = interpret_kernel::<f64>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
             in_f64 = in_f64.max(off(exact.targets[0].texels.iter().copied(), &expected, &what, 1.0));
-            let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let single = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
             in_f32 = in_f32.max(off(single.targets[0].texels.iter().copied(), &expected, &what, 1.0));
             if unroll == Unroll::Full && samples_needed(&set) <= 4 {
                 for stage in [Stage::Compute, Stage::Fragment] {
@@ -180,7 +180,7 @@ fn what_albedo_and_light_cannot_be_spoils_nothing() {
         for bad in [&SMALL[..], &LARGE] {
             let inputs = hard(surfaces::inputs(&set, SIZE, 12), bad);
             let (expected, what) = (defined(&set, &inputs), format!("hard, {set:?}, {bad:?}"));
-            let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let single = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
             let single = single.targets[0].texels.iter().copied();
             let picture = bench.run(&compiled, Stage::Compute, &inputs);
             let picture = picture.unwrap_or_else(|e| panic!("{what}: {e}"));
@@ -204,7 +204,7 @@ fn a_fallback_is_what_tests_give() {
             ["inline", "fallback"].map(|guards| options(&[("demodulate", way), ("guards", guards)]));
         let inputs = hard(surfaces::inputs(&tested, SIZE, 13), &SMALL);
         let [tested, fallback] = [tested, fallback].map(|set| {
-            let result = interpret::<f32>(&made(&set, Unroll::Full), &inputs, false).expect("a picture");
+            let result = interpret_kernel::<f32>(&made(&set, Unroll::Full), &inputs, false).expect("a picture");
             result.targets[0].texels.clone()
         });
         let finite = |texels: &[[f64; 4]]| texels.iter().flatten().all(|axis| axis.is_finite());
@@ -266,50 +266,51 @@ fn what_cannot_be_taken_apart_is_refused_with_the_reason() {
             assert!(refused.contains(reason), "{refused}");
         }
     }
-    let scene = Scene::named("awning").expect("a scene");
+    let scene = Scene::from_name("awning").expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(16, 9)).expect("a renderer");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    let mut capture = render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let mut capture = render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture");
     let set = values(&options(&[("demodulate", "albedo-shadow")]));
-    let refused = gbuffer::inputs(&capture, &set).expect_err("no albedo").to_string();
+    let refused = gbuffer::sraa_inputs(&capture, &set).expect_err("no albedo").to_string();
     assert!(
         refused.contains("albedo.exr") && refused.contains("capture --albedo"),
         "{refused}"
     );
     render::add_albedo(&mut capture, &renderer).expect("albedo");
     capture.direct = None;
-    let refused = gbuffer::inputs(&capture, &set).expect_err("no light").to_string();
+    let refused = gbuffer::sraa_inputs(&capture, &set).expect_err("no light").to_string();
     assert!(refused.contains("direct.exr"), "{refused}");
     let set = values(&options(&[("demodulate", "albedo"), ("rest", "true")]));
     capture.rest = None;
-    let refused = gbuffer::inputs(&capture, &set).expect_err("no rest").to_string();
+    let refused = gbuffer::sraa_inputs(&capture, &set).expect_err("no rest").to_string();
     assert!(refused.contains("rest.exr"), "{refused}");
 }
 
 /// A scene's PSNR in dB: plain SRAA, demodulated by albedo, by albedo and shadow, the same placed and searched, the same with what does
 /// not follow the albedo, and shaded at every sample.
 fn judged(name: &str, pattern: &str) -> [f64; 6] {
-    let scene = Scene::named(name).expect("a scene");
+    let scene = Scene::from_name(name).expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
-    let samples = gbuffer::samples(pattern).expect("a pattern");
+    let samples = gbuffer::pattern_offsets(pattern).expect("a pattern");
     let captured = |shading| {
-        let mut capture = render::capture(&renderer, &samples, shading).expect("a capture");
+        let mut capture = render::capture_scene(&renderer, &samples, shading).expect("a capture");
         render::add_albedo(&mut capture, &renderer).expect("albedo");
         capture
     };
     let centred = captured(ShadingSample::Centre);
     let placed = captured(ShadingSample::Placed);
-    let reference = picture::at_eight_bits(&render::reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
+    let reference =
+        picture::at_eight_bits(&render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
     let bench = bench();
     let filtered = |capture: &Capture, own: &[(&str, &str)]| {
         let relative = [("difference", "relative"), ("depth-scale", "3"), ("pattern", pattern)];
         let compiled = made(&options(&[&relative[..], own].concat()), Unroll::Full);
-        let inputs = gbuffer::inputs(capture, &compiled.options).expect("inputs");
+        let inputs = gbuffer::sraa_inputs(capture, &compiled.options).expect("inputs");
         let made = bench.run(&compiled, Stage::Compute, &inputs).expect("a picture");
         psnr(&picture::at_eight_bits(&made), &reference)
     };
-    let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.shaded(*at)).collect();
-    let supersampled = mean(&shaded.expect("pictures")).expect("a mean");
+    let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.draw_shaded(*at)).collect();
+    let supersampled = mean_frame(&shaded.expect("pictures")).expect("a mean");
     let both = ("demodulate", "albedo-shadow");
     let all = [
         filtered(&centred, &[]),
@@ -362,11 +363,11 @@ fn light_of_other_surfaces_costs_nothing() {
 /// A renderer's picture is the sun's share, where it shines, and a rest that shadow does not change.
 #[test]
 fn colours_are_a_rest_and_the_suns_share() {
-    let scene = Scene::named("awning").expect("a scene");
+    let scene = Scene::from_name("awning").expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(160, 90)).expect("a renderer");
-    let shaded = renderer.shaded(glam::Vec2::ZERO).expect("a picture");
-    let albedo = renderer.albedo(glam::Vec2::ZERO).expect("albedo");
-    let direct = renderer.sunlight(glam::Vec2::ZERO).expect("light");
+    let shaded = renderer.draw_shaded(glam::Vec2::ZERO).expect("a picture");
+    let albedo = renderer.draw_albedo(glam::Vec2::ZERO).expect("albedo");
+    let direct = renderer.draw_sunlight(glam::Vec2::ZERO).expect("light");
     let rest = |k: usize| shaded.texels()[k] - albedo.texels()[k].w * direct.texels()[k];
     let least = (0..shaded.texels().len())
         .map(|k| rest(k).min_element())

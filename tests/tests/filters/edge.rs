@@ -11,7 +11,7 @@ use common::{bench, other_compilers, same_bits};
 use filter::{Filter, compile};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::edge::{Depth, Form, Output, Stalker, TabulaRasa};
@@ -19,8 +19,8 @@ use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
 use straightline_oracle::metrics;
 use straightline_scene::picture;
-use straightline_scene::render::{CpuRenderer, Renderer, reference};
-use straightline_scene::scene::builtin;
+use straightline_scene::render::{CpuRenderer, Renderer, render_reference};
+use straightline_scene::scene::builtin_scene;
 use world::{World, pixels};
 
 #[test]
@@ -31,7 +31,7 @@ fn native_looped_and_unrolled_agree() {
             let world = world.storing(filter.normals());
             let expected = filter.native(&world);
             for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
-                let found = interpret::<f32>(&filter.compile(unroll), &filter.inputs(&world), false);
+                let found = interpret_kernel::<f32>(&filter.compile(unroll), &filter.inputs(&world), false);
                 let found = found.unwrap_or_else(|e| panic!("{filter:?}: {e}"));
                 same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{filter:?} {unroll}: {e}"));
             }
@@ -215,7 +215,8 @@ fn nothing_is_bound_that_is_not_read() {
 #[test]
 fn thresholds_known_and_at_run_time() {
     let world = World::surfaces(uvec2(40, 30));
-    let run = |compiled: &Compiled, inputs: &Inputs| interpret::<f32>(compiled, inputs, false).expect("all is bound");
+    let run =
+        |compiled: &Compiled, inputs: &Inputs| interpret_kernel::<f32>(compiled, inputs, false).expect("all is bound");
     for filter in Filter::all() {
         let (choices, numbers) = filter.options();
         let mut set: Vec<(String, String)> = choices.into_iter().map(|(k, v)| (k.to_owned(), v)).collect();
@@ -269,7 +270,7 @@ fn outlines_in_every_form() {
     let world = World::surfaces(uvec2(47, 31));
     let found = stalker_edges(Form::Corrected).native(&world);
     let edges = Frame::new(uvec2(47, 31), found.into_iter().map(Vec4::from_array).collect());
-    let inputs = world.inputs().image("edges", edges.clone());
+    let inputs = world.inputs().with_image("edges", edges.clone());
     let kernel = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/toon/toon.rs");
     for ink in [0.0, 1.0] {
         let cfg = toon::Toon {
@@ -283,7 +284,7 @@ fn outlines_in_every_form() {
             let settings = Settings::new().set("ink", ink).unroll(unroll);
             let compiled = Kernel::from_file(&kernel, None).and_then(|k| k.compile(&settings));
             let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
-            let found = interpret::<f32>(&compiled, &inputs, false).expect("all is bound");
+            let found = interpret_kernel::<f32>(&compiled, &inputs, false).expect("all is bound");
             same_bits(&native, &found.texels).unwrap_or_else(|e| panic!("{unroll}: {e}"));
         }
     }
@@ -293,16 +294,16 @@ fn outlines_in_every_form() {
 #[test]
 fn on_the_scene() {
     let size = uvec2(320, 180);
-    let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
-    let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
-    let color = renderer.shaded(Vec2::ZERO).expect("a picture");
+    let renderer = CpuRenderer::new(&builtin_scene(), size).expect("the scene is drawn");
+    let (depth, normal) = renderer.draw_geometry(Vec2::ZERO).expect("geometry");
+    let color = renderer.draw_shaded(Vec2::ZERO).expect("a picture");
     let world = World {
         depth,
         stored: normal.clone(),
         normal,
         color,
     };
-    let exact = reference(&renderer, 4, &mut |_, _| {}).expect("supersampled");
+    let exact = render_reference(&renderer, 4, &mut |_, _| {}).expect("supersampled");
     let plain = metrics::psnr(&world.color, &exact);
     save("scene", &world.color);
     let mut columns = vec![("1x", world.color.clone())];
@@ -360,10 +361,10 @@ fn on_the_scene() {
     let columns = [plain, edges_s, s, edges_t, t, exact];
     let details: Vec<_> = columns
         .iter()
-        .map(|(title, frame)| (*title, picture::detail(frame, 176, 74, 44, 44, 6)))
+        .map(|(title, frame)| (*title, picture::enlarge_detail(frame, 176, 74, 44, 44, 6)))
         .collect();
     let details: Vec<_> = details.iter().map(|(title, frame)| (*title, frame)).collect();
-    save("details", &picture::montage(&details));
+    save("details", &picture::compose_montage(&details));
 }
 
 fn save(name: &str, shown: &Frame<Vec4>) {
@@ -372,5 +373,5 @@ fn save(name: &str, shown: &Frame<Vec4>) {
     };
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder).expect("a folder for pictures");
-    picture::write(&folder.join(format!("edge-{name}.png")), shown).expect("a picture is written");
+    picture::write_picture(&folder.join(format!("edge-{name}.png")), shown).expect("a picture is written");
 }

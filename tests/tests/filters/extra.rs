@@ -6,7 +6,7 @@ use crate::common;
 use common::{bench, device};
 use glam::{IVec2, UVec2, UVec4, Vec2, Vec4, dvec2, ivec2, uvec2};
 use std::collections::BTreeSet;
-use straightline_bench::execute::{Bench, Inputs, Interpreted, interpret};
+use straightline_bench::execute::{Bench, Inputs, Interpreted, interpret_kernel};
 use straightline_codegen::{Compiled, Stage, Unroll};
 use straightline_kernels::prelude::{AtomicBuffer, Frame, StorageBuffer};
 use straightline_kernels::sraa::sraa_extra;
@@ -26,15 +26,15 @@ fn compiled(kernel: &str, options: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn params(set: &Options) -> SraaParams {
-    SraaParams::of(&values(set)).expect("options")
+    SraaParams::from_options(&values(set)).expect("options")
 }
 
 /// With a list of `room` entries that is empty.
 fn listing(inputs: Inputs, room: usize) -> Inputs {
     let counts = [0.0, 1.0, 1.0, 0.0].map(|count| [count, 0.0, 0.0, 1.0]);
     inputs
-        .buffer("extra_counts", counts.to_vec())
-        .buffer("extra_list", vec![[0.0; 4]; room])
+        .with_buffer("extra_counts", counts.to_vec())
+        .with_buffer("extra_list", vec![[0.0; 4]; room])
 }
 
 /// What was listed: an image, what counts, and the list.
@@ -120,19 +120,19 @@ fn sets_of_surfaces() -> Vec<Options> {
 
 /// Random surfaces, and railings.
 fn worlds(set: &Options) -> [Inputs; 2] {
-    let renderer = CpuRenderer::new(&Scene::named("railings").expect("a scene"), SIZE).expect("a renderer");
+    let renderer = CpuRenderer::new(&Scene::from_name("railings").expect("a scene"), SIZE).expect("a renderer");
     let shading = match value(set, "shading", "centre") {
         "placed" => ShadingSample::Placed,
         "sample0" => ShadingSample::Sample(0),
         _ => ShadingSample::Centre,
     };
     let samples: Vec<Vec2> = params(set)
-        .samples()
+        .sample_offsets()
         .into_iter()
         .map(|[x, y]| dvec2(x, y).as_vec2())
         .collect();
-    let capture = render::capture(&renderer, &samples, shading).expect("a capture");
-    let railings = gbuffer::inputs(&capture, &compiled("sraa_extra", set, Unroll::Full).options).expect("inputs");
+    let capture = render::capture_scene(&renderer, &samples, shading).expect("a capture");
+    let railings = gbuffer::sraa_inputs(&capture, &compiled("sraa_extra", set, Unroll::Full).options).expect("inputs");
     [surfaces::inputs(set, SIZE, 7), railings]
 }
 
@@ -144,8 +144,8 @@ fn what_is_listed_is_what_the_definition_wants() {
         .iter()
         .flat_map(|set| worlds(set).map(|bare| (set, bare)))
     {
-        let samples = params(set).samples().len();
-        let wanted = oracle::extra(&bare, &params(set)).unwrap_or_else(|e| panic!("{set:?}: {e}"));
+        let samples = params(set).sample_offsets().len();
+        let wanted = oracle::extra_samples(&bare, &params(set)).unwrap_or_else(|e| panic!("{set:?}: {e}"));
         let sure = wanted.iter().filter(|placed| placed.sure).count();
         assert!(2 * sure > wanted.len(), "{set:?}: {sure} pixels are sure");
         // Room for all, and for few.
@@ -153,7 +153,8 @@ fn what_is_listed_is_what_the_definition_wants() {
             let inputs = listing(bare.clone(), room);
             for unroll in [Unroll::Full, Unroll::None] {
                 let (compiled, what) = (compiled("sraa_extra", set, unroll), format!("{set:?} {unroll} {room}"));
-                let interpreted = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+                let interpreted =
+                    interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
                 listed += List::of(&interpreted).judge(&wanted, samples, &what);
                 if samples_needed(set) <= 4 {
                     let found = bench.all_written(&compiled, Stage::Compute, &inputs);
@@ -244,13 +245,13 @@ fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &
 
 /// Every form's distance to the definition: the interpreter in f64, all that computes in f32, and the device.
 fn every_form_off(bench: &Bench, set: &Options, inputs: &Inputs) -> [f64; 3] {
-    let expected = oracle::sraa(inputs, &params(set)).unwrap_or_else(|e| panic!("{set:?}: {e}"));
+    let expected = oracle::resolve_sraa(inputs, &params(set)).unwrap_or_else(|e| panic!("{set:?}: {e}"));
     let [mut in_f64, mut in_f32, mut on_device] = [0.0f64; 3];
     for unroll in [Unroll::Full, Unroll::None] {
         let (compiled, what) = (compiled("sraa", set, unroll), format!("{set:?} {unroll}"));
-        let exact = interpret::<f64>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let exact = interpret_kernel::<f64>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
         in_f64 = in_f64.max(off(exact.targets[0].texels.iter().copied(), &expected, &what));
-        let single = interpret::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let single = interpret_kernel::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
         in_f32 = in_f32.max(off(single.targets[0].texels.iter().copied(), &expected, &what));
         if unroll == Unroll::Full && samples_needed(set) <= 4 {
             for stage in [Stage::Compute, Stage::Fragment] {
@@ -310,8 +311,8 @@ fn hard_further_samples_leave_no_trace() {
         }
         // The largest float is finite, and a sum of it need not be.
         let compiled = compiled("sraa", &set, Unroll::Full);
-        let expected = oracle::sraa(&inputs, &params(&set)).unwrap_or_else(|e| panic!("{set:?}: {e}"));
-        let interpreted = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{set:?}: {e}"));
+        let expected = oracle::resolve_sraa(&inputs, &params(&set)).unwrap_or_else(|e| panic!("{set:?}: {e}"));
+        let interpreted = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{set:?}: {e}"));
         let picture = bench
             .run(&compiled, Stage::Compute, &inputs)
             .unwrap_or_else(|e| panic!("{set:?}: {e}"));
@@ -340,28 +341,28 @@ fn hard_further_samples_leave_no_trace() {
 fn a_list_is_shaded_by_an_indirect_dispatch() {
     let (device, queue) = device();
     let bench = Bench::new(&device, &queue, false);
-    let scene = Scene::named("railings").expect("a scene");
+    let scene = Scene::from_name("railings").expect("a scene");
     let size = uvec2(160, 90);
     let renderer = GpuRenderer::new(&device, &queue, &scene, size).expect("a renderer");
-    let samples = gbuffer::samples("latin16").expect("a pattern");
+    let samples = gbuffer::pattern_offsets("latin16").expect("a pattern");
     let sampled = [("pattern", "latin16"), ("shading", "placed")];
     let capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
     let budget = (size.x * size.y / 50) as usize;
-    let wanted = render::extra(&renderer, &capture, (size.x * size.y) as usize).expect("further samples");
+    let wanted = render::shade_extra(&renderer, &capture, (size.x * size.y) as usize).expect("further samples");
     assert!(
         wanted.listed == wanted.wanted && wanted.listed > 50,
         "{} listed",
         wanted.listed
     );
-    let few = render::extra(&renderer, &capture, budget).expect("further samples");
+    let few = render::shade_extra(&renderer, &capture, budget).expect("further samples");
     assert!(few.listed <= budget && few.wanted == wanted.wanted);
 
     let list = compiled("sraa_extra", &render::listing_options(&options(&sampled)), Unroll::Full);
     let inputs = listing(
-        gbuffer::inputs(&capture, &list.options).expect("inputs"),
+        gbuffer::sraa_inputs(&capture, &list.options).expect("inputs"),
         (size.x * size.y) as usize,
     );
-    let (pass, manifest) = bench.pass(&list, Stage::Compute).expect("a pass");
+    let (pass, manifest) = bench.compile_pass(&list, Stage::Compute).expect("a pass");
     let uploaded = bench.upload(&manifest, &inputs).expect("uploads");
     let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
     let buffer = |size: u64, usage| {
@@ -378,7 +379,7 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
     let uploaded = uploaded
         .with_buffer("extra_counts", &counts)
         .with_buffer("extra_list", &entries);
-    let chosen = bench.target(size, pass.target_format());
+    let chosen = bench.create_target(size, pass.target_format());
     let view = chosen.create_view(&wgpu::TextureViewDescriptor::default());
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     uploaded.bind(&pass, &view).expect("bound").encode(&mut encoder);
@@ -388,7 +389,7 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
         .expect("shaded");
 
     let found: Vec<u32> = bench
-        .read(&chosen)
+        .read_texels(&chosen)
         .expect("an image")
         .iter()
         .map(|texel| texel[0] as u32)
@@ -415,7 +416,7 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
         assert!((*own - expected).abs().max_element() < 1.0e-5, "{own} not {expected}");
     }
 
-    let reference = render::reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
+    let reference = render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
     let judged = |frame: &Frame<Vec4>| psnr(&picture::at_eight_bits(frame), &picture::at_eight_bits(&reference));
     let filtered = |more: &[(&str, &str)], with: &dyn Fn(&Compiled) -> Inputs| {
         let set = [PlacedBy::Planes.options(), &sampled, &[("search", "five")], more].concat();
@@ -424,10 +425,10 @@ fn a_list_is_shaded_by_an_indirect_dispatch() {
         judged(&bench.run(&kernel, Stage::Compute, &inputs).expect("a picture"))
     };
     let without = filtered(&[], &|kernel| {
-        gbuffer::inputs(&capture, &kernel.options).expect("inputs")
+        gbuffer::sraa_inputs(&capture, &kernel.options).expect("inputs")
     });
     let extra = |shaded: &Extra| {
-        let inputs = |kernel: &Compiled| shaded.inputs(&capture, &kernel.options).expect("inputs");
+        let inputs = |kernel: &Compiled| shaded.sraa_inputs(&capture, &kernel.options).expect("inputs");
         filtered(&[("extra", "true")], &inputs)
     };
     let on_processor = extra(&wanted);

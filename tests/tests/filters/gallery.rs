@@ -406,16 +406,16 @@ fn smaa() {
     let size = uvec2(192, 128);
     let mut edges = Shader::new("smaa_edges", size);
     let color = in_levels(edges.frame("color").texels().iter().copied(), size);
-    edges.inputs = Inputs::new(size).image("color", color.clone());
+    edges.inputs = Inputs::new(size).with_image("color", color.clone());
     let native = |at| shaders::smaa_edges::smaa_edges(&color, at);
     edges.example.check(&edges.inputs, 0.0, 0.0, native);
     let found = in_levels(pixels(size).map(native), size);
 
     let mut weights = Shader::new("smaa_weights", size);
     let linear = Sampler::default();
-    weights.inputs = Inputs::new(size).image("edges", found.clone());
+    weights.inputs = Inputs::new(size).with_image("edges", found.clone());
     for name in ["area", "search"] {
-        weights.inputs = weights.inputs.image(name, smaa::table(&format!("smaa_{name}")));
+        weights.inputs = weights.inputs.with_image(name, smaa::table(&format!("smaa_{name}")));
     }
     let (area, search) = (weights.texture("area"), weights.texture("search"));
     let native = |at| shaders::smaa_weights::smaa_weights(&found, &area, &search, &linear, at);
@@ -423,8 +423,8 @@ fn smaa() {
 
     let mut blend = Shader::new("smaa_blend", size);
     blend.inputs = Inputs::new(size)
-        .image("color", color.clone())
-        .image("weights", weighed.clone());
+        .with_image("color", color.clone())
+        .with_image("weights", weighed.clone());
     let native = |at| shaders::smaa_blend::smaa_blend(&color, &weighed, &linear, at);
     blend.example.check(&blend.inputs, 5.0e-3, 0.0, native);
 
@@ -490,7 +490,7 @@ fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
             // A kernel without values that only writes is no fragment shader and no function.
             Err(errors)
                 if matches!(
-                    errors.code(),
+                    errors.first_code(),
                     Some(Code::NotInTarget | Code::FrameSize | Code::StageUnfit | Code::FunctionForm)
                 ) =>
             {

@@ -6,7 +6,7 @@ use crate::common;
 use common::{Shaders, bench};
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2};
 use std::collections::BTreeSet;
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
@@ -81,8 +81,8 @@ fn made(set: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
-    let params = SraaParams::of(&values(set)).expect("options");
-    oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
+    let params = SraaParams::from_options(&values(set)).expect("options");
+    oracle::resolve_sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 
 /// The largest difference to the definition, but for few pixels that all but meet a threshold; all of it is finite.
@@ -120,9 +120,9 @@ fn every_form_gives_what_the_definition_says() {
         worth = worth.max(0.1 / off(changed, &expected, "without history"));
         for unroll in [Unroll::Full, Unroll::None] {
             let (compiled, what) = (made(&set, unroll), format!("{set:?} {unroll}"));
-            let exact = interpret::<f64>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let exact = interpret_kernel::<f64>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
             in_f64 = in_f64.max(off(exact.targets[0].texels.iter().copied(), &expected, &what));
-            let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let single = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
             in_f32 = in_f32.max(off(single.targets[0].texels.iter().copied(), &expected, &what));
             if unroll == Unroll::Full && samples_needed(&set) <= 4 {
                 for stage in [Stage::Compute, Stage::Fragment] {
@@ -195,7 +195,7 @@ fn what_earlier_frames_cannot_be_spoils_nothing() {
         let inputs = hard(surfaces::inputs(&set, SIZE, 12));
         let (compiled, what) = (made(&set, Unroll::Full), format!("hard, {set:?}"));
         let expected = defined(&set, &inputs);
-        let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let single = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
         largest = largest.max(off(single.targets[0].texels.iter().copied(), &expected, &what));
         assert!(largest < 1.0e-4, "{what}: {largest}");
         if samples_needed(&set) <= 4 {
@@ -233,16 +233,16 @@ fn frames_from_outside_the_picture_change_nothing() {
     let plain = options(&[("history", "1")]);
     let inputs = surfaces::inputs(&set, SIZE, 3);
     let outside = |inputs: Inputs, motion: Vec4| {
-        inputs.layers("history_motion", vec![Frame::new(SIZE, vec![motion; 21 * 17]); 4])
+        inputs.with_layers("history_motion", vec![Frame::new(SIZE, vec![motion; 21 * 17]); 4])
     };
     let none = outside(inputs.clone(), Vec4::splat(f32::NAN));
     for beyond in [Vec4::splat(-40.0), Vec4::new(30.0, 0.5, 0.0, 0.0), Vec4::splat(1.0e12)] {
         let far = outside(inputs.clone(), beyond);
         assert_eq!(native::run(&set, &far), native::run(&plain, &none), "{beyond}");
-        let interpreted = interpret::<f32>(&made(&set, Unroll::Full), &far, false).expect("a picture");
+        let interpreted = interpret_kernel::<f32>(&made(&set, Unroll::Full), &far, false).expect("a picture");
         assert_eq!(
             interpreted.targets[0].texels,
-            interpret::<f32>(&made(&plain, Unroll::Full), &none, false)
+            interpret_kernel::<f32>(&made(&plain, Unroll::Full), &none, false)
                 .expect("a picture")
                 .targets[0]
                 .texels
@@ -274,7 +274,7 @@ fn what_earlier_frames_have_no_part_in_is_refused_with_the_reason() {
 const PICTURE: UVec2 = uvec2(240, 135);
 
 fn sequence(name: &str, motion: Motion) -> Sequence {
-    let scene = Scene::named(name).expect("a scene");
+    let scene = Scene::from_name(name).expect("a scene");
     Sequence::draw(&scene, motion, PICTURE, 4, &mut Silent).expect("pictures")
 }
 
@@ -343,10 +343,10 @@ fn a_roof_comes_close_to_supersampling() {
 /// Pixels where the board was in the last frame and is no more, nor beside.
 fn uncovered(name: &str, frame: usize) -> Vec<bool> {
     let covered = |frame: usize| {
-        let with = Motion::Board.scene_at_frame(&Scene::named(name).expect("a scene"), PICTURE, frame);
+        let with = Motion::Board.scene_at_frame(&Scene::from_name(name).expect("a scene"), PICTURE, frame);
         let away = 0.5 * (Vec3::from(with.camera.target) - Vec3::from(with.camera.position)).length();
         let (depth, _) = CpuRenderer::new(&with, PICTURE)
-            .and_then(|renderer| renderer.geometry(Vec2::ZERO))
+            .and_then(|renderer| renderer.draw_geometry(Vec2::ZERO))
             .expect("geometry");
         depth
             .texels()

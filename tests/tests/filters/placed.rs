@@ -4,7 +4,7 @@ use crate::common;
 
 use common::bench;
 use glam::{UVec2, uvec2};
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::{Compiled, Stage, Unroll};
 use straightline_oracle::metrics::psnr;
 use straightline_oracle::oracle::{self, Placed, SraaParams};
@@ -52,11 +52,11 @@ fn worlds(set: &Options) -> [Inputs; 2] {
     } else {
         pattern
     };
-    let scene = Scene::named("railings").expect("a scene");
+    let scene = Scene::from_name("railings").expect("a scene");
     let renderer = CpuRenderer::new(&scene, SIZE).expect("a renderer");
-    let samples = gbuffer::samples(offsets).expect("a pattern");
-    let capture = render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture");
-    let railings = gbuffer::inputs(&capture, &compiled("sraa_place", set, Unroll::Full).options).expect("inputs");
+    let samples = gbuffer::pattern_offsets(offsets).expect("a pattern");
+    let capture = render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture");
+    let railings = gbuffer::sraa_inputs(&capture, &compiled("sraa_place", set, Unroll::Full).options).expect("inputs");
     [surfaces::inputs(set, SIZE, 7), railings]
 }
 
@@ -73,24 +73,24 @@ fn agree(found: &[u32], expected: &[Placed], what: &str) -> usize {
 
 /// In every form what the definition says; gives how many pixels are shaded at a sample.
 fn places_agree(bench: &Bench, set: &Options, inputs: &Inputs) -> usize {
-    let params = SraaParams::of(&values(set)).expect("options");
-    let expected = oracle::place(inputs, &params).unwrap_or_else(|e| panic!("{set:?}: {e}"));
+    let params = SraaParams::from_options(&values(set)).expect("options");
+    let expected = oracle::place_shading(inputs, &params).unwrap_or_else(|e| panic!("{set:?}: {e}"));
     for unroll in [Unroll::Full, Unroll::None] {
         let compiled = compiled("sraa_place", set, unroll);
         let what = format!("{set:?} {unroll}");
-        let interpreted = interpret::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let interpreted = interpret_kernel::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
         let numbers = |texels: &[[f64; 4]]| texels.iter().map(|t| t[0] as u32).collect::<Vec<_>>();
         let compared = agree(&numbers(&interpreted.targets[0].texels), &expected, &what);
         assert!(compared * 4 > expected.len(), "{what}: {compared} pixels compared");
         if samples_needed(set) <= 4 {
             for stage in [Stage::Compute, Stage::Fragment] {
-                let targets = bench.targets(&compiled, stage, inputs);
+                let targets = bench.run_targets(&compiled, stage, inputs);
                 let targets = targets.unwrap_or_else(|e| panic!("{what} {stage:?}: {e}"));
                 agree(&numbers(&targets[0].texels), &expected, &format!("{what} {stage:?}"));
             }
         }
     }
-    let samples = params.samples().len();
+    let samples = params.sample_offsets().len();
     expected.iter().filter(|placed| placed.sample < samples).count()
 }
 
@@ -111,16 +111,16 @@ fn places_are_those_of_the_definition() {
 
 /// A frame of railings, shaded once a pixel: where it is placed, by planes or by depths.
 fn captured(placed: Option<PlacedBy>) -> (Capture, Inputs, CpuRenderer) {
-    let scene = Scene::named("railings").expect("a scene");
+    let scene = Scene::from_name("railings").expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
     let capture = match placed {
         Some(by) => render::capture_placed(&renderer, &samples, by),
-        None => render::capture(&renderer, &samples, ShadingSample::Centre),
+        None => render::capture_scene(&renderer, &samples, ShadingSample::Centre),
     };
     let capture = capture.expect("a capture");
     let planes = PlacedBy::Planes.instead_of(&gbuffer::sampled_at(&capture));
-    let inputs = gbuffer::inputs(&capture, &values(&planes)).expect("inputs");
+    let inputs = gbuffer::sraa_inputs(&capture, &values(&planes)).expect("inputs");
     (capture, inputs, renderer)
 }
 
@@ -131,7 +131,7 @@ fn of_a_pixel_and_its_neighbours_one_moves_at_most() {
         let place = capture.place.expect("places");
         // The renderer's own settings are those that its options name.
         let kernel = compiled("sraa_place", &options(by.options()), Unroll::Full);
-        let named = interpret::<f32>(&kernel, &inputs, false).expect("it runs");
+        let named = interpret_kernel::<f32>(&kernel, &inputs, false).expect("it runs");
         let named = named.targets[0].texels.iter().map(|texel| texel[0] as u32);
         let same = named.zip(place.texels()).filter(|(a, b)| a == *b).count();
         assert!(same * 1000 > 999 * place.texels().len(), "{by:?}: {same} are the same");
@@ -155,7 +155,7 @@ fn placing_and_searching_close_most_of_the_gap() {
     let bench = bench();
     let (centred, centred_inputs, renderer) = captured(None);
     let (_, placed_inputs, _) = captured(Some(PlacedBy::Planes));
-    let reference = render::reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
+    let reference = render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference");
     let judged = |frame| psnr(&picture::at_eight_bits(&frame), &picture::at_eight_bits(&reference));
     let filtered = |more: &[(&str, &str)], inputs: &Inputs| {
         let set = options(&[PlacedBy::Planes.options(), more].concat());
@@ -176,7 +176,7 @@ fn placing_and_searching_close_most_of_the_gap() {
     let shaded = centred
         .samples
         .iter()
-        .map(|at| renderer.shaded(*at).expect("a picture"));
+        .map(|at| renderer.draw_shaded(*at).expect("a picture"));
     let shaded: Vec<_> = shaded.collect();
     let texel = |k: usize| shaded.iter().map(|frame| frame.texels()[k]).sum::<glam::Vec4>() / 4.0;
     let mean = (0..shaded[0].texels().len()).map(texel).collect();

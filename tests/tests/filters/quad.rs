@@ -19,7 +19,7 @@ mod scatter;
 mod shadows;
 
 use common::{Random, bench, same_bits};
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_tests::quads::Picture;
@@ -133,7 +133,7 @@ fn check(
     };
     for unroll in forms.iter().copied() {
         let compiled = compile(name, options, unroll, None);
-        let found = interpret::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{row}: {e}"));
+        let found = interpret_kernel::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{row}: {e}"));
         same_bits(native, &found.texels).unwrap_or_else(|e| panic!("{row} {unroll}: {e}"));
     }
     let off = largest(native, defined);
@@ -164,7 +164,7 @@ fn check(
         let rows = Kernel::from_argument(name)
             .and_then(|k| k.compile(&settings))
             .unwrap_or_else(|e| panic!("{e}"));
-        let found = interpret::<f32>(&rows, inputs, false).unwrap_or_else(|e| panic!("{row}: {e}"));
+        let found = interpret_kernel::<f32>(&rows, inputs, false).unwrap_or_else(|e| panic!("{row}: {e}"));
         same_bits(native, &found.texels).unwrap_or_else(|e| panic!("{row} in {block:?}: {e}"));
         if block == [8, 2] {
             let frame = gpu

@@ -3,7 +3,7 @@
 
 use crate::common;
 
-use straightline_bench::execute::{Bench, Inputs, Written, interpret};
+use straightline_bench::execute::{Bench, Inputs, Written, interpret_kernel};
 use straightline_codegen::{Compiled, Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_scene::render::{Aggregate, CpuRenderer, Surface};
@@ -20,7 +20,7 @@ fn shots(scene: &str) -> (Vec<Method>, Shot) {
         .into_iter()
         .filter(|method| !resolves::resolve_kernels(method).is_empty())
         .collect();
-    let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), SIZE).expect("a renderer");
+    let renderer = CpuRenderer::new(&Scene::from_name(scene).expect("a scene"), SIZE).expect("a renderer");
     let listed: Vec<&Method> = resolved.iter().collect();
     let shot = Shot::draw(&renderer, &listed, &mut Silent).expect("drawn");
     (resolved, shot)
@@ -29,9 +29,13 @@ fn shots(scene: &str) -> (Vec<Method>, Shot) {
 /// Results of a kernel on the device, and by the interpreter in `f32` and `f64`.
 fn made(bench: &Bench, compiled: &Compiled, inputs: &Inputs) -> [Vec<Written>; 3] {
     [
-        bench.targets(compiled, Stage::Compute, inputs).expect("it runs"),
-        interpret::<f32>(compiled, inputs, false).expect("it runs").targets,
-        interpret::<f64>(compiled, inputs, false).expect("it runs").targets,
+        bench.run_targets(compiled, Stage::Compute, inputs).expect("it runs"),
+        interpret_kernel::<f32>(compiled, inputs, false)
+            .expect("it runs")
+            .targets,
+        interpret_kernel::<f64>(compiled, inputs, false)
+            .expect("it runs")
+            .targets,
     ]
 }
 

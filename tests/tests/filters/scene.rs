@@ -3,34 +3,34 @@
 use crate::common;
 
 use common::same_bits;
-use straightline_bench::execute::interpret;
+use straightline_bench::execute::interpret_kernel;
 use straightline_codegen::Unroll;
 use straightline_kernels::prelude::*;
 use straightline_oracle::metrics;
 use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::gbuffer;
 use straightline_scene::picture;
-use straightline_scene::render::{CpuRenderer, capture, reference};
-use straightline_scene::scene::{SKY_DEPTH, Scene, builtin};
+use straightline_scene::render::{CpuRenderer, capture_scene, render_reference};
+use straightline_scene::scene::{SKY_DEPTH, Scene, builtin_scene};
 use straightline_tests::sraa::compiled;
 use straightline_tests::sraa::options::options;
 
 fn captured(size: UVec2, pattern: &str) -> Capture {
-    let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
-    let samples = gbuffer::samples(pattern).expect("a pattern");
-    capture(&renderer, &samples, ShadingSample::Centre).expect("captured")
+    let renderer = CpuRenderer::new(&builtin_scene(), size).expect("the scene is drawn");
+    let samples = gbuffer::pattern_offsets(pattern).expect("a pattern");
+    capture_scene(&renderer, &samples, ShadingSample::Centre).expect("captured")
 }
 
 fn rendered(size: UVec2, pattern: &str) -> (Capture, Frame<Vec4>) {
-    let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
-    let reference = reference(&renderer, 8, &mut |_, _| {}).expect("supersampled");
+    let renderer = CpuRenderer::new(&builtin_scene(), size).expect("the scene is drawn");
+    let reference = render_reference(&renderer, 8, &mut |_, _| {}).expect("supersampled");
     (captured(size, pattern), reference)
 }
 
 fn resolve(capture: &Capture, words: &[(&str, &str)], unroll: Unroll) -> Frame<Vec4> {
     let compiled = compiled(&options(words), unroll).unwrap_or_else(|errors| panic!("{errors}"));
-    let inputs = gbuffer::inputs(capture, &compiled.options).expect("all is captured");
-    let interpreted = interpret::<f32>(&compiled, &inputs, false).expect("all is bound");
+    let inputs = gbuffer::sraa_inputs(capture, &compiled.options).expect("all is captured");
+    let interpreted = interpret_kernel::<f32>(&compiled, &inputs, false).expect("all is bound");
     interpreted.frame(&inputs)
 }
 
@@ -80,11 +80,11 @@ fn looped_and_unrolled_agree_bit_for_bit_on_the_scene() {
 
 /// A scene by name, drawn on the CPU, with what it should look like.
 fn scene(name: &str, size: UVec2) -> (Capture, Frame<Vec4>) {
-    let scene = Scene::named(name).expect("a scene");
+    let scene = Scene::from_name(name).expect("a scene");
     let renderer = CpuRenderer::new(&scene, size).expect("the scene is drawn");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    let capture = capture(&renderer, &samples, ShadingSample::Centre).expect("captured");
-    let reference = reference(&renderer, 8, &mut |_, _| {}).expect("supersampled");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let capture = capture_scene(&renderer, &samples, ShadingSample::Centre).expect("captured");
+    let reference = render_reference(&renderer, 8, &mut |_, _| {}).expect("supersampled");
     (capture, reference)
 }
 
@@ -95,11 +95,11 @@ fn show(name: &str, columns: &[(&str, &Frame<Vec4>)], corner: UVec2) {
     };
     let details: Vec<(&str, Frame<Vec4>)> = columns
         .iter()
-        .map(|(label, frame)| (*label, picture::detail(frame, corner.x, corner.y, 72, 72, 4)))
+        .map(|(label, frame)| (*label, picture::enlarge_detail(frame, corner.x, corner.y, 72, 72, 4)))
         .collect();
     let details: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(label, frame)| (*label, frame)).collect();
     let path = std::path::Path::new(&folder).join(format!("{name}.png"));
-    picture::write(&path, &picture::montage(&details)).expect("the picture is written");
+    picture::write_picture(&path, &picture::compose_montage(&details)).expect("the picture is written");
 }
 
 /// Paper figure 5: grooves and insets lie a little behind the surface, and the surface itself recedes by as much.

@@ -5,7 +5,7 @@ use crate::common;
 use common::{bench, other_compilers, same_bits};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use straightline_bench::execute::cropped;
+use straightline_bench::execute::crop_inputs;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Format, Stage, Unroll};
 use straightline_kernels::prelude::*;
@@ -45,7 +45,7 @@ fn tiled_and_whole_are_the_same_bits() {
                     (&compiled, stage),
                     size,
                     (side, 1),
-                    |tile| Ok(cropped(&inputs, tile)),
+                    |tile| Ok(crop_inputs(&inputs, tile)),
                     |tile, pixels| {
                         for (k, texel) in pixels.texels().iter().enumerate() {
                             let (x, y) = (k as u32 % tile.size.x, k as u32 / tile.size.x);
@@ -72,9 +72,9 @@ fn rectangles_of_one_picture_fill_it() {
     for stage in [Stage::Compute, Stage::Fragment] {
         let whole = bench.run(&compiled, stage, &inputs).unwrap_or_else(|e| panic!("{e}"));
         let emit = EmitOptions::new().stage(stage).format(Format::Rgba32Float).region(true);
-        let (pass, manifest) = bench.emitted(&compiled, &emit).unwrap_or_else(|e| panic!("{e}"));
+        let (pass, manifest) = bench.emit_pass(&compiled, &emit).unwrap_or_else(|e| panic!("{e}"));
         let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
-        let target = bench.target(size, pass.target_format());
+        let target = bench.create_target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let device = bench.device();
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -107,9 +107,11 @@ fn a_shader_for_whole_images_refuses_regions() {
     let (bench, set) = (bench(), options(&[]));
     let inputs = surfaces::inputs(&set, uvec2(8, 8), 4);
     let compiled = compiled(&set, Unroll::Full).unwrap_or_else(|errors| panic!("{errors}"));
-    let (pass, manifest) = bench.pass(&compiled, Stage::Compute).unwrap_or_else(|e| panic!("{e}"));
+    let (pass, manifest) = bench
+        .compile_pass(&compiled, Stage::Compute)
+        .unwrap_or_else(|e| panic!("{e}"));
     let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
-    let target = bench.target(uvec2(8, 8), pass.target_format());
+    let target = bench.create_target(uvec2(8, 8), pass.target_format());
     let view = target.create_view(&wgpu::TextureViewDescriptor::default());
     let refused = uploaded.bind_region(&pass, &view, Region::at([0, 0], [4, 4]));
     let error = refused.expect_err("it has no region").to_string();

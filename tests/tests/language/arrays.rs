@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{bench, same_bits};
-use straightline_bench::execute::interpret;
+use straightline_bench::execute::interpret_kernel;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_tests::sraa::options::options;
@@ -56,7 +56,7 @@ fn arrays_of_kept_loops_hold_what_the_graph_says() {
         let compiled = [Unroll::Full, Unroll::None]
             .map(|unroll| kernel.compile(&settings(unroll)).unwrap_or_else(|e| panic!("{e}")));
         let [unrolled, looped] = [0, 1].map(|k| {
-            let interpreted = interpret::<f32>(&compiled[k], &inputs, false);
+            let interpreted = interpret_kernel::<f32>(&compiled[k], &inputs, false);
             interpreted.unwrap_or_else(|e| panic!("{name}: {e}")).texels
         });
         same_bits(&unrolled, &looped).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -10,7 +10,7 @@
 mod kernels;
 
 use glam::{IVec2, Vec4, ivec2, uvec2};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
 
@@ -72,8 +72,8 @@ fn every_form_computes_what_rust_does() {
         for form in forms() {
             let compiled = compiled(name, form);
             for n in [0, 1, 3, 4, 7] {
-                let found =
-                    interpret::<f32>(&compiled, &inputs(n), false).unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
+                let found = interpret_kernel::<f32>(&compiled, &inputs(n), false)
+                    .unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
                 for (k, found) in (0..).zip(&found.texels) {
                     let pixel = ivec2(k % 4, k / 4);
                     let expected = native(&frame, n, pixel).to_array();

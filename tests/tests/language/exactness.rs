@@ -1,7 +1,7 @@
 //! Sums whose order of operations matters: what rustc makes of them is what every form computes, in every language on a driver, bit
 //! for bit. And kernels in which nothing hangs on an order, where nothing is marked.
 
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::Op;
 use straightline_codegen::policy::Math;
@@ -40,7 +40,7 @@ fn compiled(kernel: &str, unroll: Unroll, math: Math) -> Compiled {
 /// Operations that are marked.
 fn marks(compiled: &Compiled) -> usize {
     let graph = &compiled.graph;
-    graph.ids().filter(|id| graph.node(*id).op == Op::Exact).count()
+    graph.node_ids().filter(|id| graph.node(*id).op == Op::Exact).count()
 }
 
 /// Numbers of sizes that lose bits of each other.
@@ -55,7 +55,7 @@ fn inputs() -> Inputs {
     let texels = (0..size.x * size.y)
         .map(|_| vec4(next(), next(), next(), next()))
         .collect();
-    Inputs::new(size).image("a", Frame::new(size, texels))
+    Inputs::new(size).with_image("a", Frame::new(size, texels))
 }
 
 fn bits(frame: &Frame<Vec4>) -> Vec<[u32; 4]> {
@@ -87,7 +87,7 @@ fn same(what: &str, found: &[[u32; 4]], expected: &[[u32; 4]]) {
 fn check(bench: &Bench, name: &str, kernel: &str, math: Math) {
     let inputs = inputs();
     let native = compiled(kernel, Unroll::Full, math);
-    let expected = interpret::<f32>(&native, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let expected = interpret_kernel::<f32>(&native, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
     let expected = bits(&expected.frame(&inputs));
     for unroll in FORMS {
         let what = format!("{name}, {math}, loops {unroll}");
@@ -97,12 +97,12 @@ fn check(bench: &Bench, name: &str, kernel: &str, math: Math) {
             marks(&compiled) > 0 || unroll != Unroll::None,
             "{what}: nothing is marked"
         );
-        let computed = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let computed = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
         same(&what, &bits(&computed.frame(&inputs)), &expected);
         for stage in [Stage::Compute, Stage::Fragment] {
             let emitted = compiled.emit(
                 &bench
-                    .options(stage)
+                    .emit_options(stage)
                     .targets([Target::Wgsl].into_iter().chain(PAST_WGPU)),
             );
             let emitted = emitted.unwrap_or_else(|e| panic!("{what}: {e}"));
@@ -162,7 +162,7 @@ fn opengl_keeps_the_order_of_sums_that_hang_on_it() {
     for (name, kernel) in ORDERED {
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(4)] {
             let compiled = compiled(kernel, unroll, Math::Exact);
-            let expected = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let expected = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
             let expected = bits(&expected.frame(&inputs));
             for target in Target::OPENGL {
                 let what = format!("{name}, loops {unroll}, {target}");
@@ -264,10 +264,10 @@ pub fn as_written(as_written_vec2f: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
     let mut inputs = inputs();
     inputs.images[0].0 = "as_written_vec2f".to_owned();
-    let expected = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    let expected = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
     let expected = bits(&expected.frame(&inputs));
     let bench = bench();
-    let emitted = compiled.emit(&bench.options(Stage::Compute).targets(PAST_WGPU));
+    let emitted = compiled.emit(&bench.emit_options(Stage::Compute).targets(PAST_WGPU));
     let emitted = emitted.unwrap_or_else(|e| panic!("{e}"));
     let found = bench
         .run(&compiled, Stage::Compute, &inputs)

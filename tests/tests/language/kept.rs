@@ -9,7 +9,7 @@ mod kernels;
 use common::{Shaders, bench, same_bits};
 use glam::{IVec2, Vec4, ivec2, uvec2};
 use std::time::{Duration, Instant};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
@@ -117,7 +117,7 @@ fn every_form_computes_what_rust_does() {
         let places = (0..12).map(|k| ivec2(k % 4, k / 4));
         let expected: Vec<[f32; 4]> = places.map(|pixel| native(&frame, N, pixel).to_array()).collect();
         for form in FORMS {
-            let result = interpret::<f32>(&compiled(name, form), &inputs, false);
+            let result = interpret_kernel::<f32>(&compiled(name, form), &inputs, false);
             let result = result.unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
             same_bits(&expected, &result.texels).unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
         }
@@ -134,7 +134,7 @@ fn every_form_is_emitted_and_is_the_same_picture_on_a_gpu() {
             let emitted = compiled.emit(&EmitOptions::new().targets(Target::MODERN));
             let emitted = emitted.unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
             shaders.write(&emitted, &format!("{name}-{k}"));
-            let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
+            let expected = interpret_kernel::<f32>(&compiled, &inputs, false).expect("ran before");
             let found = bench.run(&compiled, Stage::Compute, &inputs);
             let found = found.unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
             for (a, b) in found.texels().iter().zip(&expected.texels) {

@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{Texel, bench, other_compilers, same_texels};
 use std::path::PathBuf;
-use straightline_bench::execute::{self, SamplerState, interpret};
+use straightline_bench::execute::{self, SamplerState, interpret_kernel};
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, emit::Target};
 use straightline_kernels::prelude::*;
@@ -158,37 +158,37 @@ impl World {
         let column = |v: Vec3| v.to_array().map(f64::from);
         let mut inputs = execute::Inputs::new(SIZE);
         for (k, colour) in self.palette.iter().enumerate() {
-            inputs = inputs.uniform(&format!("palette_{k}"), &column(*colour));
+            inputs = inputs.with_uniform(&format!("palette_{k}"), &column(*colour));
         }
         inputs
-            .image("color", self.color.clone())
-            .layers("layers", self.layers.layers().iter().map(layer).collect())
-            .image("image", sample(&self.image))
-            .layers("samples", self.samples.samples().iter().map(sample).collect())
-            .image("shadow", depth(&self.shadow))
-            .levels("mips", stacked(&[&self.mips]))
-            .levels("volume", slices(&self.volume))
-            .levels("environment", stacked(&self.environment.faces().each_ref()))
-            .levels("stack", stacked(&[0, 1, 2].map(|k| self.stack.layer(k))))
-            .layers("cascades", (0..2).map(|k| depth(self.cascades.layer(k))).collect())
-            .layers("around", self.around.faces().iter().map(depth).collect())
-            .integers(
+            .with_image("color", self.color.clone())
+            .with_layers("layers", self.layers.layers().iter().map(layer).collect())
+            .with_image("image", sample(&self.image))
+            .with_layers("samples", self.samples.samples().iter().map(sample).collect())
+            .with_image("shadow", depth(&self.shadow))
+            .with_levels("mips", stacked(&[&self.mips]))
+            .with_levels("volume", slices(&self.volume))
+            .with_levels("environment", stacked(&self.environment.faces().each_ref()))
+            .with_levels("stack", stacked(&[0, 1, 2].map(|k| self.stack.layer(k))))
+            .with_layers("cascades", (0..2).map(|k| depth(self.cascades.layer(k))).collect())
+            .with_layers("around", self.around.faces().iter().map(depth).collect())
+            .with_integers(
                 "ids",
                 vec![Frame::new(
                     SIZE,
                     self.ids.texels().iter().map(|id| uvec4(*id, 0, 0, 0)).collect(),
                 )],
             )
-            .integers(
+            .with_integers(
                 "tiles",
                 vec![Frame::new(
                     self.tiles.size(),
                     self.tiles.texels().iter().map(bits).collect(),
                 )],
             )
-            .sampler("linear", SamplerState::default())
-            .sampler("less", SamplerState::default())
-            .buffer(
+            .with_sampler("linear", SamplerState::default())
+            .with_sampler("less", SamplerState::default())
+            .with_buffer(
                 "weights",
                 self.weights
                     .elements()
@@ -196,13 +196,13 @@ impl World {
                     .map(|w| [f64::from(*w), 0.0, 0.0, 0.0])
                     .collect(),
             )
-            .buffer("lights", self.lights.iter().flat_map(|l| self.light(*l)).collect())
-            .uniform("grade_x_axis", &column(self.grade.x_axis))
-            .uniform("grade_y_axis", &column(self.grade.y_axis))
-            .uniform("grade_z_axis", &column(self.grade.z_axis))
-            .uniform("strength", &[f64::from(self.strength)])
-            .uniform("tint", &self.tint.to_array().map(f64::from))
-            .uniform("taps", &[f64::from(self.taps)])
+            .with_buffer("lights", self.lights.iter().flat_map(|l| self.light(*l)).collect())
+            .with_uniform("grade_x_axis", &column(self.grade.x_axis))
+            .with_uniform("grade_y_axis", &column(self.grade.y_axis))
+            .with_uniform("grade_z_axis", &column(self.grade.z_axis))
+            .with_uniform("strength", &[f64::from(self.strength)])
+            .with_uniform("tint", &self.tint.to_array().map(f64::from))
+            .with_uniform("taps", &[f64::from(self.taps)])
     }
 }
 
@@ -225,8 +225,8 @@ fn every_example_means_the_same_in_every_form() {
             for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
                 let settings = Settings::new().unroll(unroll).branches(branches);
                 let compiled = compile(example, &settings);
-                let result =
-                    interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", example.name));
+                let result = interpret_kernel::<f32>(&compiled, &inputs, false)
+                    .unwrap_or_else(|e| panic!("{}: {e}", example.name));
                 for (k, target) in result.targets.iter().enumerate() {
                     let native: Vec<[f64; 4]> = native.iter().map(|texels| texels[k]).collect();
                     same_texels(&native, &target.texels).unwrap_or_else(|e| {
@@ -286,9 +286,9 @@ fn every_example_is_the_same_picture_on_a_gpu() {
         for unroll in [Unroll::Full, Unroll::None] {
             let settings = Settings::new().unroll(unroll);
             let compiled = compile(example, &settings);
-            let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
+            let expected = interpret_kernel::<f32>(&compiled, &inputs, false).expect("ran before");
             let found = bench
-                .targets(&compiled, Stage::Compute, &inputs)
+                .run_targets(&compiled, Stage::Compute, &inputs)
                 .unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
             assert_eq!(found.len(), expected.targets.len(), "{}", example.name);
             // A GPU weighs filtered texels in steps of 1/256.
@@ -313,7 +313,7 @@ fn every_example_is_the_same_picture_on_a_gpu() {
 fn every_example_works_in_half_precision() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("language-half");
     std::fs::create_dir_all(&folder).expect("a folder for shaders");
-    let bench = bench().precision(Precision::F16);
+    let bench = bench().with_precision(Precision::F16);
     let inputs = World::new().inputs();
     let mut spirv = Vec::new();
     for example in EXAMPLES {
@@ -326,9 +326,9 @@ fn every_example_works_in_half_precision() {
             let path = folder.join(format!("{}-{unroll}.spv", example.name));
             std::fs::write(&path, &emitted.files[&Target::Spirv]).expect("a shader is written");
             spirv.push(path);
-            let expected = interpret::<F16>(&compiled, &inputs, false).expect("ran before");
+            let expected = interpret_kernel::<F16>(&compiled, &inputs, false).expect("ran before");
             let found = bench
-                .targets(&compiled, Stage::Compute, &inputs)
+                .run_targets(&compiled, Stage::Compute, &inputs)
                 .unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
             for (found, expected) in found.iter().zip(&expected.targets) {
                 for (k, (a, b)) in found.texels.iter().zip(&expected.texels).enumerate() {
@@ -374,7 +374,7 @@ fn the_page_says_which_constructs_are_taken() {
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
             let settings = Settings::new().unroll(unroll);
             let compiled = compile(example, &settings);
-            let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{title}: {e}"));
+            let found = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{title}: {e}"));
             same_texels(&native, &found.targets[0].texels).unwrap_or_else(|e| panic!("{title} with {unroll}: {e}"));
         }
     }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
-use straightline_bench::execute::{Inputs, interpret, sampler_state, test_inputs};
+use straightline_bench::execute::{Inputs, interpret_kernel, sampler_state, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
@@ -120,9 +120,9 @@ fn tampered(compiled: &Compiled, inputs: &Inputs, tampered: usize) -> (Vec<[f32;
     }
     let frame = inputs.size.to_array();
     let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, frame, &bindings).expect("all is bound");
-    let mut scratch = interpreter.scratch();
+    let mut scratch = interpreter.new_scratch();
     let colours = interpreter
-        .invocation(frame[0] / 2, frame[1] / 2, &mut scratch)
+        .run_invocation(frame[0] / 2, frame[1] / 2, &mut scratch)
         .to_vec();
     (colours, reads.load(Ordering::Relaxed))
 }
@@ -156,9 +156,9 @@ fn reads_that_are_not_shared_change_no_bit() {
     for kernel in kernels() {
         let forms = [true, false].map(|share_loads| compile(&kernel, &Settings::new().repeat_loads(!share_loads)));
         let inputs = test_inputs(&forms[0].in_blocks().graph, uvec2(32, 18));
-        let found = forms
-            .each_ref()
-            .map(|form| interpret::<f32>(form, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", kernel.name())));
+        let found = forms.each_ref().map(|form| {
+            interpret_kernel::<f32>(form, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", kernel.name()))
+        });
         same_bits(&found[0].texels, &found[1].texels).unwrap_or_else(|e| panic!("{}: {e}", kernel.name()));
         let [shared, unshared] = forms.each_ref().map(|form| form.counts.reads.values().sum::<u32>());
         assert!(unshared >= shared, "{}", kernel.name());
@@ -183,7 +183,7 @@ fn kernels_by_hand_agree() {
         assert!(bindings(&hand).is_subset(&bindings(&full)), "{}", subject.name);
         let inputs = test_inputs(&full.graph, uvec2(96, 64));
         let [expected, found] = [&full, &hand].map(|form| {
-            interpret::<f32>(form, &inputs, false)
+            interpret_kernel::<f32>(form, &inputs, false)
                 .unwrap_or_else(|e| panic!("{e}"))
                 .texels
         });
@@ -242,7 +242,7 @@ fn every_kept_loop_is_shown_to_end() {
             assert_eq!(with, without);
             let [longer, shorter] = [&bounded, &unbounded].map(|e| e.files[&Target::Spirv].len());
             assert!(shorter < longer, "{}: {shorter} and {longer} bytes", kernel.name());
-            gpu.made(&unbounded, &PassOptions::default().unbounded_loops(true))
+            gpu.create_pass(&unbounded, &PassOptions::default().unbounded_loops(true))
                 .unwrap_or_else(|e| panic!("{} {unroll}: {e}", kernel.name()));
         }
     }

@@ -15,7 +15,7 @@ use kernels::{ROLES, SIZE, Words, roles, sources};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
-use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::Invocation;
@@ -95,7 +95,7 @@ fn gives_the_same(bench: &Bench, name: &str, original: &Compiled, renamed: &Comp
     let inputs = test_inputs(&original.graph, SIZE);
     let others = inputs_of(&original.graph, &renamed.graph, &inputs);
     let [expected, found] = [(original, &inputs), (renamed, &others)].map(|(compiled, inputs)| {
-        let run = interpret::<f32>(compiled, inputs, false);
+        let run = interpret_kernel::<f32>(compiled, inputs, false);
         run.unwrap_or_else(|e| panic!("{name}: {e}"))
     });
     assert_eq!(expected.targets.len(), found.targets.len(), "{name}");
@@ -367,7 +367,7 @@ fn entry_points_are_called_as_asked() {
     assert_eq!(emitted.manifest.entry_point, "color");
     compilers::read(&emitted).unwrap_or_else(|e| panic!("{e}"));
     let refused = compiled.emit(&EmitOptions::new().entry("parameters"));
-    let code = refused.as_ref().err().and_then(|errors| errors.code());
+    let code = refused.as_ref().err().and_then(|errors| errors.first_code());
     assert_eq!(code, Some(Code::EntryName), "{refused:?}");
 }
 

@@ -216,7 +216,7 @@ fn operations(texts: &[Text]) -> (BTreeSet<UnaryOp>, BTreeSet<BinaryOp>) {
         let compiled = Kernel::from_text("operation.rs", &text.file(), "k")
             .compile(&FORMS[0].settings())
             .unwrap_or_else(|errors| panic!("{text}\n{errors}"));
-        for id in compiled.graph.ids() {
+        for id in compiled.graph.node_ids() {
             match compiled.graph.node(id).op {
                 Op::Unary(op) => _ = unary.insert(op),
                 Op::Binary(op) => _ = binary.insert(op),

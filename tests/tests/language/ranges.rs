@@ -151,7 +151,7 @@ fn run(compiled: &Compiled, uniforms: &[(&str, i64)]) -> [f32; 4] {
         bindings = bindings.uniform(name, lanes);
     }
     let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, [1, 1], &bindings).expect("all is bound");
-    interpreter.pixel(0, 0, &mut interpreter.scratch())
+    interpreter.run_pixel(0, 0, &mut interpreter.new_scratch())
 }
 
 /// A literal of a type.

@@ -1,7 +1,7 @@
 //! Values of functions and operators where drivers depart from Rust unless the shader keeps them: what the kernel returns natively,
 //! in every form by the interpreter, and on lavapipe and SwiftShader in every language that they read.
 
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::{EmitOptions, Format, Kernel, Stage};
 use straightline_foreign::vulkan::{Device, Driver};
 use straightline_kernels::prelude::*;
@@ -235,7 +235,7 @@ fn kernel(cases: &[Case]) -> Kernel {
 }
 
 fn ones(pixels: usize) -> Inputs {
-    Inputs::new(uvec2(pixels as u32, 1)).uniform("one", &[1.0])
+    Inputs::new(uvec2(pixels as u32, 1)).with_uniform("one", &[1.0])
 }
 
 /// Runs a kernel on drivers in each language, and names all pixels that differ from the expected ones.
@@ -287,7 +287,7 @@ fn operations_at_their_edges_are_natively_what_is_stated() {
             let compiled = kernel
                 .compile(&form.settings())
                 .unwrap_or_else(|errors| panic!("{errors}"));
-            let found = interpret::<f32>(&compiled, &ones(1), false).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let found = interpret_kernel::<f32>(&compiled, &ones(1), false).unwrap_or_else(|e| panic!("{name}: {e}"));
             let found = found.frame(&ones(1)).texels()[0];
             let same = |(a, b): (&f32, f32)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
             if !found.to_array().iter().zip(native.to_array()).all(same) {

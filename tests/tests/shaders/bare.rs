@@ -1,6 +1,6 @@
 //! Shaders on lavapipe and SwiftShader without wgpu, compared with the interpreter.
 
-use straightline_bench::execute::{Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 use straightline_foreign::vulkan::{Binding, Device, Dispatch, Driver, Format as TexelFormat, Image, Resource};
@@ -23,7 +23,7 @@ fn check(compiled: &Compiled, inputs: &Inputs) {
     let emitted = compiled
         .emit(&options.targets(LANGUAGES))
         .unwrap_or_else(|e| panic!("{e}"));
-    let expected = interpret::<f32>(compiled, inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    let expected = interpret_kernel::<f32>(compiled, inputs, false).unwrap_or_else(|e| panic!("{e}"));
     let expected = expected.frame(inputs);
     let first = expected.texels()[0];
     assert!(expected.texels().iter().any(|texel| *texel != first), "one colour");
@@ -72,10 +72,10 @@ fn kernels_with_buffers_and_integers() {
     let ids = (0..size.x * size.y).map(|k| uvec4(k, k * 3, 0, 0)).collect();
     let weights = (0..5).map(|k| [f64::from(k) * 0.25, f64::from(k), 0.0, 0.0]).collect();
     let inputs = Inputs::new(size)
-        .integers("ids", vec![Frame::new(size, ids)])
-        .buffer("weights", weights)
-        .uniform("scale", &[0.5])
-        .uniform("shift", &[1.0, 2.0, -3.0]);
+        .with_integers("ids", vec![Frame::new(size, ids)])
+        .with_buffer("weights", weights)
+        .with_uniform("scale", &[0.5])
+        .with_uniform("shift", &[1.0, 2.0, -3.0]);
     check(&compiled, &inputs);
 }
 

@@ -28,7 +28,7 @@ fn all() -> Compiled {
 }
 
 fn inputs(compiled: &Compiled) -> Inputs {
-    test_inputs(&compiled.graph, SIZE).uniform("tau", &[0.75])
+    test_inputs(&compiled.graph, SIZE).with_uniform("tau", &[0.75])
 }
 
 fn texels(frame: &Frame<Vec4>) -> Vec<[f32; 4]> {
@@ -47,7 +47,7 @@ fn moved(options: EmitOptions) -> EmitOptions {
 }
 
 fn run(bench: &Bench, compiled: &Compiled, options: &EmitOptions) -> Vec<[f32; 4]> {
-    let (pass, manifest) = bench.emitted(compiled, options).unwrap_or_else(|e| panic!("{e}"));
+    let (pass, manifest) = bench.emit_pass(compiled, options).unwrap_or_else(|e| panic!("{e}"));
     let inputs = inputs(compiled);
     let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
     texels(
@@ -62,7 +62,7 @@ fn a_shader_runs_by_the_numbers_of_its_manifest() {
     let (bench, compiled) = (bench(), all());
     for stage in [Stage::Compute, Stage::Fragment] {
         for region in [false, true] {
-            let plain = bench.options(stage).region(region);
+            let plain = bench.emit_options(stage).region(region);
             let expected = run(&bench, &compiled, &plain);
             let found = run(&bench, &compiled, &moved(plain));
             same_bits(&found, &expected).unwrap_or_else(|e| panic!("{stage:?}, region {region}: {e}"));
@@ -78,9 +78,9 @@ fn other_languages_run_by_the_numbers_too() {
                 (pixel.as_vec2() + 0.3) / image.size().as_vec2();\n    color.load(pixel + ivec2(1, 2)) * tau + image.sample(linear, uv)\n}\n";
     let compiled = Kernel::from_text("k.rs", text, "k").compile(&Settings::default());
     let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
-    let inputs = test_inputs(&compiled.graph, SIZE).uniform("tau", &[0.75]);
+    let inputs = test_inputs(&compiled.graph, SIZE).with_uniform("tau", &[0.75]);
     for stage in [Stage::Compute, Stage::Fragment] {
-        let plain = bench.options(stage).targets(languages);
+        let plain = bench.emit_options(stage).targets(languages);
         let moved = plain
             .clone()
             .group(1)
@@ -97,7 +97,7 @@ fn other_languages_run_by_the_numbers_too() {
             same_bits(&picture(&moved), &picture(&plain)).unwrap_or_else(|e| panic!("{target} {stage:?}: {e}"));
         }
         // Languages that reach the driver directly need the binding numbers that wgpu assigns.
-        let holes = emit(&bench.options(stage).targets(languages).binding("color", 9));
+        let holes = emit(&bench.emit_options(stage).targets(languages).binding("color", 9));
         let error = passthrough::run(&bench, &holes, Target::Spirv, &inputs).expect_err("holes");
         assert!(
             error.contains("binding 9") && error.contains("without holes"),
@@ -171,8 +171,8 @@ fn entry(binding: &Value, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayo
 #[test]
 fn a_layout_is_made_of_the_manifests_words_alone() {
     let (bench, compiled) = (bench(), all());
-    let options = moved(bench.options(Stage::Compute)).group(1);
-    let expected = run(&bench, &compiled, &bench.options(Stage::Compute));
+    let options = moved(bench.emit_options(Stage::Compute)).group(1);
+    let expected = run(&bench, &compiled, &bench.emit_options(Stage::Compute));
     let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
     let files = emitted.named_files("all");
     let json: Value = serde_json::from_slice(&files["all.json"]).expect("JSON");
@@ -219,7 +219,7 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
         mapped_at_creation: false,
     });
     bench.queue().write_buffer(&uniforms, 0, &0.75f32.to_le_bytes());
-    let target = bench.target(SIZE, wgpu::TextureFormat::Rgba32Float);
+    let target = bench.create_target(SIZE, wgpu::TextureFormat::Rgba32Float);
     let view = target.create_view(&wgpu::TextureViewDescriptor::default());
     let entries: Vec<wgpu::BindGroupEntry<'_>> = bindings
         .iter()
@@ -259,7 +259,7 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
 fn a_text_of_another_hash_is_refused() {
     let (bench, compiled) = (bench(), all());
     let emitted = compiled
-        .emit(&bench.options(Stage::Compute))
+        .emit(&bench.emit_options(Stage::Compute))
         .unwrap_or_else(|e| panic!("{e}"));
     let wgsl = String::from_utf8(emitted.files[&Target::Wgsl].clone()).expect("text");
     let made = |wgsl: &str| Pass::new(bench.device(), &emitted.manifest, wgsl);
@@ -291,7 +291,7 @@ fn a_function_is_no_pass() {
     });
     let options = EmitOptions::new().form(straightline_codegen::Form::Function);
     let error = bench
-        .emitted(&compiled, &options)
+        .emit_pass(&compiled, &options)
         .map(|_| ())
         .expect_err("a function")
         .to_string();
@@ -313,7 +313,7 @@ fn matrices_and_arrays_are_set_as_one_value() {
     let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
     let graph = ir::print(&compiled.graph);
     assert_eq!(ir::print(&ir::parse(&graph).unwrap_or_else(|e| panic!("{e:?}"))), graph);
-    let target = bench.target(uvec2(1, 1), wgpu::TextureFormat::Rgba32Float);
+    let target = bench.create_target(uvec2(1, 1), wgpu::TextureFormat::Rgba32Float);
     let view = target.create_view(&wgpu::TextureViewDescriptor::default());
     let (turn, weights) = ([[3.0, 5.0], [7.0, 11.0]], [13.0, 17.0]);
     let palette = [[0.0; 3], [1.0, 2.0, 4.0], [0.0; 3], [8.0, 16.0, 32.0]];
@@ -321,7 +321,7 @@ fn matrices_and_arrays_are_set_as_one_value() {
     let options = BindOptions::default().uniform("turn", turn);
     let options = options.uniform("palette", palette).uniform("weights", weights);
     for stage in [Stage::Compute, Stage::Fragment] {
-        let (pass, manifest) = bench.pass(&compiled, stage).unwrap_or_else(|e| panic!("{e}"));
+        let (pass, manifest) = bench.compile_pass(&compiled, stage).unwrap_or_else(|e| panic!("{e}"));
         let fields: Vec<String> = manifest
             .bindings
             .iter()

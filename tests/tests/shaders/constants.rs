@@ -56,7 +56,7 @@ fn both_roads_draw_the_same_picture() {
             kernel => Kernel::builtin(kernel).and_then(|kernel| kernel.compile(&sraa())),
         };
         let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
-        let inputs = test_inputs(&compiled.graph, SIZE).uniform("tau", &[0.75]);
+        let inputs = test_inputs(&compiled.graph, SIZE).with_uniform("tau", &[0.75]);
         let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
         let picture = |pass: Result<Pass, Error>| -> Vec<[f32; 4]> {
             let pass = pass.unwrap_or_else(|e| panic!("{e}"));

@@ -4,7 +4,7 @@
 use crate::common;
 
 use common::{bench, same_bits};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Branches, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 
@@ -78,7 +78,7 @@ fn inputs() -> Inputs {
         vec4(x, 1.0, n, m)
     };
     let size = uvec2(16, 8);
-    Inputs::new(size).image("color", Frame::new(size, (0..128).map(texel).collect()))
+    Inputs::new(size).with_image("color", Frame::new(size, (0..128).map(texel).collect()))
 }
 
 fn check(name: &str, native: fn(&Frame<Vec4>, IVec2) -> Vec4) {
@@ -92,7 +92,7 @@ fn check(name: &str, native: fn(&Frame<Vec4>, IVec2) -> Vec4) {
     let settings = Settings::new().unroll(Unroll::Full).branches(Branches::Select);
     let compiled = Kernel::from_text("edges.rs", &TEXT[begin..end], name).compile(&settings);
     let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
-    let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let found = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
     same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name}, interpreted: {e}"));
     let shown = bench()
         .run(&compiled, Stage::Compute, &inputs)
@@ -144,6 +144,6 @@ fn clamps_of_a_nan_are_those_of_rust() {
     let expected: Vec<[f32; 4]> = (0..16).map(|x| clamps(&layers[0], ivec2(x, 0)).to_array()).collect();
     let compiled = Kernel::from_text("edges.rs", text, "clamps").compile(&Settings::default());
     let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
-    let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    let found = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
     same_bits(&expected, &found.texels[..16]).unwrap_or_else(|e| panic!("{e}"));
 }

@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::same_bits;
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::ir::print;
 use straightline_codegen::{Compiled, Kernel, Math, Settings, Unroll};
 use straightline_kernels::prelude::*;
@@ -15,7 +15,7 @@ fn form(options: &Options, unroll: Unroll) -> Compiled {
 }
 
 fn bits(compiled: &Compiled, inputs: &Inputs) -> Vec<[f32; 4]> {
-    let result = interpret::<f32>(compiled, inputs, false);
+    let result = interpret_kernel::<f32>(compiled, inputs, false);
     result.unwrap_or_else(|error| panic!("{error}")).texels
 }
 
@@ -64,7 +64,10 @@ fn a_number_set_at_run_time_means_the_same() {
     let compiled = form(&at_run_time, Unroll::Full);
     let given = bits(
         &compiled,
-        &inputs.clone().uniform("tau", &[80.0]).uniform("depth_scale", &[3.0]),
+        &inputs
+            .clone()
+            .with_uniform("tau", &[80.0])
+            .with_uniform("depth_scale", &[3.0]),
     );
     same_bits(&native::run(&known, &inputs), &given).unwrap_or_else(|e| panic!("{e}"));
     let defaults = native::run(&Options::new(), &inputs);
@@ -147,7 +150,7 @@ fn fallback_is_taken_where_a_pixel_is_not_finite() {
 
 /// The largest difference of what a kernel gives in `f32` to the same without fast mathematics in `f64`.
 fn off(fast: &Compiled, exact: &Compiled, inputs: &Inputs) -> f64 {
-    let real = interpret::<f64>(exact, inputs, false).unwrap_or_else(|error| panic!("{error}"));
+    let real = interpret_kernel::<f64>(exact, inputs, false).unwrap_or_else(|error| panic!("{error}"));
     let pairs = bits(fast, inputs).into_iter().zip(real.texels);
     let lanes = pairs.flat_map(|(a, b)| a.into_iter().zip(b));
     lanes.map(|(a, b)| (f64::from(a) - b).abs()).fold(0.0, f64::max)

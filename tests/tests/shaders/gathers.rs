@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{bench, same_bits, same_texels};
-use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Origin, Precision, ReadOrder, Settings, Stage};
 use straightline_kernels::prelude::*;
@@ -118,7 +118,7 @@ fn the_interpreter_finds_the_same_bits() {
             for size in SIZES {
                 let inputs = case.inputs(size);
                 let [expected, found] = [&source, &gather].map(|compiled| {
-                    let found = interpret::<f32>(compiled, &inputs, false);
+                    let found = interpret_kernel::<f32>(compiled, &inputs, false);
                     found.unwrap_or_else(|e| panic!("{}: {e}", case.name)).texels
                 });
                 same_bits(&expected, &found).unwrap_or_else(|e| panic!("{}, {block:?}, {size}: {e}", case.name));
@@ -171,7 +171,7 @@ fn plain_bench() -> Bench {
 fn same_pictures(bench: &Bench, case: &Case, stage: Stage, block: [u32; 2], size: UVec2) {
     let inputs = case.inputs(size);
     let [expected, found] = [ReadOrder::Source, ReadOrder::Gather].map(|reads| {
-        let targets = bench.targets(&case.compile(reads, block), stage, &inputs);
+        let targets = bench.run_targets(&case.compile(reads, block), stage, &inputs);
         let targets = targets.unwrap_or_else(|e| panic!("{}, {reads}, {size}: {e}", case.name));
         targets.into_iter().next().expect("a target").texels
     });
@@ -256,11 +256,11 @@ fn other_languages_find_the_same() {
     let bench = passthrough::bench().unwrap_or_else(|e| panic!("{e}"));
     for case in [text(AROUND, "around"), text(MIXED, "mixed")] {
         let inputs = case.inputs(SIZES[0]);
-        let expected = interpret::<f32>(&case.compile(ReadOrder::Source, [1, 1]), &inputs, false);
+        let expected = interpret_kernel::<f32>(&case.compile(ReadOrder::Source, [1, 1]), &inputs, false);
         let expected = expected.unwrap_or_else(|e| panic!("{e}")).texels;
         let compiled = case.compile(ReadOrder::Gather, [1, 1]);
         for language in [Target::Glsl450, Target::Hlsl, Target::Spirv] {
-            let options = bench.options(Stage::Compute).targets([Target::Wgsl, language]);
+            let options = bench.emit_options(Stage::Compute).targets([Target::Wgsl, language]);
             let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{language}: {e}"));
             let found = passthrough::run(&bench, &emitted, language, &inputs);
             let found = found.unwrap_or_else(|e| panic!("{language}: {e}"));
@@ -282,11 +282,11 @@ fn regions_find_the_same_bits() {
     let (size, region) = (SIZES[0], Region::at([5, 3], [36, 20]));
     let inputs = case.inputs(size);
     let [expected, found] = [ReadOrder::Source, ReadOrder::Gather].map(|reads| {
-        let options = bench.options(Stage::Compute).region(true);
+        let options = bench.emit_options(Stage::Compute).region(true);
         let compiled = case.compile(reads, [1, 1]);
-        let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+        let (pass, manifest) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
         let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
-        let target = bench.target(size, pass.target_format());
+        let target = bench.create_target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = bench
             .device()
@@ -330,8 +330,8 @@ fn what_cannot_be_gathered_is_refused() {
 fn a_sampler_that_filters_is_refused() {
     let bench = plain_bench();
     let compiled = text(AROUND, "around").compile(ReadOrder::Gather, [1, 1]);
-    let options = bench.options(Stage::Compute);
-    let (pass, _) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+    let options = bench.emit_options(Stage::Compute);
+    let (pass, _) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
     let view = |format, usage| {
         let size = wgpu::Extent3d {
             width: 4,

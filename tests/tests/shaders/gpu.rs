@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::bench;
-use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Kernel, ReadOrder, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
@@ -21,8 +21,8 @@ fn off(bench: &Bench, options: &Options, stage: Stage, unroll: Unroll, inputs: &
     let compiled = compiled(options, unroll).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));
     let result = bench.run(&compiled, stage, inputs);
     let result = result.unwrap_or_else(|e| panic!("{options:?} {stage:?}: {e}"));
-    let params = SraaParams::of(&compiled.options).unwrap_or_else(|e| panic!("{e}"));
-    let expected = oracle::sraa(inputs, &params).unwrap_or_else(|e| panic!("{options:?}: {e}"));
+    let params = SraaParams::from_options(&compiled.options).unwrap_or_else(|e| panic!("{e}"));
+    let expected = oracle::resolve_sraa(inputs, &params).unwrap_or_else(|e| panic!("{options:?}: {e}"));
     difference(&result, &expected)
 }
 
@@ -105,7 +105,7 @@ fn the_order_of_reads_changes_no_bit() {
         let [source, rows] = both.each_ref().map(|compiled| {
             let picture = bench.run(compiled, Stage::Compute, &inputs);
             let picture = picture.unwrap_or_else(|error| panic!("{name} {options:?}: {error}"));
-            let interpreted = interpret::<f32>(compiled, &inputs, false);
+            let interpreted = interpret_kernel::<f32>(compiled, &inputs, false);
             (
                 picture,
                 interpreted.unwrap_or_else(|error| panic!("{name}: {error}")).texels,
@@ -142,7 +142,7 @@ fn a_bad_colour_spreads_nowhere() {
                     texel[k % 4] = bad;
                 }
             }
-            inputs = inputs.image("color", Frame::new(uvec2(24, 16), texels));
+            inputs = inputs.with_image("color", Frame::new(uvec2(24, 16), texels));
             for stage in [Stage::Compute, Stage::Fragment] {
                 let off = off(&bench, &set, stage, Unroll::Full, &inputs);
                 assert_eq!((off.non_finite, off.compared), (0, 24 * 16), "{bad} {mask} {stage:?}");
@@ -177,8 +177,8 @@ fn a_pixel_without_variation_within_keeps_its_colour() {
         for mask in ["select", "branch"] {
             let set = options(&[&[("mask", mask), ("variation", "within")], more].concat());
             let inputs = surfaces::inputs(&set, size, 5);
-            let params = SraaParams::of(&values(&set)).expect("options");
-            let expected = oracle::sraa(&inputs, &params).expect("a definition");
+            let params = SraaParams::from_options(&values(&set)).expect("options");
+            let expected = oracle::resolve_sraa(&inputs, &params).expect("a definition");
             let color = image(&inputs, "color");
             let own = |k: usize| color.texels()[k].to_array();
             let is_own = |k: usize| expected[k].color == own(k).map(f64::from);
@@ -211,7 +211,7 @@ fn bright_and_transparent_colours_are_filtered_as_they_are() {
         (texel.truncate() * 1.0e4 * alpha).extend(alpha)
     });
     let color = Frame::new(uvec2(24, 16), texels.collect());
-    let inputs = inputs.clone().image("color", color);
+    let inputs = inputs.clone().with_image("color", color);
     let off = off(&bench, &set, Stage::Compute, Unroll::Full, &inputs);
     assert!(off.largest < 1.0e4 * BOUND && off.non_finite == 0, "{off:?}");
     let compiled = compiled(&set, Unroll::Full).expect("it compiles");
@@ -233,15 +233,15 @@ fn the_mask_keeps_even_ground_bit_for_bit() {
         let size = uvec2(32, 24);
         let even = |texel: Vec4| Frame::new(size, vec![texel; 32 * 24]);
         let inputs = surfaces::inputs(&set, size, 7)
-            .layers("depth", vec![even(Vec4::splat(3.0)); 5])
-            .layers("normal", vec![even(vec4(0.0, 0.0, 1.0, 0.0)); 5]);
+            .with_layers("depth", vec![even(Vec4::splat(3.0)); 5])
+            .with_layers("normal", vec![even(vec4(0.0, 0.0, 1.0, 0.0)); 5]);
         let color = image(&inputs, "color").clone();
         let compiled = compiled(&set, Unroll::Full).expect("it compiles");
         for stage in [Stage::Compute, Stage::Fragment] {
             let result = bench.run(&compiled, stage, &inputs).expect("it runs");
             assert_eq!(result.texels(), color.texels(), "{mask} {stage:?}");
         }
-        let interpreted = interpret::<f32>(&compiled, &inputs, false).expect("it runs");
+        let interpreted = interpret_kernel::<f32>(&compiled, &inputs, false).expect("it runs");
         assert_eq!(interpreted.frame(&inputs), color, "{mask}");
     }
 }

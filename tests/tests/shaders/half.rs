@@ -15,7 +15,7 @@ mod values;
 
 use common::bench;
 use half::f16;
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Compiled, Kernel, Precision, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
@@ -33,7 +33,7 @@ fn half_bench() -> Bench {
         gpu.device().features().contains(wgpu::Features::SHADER_F16),
         "this test needs an adapter with half precision; llvmpipe, of Debian's mesa-vulkan-drivers, has it, SwiftShader does not"
     );
-    gpu.precision(Precision::F16)
+    gpu.with_precision(Precision::F16)
 }
 
 /// Returns whether the driver is known to round as IEEE 754 defines it, and to contract nothing.
@@ -44,7 +44,7 @@ fn rounds_exactly(gpu: &Bench) -> bool {
 /// Pictures of a kernel in half precision by the shader and by the interpreter.
 fn both(gpu: &Bench, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> [Frame<Vec4>; 2] {
     let shown = gpu.run(compiled, stage, inputs);
-    let found = interpret::<F16>(compiled, inputs, false);
+    let found = interpret_kernel::<F16>(compiled, inputs, false);
     [
         shown.unwrap_or_else(|e| panic!("{}: {e}", compiled.kernel)),
         found

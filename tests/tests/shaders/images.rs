@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
-use straightline_bench::execute::{Inputs, Written, interpret};
+use straightline_bench::execute::{Inputs, Written, interpret_kernel};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Format, Origin, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
@@ -74,7 +74,7 @@ fn all<T: Texel + Copy + Default>(picture: &StorageTexture<T>) -> Vec<[f64; 4]> 
 }
 
 fn inputs() -> Inputs {
-    Inputs::new(SIZE).image("color", texels(SIZE, 5))
+    Inputs::new(SIZE).with_image("color", texels(SIZE, 5))
 }
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
@@ -103,7 +103,8 @@ fn every_form_writes_what_rustc_writes() {
             for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
                 let what = format!("{name} {unroll} {branches}");
                 let compiled = compiled(name, text, &settings(unroll, branches));
-                let found = interpret::<f32>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{what}: {e}"));
+                let found =
+                    interpret_kernel::<f32>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{what}: {e}"));
                 same(&what, &native, &found.targets);
             }
         }
@@ -124,7 +125,7 @@ fn each_form(mut check: impl FnMut(&str, &Compiled, &[Vec<[f64; 4]>])) {
 fn gpus_write_the_same() {
     let bench = bench();
     each_form(|what, compiled, native| {
-        let found = bench.targets(compiled, Stage::Compute, &inputs());
+        let found = bench.run_targets(compiled, Stage::Compute, &inputs());
         same(what, native, &found.unwrap_or_else(|e| panic!("{what}: {e}")));
     });
 }
@@ -134,7 +135,7 @@ fn glsl_hlsl_and_spirv_write_the_same_through_vulkan() {
     let bench = passthrough::bench().unwrap_or_else(|e| panic!("{e}"));
     each_form(|what, compiled, native| {
         for language in [Target::Glsl450, Target::Hlsl, Target::Spirv] {
-            let options = bench.options(Stage::Compute).targets([Target::Wgsl, language]);
+            let options = bench.emit_options(Stage::Compute).targets([Target::Wgsl, language]);
             let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{what}: {e}"));
             let found = passthrough::run_all(&bench, &emitted, language, &inputs());
             let found = found.unwrap_or_else(|e| panic!("{what} {language}: {e}"));
@@ -163,7 +164,7 @@ fn opengl_writes_the_same() {
             let below = below.unwrap_or_else(|e| panic!("{what}: {e}"));
             let color = texels(SIZE, 5);
             let turned = color.texels().chunks(SIZE.x as usize).rev().flatten().copied();
-            let turned = Inputs::new(SIZE).image("color", Frame::new(SIZE, turned.collect()));
+            let turned = Inputs::new(SIZE).with_image("color", Frame::new(SIZE, turned.collect()));
             for (k, output) in upright.manifest.outputs.iter().enumerate() {
                 let written = |texels: Vec<[f64; 4]>| Written {
                     name: output.name.clone(),
@@ -194,7 +195,7 @@ fn graphs_are_read_as_they_are_printed() {
     each_form(|what, compiled, _| {
         let printed = print(&compiled.graph);
         let read = parse(&printed).unwrap_or_else(|e| panic!("{what}: {e}\n{printed}"));
-        verify::verify(&read).unwrap_or_else(|e| panic!("{what}: {e}\n{printed}"));
+        verify::verify_graph(&read).unwrap_or_else(|e| panic!("{what}: {e}\n{printed}"));
         assert_eq!(print(&read), printed);
     });
 }

@@ -1,6 +1,6 @@
 //! Shaders emitted for OpenGL and OpenGL ES, run on Mesa's software driver without a display, against the interpreter.
 
-use straightline_bench::execute::{Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Transport, Unroll};
@@ -23,7 +23,7 @@ fn compiled(name: &str, options: Options<'_>, unroll: Unroll, transport: Option<
 /// Runs a kernel in every language of OpenGL that has its stage, and compares each picture with the interpreter's.
 #[track_caller]
 fn check(compiled: &Compiled, stage: Stage, inputs: &Inputs, expected_languages: &[Target]) {
-    let expected = interpret::<f32>(compiled, inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    let expected = interpret_kernel::<f32>(compiled, inputs, false).unwrap_or_else(|e| panic!("{e}"));
     let expected = expected.frame(inputs);
     let first = expected.texels()[0];
     assert!(expected.texels().iter().any(|texel| *texel != first), "one colour");
@@ -35,7 +35,9 @@ fn check(compiled: &Compiled, stage: Stage, inputs: &Inputs, expected_languages:
             .targets([target]);
         let emitted = match compiled.emit(&options) {
             Ok(emitted) => emitted,
-            Err(error) if error.code() == Some(Code::NotInTarget) && !expected_languages.contains(&target) => continue,
+            Err(error) if error.first_code() == Some(Code::NotInTarget) && !expected_languages.contains(&target) => {
+                continue;
+            }
             Err(e) => panic!("{what}: {e}"),
         };
         assert!(expected_languages.contains(&target), "{what} is not refused");
@@ -126,7 +128,7 @@ fn several_values() {
         let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
         let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
         let inputs = test_inputs(&compiled.graph, SIZE);
-        let expected = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+        let expected = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
         for (stage, target) in [Stage::Compute, Stage::Fragment]
             .into_iter()
             .flat_map(|s| Target::OPENGL.map(|t| (s, t)))
@@ -139,7 +141,7 @@ fn several_values() {
             // OpenGL ES has no images of two components.
             let is_there = stage == Stage::Fragment || (COMPUTE.contains(&target) && !(es && has_pairs));
             let emitted = match compiled.emit(&options) {
-                Err(error) if error.code() == Some(Code::NotInTarget) && !is_there => continue,
+                Err(error) if error.first_code() == Some(Code::NotInTarget) && !is_there => continue,
                 emitted => emitted.unwrap_or_else(|e| panic!("{target}: {e}")),
             };
             assert!(is_there, "{stage:?} {target} is not refused");

@@ -12,8 +12,8 @@ use straightline_oracle::metrics;
 use straightline_runtime::Region;
 use straightline_scene::capture::ShadingSample;
 use straightline_scene::gbuffer;
-use straightline_scene::render::{CpuRenderer, capture, reference};
-use straightline_scene::scene::builtin;
+use straightline_scene::render::{CpuRenderer, capture_scene, render_reference};
+use straightline_scene::scene::builtin_scene;
 use straightline_tests::gl::{self, Context};
 use straightline_tests::sraa::compiled as sraa;
 use straightline_tests::sraa::options::options;
@@ -81,7 +81,7 @@ fn all_turned(inputs: &Inputs) -> Inputs {
 }
 
 fn run(bench: &Bench, compiled: &Compiled, options: &EmitOptions, inputs: &Inputs) -> Frame<Vec4> {
-    let made = bench.emitted(compiled, options).and_then(|(pass, manifest)| {
+    let made = bench.emit_pass(compiled, options).and_then(|(pass, manifest)| {
         let uploaded = bench.upload(&manifest, inputs)?;
         bench.picture_of(&pass, &uploaded, inputs.size)
     });
@@ -127,13 +127,19 @@ fn every_way_to_name_a_row_is_turned() {
             for stage in [Stage::Compute, Stage::Fragment] {
                 if stage == Stage::Fragment && ["gathers", "filters", "compares"].contains(&name) {
                     // Nothing tells a fragment shader the frame's height.
-                    let below = bench.options(stage).origin(Origin::LowerLeft);
+                    let below = bench.emit_options(stage).origin(Origin::LowerLeft);
                     let error = compiled.emit(&below).expect_err("no frame").to_string();
                     assert!(error.contains("frame's size"), "{error}");
                     continue;
                 }
-                check(&bench, &compiled, &bench.options(stage), &inputs, filters);
-                check(&bench, &compiled, &bench.options(stage).region(true), &inputs, filters);
+                check(&bench, &compiled, &bench.emit_options(stage), &inputs, filters);
+                check(
+                    &bench,
+                    &compiled,
+                    &bench.emit_options(stage).region(true),
+                    &inputs,
+                    filters,
+                );
             }
         }
     }
@@ -147,7 +153,7 @@ fn filters_of_fragments_are_turned_where_the_frame_is_known() {
                 color.load(pixel)\n}\n";
     let compiled = compiled("k", text, &Settings::default());
     let inputs = test_inputs(&compiled.graph, uvec2(45, 31));
-    check(&bench, &compiled, &bench.options(Stage::Fragment), &inputs, true);
+    check(&bench, &compiled, &bench.emit_options(Stage::Fragment), &inputs, true);
 }
 
 #[test]
@@ -162,7 +168,7 @@ fn blocks_and_whole_quads_are_turned() {
             check(
                 &bench,
                 &compiled,
-                &bench.options(Stage::Compute).region(region),
+                &bench.emit_options(Stage::Compute).region(region),
                 &inputs,
                 false,
             );
@@ -173,7 +179,7 @@ fn blocks_and_whole_quads_are_turned() {
     let compiled = compiled("quads", quads, &Settings::default());
     // Turned over, a quad of an even height is a quad, and messages go both ways: only an odd height makes a difference.
     let inputs = test_inputs(&compiled.graph, uvec2(45, 31));
-    check(&bench, &compiled, &bench.options(Stage::Compute), &inputs, false);
+    check(&bench, &compiled, &bench.emit_options(Stage::Compute), &inputs, false);
 }
 
 /// Of a region the host states rows from below, in the inputs and in the target.
@@ -191,10 +197,10 @@ fn regions_are_stated_from_below() {
                 continue;
             }
             let part = |origin: Origin, inputs: &Inputs, region: Region| {
-                let options = bench.options(stage).region(true).origin(origin);
-                let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+                let options = bench.emit_options(stage).region(true).origin(origin);
+                let (pass, manifest) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
                 let uploaded = bench.upload(&manifest, inputs).unwrap_or_else(|e| panic!("{e}"));
-                let target = bench.target(size, pass.target_format());
+                let target = bench.create_target(size, pass.target_format());
                 let view = target.create_view(&wgpu::TextureViewDescriptor::default());
                 let mut encoder = bench
                     .device()
@@ -226,16 +232,16 @@ fn regions_are_stated_from_below() {
 fn a_scene_from_below_beats_its_mirror() {
     let bench = bench();
     let size = uvec2(320, 181);
-    let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    let captured = capture(&renderer, &samples, ShadingSample::Centre).expect("captured");
-    let expected = turned(&reference(&renderer, 8, &mut |_, _| {}).expect("supersampled"));
+    let renderer = CpuRenderer::new(&builtin_scene(), size).expect("the scene is drawn");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let captured = capture_scene(&renderer, &samples, ShadingSample::Centre).expect("captured");
+    let expected = turned(&render_reference(&renderer, 8, &mut |_, _| {}).expect("supersampled"));
     let words = options(&[("pattern", "latin4")]);
     let compiled = sraa(&words, Unroll::Full).unwrap_or_else(|e| panic!("{e}"));
-    let inputs = gbuffer::inputs(&captured, &compiled.options).expect("all is captured");
+    let inputs = gbuffer::sraa_inputs(&captured, &compiled.options).expect("all is captured");
     let over = all_turned(&inputs);
     for stage in [Stage::Compute, Stage::Fragment] {
-        let upright = bench.options(stage);
+        let upright = bench.emit_options(stage);
         let below = upright.clone().origin(Origin::LowerLeft);
         let decibels = |options: &EmitOptions| metrics::psnr(&run(&bench, &compiled, options, &over), &expected);
         let (told, mirrored) = (decibels(&below), decibels(&upright));
@@ -253,7 +259,7 @@ fn opengl_computes_the_same() {
     let compiled = compiled(name, text, &Settings::default());
     let inputs = test_inputs(&compiled.graph, uvec2(45, 31));
     let bench = bench();
-    let expected = turned(&run(&bench, &compiled, &bench.options(Stage::Fragment), &inputs));
+    let expected = turned(&run(&bench, &compiled, &bench.emit_options(Stage::Fragment), &inputs));
     for (target, stage) in [(Target::Glsl330, Stage::Fragment), (Target::Glsl430, Stage::Compute)] {
         let options = EmitOptions::new()
             .stage(stage)

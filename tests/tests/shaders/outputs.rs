@@ -4,7 +4,7 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
-use straightline_bench::execute::{Bench, Inputs, Written, interpret};
+use straightline_bench::execute::{Bench, Inputs, Written, interpret_kernel};
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, EmitOptions, Form, Format, Origin, Precision, Settings, Stage, Unroll};
@@ -77,8 +77,8 @@ fn color() -> Frame<Vec4> {
 
 fn inputs() -> Inputs {
     Inputs::new(SIZE)
-        .image("color", color())
-        .uniform("far", &[f64::from(FAR)])
+        .with_image("color", color())
+        .with_uniform("far", &[f64::from(FAR)])
 }
 
 type Native = fn(&Frame<Vec4>, IVec2) -> Vec<[f64; 4]>;
@@ -173,7 +173,7 @@ fn every_form_gives_what_rustc_gives() {
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(3)] {
             for branches in [Branches::Keep, Branches::Select] {
                 let settings = Settings::new().unroll(unroll).branches(branches);
-                let found = interpret::<f32>(&compiled(name, text, &settings), &inputs(), false);
+                let found = interpret_kernel::<f32>(&compiled(name, text, &settings), &inputs(), false);
                 let found = found.unwrap_or_else(|e| panic!("{name}: {e}"));
                 let names: Vec<&str> = found.targets.iter().map(|target| target.name.as_str()).collect();
                 assert_eq!(names, targets.iter().map(|(name, _)| *name).collect::<Vec<_>>());
@@ -181,7 +181,7 @@ fn every_form_gives_what_rustc_gives() {
             }
         }
         let first: Vec<[f64; 4]> = {
-            let found = interpret::<f32>(&compiled(name, text, &Settings::default()), &inputs(), false);
+            let found = interpret_kernel::<f32>(&compiled(name, text, &Settings::default()), &inputs(), false);
             let texels = found.expect("ran before").texels;
             texels.iter().map(|texel| texel.map(f64::from)).collect()
         };
@@ -199,7 +199,9 @@ fn every_stage_gives_the_same_on_a_gpu() {
             let compiled = compiled(name, text, &settings);
             for stage in [Stage::Compute, Stage::Fragment] {
                 let what = format!("{name} {unroll} {stage:?}");
-                let (pass, manifest) = bench.pass(&compiled, stage).unwrap_or_else(|e| panic!("{what}: {e}"));
+                let (pass, manifest) = bench
+                    .compile_pass(&compiled, stage)
+                    .unwrap_or_else(|e| panic!("{what}: {e}"));
                 let written: Vec<(&str, Format)> = manifest
                     .outputs
                     .iter()
@@ -226,9 +228,9 @@ fn blocks_of_pixels_store_all_of_them() {
         let expected = native(kernel, targets.len());
         let settings = Settings::new().block(2, 2);
         let compiled = compiled(name, text, &settings);
-        let found = interpret::<f32>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let found = interpret_kernel::<f32>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{name}: {e}"));
         same(name, &expected, &found.targets);
-        let found = bench.targets(&compiled, Stage::Compute, &inputs());
+        let found = bench.run_targets(&compiled, Stage::Compute, &inputs());
         near(
             name,
             &expected,
@@ -240,14 +242,14 @@ fn blocks_of_pixels_store_all_of_them() {
 
 #[test]
 fn half_precision_rounds_floats_alone() {
-    let bench = bench().precision(Precision::F16);
+    let bench = bench().with_precision(Precision::F16);
     let (name, text, ..) = KERNELS[0];
     let compiled = compiled(name, text, &Settings::default());
-    let expected = interpret::<F16>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{e}"));
+    let expected = interpret_kernel::<F16>(&compiled, &inputs(), false).unwrap_or_else(|e| panic!("{e}"));
     let expected: Vec<_> = expected.targets.into_iter().map(|target| target.texels).collect();
     for stage in [Stage::Compute, Stage::Fragment] {
         let found = bench
-            .targets(&compiled, stage, &inputs())
+            .run_targets(&compiled, stage, &inputs())
             .unwrap_or_else(|e| panic!("{e}"));
         near(name, &expected, &found, 1.0 / 64.0);
     }
@@ -274,8 +276,8 @@ fn regions_and_rows_from_below_hold_for_every_target() {
         place: [1, 1],
     };
     for stage in [Stage::Compute, Stage::Fragment] {
-        let options = bench.options(stage).region(true);
-        let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+        let options = bench.emit_options(stage).region(true);
+        let (pass, manifest) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
         let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
         let found = written(&bench, &pass, &uploaded, uvec2(8, 7), Some(region));
         for (k, target) in found.iter().enumerate() {
@@ -288,8 +290,8 @@ fn regions_and_rows_from_below_hold_for_every_target() {
                 }
             }
         }
-        let below = bench.options(stage).origin(Origin::LowerLeft);
-        let (pass, manifest) = bench.emitted(&compiled, &below).unwrap_or_else(|e| panic!("{e}"));
+        let below = bench.emit_options(stage).origin(Origin::LowerLeft);
+        let (pass, manifest) = bench.emit_pass(&compiled, &below).unwrap_or_else(|e| panic!("{e}"));
         let turned = |texels: &[[f64; 4]]| -> Vec<[f64; 4]> {
             texels.chunks(SIZE.x as usize).rev().flatten().copied().collect()
         };
@@ -300,7 +302,7 @@ fn regions_and_rows_from_below_hold_for_every_target() {
             .flatten()
             .copied()
             .collect();
-        let over = inputs().image("color", Frame::new(SIZE, over));
+        let over = inputs().with_image("color", Frame::new(SIZE, over));
         let uploaded = bench.upload(&manifest, &over).unwrap_or_else(|e| panic!("{e}"));
         let found = bench
             .written_by(&pass, &uploaded, SIZE)
@@ -320,7 +322,7 @@ fn written(
 ) -> Vec<Written> {
     let textures: Vec<_> = pass
         .targets()
-        .map(|(name, format)| (name, bench.target(size, format)))
+        .map(|(name, format)| (name, bench.create_target(size, format)))
         .collect();
     let views: Vec<_> = textures
         .iter()
@@ -341,7 +343,7 @@ fn written(
     let read = textures.iter().map(|(name, texture)| Written {
         name: (*name).to_owned(),
         size,
-        texels: bench.read(texture).unwrap_or_else(|e| panic!("{e}")),
+        texels: bench.read_texels(texture).unwrap_or_else(|e| panic!("{e}")),
     });
     read.collect()
 }
@@ -355,7 +357,7 @@ fn glsl_hlsl_and_spirv_give_the_same_through_vulkan() {
         for stage in [Stage::Compute, Stage::Fragment] {
             let languages = [Target::Wgsl, Target::Glsl450, Target::Hlsl, Target::Spirv];
             for language in languages.into_iter().skip(1) {
-                let options = bench.options(stage).targets([Target::Wgsl, language]);
+                let options = bench.emit_options(stage).targets([Target::Wgsl, language]);
                 let emitted = compiled
                     .emit(&options)
                     .unwrap_or_else(|e| panic!("{name} {language}: {e}"));
@@ -426,10 +428,12 @@ fn a_pass_says_what_is_wrong_with_targets() {
     let bench = bench();
     let (name, text, ..) = KERNELS[0];
     let compiled = compiled(name, text, &Settings::default());
-    let (pass, manifest) = bench.pass(&compiled, Stage::Compute).unwrap_or_else(|e| panic!("{e}"));
+    let (pass, manifest) = bench
+        .compile_pass(&compiled, Stage::Compute)
+        .unwrap_or_else(|e| panic!("{e}"));
     let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
     let texture = |size: UVec2, format| {
-        let texture = bench.target(size, format);
+        let texture = bench.create_target(size, format);
         texture.create_view(&wgpu::TextureViewDescriptor::default())
     };
     use wgpu::TextureFormat::{R32Float, Rg32Float, Rgba32Float};
@@ -476,11 +480,11 @@ fn a_pass_says_what_is_wrong_with_targets() {
     );
 
     let emitted = compiled
-        .emit(&bench.options(Stage::Fragment))
+        .emit(&bench.emit_options(Stage::Fragment))
         .unwrap_or_else(|e| panic!("{e}"));
     let made = |options: PassOptions| {
         bench
-            .made(&emitted, &options)
+            .create_pass(&emitted, &options)
             .err()
             .map(|e| e.to_string())
             .unwrap_or_default()
@@ -514,16 +518,16 @@ fn quads_give_several_values() {
     let expected: Vec<_> = alone
         .iter()
         .map(|kernel| {
-            let mut targets = interpret::<f32>(kernel, &inputs(), false)
+            let mut targets = interpret_kernel::<f32>(kernel, &inputs(), false)
                 .unwrap_or_else(|e| panic!("{e}"))
                 .targets;
             targets.swap_remove(0).texels
         })
         .collect();
-    let found = interpret::<f32>(&both, &inputs(), false).unwrap_or_else(|e| panic!("{e}"));
+    let found = interpret_kernel::<f32>(&both, &inputs(), false).unwrap_or_else(|e| panic!("{e}"));
     same("quads", &expected, &found.targets);
     let found = bench
-        .targets(&both, Stage::Compute, &inputs())
+        .run_targets(&both, Stage::Compute, &inputs())
         .unwrap_or_else(|e| panic!("{e}"));
     near("quads", &expected, &found, 1.0e-5);
 }

@@ -3,16 +3,18 @@
 use crate::common;
 
 use std::time::Duration;
-use straightline_bench::execute::{Bench, Clock, timestamps};
+use straightline_bench::execute::{Bench, Clock, next_timestamps};
 use straightline_kernels::prelude::*;
 use straightline_oracle::metrics;
-use straightline_scene::render::{CpuRenderer, FramePass, FramePasses, GpuRenderer, Renderer, Samples, reference};
+use straightline_scene::render::{
+    CpuRenderer, FramePass, FramePasses, GpuRenderer, Renderer, Samples, render_reference,
+};
 use straightline_scene::scene::Scene;
 
 const SIZE: UVec2 = UVec2::new(320, 180);
 
 fn scene(name: &str) -> Scene {
-    Scene::named(name).expect("a scene")
+    Scene::from_name(name).expect("a scene")
 }
 
 fn passes(scene: &Scene, evaluations: u32) -> FramePasses {
@@ -28,8 +30,11 @@ fn shading_every_sample_gives_their_mean() {
         let (device, queue) = common::device();
         let on_device = GpuRenderer::new(&device, &queue, &scene, SIZE).expect("a renderer");
         for samples in Samples::ALL {
-            let picture = passes.supersampled(samples).expect("a picture");
-            let means = [own.mean(&samples.offsets()), on_device.mean(&samples.offsets())];
+            let picture = passes.draw_supersampled(samples).expect("a picture");
+            let means = [
+                own.draw_mean(&samples.offsets()),
+                on_device.draw_mean(&samples.offsets()),
+            ];
             let [own, on_device] = means.map(|mean| metrics::psnr(&picture, &mean.expect("a mean")));
             println!("{name}, {samples:?}: {own:.1} dB, {on_device:.1} dB to the device's own");
             // Drivers round corners to a sixteenth of a pixel at worst: some samples near edges see another surface.
@@ -45,9 +50,9 @@ fn forward_rendering_antialiases_edges_of_geometry() {
     for name in ["roof", "railings"] {
         let scene = scene(name);
         let (passes, own) = (passes(&scene, 1), CpuRenderer::new(&scene, SIZE).expect("a renderer"));
-        let reference = reference(&own, 8, &mut |_, _| {}).expect("a reference");
-        let plain = metrics::psnr(&own.shaded(Vec2::ZERO).expect("a picture"), &reference);
-        let forward = metrics::psnr(&passes.forward().expect("a picture"), &reference);
+        let reference = render_reference(&own, 8, &mut |_, _| {}).expect("a reference");
+        let plain = metrics::psnr(&own.draw_shaded(Vec2::ZERO).expect("a picture"), &reference);
+        let forward = metrics::psnr(&passes.draw_forward().expect("a picture"), &reference);
         println!("{name}: {forward:.1} dB, {plain:.1} dB without");
         assert!(forward > plain + 2.0, "{name}: {forward} dB, {plain} dB without");
     }
@@ -58,14 +63,14 @@ fn what_sraa_reads_is_the_geometry_of_its_samples() {
     let scene = scene("roof");
     let (passes, own) = (passes(&scene, 1), CpuRenderer::new(&scene, SIZE).expect("a renderer"));
     for samples in [Samples::Four, Samples::Sixteen] {
-        let mut drawn = vec![passes.auxiliary(samples).expect("geometry")];
+        let mut drawn = vec![passes.draw_auxiliary(samples).expect("geometry")];
         if samples == Samples::Four {
             let multisampled = passes.auxiliary_multisampled().and_then(|drawn| drawn.read());
             drawn.push(multisampled.expect("geometry"));
         }
         for (depths, normals) in drawn {
             for (sample, offset) in samples.offsets().into_iter().enumerate() {
-                let (depth, normal) = own.geometry(offset).expect("geometry");
+                let (depth, normal) = own.draw_geometry(offset).expect("geometry");
                 let texels = depth.texels().iter().zip(normal.texels());
                 let found = depths.layers()[sample]
                     .texels()
@@ -93,7 +98,8 @@ fn what_sraa_reads_is_the_geometry_of_its_samples() {
 #[test]
 fn evaluations_of_the_shading_differ() {
     let scene = scene("roof");
-    let [once, again, often] = [1, 1, 16].map(|n| passes(&scene, n).supersampled(Samples::One).expect("a picture"));
+    let [once, again, often] =
+        [1, 1, 16].map(|n| passes(&scene, n).draw_supersampled(Samples::One).expect("a picture"));
     assert_eq!(metrics::max_abs_difference(&once, &again), 0.0);
     let psnr = metrics::psnr(&often, &once);
     println!("{psnr:.1} dB");
@@ -119,10 +125,12 @@ fn every_pass_is_timed_by_the_device() {
     let works = all.iter().map(|pass| {
         let record = move |encoder: &mut wgpu::CommandEncoder, timer: Option<&mut straightline_runtime::Timer>| {
             // The timer has room for so many spans and no more.
-            passes.encode(*pass, encoder, &timestamps(timer, pass.passes())?);
+            passes.encode(*pass, encoder, &next_timestamps(timer, pass.pass_count())?);
             Ok(())
         };
-        bench.recorded(pass.passes(), Duration::ZERO, record).expect("a timer")
+        bench
+            .recorded_work(pass.pass_count(), Duration::ZERO, record)
+            .expect("a timer")
     });
     let timed = bench
         .in_turn(&mut works.collect::<Vec<_>>(), 2, |_| true)

@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use straightline_bench::execute::{Bench, Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_kernels::prelude::*;
@@ -31,9 +31,9 @@ fn compiled(name: &str, options: Options<'_>, unroll: Unroll, transport: Option<
 /// Runs a kernel in some languages, and compares each picture with the interpreter's.
 #[track_caller]
 fn check(bench: &Bench, compiled: &Compiled, stage: Stage, inputs: &Inputs, languages: &[Target]) {
-    let emitted = compiled.emit(&bench.options(stage).targets(languages.iter().copied()));
+    let emitted = compiled.emit(&bench.emit_options(stage).targets(languages.iter().copied()));
     let emitted = emitted.unwrap_or_else(|e| panic!("{}: {e}", compiled.kernel));
-    let expected = interpret::<f32>(compiled, inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    let expected = interpret_kernel::<f32>(compiled, inputs, false).unwrap_or_else(|e| panic!("{e}"));
     let expected = expected.frame(inputs);
     let first = expected.texels()[0];
     assert!(
@@ -122,7 +122,9 @@ fn edge_filters() {
 #[test]
 fn what_is_missing_is_named() {
     let compiled = compiled("quad_convolution", &[], Unroll::Full, Some(Transport::Block));
-    let options = bench().options(Stage::Compute).targets([Target::Glsl450, Target::Msl]);
+    let options = bench()
+        .emit_options(Stage::Compute)
+        .targets([Target::Glsl450, Target::Msl]);
     let emitted = compiled.emit(&options).expect("it is emitted");
     let refused = |bench: &Bench, target| {
         let refused = passthrough::run(bench, &emitted, target, &inputs(&compiled));

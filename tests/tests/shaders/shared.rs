@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{bench, same_bits, same_texels};
-use straightline_bench::execute::{Inputs, interpret, test_inputs};
+use straightline_bench::execute::{Inputs, interpret_kernel, test_inputs};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Origin, Precision, Settings, Share, Stage, Unroll};
@@ -81,7 +81,7 @@ fn filter(name: &str, options: &[(&str, &str)]) -> Case {
 fn of_card(name: String, kernel: Kernel, options: Vec<(String, String)>) -> Case {
     let settings = Settings::new().set_all(options.clone());
     let compiled = kernel.compile(&settings).unwrap_or_else(|e| panic!("{name}:\n{e}"));
-    let inputs = test_inputs(&compiled.graph, SIZE).uniform("rounds", &[3.0]);
+    let inputs = test_inputs(&compiled.graph, SIZE).with_uniform("rounds", &[3.0]);
     Case {
         name,
         kernel,
@@ -139,7 +139,7 @@ impl Case {
     }
 
     fn interpreted(&self, compiled: &Compiled) -> Vec<Vec<[f64; 4]>> {
-        let found = interpret::<f32>(compiled, &self.inputs, false);
+        let found = interpret_kernel::<f32>(compiled, &self.inputs, false);
         let found = found.unwrap_or_else(|e| panic!("{}: {e}", self.name));
         found.targets.into_iter().map(|target| target.texels).collect()
     }
@@ -227,7 +227,7 @@ fn a_gpu_finds_the_same_bits() {
     for case in cases().into_iter().chain(looped()) {
         let picture = |share: Share| {
             let compiled = case.compile(share, Unroll::Full);
-            let targets = bench.targets(&compiled, Stage::Compute, &case.inputs);
+            let targets = bench.run_targets(&compiled, Stage::Compute, &case.inputs);
             let targets = targets.unwrap_or_else(|e| panic!("{}, {share}: {e}", case.name));
             targets.into_iter().map(|target| target.texels).collect::<Vec<_>>()
         };
@@ -240,7 +240,7 @@ fn a_gpu_finds_the_same_bits() {
 
 #[test]
 fn half_precision_finds_the_same_bits() {
-    let bench = bench().precision(Precision::F16);
+    let bench = bench().with_precision(Precision::F16);
     let case = filter("bilateral", &[("radius", "2")]);
     let picture = |share: Share| {
         let compiled = case.compile(share, Unroll::Full);
@@ -277,7 +277,7 @@ fn other_languages_find_the_same() {
     let expected = case.interpreted(&case.compile(Share::Invocation, Unroll::Full));
     let compiled = case.compile(Share::WORKGROUP, Unroll::Full);
     for language in [Target::Glsl450, Target::Hlsl, Target::Spirv] {
-        let options = bench.options(Stage::Compute).targets([Target::Wgsl, language]);
+        let options = bench.emit_options(Stage::Compute).targets([Target::Wgsl, language]);
         let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{language}: {e}"));
         let found = passthrough::run(&bench, &emitted, language, &case.inputs);
         let found = found.unwrap_or_else(|e| panic!("{language}: {e}"));
@@ -298,10 +298,10 @@ fn regions_find_the_same_bits() {
     let region = Region::at([5, 3], [30, 18]);
     let picture = |share: Share| {
         let compiled = case.compile(share, Unroll::Full);
-        let options = bench.options(Stage::Compute).region(true);
-        let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+        let options = bench.emit_options(Stage::Compute).region(true);
+        let (pass, manifest) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
         let uploaded = bench.upload(&manifest, &case.inputs).unwrap_or_else(|e| panic!("{e}"));
-        let target = bench.target(SIZE, pass.target_format());
+        let target = bench.create_target(SIZE, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = bench
             .device()
@@ -323,7 +323,7 @@ fn graphs_are_read_as_they_are_printed() {
     for case in cases() {
         let printed = print(&case.compile(Share::WORKGROUP, Unroll::Full).graph);
         let read = parse(&printed).unwrap_or_else(|e| panic!("{}: {e}\n{printed}", case.name));
-        verify::verify(&read).unwrap_or_else(|e| panic!("{}: {e}\n{printed}", case.name));
+        verify::verify_graph(&read).unwrap_or_else(|e| panic!("{}: {e}\n{printed}", case.name));
         assert_eq!(print(&read), printed);
     }
 }
@@ -344,7 +344,7 @@ fn reads_are_counted() {
         (tile.first, tile.size, tile.reads, tile.fills),
         ([-3, -3], [22, 22], 49, 2)
     );
-    assert!(sharing.apart.is_empty());
+    assert!(sharing.unshared.is_empty());
 }
 
 /// What is left out, and why; what is used of a texel alone is kept.
@@ -355,14 +355,22 @@ fn what_is_not_shared_is_told() {
         .compile(Share::WORKGROUP, Unroll::Full)
         .sharing
         .expect("what is shared");
-    let tiles: Vec<_> = sharing.tiles.iter().map(|t| (t.of(), t.size, t.bytes)).collect();
+    let tiles: Vec<_> = sharing
+        .tiles
+        .iter()
+        .map(|t| (t.display_name(), t.size, t.bytes))
+        .collect();
     let expected = [
         ("color".to_owned(), [20, 19], 20 * 19 * 8),
         ("normals[1]".to_owned(), [20, 19], 20 * 19 * 8),
         ("ids".to_owned(), [20, 16], 20 * 16 * 8),
     ];
     assert_eq!(tiles, expected);
-    let apart: Vec<_> = sharing.apart.iter().map(|a| (&*a.texture, a.reads, &*a.why)).collect();
+    let apart: Vec<_> = sharing
+        .unshared
+        .iter()
+        .map(|a| (&*a.texture, a.reads, &*a.why))
+        .collect();
     let expected = [
         ("color", 2, "the offset is no constant"),
         ("noise", 1, "it has a size of its own"),
@@ -390,9 +398,9 @@ fn tiles_fit_into_the_memory_that_devices_have() {
     let sharing = compiled.sharing.clone().expect("what is shared");
     let names: Vec<_> = sharing.tiles.iter().map(|t| &*t.name).collect();
     assert_eq!(names, ["a_tile", "b_tile"], "{sharing:?}");
-    assert!(sharing.bytes() <= 16_384);
+    assert!(sharing.byte_size() <= 16_384);
     let told = "its tile does not fit into 16384 bytes beside those of others";
-    let [apart] = &sharing.apart[..] else {
+    let [apart] = &sharing.unshared[..] else {
         panic!("{sharing:?}")
     };
     assert_eq!((&*apart.texture, apart.reads, &*apart.why), ("c", 9, told));
@@ -459,7 +467,7 @@ fn what_cannot_share_is_refused() {
     let error = |options: EmitOptions| {
         let errors = compiled.emit(&options).expect_err("it is refused");
         let help = errors.diagnostics[0].help.clone().expect("help");
-        (errors.code(), help)
+        (errors.first_code(), help)
     };
     let staged = (
         Some(Code::StageUnfit),

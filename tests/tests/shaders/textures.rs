@@ -4,7 +4,7 @@
 use crate::common;
 
 use common::{bench, same_bits};
-use straightline_bench::execute::{Inputs, SamplerState, interpret};
+use straightline_bench::execute::{Inputs, SamplerState, interpret_kernel};
 use straightline_codegen::{Compiled, Kernel, Origin, Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_tests::sraa::Random;
@@ -185,22 +185,22 @@ impl World {
         let block = |slice: &[u32]| Frame::new(uvec2(3, 4), slice.iter().map(|v| one(*v)).collect());
         let pair = |v: &UVec2| uvec4(v.x, v.y, 0, 0);
         Inputs::new(SIZE)
-            .levels("cube", levels(&self.cube.faces().each_ref()))
-            .layers("depths", self.depths.faces().iter().map(depth).collect())
-            .levels("mips", levels(&[&self.mips]))
-            .levels("volume", (0..3).map(slices).collect())
-            .levels("stack", levels(&[0, 1, 2].map(|k| self.stack.layer(k))))
-            .integers(
+            .with_levels("cube", levels(&self.cube.faces().each_ref()))
+            .with_layers("depths", self.depths.faces().iter().map(depth).collect())
+            .with_levels("mips", levels(&[&self.mips]))
+            .with_levels("volume", (0..3).map(slices).collect())
+            .with_levels("stack", levels(&[0, 1, 2].map(|k| self.stack.layer(k))))
+            .with_integers(
                 "ids",
                 vec![Frame::new(
                     self.ids.size(),
                     self.ids.texels().iter().map(pair).collect(),
                 )],
             )
-            .integers("signed", (0..4).map(signed).collect())
-            .integers("blocks", self.blocks.texels_of_level(0).chunks(12).map(block).collect())
-            .sampler("linear", state)
-            .sampler("less", state)
+            .with_integers("signed", (0..4).map(signed).collect())
+            .with_integers("blocks", self.blocks.texels_of_level(0).chunks(12).map(block).collect())
+            .with_sampler("linear", state)
+            .with_sampler("less", state)
     }
 }
 
@@ -234,7 +234,7 @@ fn every_read_is_what_rustc_makes_of_it() {
         let compiled = compile(name);
         for world in worlds() {
             let expected: Vec<[f32; 4]> = pixels().map(|at| native(&world, at).to_array()).collect();
-            let found = interpret::<f32>(&compiled, &world.inputs(), false);
+            let found = interpret_kernel::<f32>(&compiled, &world.inputs(), false);
             let found = found.unwrap_or_else(|e| panic!("{name}: {e}"));
             same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name}, {:?}: {e}", world.sampler));
         }
@@ -248,7 +248,7 @@ fn every_read_is_the_same_on_a_gpu() {
         let compiled = compile(name);
         for world in worlds() {
             let inputs = world.inputs();
-            let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
+            let expected = interpret_kernel::<f32>(&compiled, &inputs, false).expect("ran before");
             for stage in [Stage::Compute, Stage::Fragment] {
                 if stage == Stage::Fragment && name != "texels" && name != "whole" {
                     // Nothing of the output's size is bound that could tell it.
@@ -314,8 +314,8 @@ fn rows_from_below_are_turned() {
         let compiled = compile(name);
         let upright = bench.run(&compiled, Stage::Compute, &inputs);
         let upright = upright.unwrap_or_else(|e| panic!("{name}: {e}"));
-        let options = bench.options(Stage::Compute).origin(Origin::LowerLeft);
-        let below = bench.emitted(&compiled, &options).and_then(|(pass, manifest)| {
+        let options = bench.emit_options(Stage::Compute).origin(Origin::LowerLeft);
+        let below = bench.emit_pass(&compiled, &options).and_then(|(pass, manifest)| {
             let uploaded = bench.upload(&manifest, &over)?;
             bench.picture_of(&pass, &uploaded, over.size)
         });

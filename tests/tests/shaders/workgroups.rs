@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
@@ -150,10 +150,10 @@ fn color() -> Frame<Vec4> {
 /// Inputs of every kernel.
 fn inputs() -> Inputs {
     Inputs::new(SIZE)
-        .image("color", color())
-        .buffer("bins", vec![[2.0, 0.0, 0.0, 0.0]; 40])
-        .buffer("totals", vec![[-1.0, 0.0, 0.0, 0.0]; 15])
-        .uniform("steps", &[f64::from(STEPS)])
+        .with_image("color", color())
+        .with_buffer("bins", vec![[2.0, 0.0, 0.0, 0.0]; 40])
+        .with_buffer("totals", vec![[-1.0, 0.0, 0.0, 0.0]; 15])
+        .with_uniform("steps", &[f64::from(STEPS)])
 }
 
 /// Values of each target, and contents of each buffer that a kernel writes.
@@ -272,7 +272,7 @@ fn every_form_does_what_rustc_does() {
         let native = native();
         for settings in forms() {
             let what = format!("{name} {} {}", settings.unroll, settings.branches);
-            let found = interpret::<f32>(&compiled(name, text, &settings), &inputs(), false);
+            let found = interpret_kernel::<f32>(&compiled(name, text, &settings), &inputs(), false);
             let found = found.unwrap_or_else(|e| panic!("{what}: {e}"));
             let targets: Vec<_> = found.targets.into_iter().map(|t| t.texels).collect();
             same(&what, &native, &targets, &found.buffers);
@@ -306,7 +306,7 @@ fn glsl_hlsl_and_spirv_do_the_same_through_vulkan() {
         let compiled = compiled(name, text, &settings);
         for language in [Target::Glsl450, Target::Hlsl, Target::Spirv] {
             let what = format!("{name} {} {language}", settings.unroll);
-            let options = bench.options(Stage::Compute).targets([Target::Wgsl, language]);
+            let options = bench.emit_options(Stage::Compute).targets([Target::Wgsl, language]);
             let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{what}: {e}"));
             let found = passthrough::run_buffers(&bench, &emitted, language, &inputs());
             let found = found.unwrap_or_else(|e| panic!("{what}: {e}"));
@@ -335,7 +335,7 @@ fn graphs_are_read_as_they_are_printed() {
         for settings in forms() {
             let printed = print(&compiled(name, text, &settings).graph);
             let read = parse(&printed).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
-            verify::verify(&read).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
+            verify::verify_graph(&read).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
             assert_eq!(print(&read), printed);
         }
     }
@@ -368,7 +368,7 @@ fn races_are_found_where_they_happen() {
         });
         group.each(|t| a.load(t.index))
     }";
-    let found = interpret::<f32>(&compiled("race", race, &Settings::default()), &inputs(), false);
+    let found = interpret_kernel::<f32>(&compiled("race", race, &Settings::default()), &inputs(), false);
     let Err(error) = found else { panic!("a race") };
     assert_eq!(
         error.to_string(),
@@ -378,7 +378,8 @@ fn races_are_found_where_they_happen() {
         group.each(|t| if color.load(t.pixel).x > 0.9 { any.store(0, 1) });
         group.each(|t| any.load(0))
     }";
-    interpret::<f32>(&compiled("same", same, &Settings::default()), &inputs(), false).expect("all write the same");
+    interpret_kernel::<f32>(&compiled("same", same, &Settings::default()), &inputs(), false)
+        .expect("all write the same");
 }
 
 #[test]
@@ -386,7 +387,7 @@ fn what_has_no_workgroups_is_refused() {
     let (name, text, _) = KERNELS[1];
     let blur = compiled(name, text, &Settings::default());
     let fragment = EmitOptions::new().stage(Stage::Fragment);
-    let code = |options: &EmitOptions| blur.emit(options).err().and_then(|errors| errors.code());
+    let code = |options: &EmitOptions| blur.emit(options).err().and_then(|errors| errors.first_code());
     assert_eq!(code(&fragment), Some(Code::StageUnfit));
     let function = EmitOptions::new().form(Form::Function);
     assert_eq!(code(&function), Some(Code::StageUnfit));
@@ -405,8 +406,8 @@ fn regions_are_computed_by_themselves() {
     let bench = bench();
     let (name, text, _) = KERNELS[0];
     let compiled = compiled(name, text, &Settings::default());
-    let options = bench.options(Stage::Compute).region(true);
-    let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+    let options = bench.emit_options(Stage::Compute).region(true);
+    let (pass, manifest) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
     let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
     let region = Region::at([2, 1], [5, 4]);
     let none: &[(&str, &wgpu::TextureView)] = &[];
@@ -416,7 +417,9 @@ fn regions_are_computed_by_themselves() {
     let bound = uploaded.bind_region(&pass, none, region);
     bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
     bench.queue().submit([encoder.finish()]);
-    let found = bench.buffers(&manifest, &uploaded).unwrap_or_else(|e| panic!("{e}"));
+    let found = bench
+        .read_buffers(&manifest, &uploaded)
+        .unwrap_or_else(|e| panic!("{e}"));
     let bins = AtomicBuffer::new(vec![2; 40]);
     for x in [2, 6] {
         let group = Workgroup::new(ivec2(x, 1), uvec2(7, 5));

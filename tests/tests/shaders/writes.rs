@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{Texel, bench, same_texels};
-use straightline_bench::execute::{Buffers, Inputs, interpret};
+use straightline_bench::execute::{Buffers, Inputs, interpret_kernel};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
@@ -157,11 +157,11 @@ fn numbers(count: usize, first: f64) -> Vec<[f64; 4]> {
 /// Inputs of every kernel.
 fn inputs() -> Inputs {
     Inputs::new(SIZE)
-        .image("color", color())
-        .buffer("bins", numbers(16, 3.0))
-        .buffer("least", numbers(2, -4.0))
-        .buffer("brightest", vec![[0.25, 0.5, 0.75, 1.0]; 117])
-        .buffer("columns", numbers(10, -9.0))
+        .with_image("color", color())
+        .with_buffer("bins", numbers(16, 3.0))
+        .with_buffer("least", numbers(2, -4.0))
+        .with_buffer("brightest", vec![[0.25, 0.5, 0.75, 1.0]; 117])
+        .with_buffer("columns", numbers(10, -9.0))
 }
 
 /// The same natively.
@@ -276,7 +276,7 @@ fn every_form_writes_what_rustc_writes() {
             for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
                 let what = format!("{name} {unroll} {branches}");
                 let settings = Settings::new().unroll(unroll).branches(branches);
-                let found = interpret::<f32>(&compiled(name, text, &settings), &inputs(), false);
+                let found = interpret_kernel::<f32>(&compiled(name, text, &settings), &inputs(), false);
                 let found = found.unwrap_or_else(|e| panic!("{what}: {e}"));
                 for (k, target) in found.targets.iter().enumerate() {
                     let native: Vec<[f64; 4]> = given.iter().map(|texels| texels[k]).collect();
@@ -297,7 +297,7 @@ fn graphs_with_effects_are_read_as_they_are_printed() {
             let graph = compiled(name, text, &settings).graph;
             let printed = print(&graph);
             let read = parse(&printed).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
-            verify::verify(&read).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
+            verify::verify_graph(&read).unwrap_or_else(|e| panic!("{name}: {e}\n{printed}"));
             assert_eq!(print(&read), printed);
             assert_eq!(read.regions, graph.regions, "{name}");
         }
@@ -346,7 +346,7 @@ fn glsl_hlsl_and_spirv_write_the_same_through_vulkan() {
             let compiled = compiled(name, text, &settings);
             for language in [Target::Glsl450, Target::Hlsl, Target::Spirv] {
                 let what = format!("{name} {unroll} {language}");
-                let options = bench.options(Stage::Compute).targets([Target::Wgsl, language]);
+                let options = bench.emit_options(Stage::Compute).targets([Target::Wgsl, language]);
                 let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{what}: {e}"));
                 let found = passthrough::run_buffers(&bench, &emitted, language, &inputs());
                 let found = found.unwrap_or_else(|e| panic!("{what}: {e}"));
@@ -378,8 +378,8 @@ fn regions_count_their_own_pixels() {
     let bench = bench();
     let (name, text, ..) = KERNELS[0];
     let compiled = compiled(name, text, &Settings::default());
-    let options = bench.options(Stage::Compute).region(true);
-    let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
+    let options = bench.emit_options(Stage::Compute).region(true);
+    let (pass, manifest) = bench.emit_pass(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
     assert!(manifest.outputs.is_empty());
     let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
     let region = Region::at([2, 1], [5, 4]);
@@ -390,7 +390,9 @@ fn regions_count_their_own_pixels() {
     let bound = uploaded.bind_region(&pass, none, region);
     bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
     bench.queue().submit([encoder.finish()]);
-    let found = bench.buffers(&manifest, &uploaded).unwrap_or_else(|e| panic!("{e}"));
+    let found = bench
+        .read_buffers(&manifest, &uploaded)
+        .unwrap_or_else(|e| panic!("{e}"));
     let world = World::new();
     for at in (1..5).flat_map(|y| (2..7).map(move |x| ivec2(x, y))) {
         histogram::histogram(&world.color, &world.bins, at);

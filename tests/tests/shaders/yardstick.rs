@@ -7,7 +7,7 @@ use crate::common;
 
 use common::bench;
 use std::path::{Path, PathBuf};
-use straightline_bench::execute::{Bench, Corner, Inputs, interpret};
+use straightline_bench::execute::{Bench, Corner, Inputs, interpret_kernel};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
@@ -170,12 +170,14 @@ fn sraa_makes_the_same_picture() {
         let inputs = surfaces::inputs(&set, size, 5);
         for (stem, unroll) in [("sraa4", Unroll::Full), ("sraa4-looped", Unroll::None)] {
             let compiled = compiled(&set, unroll).unwrap_or_else(|e| panic!("{e}"));
-            let emitted = compiled.emit(&bench.options(Stage::Compute)).expect("it is emitted");
+            let emitted = compiled
+                .emit(&bench.emit_options(Stage::Compute))
+                .expect("it is emitted");
             let hand = picture(&bench, &emitted, &handwritten(stem), &inputs);
             let text = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
             let generated = picture(&bench, &emitted, &text, &inputs);
             assert_close(&format!("{stem}, {size}, and emitted"), &hand, &generated);
-            let interpreted = interpret::<f32>(&compiled, &inputs, false).expect("it runs");
+            let interpreted = interpret_kernel::<f32>(&compiled, &inputs, false).expect("it runs");
             assert_close(
                 &format!("{stem}, {size}, and interpreted"),
                 &hand,
@@ -201,12 +203,14 @@ fn a_bad_colour_is_left_out() {
         }
     };
     let color = Frame::new(size, (0..size.x * size.y).map(texel).collect());
-    let inputs = inputs.image("color", color);
+    let inputs = inputs.with_image("color", color);
     for (stem, unroll) in [("sraa4", Unroll::Full), ("sraa4-looped", Unroll::None)] {
         let compiled = compiled(&set, unroll).unwrap_or_else(|e| panic!("{e}"));
-        let emitted = compiled.emit(&bench.options(Stage::Compute)).expect("it is emitted");
+        let emitted = compiled
+            .emit(&bench.emit_options(Stage::Compute))
+            .expect("it is emitted");
         let hand = picture(&bench, &emitted, &handwritten(stem), &inputs);
-        let interpreted = interpret::<f32>(&compiled, &inputs, false).expect("it runs");
+        let interpreted = interpret_kernel::<f32>(&compiled, &inputs, false).expect("it runs");
         assert_close(stem, &hand, &interpreted.frame(&inputs));
     }
 }
@@ -240,14 +244,16 @@ fn pcss_draws_the_same_picture() {
         Vec4::splat(0.43 + 0.1 * wave + 0.03 * random.unit())
     };
     let shadow = Frame::new(map, (0..map.x * map.y).map(depth).collect());
-    let inputs = Inputs::new(size).image("shadow", shadow);
-    let emitted = compiled.emit(&bench.options(Stage::Fragment)).expect("it is emitted");
+    let inputs = Inputs::new(size).with_image("shadow", shadow);
+    let emitted = compiled
+        .emit(&bench.emit_options(Stage::Fragment))
+        .expect("it is emitted");
     let mut manifest = emitted.manifest;
     manifest.hashes.clear();
     let draw = |text: &str| {
         let forward = bench.forward_by(&manifest, text, &inputs, &cover(size));
         bench
-            .picture(&forward.unwrap_or_else(|e| panic!("{e}")))
+            .draw_forward(&forward.unwrap_or_else(|e| panic!("{e}")))
             .expect("it is drawn")
     };
     let text = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);

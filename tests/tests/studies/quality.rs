@@ -37,7 +37,7 @@ fn even(color: Vec4) -> Frame<Vec4> {
 
 fn by_fxaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
     let compiled = fxaa_kernel().compile(&Settings::default()).expect("it compiles");
-    let inputs = Inputs::new(picture.size()).image("color", transfer.encode_picture(picture));
+    let inputs = Inputs::new(picture.size()).with_image("color", transfer.encode_picture(picture));
     transfer.decode_picture(&bench().run(&compiled, Stage::Compute, &inputs).expect("it runs"))
 }
 
@@ -100,7 +100,7 @@ fn source(name: &str) -> Source {
     Source::Scene {
         name: name.to_owned(),
         purpose: "a test".to_owned(),
-        scene: Box::new(Scene::named(name).expect("a scene")),
+        scene: Box::new(Scene::from_name(name).expect("a scene")),
     }
 }
 
@@ -231,7 +231,7 @@ fn methods_on_a_scene() {
         std::fs::create_dir_all(&folder)
             .and_then(|()| std::fs::write(&path, bytes))
             .expect("a file");
-        picture::read(&path).expect("a picture")
+        picture::read_picture(&path).expect("a picture")
     };
     let reference = read("reference");
     for (name, stem) in [("1x", "1x"), ("SRAA 16", "sraa-16"), ("SMAA", "smaa"), ("16x", "16x")] {

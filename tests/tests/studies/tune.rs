@@ -5,7 +5,7 @@ use crate::common;
 use common::bench;
 use glam::{UVec2, Vec4};
 use std::sync::{Mutex, OnceLock};
-use straightline_bench::execute::{Clock, interpret};
+use straightline_bench::execute::{Clock, interpret_kernel};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Kernel, Manifest, Settings, Stage};
 use straightline_kernels::prelude::Frame;
@@ -13,7 +13,7 @@ use straightline_oracle::metrics;
 use straightline_runtime::Pass;
 use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::gbuffer;
-use straightline_scene::render::{CpuRenderer, capture, reference};
+use straightline_scene::render::{CpuRenderer, capture_scene, render_reference};
 use straightline_scene::scene::Scene;
 use straightline_study::progress::{Progress, Silent};
 use straightline_study::record::{Circumstances, TuneRecord};
@@ -55,7 +55,7 @@ fn question(metric: ErrorMetric, max_error: f64) -> Question {
 }
 
 fn renderer(scene: &str) -> CpuRenderer {
-    CpuRenderer::new(&Scene::named(scene).expect("a scene"), SIZE).expect("it is drawn")
+    CpuRenderer::new(&Scene::from_name(scene).expect("a scene"), SIZE).expect("it is drawn")
 }
 
 fn tuned(subject: Subject, question: &Question) -> Outcome {
@@ -73,8 +73,8 @@ fn judged(scene: &str, manifest: &Manifest) -> f64 {
     type Known = Mutex<Vec<(String, Frame<Vec4>)>>;
     static REFERENCES: OnceLock<Known> = OnceLock::new();
     let renderer = renderer(scene);
-    let samples = gbuffer::samples(&manifest.options["pattern"]).expect("a pattern");
-    let capture = capture(&renderer, &samples, ShadingSample::Centre).expect("captured");
+    let samples = gbuffer::pattern_offsets(&manifest.options["pattern"]).expect("a pattern");
+    let capture = capture_scene(&renderer, &samples, ShadingSample::Centre).expect("captured");
     let settings = Settings::new().set_all(
         manifest
             .options
@@ -84,8 +84,8 @@ fn judged(scene: &str, manifest: &Manifest) -> f64 {
     );
     let compiled = Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings));
     let compiled = compiled.unwrap_or_else(|errors| panic!("{errors}"));
-    let inputs = gbuffer::inputs(&capture, &compiled.options).expect("all is captured");
-    let picture = interpret::<f32>(&compiled, &inputs, false)
+    let inputs = gbuffer::sraa_inputs(&capture, &compiled.options).expect("all is captured");
+    let picture = interpret_kernel::<f32>(&compiled, &inputs, false)
         .expect("all is bound")
         .frame(&inputs);
     let mut known = REFERENCES
@@ -93,7 +93,7 @@ fn judged(scene: &str, manifest: &Manifest) -> f64 {
         .lock()
         .expect("no panic before");
     if !known.iter().any(|(name, _)| name == scene) {
-        let perfect = reference(&renderer, 16, &mut |_, _| {}).expect("supersampled");
+        let perfect = render_reference(&renderer, 16, &mut |_, _| {}).expect("supersampled");
         known.push((scene.to_owned(), perfect));
     }
     let perfect = &known.iter().find(|(name, _)| name == scene).expect("just put there").1;
@@ -255,8 +255,8 @@ fn tuned_steps(subject: &Subject, question: &Question) -> usize {
 #[test]
 fn a_capture_without_normals_camera_and_reference_is_tuned_too() {
     let renderer = renderer("tubes");
-    let samples = gbuffer::samples("latin16").expect("a pattern");
-    let whole = capture(&renderer, &samples, ShadingSample::Centre).expect("captured");
+    let samples = gbuffer::pattern_offsets("latin16").expect("a pattern");
+    let whole = capture_scene(&renderer, &samples, ShadingSample::Centre).expect("captured");
     let bare = Capture {
         normal: None,
         camera: None,
@@ -281,8 +281,8 @@ fn a_capture_without_normals_camera_and_reference_is_tuned_too() {
 #[test]
 fn a_budget_that_nothing_keeps_says_what_comes_closest() {
     let renderer = renderer("floor");
-    let samples = gbuffer::samples("latin4").expect("a pattern");
-    let mut broken = capture(&renderer, &samples, ShadingSample::Centre).expect("captured");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let mut broken = capture_scene(&renderer, &samples, ShadingSample::Centre).expect("captured");
     // An infinite colour that every variant of this part of the space spreads.
     let mut texels = broken.color.texels().to_vec();
     texels[40] = Vec4::INFINITY;
@@ -409,8 +409,8 @@ fn painted_scenes_need_light_apart_and_fine_ones_placing_and_a_search() {
             .iter()
             .position(|capture| is_own(&capture))
             .expect("its samples");
-        let inputs = gbuffer::inputs(&captures[k], &place.options).expect("all is captured");
-        let said = bench().targets(place, Stage::Compute, &inputs).expect("it runs");
+        let inputs = gbuffer::sraa_inputs(&captures[k], &place.options).expect("all is captured");
+        let said = bench().run_targets(place, Stage::Compute, &inputs).expect("it runs");
         let own = said[0].texels.iter().map(|texel| texel[0] as u32);
         let off = own.zip(placed[k].place.texels()).filter(|(a, b)| a != *b).count();
         assert!(

@@ -126,7 +126,7 @@ fn add_rounds(a: &[f64], b: &[f64]) -> Vec<f64> {
 
 /// Of at least one round.
 pub fn find_quartiles(rounds: &[f64]) -> Result<Quartiles, Failure> {
-    Quartiles::of(rounds).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
+    Quartiles::from_values(rounds).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
 }
 
 /// The paper's table 2, of what was timed.

@@ -7,7 +7,7 @@ use crate::gpu::Gpu;
 use crate::scene;
 use serde::Serialize;
 use std::time::Duration;
-use straightline_bench::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work, timestamps};
+use straightline_bench::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work, next_timestamps};
 use straightline_codegen::{Compiled, Kernel, Settings};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
@@ -157,8 +157,8 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
     let mut works: Vec<Work<'_>> = Vec::new();
     for (_, pass) in PASSES {
         let frame = &frame;
-        let work = bench.recorded(pass.passes(), Duration::ZERO, move |encoder, timer| {
-            frame.encode(pass, encoder, &timestamps(timer, pass.passes())?);
+        let work = bench.recorded_work(pass.pass_count(), Duration::ZERO, move |encoder, timer| {
+            frame.encode(pass, encoder, &next_timestamps(timer, pass.pass_count())?);
             Ok(())
         });
         works.push(work.map_err(Failure::from_error)?);
@@ -166,7 +166,7 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
     for subject in &subjects {
         works.push(
             bench
-                .work(subject.job(args), Duration::ZERO)
+                .job_work(subject.job(args), Duration::ZERO)
                 .map_err(Failure::from_error)?,
         );
     }
@@ -174,9 +174,9 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
     let first = subjects.iter().find(is_first).map(|subject| subject.job(args));
     // Timestamps lie around passes, and say nothing of what lies between.
     if let Some(job) = first.filter(|_| bench.clock() == Clock::WallClock) {
-        let filter = bench.recorder(job).map_err(Failure::from_error)?;
+        let filter = bench.pass_recorder(job).map_err(Failure::from_error)?;
         let frame = &frame;
-        let work = bench.recorded(1, Duration::ZERO, move |encoder, _| {
+        let work = bench.recorded_work(1, Duration::ZERO, move |encoder, _| {
             for pass in TOGETHER {
                 frame.encode(pass, encoder, &[]);
             }
@@ -204,7 +204,7 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
             pass,
             name,
             samples: sample_count(pass),
-            passes: pass.passes(),
+            passes: pass.pass_count(),
             ms: frame::find_quartiles(&rounds_ms)?,
             rounds_ms,
         });
@@ -279,8 +279,8 @@ fn prepare_subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) 
     let mut subjects = Vec::new();
     for (pattern, shading, samples) in PLACES {
         let offsets = scene::sample_offsets(pattern)?;
-        let capture =
-            render::capture(&renderer, &offsets, scene::parse_shading(shading, &[])?).map_err(Failure::from_error)?;
+        let capture = render::capture_scene(&renderer, &offsets, scene::parse_shading(shading, &[])?)
+            .map_err(Failure::from_error)?;
         for (metric, paper_ms) in METRICS {
             if samples == Samples::Three && metric != DEFAULT_METRIC {
                 continue;
@@ -290,8 +290,10 @@ fn prepare_subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) 
                 .set("metric", metric)
                 .set("shading", shading);
             let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
-            let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::from_error)?;
-            let (pass, manifest) = bench.pass(&compiled, Stage::Compute).map_err(Failure::from_error)?;
+            let inputs = gbuffer::sraa_inputs(&capture, &compiled.options).map_err(Failure::from_error)?;
+            let (pass, manifest) = bench
+                .compile_pass(&compiled, Stage::Compute)
+                .map_err(Failure::from_error)?;
             let uploaded = bench.upload(&manifest, &inputs).map_err(Failure::from_error)?;
             subjects.push(Subject {
                 metric,

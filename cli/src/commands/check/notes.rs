@@ -15,7 +15,7 @@ pub fn find_notes(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
             name => format!("`{name}`"),
         };
         let what = format!("the order of the operations of {subject} matters: drivers are kept from changing it");
-        let diagnostic = Diagnostic::remark(line_of(file, index, line)?, what)
+        let diagnostic = Diagnostic::remark_at(line_of(file, index, line)?, what)
             .note("`as_written` in WGSL and MSL, `precise` in GLSL and HLSL, `NoContraction` in SPIR-V");
         Some(Errors {
             diagnostics: vec![diagnostic],

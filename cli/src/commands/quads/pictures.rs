@@ -49,7 +49,13 @@ fn shadow_pictures(bench: &Bench, studied: &Studied) -> Result<Vec<(&'static str
     let mut all = Vec::new();
     for way in ["naive", "quad", "quad, gradient", "gather"] {
         if let Some(lit) = studied.picture("PCF 8x8 quadratic", way) {
-            all.push((way, studied.shadowed.picture(bench, lit).map_err(Failure::from_error)?));
+            all.push((
+                way,
+                studied
+                    .shadowed
+                    .shade_picture(bench, lit)
+                    .map_err(Failure::from_error)?,
+            ));
         }
     }
     Ok(all)
@@ -81,11 +87,11 @@ fn enlarge_part(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> 
         let [left, top, width, height] = part;
         let [x, y] = [left * size.x, top * size.y].map(|v| v as u32);
         let [width, height] = [width * size.x, height * size.y].map(|v| (v as u32).max(1));
-        picture::detail(frame, x, y, width, height, (400 / width).clamp(1, 8))
+        picture::enlarge_detail(frame, x, y, width, height, (400 / width).clamp(1, 8))
     };
     let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
     let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
-    picture::montage(&columns)
+    picture::compose_montage(&columns)
 }
 
 /// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.

@@ -63,7 +63,7 @@ pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Resu
         if inputs.uniforms.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the uniform `{name}` is given twice")));
         }
-        inputs = inputs.uniform(name, &values::parse_uniform(name, uniform.ty, text)?);
+        inputs = inputs.with_uniform(name, &values::parse_uniform(name, uniform.ty, text)?);
     }
     for (name, text) in &given.buffer {
         let Some(buffer) = graph.buffers.iter().find(|b| b.name == *name) else {
@@ -77,14 +77,14 @@ pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Resu
         if inputs.buffers.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
         }
-        inputs = inputs.buffer(name, values::parse_buffer(name, &buffer.element, text)?);
+        inputs = inputs.with_buffer(name, values::parse_buffer(name, &buffer.element, text)?);
     }
     inputs.size = given.size.or_else(|| output_size(graph, &inputs)).ok_or_else(|| {
         Failure::Usage(
             "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
         )
     })?;
-    if let Some(name) = execute::unset(&compiled, &inputs) {
+    if let Some(name) = execute::find_unset_uniform(&compiled, &inputs) {
         return Err(Failure::Usage(format!(
             "the uniform `{name}` of `{}` has no default: add --uniform {name}=VALUE",
             compiled.kernel
@@ -163,10 +163,10 @@ fn read_pictures(path: &str, texture: &Texture, transfer: Transfer) -> Result<Ve
     if table && texture.kind == TextureKind::Volume {
         return picture::read_cube(path).map_err(Failure::from_error);
     }
-    let layers = picture::layers(path).map_err(Failure::from_error)?;
+    let layers = picture::layer_names(path).map_err(Failure::from_error)?;
     if layers.is_empty() {
         let read = match transfer {
-            Transfer::Srgb => picture::read(path),
+            Transfer::Srgb => picture::read_picture(path),
             Transfer::Linear => picture::read_linear(path),
         };
         return Ok(vec![read.map_err(Failure::from_error)?]);
@@ -205,7 +205,7 @@ fn complete_texture(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failur
     };
     let size = layers.first().map_or(UVec2::ZERO, Frame::size);
     if texture.kind == TextureKind::Volume && layers.len() == 1 {
-        *layers = picture::strip(&layers[0]).ok_or_else(|| {
+        *layers = picture::slice_strip(&layers[0]).ok_or_else(|| {
             Failure::Usage(format!(
                 "one picture of {}x{} is no volume `{name}`: give a .cube table, its slices in order, or a picture of them side by \
                  side, as wide as its height squared",

@@ -9,7 +9,7 @@ use crate::args::{Executor, RunArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use std::path::PathBuf;
-use straightline_bench::execute::{AllWritten, Inputs, interpret};
+use straightline_bench::execute::{AllWritten, Inputs, interpret_kernel};
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
@@ -52,7 +52,7 @@ pub fn run_compiled(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) 
                     gpu.describe()
                 )));
             }
-            let bench = gpu.bench().precision(precision);
+            let bench = gpu.bench().with_precision(precision);
             let targets = bench.all_written(compiled, args.stage, &inputs);
             let by = match precision {
                 Precision::F32 => gpu.describe(),
@@ -91,7 +91,7 @@ fn check_requests(args: &RunArgs) -> Result<(), Failure> {
 }
 
 fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<AllWritten, Failure> {
-    let result = interpret::<R>(compiled, inputs, args.check_finite).map_err(Failure::from_error)?;
+    let result = interpret_kernel::<R>(compiled, inputs, args.check_finite).map_err(Failure::from_error)?;
     if let Some(([x, y], non_finite_origin)) = &result.not_finite {
         return Err(Failure::Failed(format!(
             "{} pixels had a NaN or an infinity, the first at ({x}, {y}): {non_finite_origin}",

@@ -36,7 +36,11 @@ pub fn parse_outputs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Fa
         let out = parse_output(text, compiled)?;
         if outs.iter().any(|other| other.what == out.what) {
             let name = match &out.what {
-                What::Target(k) => compiled.graph.pictures().nth(*k).map_or("", |target| &target.name),
+                What::Target(k) => compiled
+                    .graph
+                    .written_targets()
+                    .nth(*k)
+                    .map_or("", |target| &target.name),
                 What::Buffer(name, _) => name,
             };
             return Err(Failure::Usage(format!("`{name}` is to be written twice")));
@@ -58,13 +62,13 @@ fn parse_output(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
     let written = || graph.buffers.iter().filter(|buffer| buffer.access != Access::Read);
     let (what, path) = match text.split_once('=') {
         Some((name, path)) if is_name(name) => {
-            let target = graph.pictures().position(|target| target.name == name);
+            let target = graph.written_targets().position(|target| target.name == name);
             let buffer = written().find(|buffer| buffer.name == name);
             let what = match (target, buffer) {
                 (Some(target), _) => What::Target(target),
-                (None, Some(buffer)) => What::Buffer(name.to_owned(), buffer.value().components() as usize),
+                (None, Some(buffer)) => What::Buffer(name.to_owned(), buffer.value_type().component_count() as usize),
                 (None, None) => {
-                    let names = graph.pictures().map(|target| target.name.as_str());
+                    let names = graph.written_targets().map(|target| target.name.as_str());
                     let names: Vec<&str> = names.chain(written().map(|buffer| buffer.name.as_str())).collect();
                     return Err(Failure::Usage(format!(
                         "`{}` gives no `{}`; it gives {}",
@@ -76,7 +80,7 @@ fn parse_output(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
             };
             (what, path)
         }
-        _ if graph.pictures().next().is_none() => {
+        _ if graph.written_targets().next().is_none() => {
             let names: Vec<&str> = written().map(|buffer| buffer.name.as_str()).collect();
             return Err(Failure::Usage(format!(
                 "`{}` gives no picture, and writes {}: say NAME=FILE.csv",
@@ -107,7 +111,9 @@ fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), F
 pub fn write_outputs(outs: &[Out], (targets, buffers): &AllWritten) -> Result<(), Failure> {
     for Out { what, path } in outs {
         match what {
-            What::Target(k) => picture::write(path, &Written::frame(&targets[*k])).map_err(Failure::from_error)?,
+            What::Target(k) => {
+                picture::write_picture(path, &Written::frame(&targets[*k])).map_err(Failure::from_error)?
+            }
             What::Buffer(name, lanes) => {
                 let found = buffers.iter().find(|(known, _)| known == name);
                 let elements = found.map_or(&[][..], |(_, elements)| elements);

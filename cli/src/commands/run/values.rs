@@ -11,7 +11,7 @@ pub fn parse_uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failu
         return Ok(vec![f64::from(u8::from(set))]);
     }
     let numbers = parse_numbers(name, ty, text)?;
-    let components = ty.components() as usize;
+    let components = ty.component_count() as usize;
     if numbers.len() == components || numbers.len() == 1 {
         return Ok(numbers);
     }
@@ -28,8 +28,8 @@ pub fn parse_uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failu
 
 /// The elements of a buffer; of structures all their numbers in order, those of vectors and arrays too.
 pub fn parse_buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
-    let types = element.values();
-    let components = types.iter().map(|ty| ty.components() as usize).sum::<usize>();
+    let types = element.value_types();
+    let components = types.iter().map(|ty| ty.component_count() as usize).sum::<usize>();
     let texts = split_numbers(name, text)?;
     if !texts.len().is_multiple_of(components) {
         let held = match element {
@@ -47,7 +47,7 @@ pub fn parse_buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f6
     while rest.len() > 0 {
         let ty = types.next().unwrap_or(Type::F32);
         let mut value = [0.0; 4];
-        for (slot, text) in value.iter_mut().zip(rest.by_ref().take(ty.components() as usize)) {
+        for (slot, text) in value.iter_mut().zip(rest.by_ref().take(ty.component_count() as usize)) {
             *slot = parse_number(name, ty, text)?;
         }
         values.push(value);
@@ -97,7 +97,7 @@ fn parse_number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
             Ok(number)
         }
     };
-    match ty.kind() {
+    match ty.scalar_kind() {
         Some(Scalar::I32) => whole(f64::from(i32::MIN), f64::from(i32::MAX), "an i32"),
         Some(Scalar::U32) => whole(0.0, f64::from(u32::MAX), "a u32"),
         _ if !number.is_finite() => Err(refuse("is not finite: give a number")),

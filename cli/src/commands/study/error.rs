@@ -127,11 +127,11 @@ pub fn to_failure(error: QualityError) -> Failure {
 fn load_sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
     let mut sources = Vec::new();
     for name in &args.scene {
-        let scene = Scene::named(name).map_err(|error| Failure::Usage(error.to_string()))?;
+        let scene = Scene::from_name(name).map_err(|error| Failure::Usage(error.to_string()))?;
         sources.push(scene_source(name, scene));
     }
     for path in &args.mesh {
-        let scene = scene::load(path).map_err(Failure::from_error)?;
+        let scene = scene::load_scene(path).map_err(Failure::from_error)?;
         sources.push(Source::Scene {
             name: path.display().to_string(),
             purpose: "a model".to_owned(),
@@ -154,7 +154,7 @@ fn load_sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
     }
     if sources.is_empty() {
         for (name, _) in NAMES {
-            sources.push(scene_source(name, Scene::named(name).map_err(Failure::from_error)?));
+            sources.push(scene_source(name, Scene::from_name(name).map_err(Failure::from_error)?));
         }
     }
     Ok(sources)

@@ -65,7 +65,7 @@ pub fn film_methods(common: &CommonArgs, args: &FilmArgs, progress: &mut Progres
     let mut set = record.to_files(FilmRecord::STEM).map_err(Failure::from_error)?;
     set.insert(
         "film.png".to_owned(),
-        picture::animation(&film.frames, SHOWN).map_err(Failure::from_error)?,
+        picture::encode_animation(&film.frames, SHOWN).map_err(Failure::from_error)?,
     );
     for (k, frame) in film.frames.iter().enumerate() {
         set.insert(

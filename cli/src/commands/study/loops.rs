@@ -113,7 +113,7 @@ fn write_pictures(folder: &Path, studied: &[Studied]) -> Result<(), Failure> {
     if columns.is_empty() {
         return Ok(());
     }
-    set.insert("all.png".to_owned(), png(&picture::montage(&columns))?);
+    set.insert("all.png".to_owned(), png(&picture::compose_montage(&columns))?);
     files::write_all(folder, &set).map_err(Failure::from_error)?;
     Ok(())
 }

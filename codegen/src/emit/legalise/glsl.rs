@@ -53,17 +53,19 @@ fn glsl_rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
         // glslang makes branches of a choice between more than names and literals, and none of `mix`. Where `mix` is of floats
         // alone, a choice by one boolean stays one, of vectors too.
         Op::Ir(ir::Op::Select)
-            if mixes && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2])) && ty.kind() != Some(Scalar::Bool) =>
+            if mixes
+                && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2]))
+                && ty.scalar_kind() != Some(Scalar::Bool) =>
         {
             let [condition, yes, no] = take_args(expr.args);
-            let condition = match ty.components() {
+            let condition = match ty.component_count() {
                 1 => condition,
                 _ => Expr::new(Op::Construct, vec![condition], ty.with_kind(Scalar::Bool)),
             };
             component_select(condition, yes, no)
         }
         Op::Ir(ir::Op::Bitcast) => {
-            let function = match (expr.args[0].ty.kind(), ty.kind()) {
+            let function = match (expr.args[0].ty.scalar_kind(), ty.scalar_kind()) {
                 (Some(Scalar::F32), Some(Scalar::I32)) => "floatBitsToInt",
                 (Some(Scalar::F32), _) => "floatBitsToUint",
                 (Some(Scalar::I32), Some(Scalar::F32)) => "intBitsToFloat",
@@ -83,7 +85,7 @@ fn glsl_rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
 fn rewrite_unary(op: UnaryOp, mut expr: Expr) -> Expr {
     let ty = expr.ty;
     match op {
-        UnaryOp::Not if ty.components() > 1 => {
+        UnaryOp::Not if ty.component_count() > 1 => {
             expr.op = Op::Call("not");
             expr
         }
@@ -102,8 +104,8 @@ fn rewrite_unary(op: UnaryOp, mut expr: Expr) -> Expr {
 fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
     use BinaryOp::{And, Eq, Ge, Gt, Le, Lt, Ne, Or, Rem, Shl, Shr, Xor};
     let ty = expr.ty;
-    let vector = ty.components() > 1;
-    let bools = ty.kind() == Some(Scalar::Bool);
+    let vector = ty.component_count() > 1;
+    let bools = ty.scalar_kind() == Some(Scalar::Bool);
     if vector {
         let function = match op {
             Eq => Some("equal"),

@@ -63,7 +63,7 @@ fn to_half_precision(expr: Expr) -> Expr {
 
 fn half_rule(mut expr: Expr) -> Expr {
     use ir::Op::{
-        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, Message, Sample, SharedLoad, Uniform,
+        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, QuadSwap, Sample, SharedLoad, Uniform,
         Varying,
     };
     match &expr.op {
@@ -76,7 +76,7 @@ fn half_rule(mut expr: Expr) -> Expr {
             | GatherCompare { .. }
             | BufferLoad { .. }
             | SharedLoad(_)
-            | Message(_)
+            | QuadSwap(_)
             | Derivative(_)
             | Uniform(_)
             | Varying(_)

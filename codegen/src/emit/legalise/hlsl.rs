@@ -87,7 +87,7 @@ fn hlsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
         Op::Ir(ir::Op::Unary(op)) => rewrite_unary(*op, expr),
         Op::Ir(ir::Op::Binary(op)) => rewrite_binary(*op, expr),
         Op::Ir(ir::Op::Bitcast) => {
-            expr.op = Op::Call(match ty.kind() {
+            expr.op = Op::Call(match ty.scalar_kind() {
                 Some(Scalar::F32) => "asfloat",
                 Some(Scalar::I32) => "asint",
                 _ => "asuint",
@@ -104,7 +104,7 @@ fn rewrite_unary(op: UnaryOp, expr: Expr) -> Expr {
         // An integer here.
         UnaryOp::Sign if ty.is_float() => Expr::call("sign", expr.args, ty.with_kind(Scalar::I32)).convert_to(ty),
         UnaryOp::CountOneBits => Expr::call("countbits", expr.args, ty.with_kind(Scalar::U32)).convert_to(ty),
-        UnaryOp::ReverseBits if ty.kind() == Some(Scalar::I32) => {
+        UnaryOp::ReverseBits if ty.scalar_kind() == Some(Scalar::I32) => {
             let [x] = take_args(expr.args);
             let bits = x.convert_to(ty.with_kind(Scalar::U32));
             Expr::call("reversebits", vec![bits], ty.with_kind(Scalar::U32)).convert_to(ty)
@@ -117,7 +117,7 @@ fn rewrite_unary(op: UnaryOp, expr: Expr) -> Expr {
 
 fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
     use BinaryOp::{And, Ne, Or, Rem, Shl, Shr};
-    let bools = expr.ty.kind() == Some(Scalar::Bool);
+    let bools = expr.ty.scalar_kind() == Some(Scalar::Bool);
     match op {
         Ne => rewrite_unequal(expr),
         Rem if expr.ty.is_float() => {
@@ -137,7 +137,7 @@ fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
 /// A value that is shifted. A literal of `int` has no suffix, and DXC leaves open how many bits of it are shifted.
 fn typed_literal(value: Expr) -> Expr {
     let ty = value.ty;
-    match ty.kind() == Some(Scalar::I32) && ty.is_scalar() && value.as_constant().is_some() {
+    match ty.scalar_kind() == Some(Scalar::I32) && ty.is_scalar() && value.as_constant().is_some() {
         true => Expr::call("int", vec![value], ty),
         false => value,
     }

@@ -91,14 +91,14 @@ fn is_leaf(expr: &Expr) -> bool {
 /// Returns whether a component of a constant is an infinity or a NaN.
 fn is_non_finite(expr: &Expr) -> bool {
     let float = |bits: &u32| !f32::from_bits(*bits).is_finite();
-    let lanes = expr.ty.components() as usize;
+    let lanes = expr.ty.component_count() as usize;
     expr.ty.is_float() && expr.as_constant().is_some_and(|bits| bits[..lanes].iter().any(float))
 }
 
 /// A constant vector that is not finite, component by component.
 fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
     let bits = *expr.as_constant().expect("only constants are not finite");
-    let lanes = &bits[..expr.ty.components() as usize];
+    let lanes = &bits[..expr.ty.component_count() as usize];
     let ty = Ty {
         shape: Type::F32,
         ..expr.ty
@@ -125,7 +125,7 @@ fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
 fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: Rule) -> Op {
     let from = to.with_kind(Scalar::F32);
     module.add_function(name, to, |module| {
-        let signed = to.kind() == Some(Scalar::I32);
+        let signed = to.scalar_kind() == Some(Scalar::I32);
         let (low, high, limit, largest): (f32, f32, f32, u32) = match signed {
             true => (-2_147_483_648.0, 2_147_483_520.0, 2_147_483_648.0, i32::MAX as u32),
             false => (0.0, 4_294_967_040.0, 4_294_967_296.0, u32::MAX),
@@ -166,7 +166,7 @@ fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: 
 /// languages leave both open. They leave the remainder of negative numbers open too, or give it the sign of the divisor.
 /// `None` where the operator does all that by itself.
 fn guarded_division(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: Ty, rule: Rule) -> Option<Op> {
-    let signed = ty.kind() == Some(Scalar::I32);
+    let signed = ty.scalar_kind() == Some(Scalar::I32);
     let quotient = op == BinaryOp::Div;
     if known.defined && (quotient || !signed || known.positive) {
         return None;
@@ -271,7 +271,7 @@ fn eager_bool_op(op: BinaryOp, expr: Expr) -> Expr {
 fn zero_count(expr: Expr, find: &'static str, leading: bool) -> Expr {
     let ty = expr.ty;
     let [x] = take_args(expr.args);
-    let bits = match ty.kind() {
+    let bits = match ty.scalar_kind() {
         Some(Scalar::I32) => x.convert_to(Type::U32),
         _ => x,
     };
@@ -303,19 +303,19 @@ fn componentwise_function(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
             .iter()
             .map(|param| {
                 let variable = module.variables[param.0 as usize].clone();
-                let wide = ty.with_kind(variable.ty.kind().unwrap_or(Scalar::F32));
+                let wide = ty.with_kind(variable.ty.scalar_kind().unwrap_or(Scalar::F32));
                 module.new_variable(variable.name, wide)
             })
             .collect();
         let component = |k: u8| {
             let parts = params.iter().map(|param| {
                 let vector = module.read_variable(*param);
-                let part = Type::scalar(vector.ty.kind().unwrap_or(Scalar::F32));
+                let part = Type::scalar(vector.ty.scalar_kind().unwrap_or(Scalar::F32));
                 Expr::new(Op::Swizzle(vec![k]), vec![vector], part)
             });
             Expr::new(function.clone(), parts.collect(), ty.element_of())
         };
-        let all = Expr::new(Op::Construct, (0..ty.components()).map(component).collect(), ty);
+        let all = Expr::new(Op::Construct, (0..ty.component_count()).map(component).collect(), ty);
         Function {
             comment: scalar.comment.clone(),
             name: name.clone(),

@@ -10,7 +10,7 @@ pub fn divide_by_shift(expr: Expr) -> Expr {
     let Op::Division(op, known) = expr.op else { return expr };
     let ty = expr.ty;
     let divisor = expr.args.get(1).and_then(Expr::as_constant).copied();
-    let lanes = ty.components() as usize;
+    let lanes = ty.component_count() as usize;
     let Some(divisor) = divisor.filter(|bits| known.positive && bits[..lanes].iter().all(|n| n.is_power_of_two()))
     else {
         return expr;

@@ -2,7 +2,7 @@
 
 use crate::emit::ast::{Block, Builtin, Effect, Expr, Module, Op, Stmt, StmtKind};
 use crate::emit::resources::Resources;
-use straightline_evaluator::ir::{BinaryOp, Memory, Shared, Type};
+use straightline_evaluator::ir::{BinaryOp, Memory, SharedArray, Type};
 
 /// Writes zeros before the first statement that is the kernel's.
 pub fn zero_workgroup_memory(module: &mut Module<'_>, resources: &Resources) {
@@ -55,7 +55,7 @@ pub fn zero_workgroup_memory(module: &mut Module<'_>, resources: &Resources) {
 }
 
 /// Writes an element where there is one: of `reached` places.
-fn guarded_zero_write<'g>(k: u32, shared: &Shared, at: Expr, reached: u32) -> Stmt<'g> {
+fn guarded_zero_write<'g>(k: u32, shared: &SharedArray, at: Expr, reached: u32) -> Stmt<'g> {
     let zero = Expr::splat(shared.element, 0);
     let write: Stmt<'g> = StmtKind::Effect(Effect {
         memory: Memory::Shared(k),

@@ -47,7 +47,7 @@ impl Lowering<'_> {
             _ => true,
         };
         let index = self.node_expr(index);
-        Expr::new(Op::Index { inside }, vec![base, index], ty.element())
+        Expr::new(Op::Index { inside }, vec![base, index], ty.element_type())
     }
 
     pub(super) fn array_set(&mut self, id: NodeId) {

@@ -28,7 +28,7 @@ impl ArrayCoalescing {
             parent: (0..graph.nodes.len() as u32).collect(),
             apart: find_interference(graph, schedule),
         };
-        let arrays = || graph.ids().filter(|id| schedule.has(*id));
+        let arrays = || graph.node_ids().filter(|id| schedule.has_node(*id));
         for id in arrays() {
             let node = graph.node(id);
             match &node.op {

@@ -33,7 +33,7 @@ impl<'g> Lowering<'g> {
         });
         let counted = self.compiled.schedule.uses[region.params[0].0 as usize] > 0
             || region.stop.is_none()
-            || graph.constant(args[1]) != Some(ENDLESS);
+            || graph.constant_bits(args[1]) != Some(ENDLESS);
         let stmt = match counted {
             true => StmtKind::For {
                 counter,
@@ -50,7 +50,7 @@ impl<'g> Lowering<'g> {
 
     /// Returns whether a value is defined: an undefined one need not be assigned.
     fn looked_at(&self, id: NodeId) -> bool {
-        self.compiled.graph.node(id).op != ir::Op::Unused
+        self.compiled.graph.node(id).op != ir::Op::Undef
     }
 
     /// Assigns the next iteration's values, and leaves the loop if this one was the last. What reads a variable which an
@@ -115,7 +115,7 @@ impl<'g> Lowering<'g> {
     /// The nodes that give a loop's or branch's results, with their numbers.
     fn results_of(&self, owner: NodeId) -> Vec<(NodeId, usize)> {
         let graph = &self.compiled.graph;
-        let all = graph.ids().skip(owner.0 as usize);
+        let all = graph.node_ids().skip(owner.0 as usize);
         all.filter_map(|id| match graph.node(id).op {
             ir::Op::Result(k) if graph.node(id).args[0] == owner => Some((id, k as usize)),
             _ => None,

@@ -17,14 +17,14 @@ impl Exactness {
         let mut goes_on = vec![false; graph.nodes.len()];
         // The next iteration uses the values that a loop carries, and the statements after a branch use its results.
         for region in graph.regions.iter().skip(1) {
-            region.leaving().for_each(|id| goes_on[id.0 as usize] = true);
+            region.yielded_values().for_each(|id| goes_on[id.0 as usize] = true);
         }
-        for id in graph.ids().rev().filter(|id| schedule.has(*id)) {
+        for id in graph.node_ids().rev().filter(|id| schedule.has_node(*id)) {
             let node = graph.node(id);
             let further = match &node.op {
                 Op::Exact => {
                     let of = node.args[0];
-                    parts[of.0 as usize] = schedule.uses[of.0 as usize] == 1 && graph.node(of).op.rounds();
+                    parts[of.0 as usize] = schedule.uses[of.0 as usize] == 1 && graph.node(of).op.is_rounding();
                     continue;
                 }
                 Op::Compose | Op::Splat | Op::Extract(_) | Op::Tally(_) | Op::MakeArray => goes_on[id.0 as usize],

@@ -2,14 +2,14 @@
 
 use crate::emit::ast::{Division, Domain};
 use straightline_evaluator::ir::{BinaryOp, Graph, NodeId, Op, Scalar, Type, UnaryOp};
-use straightline_evaluator::passes::{bounds, component_bounds, float_bounds};
+use straightline_evaluator::passes::{component_bounds, float_bounds, integer_bounds};
 use straightline_evaluator::policy::Math;
 
 /// Returns the facts known about the operands of an integer division.
 pub fn division_facts(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     let ty = graph.ty(x);
-    let signed = ty.kind() == Some(Scalar::I32);
-    let bounds = |id: NodeId| (0..ty.components()).map(move |k| component_bounds(graph, id, k));
+    let signed = ty.scalar_kind() == Some(Scalar::I32);
+    let bounds = |id: NodeId| (0..ty.component_count()).map(move |k| component_bounds(graph, id, k));
     let defined = bounds(x).zip(bounds(y)).all(|(x, y)| {
         let Some((low, high)) = y else { return false };
         let zero = low <= 0 && high >= 0;
@@ -31,7 +31,7 @@ pub fn float_domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
         return None;
     }
     let all = |id: NodeId, holds: &dyn Fn(f32, f32) -> bool| {
-        let mut lanes = 0..graph.ty(id).components();
+        let mut lanes = 0..graph.ty(id).component_count();
         lanes.all(|k| float_bounds(graph, id, k).is_some_and(|(low, high)| holds(low, high)))
     };
     let within = |id: NodeId, size: f32| all(id, &|low, high| low >= -size && high <= size);
@@ -61,9 +61,9 @@ pub fn float_domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
 
 /// As [`float_domain`], of a power.
 fn power_domain(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Option<Domain> {
-    let lanes = usize::from(graph.ty(y).components());
+    let lanes = usize::from(graph.ty(y).component_count());
     let constant = |id: NodeId| {
-        let bits = graph.constant(id)?;
+        let bits = graph.constant_bits(id)?;
         let same = bits[..lanes].iter().all(|lane| *lane == bits[0]);
         same.then(|| f32::from_bits(bits[0]))
     };
@@ -84,10 +84,10 @@ fn power_domain(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math)
 
 /// As [`float_domain`], of a remainder. A power of two from 1 on makes none of the roundings.
 fn remainder_domain(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
-    let lanes = graph.ty(y).components();
+    let lanes = graph.ty(y).component_count();
     let is_power = |bits: u32| f32::from_bits(bits).abs() >= 1.0 && bits & 0x007f_ffff == 0 && bits << 1 < 0xff00_0000;
     if graph
-        .constant(y)
+        .constant_bits(y)
         .is_some_and(|bits| bits[..usize::from(lanes)].iter().all(|bits| is_power(*bits)))
     {
         return None;
@@ -119,21 +119,21 @@ pub fn is_convertible(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
 /// Returns whether every component of an integer is known to lie between 0 and the largest signed integer.
 fn has_no_sign(graph: &Graph, id: NodeId) -> bool {
     let fits = |k| component_bounds(graph, id, k).is_some_and(|(low, high)| low >= 0 && high <= i64::from(i32::MAX));
-    (0..graph.ty(id).components()).all(fits)
+    (0..graph.ty(id).component_count()).all(fits)
 }
 
 /// Returns whether every possible value of a float truncates to an integer of the type `to`. In half precision the largest numbers may have
 /// become infinities.
 fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     // A driver may round a little differently: stay clear of the edges.
-    let (smallest, largest) = match (half, to.kind()) {
+    let (smallest, largest) = match (half, to.scalar_kind()) {
         (true, Some(Scalar::I32)) => (-60_000.0, 60_000.0),
         (true, _) => (-0.5, 60_000.0),
         (false, Some(Scalar::I32)) => (-2.1e9, 2.1e9),
         (false, _) => (-0.5, 4.2e9),
     };
     let fits = |(low, high): (f32, f32)| low >= smallest && high <= largest;
-    (0..to.components()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
+    (0..to.component_count()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
 }
 
 /// Returns whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
@@ -142,7 +142,7 @@ fn fits_half(graph: &Graph, id: NodeId) -> bool {
     match node.op {
         Op::Pixel | Op::FrameSize | Op::TextureSize(_) | Op::TextureLevels(_) | Op::TextureLayers(_) | Op::Lane => true,
         Op::Extract(_) | Op::Splat | Op::Compose | Op::Tally(_) => node.args.iter().all(|arg| fits_half(graph, *arg)),
-        _ if node.ty.is_scalar() => bounds(graph, id).is_some_and(|(low, high)| low >= -65504 && high <= 65504),
+        _ if node.ty.is_scalar() => integer_bounds(graph, id).is_some_and(|(low, high)| low >= -65504 && high <= 65504),
         _ => false,
     }
 }
@@ -158,7 +158,7 @@ pub fn is_table(graph: &Graph, elements: &[NodeId]) -> bool {
         let ty = graph.ty(*id);
         let finite = |bits: &u32| !ty.is_float() || f32::from_bits(*bits).is_finite();
         graph
-            .constant(*id)
-            .is_some_and(|bits| bits[..ty.components() as usize].iter().all(finite))
+            .constant_bits(*id)
+            .is_some_and(|bits| bits[..ty.component_count() as usize].iter().all(finite))
     })
 }

@@ -30,7 +30,7 @@ pub fn array_version(graph: &Graph, id: NodeId) -> Option<NodeId> {
     let node = graph.node(id);
     match node.op {
         _ if !node.ty.is_array() => None,
-        Op::MakeArray | Op::Unused => None,
+        Op::MakeArray | Op::Undef => None,
         Op::Result(k) => match graph.node(node.args[0]).op {
             Op::Loop(body) => Some(graph.region(body).params[k as usize + 1]),
             _ => Some(id),
@@ -42,7 +42,7 @@ pub fn array_version(graph: &Graph, id: NodeId) -> Option<NodeId> {
 /// The nodes that give results of loops and branches, by their owners, with their numbers.
 fn results_by_owner(graph: &Graph) -> HashMap<NodeId, Vec<(NodeId, usize)>> {
     let mut results: HashMap<NodeId, Vec<(NodeId, usize)>> = HashMap::new();
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         if let Op::Result(k) = graph.node(id).op {
             results
                 .entry(graph.node(id).args[0])
@@ -87,7 +87,7 @@ impl Walk<'_> {
         needed.extend(outside.iter().copied());
         let carried = |k: usize| region.params[k + 1];
         (0..region.results.len()).for_each(|k| self.write_version(carried(k), needed));
-        region.leaving().for_each(|id| self.read_version(id, needed));
+        region.yielded_values().for_each(|id| self.read_version(id, needed));
         self.walk_block(body, needed);
         needed.extend(outside);
         for (k, init) in self.graph.node(node).args[2..].iter().enumerate().rev() {
@@ -133,7 +133,7 @@ impl Walk<'_> {
         self.collect_versions(body, read, &mut made);
         self.graph
             .region(region)
-            .leaving()
+            .yielded_values()
             .for_each(|id| self.read_version(id, read));
         read.retain(|version| !made.contains(version));
     }
@@ -157,7 +157,7 @@ impl Walk<'_> {
                 made.extend(&self.graph.region(region).params);
                 self.graph
                     .region(region)
-                    .leaving()
+                    .yielded_values()
                     .for_each(|id| self.read_version(id, read));
             }
             blocks.iter().for_each(|block| self.collect_versions(block, read, made));

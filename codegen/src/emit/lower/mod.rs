@@ -53,8 +53,8 @@ pub fn lower_kernel<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
 /// Origin of each node. A tally passes its name on to the node that it tallies; last to first, so that chains do too.
 fn node_origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
     let graph = &compiled.graph;
-    let mut origins: Vec<Option<&Origin>> = graph.ids().map(|id| graph.origin(id)).collect();
-    for id in graph.ids().rev() {
+    let mut origins: Vec<Option<&Origin>> = graph.node_ids().map(|id| graph.origin(id)).collect();
+    for id in graph.node_ids().rev() {
         if let ir::Op::Tally(_) = graph.node(id).op {
             let arg = graph.node(id).args[0].0 as usize;
             origins[arg] = origins[arg].or(origins[id.0 as usize]);
@@ -68,8 +68,8 @@ fn indexed_arrays(compiled: &Compiled) -> Vec<bool> {
     let graph = &compiled.graph;
     let mut indexed = vec![false; graph.nodes.len()];
     let reads = graph
-        .ids()
-        .filter(|id| graph.node(*id).op == ir::Op::ArrayGet && compiled.schedule.has(*id));
+        .node_ids()
+        .filter(|id| graph.node(*id).op == ir::Op::ArrayGet && compiled.schedule.has_node(*id));
     reads.for_each(|id| indexed[graph.node(id).args[0].0 as usize] = true);
     indexed
 }
@@ -96,7 +96,7 @@ impl<'g> Lowering<'g> {
     /// Vectors that the kernel has a name for, and that many lines would repeat, are written once.
     fn emit_constants(&mut self) {
         let graph = &self.compiled.graph;
-        for id in graph.ids() {
+        for id in graph.node_ids() {
             if let ir::Op::Const(bits) = graph.node(id).op
                 && self.compiled.schedule.uses[id.0 as usize] >= OFTEN
                 && is_long(graph.ty(id), &bits)
@@ -131,7 +131,7 @@ impl<'g> Lowering<'g> {
         let node = self.compiled.graph.node(id);
         match &node.op {
             // Written where it is used.
-            ir::Op::Const(_) | ir::Op::Unused | ir::Op::Result(_) => {}
+            ir::Op::Const(_) | ir::Op::Undef | ir::Op::Result(_) => {}
             ir::Op::MakeArray => self.make_array(id),
             // Written in the statement that rounds it.
             _ if self.exact.is_part(id) => {}
@@ -251,7 +251,7 @@ impl<'g> Lowering<'g> {
                 Expr::new(Op::Construct, parts, node.ty)
             }
             ir::Op::Const(bits) => Expr::constant(node.ty, *bits),
-            ir::Op::Unused => Expr::splat(node.ty, 0),
+            ir::Op::Undef => Expr::splat(node.ty, 0),
             _ => self.version_expr(id),
         }
     }
@@ -281,12 +281,12 @@ impl<'g> Lowering<'g> {
             ir::Op::Tally(_) => return args.swap_remove(0),
             // Texels have four components, of which the kernel takes some.
             ir::Op::Load { texture, .. } | ir::Op::Sample { texture, .. }
-                if !graph.textures[*texture as usize].kind.is_depth() && node.ty.components() < 4 =>
+                if !graph.textures[*texture as usize].kind.is_depth() && node.ty.component_count() < 4 =>
             {
                 let whole = Type::value(graph.textures[*texture as usize].scalar, 4);
                 let texel = Expr::new(Op::Ir(node.op.clone()), args, whole);
                 args = vec![texel];
-                Op::Swizzle((0..node.ty.components()).collect())
+                Op::Swizzle((0..node.ty.component_count()).collect())
             }
             op => match facts::float_domain(graph, id, self.compiled.policy.math) {
                 Some(domain) => Op::Guarded(op.clone(), domain),
@@ -312,7 +312,7 @@ fn is_atom(expr: &Expr) -> bool {
 
 /// Returns whether a constant is a vector of three or four finite floats that are not all equal.
 fn is_long(ty: Type, bits: &ir::Bits) -> bool {
-    let lanes = &bits[..usize::from(ty.components())];
+    let lanes = &bits[..usize::from(ty.component_count())];
     let finite = |lane: &u32| f32::from_bits(*lane).is_finite();
     ty.is_float() && lanes.len() >= 3 && lanes.iter().all(finite) && lanes.iter().any(|lane| *lane != lanes[0])
 }

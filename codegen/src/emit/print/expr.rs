@@ -29,7 +29,7 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
         Op::Any => Text::call("any", &all),
         Op::All => Text::call("all", &all),
         Op::Choose => l.component_select(&args[0], &args[1], &args[2]),
-        Op::Hex(bits) => match expr.ty.components() {
+        Op::Hex(bits) => match expr.ty.component_count() {
             1 => Text::name(l.hex_literal(*bits)),
             _ => Text::call(&l.type_spelling(expr.ty), &[&Text::name(l.hex_literal(*bits))]),
         },
@@ -41,7 +41,7 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
 
 fn print_operation(l: &dyn Language, op: &ir::Op, expr: &Expr, args: &[Text]) -> Text {
     let all: Vec<&Text> = args.iter().collect();
-    let kind = |k: usize| expr.args[k].ty.kind().unwrap_or(Scalar::F32);
+    let kind = |k: usize| expr.args[k].ty.scalar_kind().unwrap_or(Scalar::F32);
     match op {
         ir::Op::Const(bits) => print_constant(l, expr.ty, bits),
         ir::Op::Unary(UnaryOp::Neg) => Text::prefix("-", &args[0]),
@@ -92,8 +92,8 @@ pub fn spell_operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static
 
 /// A constant scalar or vector of finite numbers: a component that is the same in all is written once.
 fn print_constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
-    let kind = ty.kind().unwrap_or(Scalar::F32);
-    let lanes = &bits[..ty.components() as usize];
+    let kind = ty.scalar_kind().unwrap_or(Scalar::F32);
+    let lanes = &bits[..ty.component_count() as usize];
     let parts: Vec<Text> = lanes
         .iter()
         .map(|bits| l.scalar_literal(kind, ty.half, *bits))

@@ -14,7 +14,7 @@ use crate::emit::resources::Resources;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use straightline_evaluator::ir::{
-    self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
+    self, Access, AtomicOp, Axis, BinaryOp, Element, Memory, QuadDirection, Scalar, TextureKind, Type, UnaryOp,
 };
 use straightline_manifest::{REGION, Stage};
 
@@ -142,7 +142,7 @@ impl<'a> Glsl<'a> {
         let kind = self.resources.texture(texture).kind;
         let layers = usize::from(kind.has_layers());
         let parts = 1 + layers + usize::from(compares);
-        let components = usize::from(kind.place().components()) + parts - 1;
+        let components = usize::from(kind.position_type().component_count()) + parts - 1;
         if parts == 1 {
             return (args[0].clone(), components);
         }
@@ -356,10 +356,12 @@ impl Language for Glsl<'_> {
                     return Text::call("textureLod", &[&through, &place, &Text::name("0.0")]);
                 }
                 // No `textureLod` takes these; steps of no length are those of the finest level.
-                let step = Text::name(match self.resources.texture(*texture).kind.place().components() {
-                    2 => "vec2(0.0)",
-                    _ => "vec3(0.0)",
-                });
+                let step = Text::name(
+                    match self.resources.texture(*texture).kind.position_type().component_count() {
+                        2 => "vec2(0.0)",
+                        _ => "vec3(0.0)",
+                    },
+                );
                 Text::call("textureGrad", &[&through, &place, &step, &step])
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
@@ -377,12 +379,12 @@ impl Language for Glsl<'_> {
                 super::element_part(&element, &buffer.element, *field, args.get(1))
             }
             ir::Op::BufferLen(buffer) => Text::call("int", &[&self.buffer_length(*buffer)]),
-            ir::Op::Message(direction) => {
+            ir::Op::QuadSwap(direction) => {
                 self.note_unread(Unread::QuadSwap);
                 let function = match direction {
-                    Direction::Horizontal => "subgroupQuadSwapHorizontal",
-                    Direction::Vertical => "subgroupQuadSwapVertical",
-                    Direction::Diagonal => "subgroupQuadSwapDiagonal",
+                    QuadDirection::Horizontal => "subgroupQuadSwapHorizontal",
+                    QuadDirection::Vertical => "subgroupQuadSwapVertical",
+                    QuadDirection::Diagonal => "subgroupQuadSwapDiagonal",
                 };
                 Text::call(function, &[&args[0]])
             }

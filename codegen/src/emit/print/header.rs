@@ -70,12 +70,16 @@ pub fn header_lines(compiled: &Compiled, counts: &Counts, resources: &Resources)
         let [width, height] = sharing.threads;
         let tiles = sharing.tiles.iter().map(|tile| {
             let ([across, down], many) = (tile.size, counted_noun(tile.fills, "read"));
-            format!("{across}x{down} of {} ({many} instead of {})", tile.of(), tile.reads)
+            format!(
+                "{across}x{down} of {} ({many} instead of {})",
+                tile.display_name(),
+                tile.reads
+            )
         });
         let tiles: Vec<String> = tiles.collect();
         lines.push(format!(
             "Workgroups of {width}x{height} pixels share texels in {} bytes: {}.",
-            sharing.bytes(),
+            sharing.byte_size(),
             tiles.join(", ")
         ));
     }
@@ -85,7 +89,7 @@ pub fn header_lines(compiled: &Compiled, counts: &Counts, resources: &Resources)
             format!(
                 "{} of {} in place of {}",
                 counted_noun(g.gathers, "gather"),
-                g.of(),
+                g.display_name(),
                 counted_noun(g.reads, "read")
             )
         });

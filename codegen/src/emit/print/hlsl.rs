@@ -10,7 +10,7 @@ use crate::emit::host_reads;
 use crate::emit::own_words::{UNIFORMS, VARIABLE};
 use crate::emit::resources::Resources;
 use declarations::{structure_declarations, uniform_members};
-use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
+use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, QuadDirection, Scalar, TextureKind, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
 pub use declarations::{buffer_declared, sampler_declared, texture_declared, type_name, variable_declared};
@@ -232,7 +232,7 @@ impl Language for Hlsl<'_> {
                 if !levelled {
                     parts.push(&zero);
                 }
-                let lanes = usize::from(texture.kind.dimensions()) + parts.len() - 1;
+                let lanes = usize::from(texture.kind.dimension_count()) + parts.len() - 1;
                 Text::call(&load, &[&Text::call(&format!("int{lanes}"), &parts)])
             }
             ir::Op::Sample { texture, sampler, .. } => {
@@ -266,17 +266,17 @@ impl Language for Hlsl<'_> {
                 let buffer = r.buffer(*buffer);
                 let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
                 let part = super::element_part(&element, &buffer.element, *field, args.get(1));
-                match (buffer.element.field(*field), args.len()) {
+                match (buffer.element.field_type(*field), args.len()) {
                     // An array element of three components occupies the space of four.
-                    (Some(ty), 2) if ty.components() == 3 => Text::member(&part, "xyz"),
+                    (Some(ty), 2) if ty.component_count() == 3 => Text::member(&part, "xyz"),
                     _ => part,
                 }
             }
-            ir::Op::Message(direction) => {
+            ir::Op::QuadSwap(direction) => {
                 let function = match direction {
-                    Direction::Horizontal => "QuadReadAcrossX",
-                    Direction::Vertical => "QuadReadAcrossY",
-                    Direction::Diagonal => "QuadReadAcrossDiagonal",
+                    QuadDirection::Horizontal => "QuadReadAcrossX",
+                    QuadDirection::Vertical => "QuadReadAcrossY",
+                    QuadDirection::Diagonal => "QuadReadAcrossDiagonal",
                 };
                 Text::call(function, &[&args[0]])
             }
@@ -300,13 +300,13 @@ impl Language for Hlsl<'_> {
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
         match parts {
             // A cast broadcasts one scalar to all components.
-            [one] if ty.components() > 1 && !ty.is_array() => Text::prefix(&format!("({})", type_name(ty)), one),
+            [one] if ty.component_count() > 1 && !ty.is_array() => Text::prefix(&format!("({})", type_name(ty)), one),
             _ => Text::call(&type_name(ty), parts),
         }
     }
 
     fn splat(&self, ty: Ty, component: &Text) -> Text {
-        Text::call(&type_name(ty), &vec![component; ty.components() as usize])
+        Text::call(&type_name(ty), &vec![component; ty.component_count() as usize])
     }
 
     fn table_value(&self, _: Ty, parts: &[&Text]) -> Text {

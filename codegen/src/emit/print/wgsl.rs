@@ -9,7 +9,7 @@ use crate::emit::own_words::UNIFORMS;
 use crate::emit::resources::Resources;
 use std::fmt::Write;
 use straightline_evaluator::ir::{
-    self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type,
+    self, Access, Axis, BinaryOp, Element, QuadDirection, Scalar, Texture, TextureKind, Type,
 };
 use straightline_manifest::{Precision, REGION, Stage};
 
@@ -74,7 +74,7 @@ impl Language for Wgsl<'_> {
             ir::Op::Varying(k) => Text::name(self.resources.varying_name(*k)),
             ir::Op::TextureSize(texture) => {
                 let name = Text::name(self.resources.texture(*texture).name.as_str());
-                let ty = Ty::from(self.resources.texture(*texture).kind.coordinate()).short_name();
+                let ty = Ty::from(self.resources.texture(*texture).kind.coordinate_type()).short_name();
                 Text::call(&ty, &[&Text::call("textureDimensions", &[&name])])
             }
             ir::Op::TextureLevels(texture) => self.count_call("textureNumLevels", *texture),
@@ -136,11 +136,11 @@ impl Language for Wgsl<'_> {
                 let length = self.unsigned_length(*buffer);
                 Text::call("i32", &[&length])
             }
-            ir::Op::Message(direction) => {
+            ir::Op::QuadSwap(direction) => {
                 let function = match direction {
-                    Direction::Horizontal => "quadSwapX",
-                    Direction::Vertical => "quadSwapY",
-                    Direction::Diagonal => "quadSwapDiagonal",
+                    QuadDirection::Horizontal => "quadSwapX",
+                    QuadDirection::Vertical => "quadSwapY",
+                    QuadDirection::Diagonal => "quadSwapDiagonal",
                 };
                 Text::call(function, &[&args[0]])
             }
@@ -153,7 +153,7 @@ impl Language for Wgsl<'_> {
     }
 
     fn scalar_select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
-        if ty.kind() == Some(Scalar::Bool) {
+        if ty.scalar_kind() == Some(Scalar::Bool) {
             // `a < b, c, d > e` would begin a list of template arguments.
             return Text::call("select", &[&no.in_parentheses(), &yes.in_parentheses(), condition]);
         }
@@ -169,7 +169,7 @@ impl Language for Wgsl<'_> {
     }
 
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
-        if ty.kind() == Some(Scalar::Bool) && parts.len() > 1 {
+        if ty.scalar_kind() == Some(Scalar::Bool) && parts.len() > 1 {
             // `a < b, c > d` would begin a list of template arguments.
             let parts: Vec<Text> = parts.iter().map(|part| part.in_parentheses()).collect();
             return Text::call(&ty.short_name(), &parts.iter().collect::<Vec<_>>());
@@ -408,10 +408,10 @@ impl Wgsl<'_> {
 /// A texel of four components, as texels are stored whatever their format.
 pub(super) fn pad_texel(language: &dyn Language, output: &BoundOutput, value: &Text) -> Text {
     let texel = output.texel_type();
-    let kind = texel.kind().unwrap_or(Scalar::F32);
+    let kind = texel.scalar_kind().unwrap_or(Scalar::F32);
     let whole = language.type_spelling(Type::value(kind, 4).into());
     let [zero, one] = [0, one_bits(Some(kind))].map(|bits| language.scalar_literal(kind, false, bits));
-    match texel.components() {
+    match texel.component_count() {
         1 => Text::call(&whole, &[value, &zero, &zero, &one]),
         2 => Text::call(&whole, &[value, &zero, &one]),
         _ => value.clone(),

@@ -83,14 +83,14 @@ impl Columns<'_> {
                 }
                 ir::Op::SharedLoad(shared) => args + 2 + self.graph.shared[*shared as usize].name.len(),
                 ir::Op::BufferLen(buffer) => 18 + self.graph.buffers[*buffer as usize].name.len(),
-                ir::Op::Message(_) | ir::Op::Derivative(_) => call(12),
+                ir::Op::QuadSwap(_) | ir::Op::Derivative(_) => call(12),
                 _ => call(6),
             },
         }
     }
 
     fn constant_columns(&self, ty: Ty, bits: &ir::Bits) -> usize {
-        let lanes = &bits[..ty.components() as usize];
+        let lanes = &bits[..ty.component_count() as usize];
         let number = |bits: &u32| number_columns(ty, *bits);
         match lanes {
             [one] => number(one),

@@ -42,8 +42,8 @@ fn count_stmt_reads(stmt: &Stmt<'_>, uses: &mut [u32]) {
 pub fn remove_dead(module: &mut Module<'_>) {
     // Each turn but the last takes a statement away, and the first may take only tables.
     for _ in 0..=crate::emit::ast::count_statements(&module.body) + 1 {
-        limits::spend(u64::from(crate::emit::ast::count_statements(&module.body)));
-        if limits::exceeded(0).is_some() {
+        limits::count_work(u64::from(crate::emit::ast::count_statements(&module.body)));
+        if limits::exceeded_limit(0).is_some() {
             // The remaining statements are dead but correct; the caller that requested the text reports the exceeded limit.
             return;
         }

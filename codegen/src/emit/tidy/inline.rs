@@ -230,7 +230,7 @@ fn reads_memory(expr: &Expr) -> bool {
     expr.visit(&mut |expr| {
         reads |= match &expr.op {
             Op::Index { .. } => true,
-            Op::Ir(op) => op.is_read() || op.only_looks(),
+            Op::Ir(op) => op.is_read() || op.is_removable_effect(),
             _ => false,
         };
     });

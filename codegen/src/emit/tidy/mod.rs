@@ -53,7 +53,7 @@ fn inline_repeatedly(module: &mut Module<'_>, graph: &Graph, stays: Stays) {
     for _ in 0..=count_statements(&module.body) {
         module.rewrite(&mut |_, expr| simplify_expr(expr));
         dead::remove_dead(module);
-        if !inline_values(module, graph, stays) || limits::exceeded(0).is_some() {
+        if !inline_values(module, graph, stays) || limits::exceeded_limit(0).is_some() {
             break;
         }
     }

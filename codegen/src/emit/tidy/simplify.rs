@@ -51,13 +51,13 @@ fn simplify_swizzle(mut expr: Expr) -> Expr {
         }
         Op::Construct
             if components.len() == 1
-                && base.args.len() == base.ty.components() as usize
+                && base.args.len() == base.ty.component_count() as usize
                 && base.args[components[0] as usize].ty == expr.ty =>
         {
             base.args.swap_remove(components[0] as usize)
         }
         _ => {
-            let whole = components.iter().copied().eq(0..base.ty.components());
+            let whole = components.iter().copied().eq(0..base.ty.component_count());
             if whole { expr.args.swap_remove(0) } else { expr }
         }
     }
@@ -76,7 +76,7 @@ fn simplify_construct(expr: Expr) -> Expr {
         {
             before.extend(after);
             let lanes = before.len() as u8;
-            if let Some(kind) = last.ty.kind() {
+            if let Some(kind) = last.ty.scalar_kind() {
                 last.ty.shape = Type::value(kind, lanes);
             }
             continue;
@@ -126,8 +126,8 @@ fn scalar_operands(op: BinaryOp, mut expr: Expr) -> Expr {
 
 /// The number that all components of a vector are.
 fn splatted_scalar(expr: &Expr) -> Option<Expr> {
-    let kind = expr.ty.kind()?;
-    let lanes = expr.ty.components() as usize;
+    let kind = expr.ty.scalar_kind()?;
+    let lanes = expr.ty.component_count() as usize;
     let ty = crate::emit::ast::Ty {
         shape: Type::scalar(kind),
         ..expr.ty
@@ -147,10 +147,10 @@ fn flip_negative_term(op: BinaryOp, mut expr: Expr) -> Expr {
         _ => return expr,
     };
     let right = &expr.args[1];
-    let (Some(bits), Some(kind)) = (right.as_constant().copied(), right.ty.kind()) else {
+    let (Some(bits), Some(kind)) = (right.as_constant().copied(), right.ty.scalar_kind()) else {
         return expr;
     };
-    let lanes = right.ty.components() as usize;
+    let lanes = right.ty.component_count() as usize;
     let negative = |bits: u32| match kind {
         Scalar::F32 => f32::from_bits(bits) < 0.0,
         Scalar::I32 => (bits as i32) < 0 && bits as i32 != i32::MIN,
@@ -225,14 +225,14 @@ fn whole_vector(parts: &[&Expr]) -> Option<Expr> {
     let Op::Swizzle(_) = first.op else { return None };
     let base = &first.args[0];
     let component = |(k, part): (usize, &&Expr)| part.op == Op::Swizzle(vec![k as u8]) && part.args[0] == *base;
-    let whole = parts.len() == base.ty.components() as usize && parts.iter().enumerate().all(component);
+    let whole = parts.len() == base.ty.component_count() as usize && parts.iter().enumerate().all(component);
     (whole && parts.len() > 1).then(|| base.clone())
 }
 
 /// Two expressions that differ by the components of one vector alone, as one of more components; both have the shape of the other
 /// but for how many components they are of.
 fn join_components(left: &Expr, right: &Expr) -> Option<Expr> {
-    let lanes = left.ty.components() + right.ty.components();
+    let lanes = left.ty.component_count() + right.ty.component_count();
     if lanes > 4 || left.ty.is_array() {
         return None;
     }
@@ -247,9 +247,9 @@ fn join_components(left: &Expr, right: &Expr) -> Option<Expr> {
             )))
         }
         (Op::Ir(ir::Op::Const(a)), Op::Ir(ir::Op::Const(b))) => {
-            let same = (0..left.ty.components() as usize).all(|k| a[k] == b[0])
-                && (0..right.ty.components() as usize).all(|k| b[k] == b[0]);
-            (same && left.ty.kind() == right.ty.kind()).then(|| Expr::splat(shape, b[0]))
+            let same = (0..left.ty.component_count() as usize).all(|k| a[k] == b[0])
+                && (0..right.ty.component_count() as usize).all(|k| b[k] == b[0]);
+            (same && left.ty.scalar_kind() == right.ty.scalar_kind()).then(|| Expr::splat(shape, b[0]))
         }
         (Op::Ir(a @ (ir::Op::Unary(_) | ir::Op::Binary(_) | ir::Op::Bitcast)), Op::Ir(b)) if a == b => {
             let pairs = left.args.iter().zip(&right.args);

@@ -36,7 +36,7 @@ fn one_component(place: &mut Expr, value: &mut Expr) {
     let mut first = 0;
     let mut changed = Vec::new();
     for (k, part) in value.args.iter().enumerate() {
-        let lanes = part.ty.components();
+        let lanes = part.ty.component_count();
         let kept = matches!(&part.op, Op::Swizzle(from) if from.iter().copied().eq(first..first + lanes))
             && part.args[0] == *place;
         if !kept {
@@ -44,7 +44,7 @@ fn one_component(place: &mut Expr, value: &mut Expr) {
         }
         first += lanes;
     }
-    if first == place.ty.components()
+    if first == place.ty.component_count()
         && let [(k, component, 1)] = changed[..]
     {
         let part = value.args.swap_remove(k);
@@ -58,13 +58,13 @@ fn compound_assignment(place: &Expr, assigned: &mut Option<BinaryOp>, value: &mu
     let Op::Ir(ir::Op::Binary(op)) = value.op else { return };
     let compounds = match op {
         BinaryOp::Add | BinaryOp::Mul | BinaryOp::Sub | BinaryOp::Div => true,
-        BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => !matches!(value.ty.kind(), Some(Scalar::Bool)),
+        BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => !matches!(value.ty.scalar_kind(), Some(Scalar::Bool)),
         _ => false,
     };
     if compounds && value.args[0] == *place {
         *assigned = Some(op);
         *value = value.args.swap_remove(1);
-    } else if compounds && op.commutes() && value.args[1] == *place {
+    } else if compounds && op.is_commutative() && value.args[1] == *place {
         *assigned = Some(op);
         *value = value.args.swap_remove(0);
     }

@@ -2,7 +2,7 @@
 
 use super::super::Evaluator;
 use super::super::value::{Eval, Exit, Value};
-use super::{Numeric, OptionInfo, OptionKind, canonical, kebab};
+use super::{Numeric, OptionInfo, OptionKind, canonical_number, kebab};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
 use crate::front::unraw;
@@ -11,10 +11,10 @@ use straightline_kernels::OptionValue;
 
 impl Evaluator<'_> {
     /// Declaration of an option, with its default evaluated.
-    pub(super) fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
-        let default = self.expr(&field.default)?;
-        let default = self.ascribe(default, Some(&field.ty), field.default.span)?;
-        let ty = match field.ty.bare() {
+    pub(super) fn option_info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
+        let default = self.eval_expr(&field.default)?;
+        let default = self.ascribe_type(default, Some(&field.ty), field.default.span)?;
+        let ty = match field.ty.peel_refs() {
             SourceType::Name(ty, _) => ty,
             SourceType::Array(..) => return self.list_info(field, &default),
             SourceType::Tuple(_) | SourceType::Ref(..) | SourceType::Fn(..) | SourceType::Const(_) => {
@@ -27,10 +27,10 @@ impl Evaluator<'_> {
                 (OptionKind::Flag, OptionValue::Flag(on))
             }
             ("f32" | "i32" | "u32", value) => {
-                let number = self.number(value).ok_or_else(|| self.bad_type(field))?;
-                let of = self.numeric(field, ty)?;
+                let number = self.known_number(value).ok_or_else(|| self.bad_type(field))?;
+                let of = self.numeric_range(field, ty)?;
                 in_range(field, &[number], &of)?;
-                (OptionKind::Number(of), OptionValue::Number(canonical(number)))
+                (OptionKind::Number(of), OptionValue::Number(canonical_number(number)))
             }
             (_, Value::Enum(choice)) => {
                 let definition = self.library.enums.get(&*choice.ty);
@@ -58,7 +58,7 @@ impl Evaluator<'_> {
 
     /// An option that is an array of numbers.
     fn list_info(&mut self, field: &OptionField, default: &Value) -> Eval<OptionInfo> {
-        let element = match field.ty.bare() {
+        let element = match field.ty.peel_refs() {
             SourceType::Array(element, _) => match &**element {
                 SourceType::Name(name, _) if matches!(name.as_str(), "f32" | "i32" | "u32") => name.clone(),
                 _ => return Err(self.bad_type(field)),
@@ -66,11 +66,11 @@ impl Evaluator<'_> {
             _ => return Err(self.bad_type(field)),
         };
         let numbers: Option<Vec<f64>> = match default {
-            Value::Array(values) => values.iter().map(|v| self.number(v)).collect(),
+            Value::Array(values) => values.iter().map(|v| self.known_number(v)).collect(),
             _ => None,
         };
         let numbers = numbers.ok_or_else(|| self.bad_type(field))?;
-        let of = self.numeric(field, &element)?;
+        let of = self.numeric_range(field, &element)?;
         in_range(field, &numbers, &of)?;
         if field.uniform {
             return Err(only_numbers(field));
@@ -79,19 +79,19 @@ impl Evaluator<'_> {
             name: unraw(&field.name).replace('_', "-"),
             docs: field.docs.clone(),
             kind: OptionKind::List {
-                len: match field.ty.bare() {
+                len: match field.ty.peel_refs() {
                     SourceType::Array(_, None) => None,
                     _ => Some(numbers.len()),
                 },
                 of,
             },
-            default: OptionValue::Numbers(numbers.into_iter().map(canonical).collect()),
+            default: OptionValue::Numbers(numbers.into_iter().map(canonical_number).collect()),
             uniform: false,
         })
     }
 
     pub(super) fn bad_type(&self, field: &OptionField) -> Exit {
-        Diagnostic::at(
+        Diagnostic::error_at(
             Code::OptionDeclaration,
             field.span,
             format!(
@@ -105,8 +105,8 @@ impl Evaluator<'_> {
     }
 
     /// Numbers that the option `field`, of the scalar type `ty`, can hold.
-    fn numeric(&mut self, field: &OptionField, ty: &str) -> Eval<Numeric> {
-        let (min, max) = self.limits(field)?;
+    fn numeric_range(&mut self, field: &OptionField, ty: &str) -> Eval<Numeric> {
+        let (min, max) = self.stated_limits(field)?;
         let scalar = match ty {
             "i32" => Scalar::I32,
             "u32" => Scalar::U32,
@@ -116,12 +116,12 @@ impl Evaluator<'_> {
     }
 
     /// Smallest and largest value of a number.
-    fn limits(&mut self, field: &OptionField) -> Eval<(Option<f64>, Option<f64>)> {
+    fn stated_limits(&mut self, field: &OptionField) -> Eval<(Option<f64>, Option<f64>)> {
         let Some(range) = &field.range else {
             return Ok((None, None));
         };
         let ExprKind::Range(low, high, true) = &range.kind else {
-            return Err(Diagnostic::at(
+            return Err(Diagnostic::error_at(
                 Code::OptionDeclaration,
                 range.span,
                 "the range of an option includes both ends",
@@ -129,29 +129,29 @@ impl Evaluator<'_> {
             .help("write `[0.0..=1.0]`")
             .into());
         };
-        let (low, high) = (self.expr(low)?, self.expr(high)?);
-        let limits = (self.number(&low), self.number(&high));
+        let (low, high) = (self.eval_expr(low)?, self.eval_expr(high)?);
+        let limits = (self.known_number(&low), self.known_number(&high));
         if let (Some(low), Some(high)) = limits
             && low > high
         {
             let text = format!("the range of the option `{}` holds no number", field.name);
             let help = format!(
                 "it goes from {} to {}: write the lower end first",
-                canonical(low),
-                canonical(high)
+                canonical_number(low),
+                canonical_number(high)
             );
-            return Err(Diagnostic::at(Code::OptionDeclaration, range.span, text)
+            return Err(Diagnostic::error_at(Code::OptionDeclaration, range.span, text)
                 .help(help)
                 .into());
         }
         Ok(limits)
     }
 
-    fn number(&self, value: &Value) -> Option<f64> {
+    fn known_number(&self, value: &Value) -> Option<f64> {
         match value {
             Value::Int(n) => Some(*n as f64),
             Value::Node(id) => {
-                let bits = self.builder.graph().constant(*id)?[0];
+                let bits = self.builder.graph().constant_bits(*id)?[0];
                 match self.ty(*id) {
                     Type::F32 => Some(f64::from(f32::from_bits(bits))),
                     Type::I32 => Some(f64::from(bits as i32)),
@@ -173,11 +173,11 @@ fn in_range(field: &OptionField, defaults: &[f64], of: &Numeric) -> Result<(), E
             let text = format!(
                 "the default of the option `{}` is {}, outside of its range from {} to {}",
                 field.name,
-                canonical(*n),
-                canonical(low),
-                canonical(high)
+                canonical_number(*n),
+                canonical_number(low),
+                canonical_number(high)
             );
-            Err(Diagnostic::at(Code::OptionDeclaration, field.default.span, text)
+            Err(Diagnostic::error_at(Code::OptionDeclaration, field.default.span, text)
                 .label("not in the range")
                 .help("widen the range, or choose a default within it")
                 .into())
@@ -186,7 +186,7 @@ fn in_range(field: &OptionField, defaults: &[f64], of: &Numeric) -> Result<(), E
 }
 
 fn only_numbers(field: &OptionField) -> Exit {
-    Diagnostic::at(
+    Diagnostic::error_at(
         Code::OptionDeclaration,
         field.default.span,
         format!("the option `{}` cannot be set at run time", field.name),

@@ -4,18 +4,18 @@ mod declared;
 mod parse;
 
 use super::Evaluator;
-use super::enums::Choice;
+use super::enums::EnumValue;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Errors, File};
 use crate::front::tree::{OptionField, Type as SourceType};
-use crate::front::{Library, raw};
+use crate::front::{Library, raw_name};
 use crate::ir::{Op, Scalar, Type, Uniform};
 use crate::policy::Policy;
 use std::sync::Arc;
 use straightline_kernels::{OptionText, OptionValue, OptionValues, kebab};
 
 pub use parse::parse_settings;
-pub(super) use parse::unknown;
+pub(super) use parse::unknown_settings;
 
 /// One option of a kernel.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct OptionInfo {
 
 impl OptionInfo {
     /// Value of the option where no setting names it.
-    pub fn unset(&self) -> OptionValue {
+    pub fn default_value(&self) -> OptionValue {
         match self.uniform {
             true => OptionValue::Uniform,
             false => self.default.clone(),
@@ -79,19 +79,19 @@ impl Numeric {
 }
 
 /// The options of the kernel `entry`, in order of declaration.
-pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Result<Vec<OptionInfo>, Errors> {
-    let (entry, policy) = (&*raw(entry), Policy::default());
+pub fn describe_options(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Result<Vec<OptionInfo>, Errors> {
+    let (entry, policy) = (&*raw_name(entry), Policy::default());
     let mut evaluator = Evaluator::new(library, files, &policy);
     let mut infos = Vec::new();
-    let fields = fields(library, entry);
-    for error in twice(&fields) {
-        evaluator.note(error);
+    let fields = option_fields(library, entry);
+    for error in duplicate_errors(&fields) {
+        evaluator.record_error(error);
     }
     for field in fields {
-        match evaluator.info(field) {
+        match evaluator.option_info(field) {
             Ok(info) => infos.push(info),
             Err(exit) => {
-                evaluator.note(exit);
+                evaluator.record_error(exit);
             }
         }
     }
@@ -103,13 +103,13 @@ pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Resul
 }
 
 /// The options declared for `entry`, of whichever of its parameters is made of options.
-fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
+fn option_fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
     let params = library
         .functions
         .get(entry)
         .map(|f| f.params.as_slice())
         .unwrap_or_default();
-    let declared = params.iter().filter_map(|param| match param.ty.bare() {
+    let declared = params.iter().filter_map(|param| match param.ty.peel_refs() {
         SourceType::Name(name, _) => library.options.get(name),
         _ => None,
     });
@@ -117,16 +117,16 @@ fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
 }
 
 /// An error for every field that has the name of one before it.
-fn twice(fields: &[&OptionField]) -> Vec<Exit> {
+fn duplicate_errors(fields: &[&OptionField]) -> Vec<Exit> {
     let again = fields.iter().enumerate().filter_map(|(k, field)| {
         let first = fields[..k].iter().find(|other| other.name == field.name)?;
-        let error = Diagnostic::at(
+        let error = Diagnostic::error_at(
             Code::DefinedTwice,
             field.span,
             format!("the option `{}` is declared twice", field.name),
         )
         .label("declared again")
-        .other(first.span, "first declared here")
+        .label_at(first.span, "first declared here")
         .help("give one of them another name");
         Some(error.into())
     });
@@ -135,32 +135,32 @@ fn twice(fields: &[&OptionField]) -> Vec<Exit> {
 
 impl Evaluator<'_> {
     /// A structure of options with each field set or at its default.
-    pub fn configure(&mut self, ty: &str, settings: &[OptionText], chosen: &mut OptionValues) -> Eval {
+    pub fn configure_options(&mut self, ty: &str, settings: &[OptionText], chosen: &mut OptionValues) -> Eval {
         let library = self.library;
         let mut values = Vec::new();
         let declared = &library.options[ty];
-        for error in twice(&declared.iter().collect::<Vec<_>>()) {
-            self.note(error);
+        for error in duplicate_errors(&declared.iter().collect::<Vec<_>>()) {
+            self.record_error(error);
         }
         for field in declared {
-            let info = match self.info(field) {
+            let info = match self.option_info(field) {
                 Ok(info) => info,
                 Err(exit) => {
-                    self.note(exit);
+                    self.record_error(exit);
                     values.push(((&field.name).into(), Value::Poison));
                     continue;
                 }
             };
-            let (chosen_value, value) = match parse::setting(&info, settings) {
+            let (chosen_value, value) = match parse::setting_value(&info, settings) {
                 Ok(parsed) => {
                     let value = self.value_of(field, &info, &parsed)?;
                     (parsed, value)
                 }
                 Err(errors) => {
                     errors.into_iter().for_each(|error| {
-                        self.note(error.into());
+                        self.record_error(error.into());
                     });
-                    (info.unset(), Value::Poison)
+                    (info.default_value(), Value::Poison)
                 }
             };
             chosen.insert(info.name, chosen_value);
@@ -172,26 +172,26 @@ impl Evaluator<'_> {
     /// The kernel's value of an option. Settings equal to the default share its node, so that both give the same text.
     fn value_of(&mut self, field: &OptionField, info: &OptionInfo, value: &OptionValue) -> Eval {
         if *value == info.default {
-            let default = self.expr(&field.default)?;
-            return self.ascribe(default, Some(&field.ty), field.default.span);
+            let default = self.eval_expr(&field.default)?;
+            return self.ascribe_type(default, Some(&field.ty), field.default.span);
         }
         match (value, &info.kind) {
             (OptionValue::Flag(on), _) => Ok(Value::Node(self.builder.bool(*on))),
             (OptionValue::Choice(name), _) => {
-                let SourceType::Name(ty, _) = field.ty.bare() else {
+                let SourceType::Name(ty, _) = field.ty.peel_refs() else {
                     return Err(self.bad_type(field));
                 };
                 let definition = self.library.enums.get(ty).ok_or_else(|| self.bad_type(field))?;
                 let variant = definition.variants.iter().position(|v| kebab(&v.name) == *name);
                 let variant = variant.ok_or_else(|| self.bad_type(field))?;
-                Ok(Choice::known(ty, definition, variant, Vec::new()))
+                Ok(EnumValue::with_variant(ty, definition, variant, Vec::new()))
             }
             (OptionValue::Number(number), OptionKind::Number(of)) => Ok(self.number_of(of.scalar, *number)),
             (OptionValue::Numbers(numbers), OptionKind::List { of, .. }) => {
                 let numbers = numbers.iter().map(|number| self.number_of(of.scalar, *number));
                 Ok(Value::array(numbers.collect()))
             }
-            (OptionValue::Uniform, OptionKind::Number(of)) => Ok(self.uniform(
+            (OptionValue::Uniform, OptionKind::Number(of)) => Ok(self.add_uniform(
                 &self.option_name(&field.name),
                 Type::scalar(of.scalar),
                 info.default.number(),
@@ -209,7 +209,7 @@ impl Evaluator<'_> {
     }
 
     /// A value that is set at run time.
-    pub fn uniform(&mut self, name: &str, ty: Type, default: Option<f64>) -> Value {
+    pub fn add_uniform(&mut self, name: &str, ty: Type, default: Option<f64>) -> Value {
         let uniforms = &mut self.builder.graph_mut().uniforms;
         uniforms.push(Uniform {
             name: name.to_owned(),
@@ -224,7 +224,7 @@ impl Evaluator<'_> {
 
 /// The one form of a number among the spellings of the same `f32` or integer: the shortest decimal, a whole number in all of its
 /// digits.
-fn canonical(number: f64) -> f64 {
+fn canonical_number(number: f64) -> f64 {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         // -0 + 0 is 0.
         number + 0.0

@@ -1,6 +1,6 @@
 //! Text of options as values, by their declarations.
 
-use super::{Numeric, OptionInfo, OptionKind, canonical};
+use super::{Numeric, OptionInfo, OptionKind, canonical_number};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Scalar;
 use crate::shorten;
@@ -22,14 +22,14 @@ pub fn parse_settings(
     let mut errors = Vec::new();
     let mut values = OptionValues::default();
     for info in infos {
-        match setting(info, settings) {
+        match setting_value(info, settings) {
             Ok(value) => values.insert(info.name.clone(), value),
             Err(found) => errors.extend(found),
         }
     }
     let mut names: Vec<&str> = infos.iter().map(|info| info.name.as_str()).collect();
     names.sort_unstable();
-    errors.extend(unknown(kernel, &names, settings));
+    errors.extend(unknown_settings(kernel, &names, settings));
     match errors.is_empty() {
         true => Ok(values),
         false => Err(errors),
@@ -37,7 +37,7 @@ pub fn parse_settings(
 }
 
 /// An error for each setting that names none of the options `names`.
-pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[OptionText]) -> Vec<Diagnostic> {
+pub(in crate::eval) fn unknown_settings(kernel: &str, names: &[&str], settings: &[OptionText]) -> Vec<Diagnostic> {
     let unknown = settings.iter().filter(|(name, _)| !names.contains(&name.as_str()));
     let errors = unknown.map(|(name, _)| {
         let help = match names.is_empty() {
@@ -50,10 +50,10 @@ pub(in crate::eval) fn unknown(kernel: &str, names: &[&str], settings: &[OptionT
 }
 
 /// Value of one option under `settings`.
-pub(super) fn setting(info: &OptionInfo, settings: &[OptionText]) -> Result<OptionValue, Vec<Diagnostic>> {
+pub(super) fn setting_value(info: &OptionInfo, settings: &[OptionText]) -> Result<OptionValue, Vec<Diagnostic>> {
     let mut set = settings.iter().filter(|(name, _)| *name == info.name);
     let Some((_, first)) = set.next() else {
-        return Ok(info.unset());
+        return Ok(info.default_value());
     };
     let mut errors = Vec::new();
     if let Some((_, again)) = set.next() {
@@ -98,7 +98,7 @@ fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> 
         OptionKind::Number(_) if text == UNIFORM => Ok(OptionValue::Uniform),
         OptionKind::Number(of) => match of.parse(text) {
             Some(number) => Ok(OptionValue::Number(number)),
-            None => Err(refuse(text, of.allowed())),
+            None => Err(refuse(text, of.allowed_help())),
         },
         OptionKind::List { len, of } => {
             let mut parts: Vec<&str> = text.split(',').map(str::trim).collect();
@@ -116,7 +116,7 @@ fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> 
             }
             let numbers = parts
                 .iter()
-                .map(|part| of.parse(part).ok_or_else(|| refuse(part, of.allowed())));
+                .map(|part| of.parse(part).ok_or_else(|| refuse(part, of.allowed_help())));
             Ok(OptionValue::Numbers(numbers.collect::<Result<_, _>>()?))
         }
     }
@@ -146,11 +146,11 @@ impl Numeric {
         };
         let (low, high) = self.bounds();
         let is_held = number.is_finite() && (!self.is_integer() || number.fract() == 0.0);
-        (is_held && (low..=high).contains(&held)).then(|| canonical(held))
+        (is_held && (low..=high).contains(&held)).then(|| canonical_number(held))
     }
 
     /// Help for a text that is none of its numbers.
-    fn allowed(&self) -> String {
+    fn allowed_help(&self) -> String {
         let what = if self.is_integer() {
             "a whole number"
         } else {
@@ -164,7 +164,7 @@ impl Numeric {
             } => "that an f32 can hold".to_owned(),
             _ => {
                 let (low, high) = self.bounds();
-                format!("from {} to {}", canonical(low), canonical(high))
+                format!("from {} to {}", canonical_number(low), canonical_number(high))
             }
         };
         format!("use {what} {range}, or `{UNIFORM}` to set it at run time")

@@ -12,114 +12,114 @@ use syn::spanned::Spanned;
 
 impl Check {
     /// An expression where nothing can be left out.
-    pub fn expr(&mut self, expr: &mut syn::Expr) {
+    pub fn check_expr(&mut self, expr: &mut syn::Expr) {
         // The lowering refuses deeper nesting.
         if self.depth >= DEPTH {
             return;
         }
         self.depth += 1;
-        let carrier = carrier(expr);
-        if let Some(attrs) = attrs(expr) {
+        let carrier = attribute_carrier(expr);
+        if let Some(attrs) = expr_attributes(expr) {
             self.lower.keeps_always(attrs, carrier);
         }
-        self.kind(expr);
+        self.check_expr_kind(expr);
         self.depth -= 1;
     }
 
     /// The part of an expression that a chain goes on in, as [`Lower::link`](super::super::expr::Lower::link).
-    fn link(&mut self, expr: &mut syn::Expr) {
+    fn check_link(&mut self, expr: &mut syn::Expr) {
         let depth = self.depth;
         if !COUNTS_LINKS {
             self.depth = depth.saturating_sub(1);
         }
-        self.expr(expr);
+        self.check_expr(expr);
         self.depth = depth;
     }
 
-    fn kind(&mut self, expr: &mut syn::Expr) {
+    fn check_expr_kind(&mut self, expr: &mut syn::Expr) {
         use syn::Expr as E;
         match expr {
-            E::Array(e) => self.exprs(&mut e.elems),
-            E::Assign(e) => self.pair(&mut e.left, &mut e.right),
+            E::Array(e) => self.check_expr_list(&mut e.elems),
+            E::Assign(e) => self.check_pair(&mut e.left, &mut e.right),
             E::Binary(e) => {
-                self.link(&mut e.left);
-                self.expr(&mut e.right);
+                self.check_link(&mut e.left);
+                self.check_expr(&mut e.right);
             }
             E::Index(e) => {
-                self.link(&mut e.expr);
-                self.expr(&mut e.index);
+                self.check_link(&mut e.expr);
+                self.check_expr(&mut e.index);
             }
-            E::Repeat(e) => self.pair(&mut e.expr, &mut e.len),
-            E::Block(e) => self.block(&mut e.block),
+            E::Repeat(e) => self.check_pair(&mut e.expr, &mut e.len),
+            E::Block(e) => self.check_block(&mut e.block),
             E::Call(e) => {
                 match &mut *e.func {
-                    E::Path(path) => self.path(&mut path.path, true),
-                    other => self.link(other),
+                    E::Path(path) => self.check_path(&mut path.path, true),
+                    other => self.check_link(other),
                 }
-                self.exprs(&mut e.args);
+                self.check_expr_list(&mut e.args);
             }
             E::Closure(e) => {
                 for input in &mut e.inputs {
                     match input {
                         syn::Pat::Type(typed) => {
-                            self.pattern(&mut typed.pat);
-                            self.ty(&mut typed.ty);
+                            self.check_pattern(&mut typed.pat);
+                            self.check_type(&mut typed.ty);
                         }
-                        other => self.pattern(other),
+                        other => self.check_pattern(other),
                     }
                 }
                 if let syn::ReturnType::Type(_, ty) = &mut e.output {
-                    self.ty(ty);
+                    self.check_type(ty);
                 }
-                self.expr(&mut e.body);
+                self.check_expr(&mut e.body);
             }
             E::Cast(e) => {
-                self.link(&mut e.expr);
+                self.check_link(&mut e.expr);
                 match &mut *e.ty {
-                    syn::Type::Path(t) if t.qself.is_none() => self.path(&mut t.path, true),
-                    other => self.ty(other),
+                    syn::Type::Path(t) if t.qself.is_none() => self.check_path(&mut t.path, true),
+                    other => self.check_type(other),
                 }
             }
-            E::Field(e) => self.link(&mut e.base),
+            E::Field(e) => self.check_link(&mut e.base),
             // The lowering refuses a `let` that is no condition.
             E::Let(e) => {
-                self.pattern(&mut e.pat);
-                self.expr(&mut e.expr);
+                self.check_pattern(&mut e.pat);
+                self.check_expr(&mut e.expr);
             }
             E::ForLoop(e) => {
-                self.pattern(&mut e.pat);
-                self.expr(&mut e.expr);
-                self.block(&mut e.body);
+                self.check_pattern(&mut e.pat);
+                self.check_expr(&mut e.expr);
+                self.check_block(&mut e.body);
             }
-            E::Group(e) => self.link(&mut e.expr),
-            E::Paren(e) => self.link(&mut e.expr),
-            E::Reference(e) => self.expr(&mut e.expr),
-            E::Unary(e) => self.expr(&mut e.expr),
+            E::Group(e) => self.check_link(&mut e.expr),
+            E::Paren(e) => self.check_link(&mut e.expr),
+            E::Reference(e) => self.check_expr(&mut e.expr),
+            E::Unary(e) => self.check_expr(&mut e.expr),
             E::If(e) => {
-                self.expr(&mut e.cond);
-                self.block(&mut e.then_branch);
+                self.check_expr(&mut e.cond);
+                self.check_block(&mut e.then_branch);
                 if let Some((_, other)) = &mut e.else_branch {
-                    self.link(other);
+                    self.check_link(other);
                 }
             }
-            E::Loop(e) => self.block(&mut e.body),
+            E::Loop(e) => self.check_block(&mut e.body),
             E::While(e) => {
-                self.expr(&mut e.cond);
-                self.block(&mut e.body);
+                self.check_expr(&mut e.cond);
+                self.check_block(&mut e.body);
             }
             E::Macro(e) => self.macro_call(&mut e.mac),
             E::Match(e) => {
-                self.expr(&mut e.expr);
+                self.check_expr(&mut e.expr);
                 for mut arm in std::mem::take(&mut e.arms) {
                     if self.keeps(&mut arm.attrs) {
-                        self.pattern(&mut arm.pat);
-                        self.expr(&mut arm.body);
+                        self.check_pattern(&mut arm.pat);
+                        self.check_expr(&mut arm.body);
                         e.arms.push(arm);
                     }
                 }
             }
             E::MethodCall(e) => {
-                self.link(&mut e.receiver);
+                self.check_link(&mut e.receiver);
                 let of_numbers = e.method == "sum" || e.method == "product";
                 if let Some(arguments) = e.turbofish.as_ref().filter(|_| !of_numbers) {
                     self.refuse(
@@ -128,29 +128,29 @@ impl Check {
                         "leave it out, or call the function by its path: `Type::method::<3>(value)`",
                     );
                 }
-                self.exprs(&mut e.args);
+                self.check_expr_list(&mut e.args);
             }
             E::Path(e) if crate::front::expr::held_by_none(&e.path).is_some() => {
                 for segment in &mut e.path.segments {
                     if let syn::PathArguments::AngleBracketed(list) = &mut segment.arguments {
                         list.args.iter_mut().for_each(|argument| {
                             if let syn::GenericArgument::Type(ty) = argument {
-                                self.ty(ty);
+                                self.check_type(ty);
                             }
                         });
                     }
                 }
             }
-            E::Path(e) => self.path(&mut e.path, false),
+            E::Path(e) => self.check_path(&mut e.path, false),
             E::Range(e) => [&mut e.start, &mut e.end]
                 .into_iter()
                 .flatten()
-                .for_each(|end| self.expr(end)),
-            E::Break(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
-            E::Try(e) => self.link(&mut e.expr),
-            E::Return(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
+                .for_each(|end| self.check_expr(end)),
+            E::Break(e) => e.expr.iter_mut().for_each(|e| self.check_expr(e)),
+            E::Try(e) => self.check_link(&mut e.expr),
+            E::Return(e) => e.expr.iter_mut().for_each(|e| self.check_expr(e)),
             E::Struct(e) => self.structure_literal(e),
-            E::Tuple(e) => self.exprs(&mut e.elems),
+            E::Tuple(e) => self.check_expr_list(&mut e.elems),
             // Nothing in them.
             E::Continue(_) | E::Lit(_) => {}
             // The lowering refuses these.
@@ -168,18 +168,18 @@ impl Check {
         }
     }
 
-    fn pair(&mut self, left: &mut syn::Expr, right: &mut syn::Expr) {
-        self.expr(left);
-        self.expr(right);
+    fn check_pair(&mut self, left: &mut syn::Expr, right: &mut syn::Expr) {
+        self.check_expr(left);
+        self.check_expr(right);
     }
 
     /// Elements of a list, each of which `cfg` may remove.
-    fn exprs(&mut self, list: &mut Punctuated<syn::Expr, syn::Token![,]>) {
+    fn check_expr_list(&mut self, list: &mut Punctuated<syn::Expr, syn::Token![,]>) {
         let mut kept = Punctuated::new();
         for mut expr in std::mem::take(list) {
-            let carrier = carrier(&expr);
-            if attrs(&mut expr).is_none_or(|attrs| self.lower.keeps(attrs, carrier)) {
-                self.expr(&mut expr);
+            let carrier = attribute_carrier(&expr);
+            if expr_attributes(&mut expr).is_none_or(|attrs| self.lower.keeps_by_cfg(attrs, carrier)) {
+                self.check_expr(&mut expr);
                 kept.push(expr);
             }
         }
@@ -190,17 +190,17 @@ impl Check {
         if let Some(qself) = &e.qself {
             self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
         }
-        self.path(&mut e.path, false);
+        self.check_path(&mut e.path, false);
         let mut kept = Punctuated::new();
         for mut field in std::mem::take(&mut e.fields) {
             if self.keeps(&mut field.attrs) {
-                self.expr(&mut field.expr);
+                self.check_expr(&mut field.expr);
                 kept.push(field);
             }
         }
         e.fields = kept;
         match (&e.dot2_token, &mut e.rest) {
-            (_, Some(rest)) => self.expr(rest),
+            (_, Some(rest)) => self.check_expr(rest),
             (Some(dots), None) => self.refuse(
                 dots.span(),
                 "`..` without a value after it",
@@ -214,9 +214,9 @@ impl Check {
     fn macro_call(&mut self, call: &mut syn::Macro) {
         if call.path.is_ident("matches") {
             if let Ok(mut body) = call.parse_body::<MatchesSyntax>() {
-                self.expr(&mut body.value);
-                self.pattern(&mut body.pattern);
-                body.guard.iter_mut().for_each(|e| self.expr(e));
+                self.check_expr(&mut body.value);
+                self.check_pattern(&mut body.pattern);
+                body.guard.iter_mut().for_each(|e| self.check_expr(e));
             }
             return;
         }
@@ -226,7 +226,7 @@ impl Check {
         }
         if let Ok(mut parts) = call.parse_body_with(parser) {
             let before = parts.len();
-            self.exprs(&mut parts);
+            self.check_expr_list(&mut parts);
             if parts.len() != before {
                 self.refuse(
                     call.span(),
@@ -238,8 +238,8 @@ impl Check {
     }
 
     /// Statements, each of which `cfg` may remove.
-    pub fn block(&mut self, block: &mut syn::Block) {
-        self.statements(block);
+    pub fn check_block(&mut self, block: &mut syn::Block) {
+        self.check_statements(block);
         for (k, statement) in block.stmts.iter().enumerate() {
             if let syn::Stmt::Local(syn::Local { pat, init: None, .. }) = statement {
                 let name = match pat {
@@ -251,7 +251,7 @@ impl Check {
                     _ => continue,
                 };
                 let rest = block.stmts[k + 1..].iter().map(|s| s.to_token_stream());
-                if !rest.into_iter().any(|text| assigns(text, &name.ident)) {
+                if !rest.into_iter().any(|text| assigns_to(text, &name.ident)) {
                     let name = &name.ident;
                     self.never_assigned(name);
                 }
@@ -260,9 +260,9 @@ impl Check {
     }
 
     fn never_assigned(&mut self, name: &syn::Ident) {
-        let span = self.span(name.span());
+        let span = self.token_span(name.span());
         self.lower.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::Unassigned,
                 span,
                 format!("`{name}` is declared, and never given a value"),
@@ -272,17 +272,17 @@ impl Check {
         );
     }
 
-    fn statements(&mut self, block: &mut syn::Block) {
+    fn check_statements(&mut self, block: &mut syn::Block) {
         for mut statement in std::mem::take(&mut block.stmts) {
             let kept = match &mut statement {
-                syn::Stmt::Local(local) => self.local(local),
+                syn::Stmt::Local(local) => self.check_let(local),
                 syn::Stmt::Item(item) => self.inner_item(item),
                 syn::Stmt::Expr(expr, _) => {
                     let target = leftmost(expr);
-                    let carrier = carrier(target);
-                    let kept = attrs(target).is_none_or(|attrs| self.lower.keeps(attrs, carrier));
+                    let carrier = attribute_carrier(target);
+                    let kept = expr_attributes(target).is_none_or(|attrs| self.lower.keeps_by_cfg(attrs, carrier));
                     if kept {
-                        self.expr(expr);
+                        self.check_expr(expr);
                     }
                     kept
                 }
@@ -300,28 +300,28 @@ impl Check {
         }
     }
 
-    fn local(&mut self, local: &mut syn::Local) -> bool {
+    fn check_let(&mut self, local: &mut syn::Local) -> bool {
         let carrier = match &local.init {
-            Some(init) => match carrier(&init.expr) {
+            Some(init) => match attribute_carrier(&init.expr) {
                 Carrier::Branch => Carrier::Branch,
                 _ => Carrier::Statement,
             },
             None => Carrier::Statement,
         };
-        if !self.lower.keeps(&mut local.attrs, carrier) {
+        if !self.lower.keeps_by_cfg(&mut local.attrs, carrier) {
             return false;
         }
         match &mut local.pat {
             syn::Pat::Type(typed) => {
-                self.pattern(&mut typed.pat);
-                self.ty(&mut typed.ty);
+                self.check_pattern(&mut typed.pat);
+                self.check_type(&mut typed.ty);
             }
-            other => self.pattern(other),
+            other => self.check_pattern(other),
         }
         if let Some(init) = &mut local.init {
-            self.expr(&mut init.expr);
+            self.check_expr(&mut init.expr);
             if let Some((_, other)) = &mut init.diverge {
-                self.expr(other);
+                self.check_expr(other);
             }
         }
         true
@@ -333,7 +333,7 @@ impl Check {
             syn::Item::Const(c) => {
                 let kept = self.keeps(&mut c.attrs);
                 if kept {
-                    self.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                    self.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
                     self.constant_name(&c.ident);
                 }
                 kept
@@ -379,13 +379,13 @@ impl Check {
 }
 
 /// Returns whether text assigns to a variable by `name = ...`.
-fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
+fn assigns_to(text: TokenStream, name: &syn::Ident) -> bool {
     let tokens: Vec<TokenTree> = text.into_iter().collect();
     let is = |at: usize, wanted: char| matches!(tokens.get(at), Some(TokenTree::Punct(p)) if p.as_char() == wanted);
     tokens.iter().enumerate().any(|(k, token)| match token {
         TokenTree::Group(group) => {
             let taken_apart = is(k + 1, '=') && !is(k + 2, '=');
-            (taken_apart && mentions(group.stream(), name)) || assigns(group.stream(), name)
+            (taken_apart && mentions(group.stream(), name)) || assigns_to(group.stream(), name)
         }
         TokenTree::Ident(word) => word == name && is(k + 1, '=') && !is(k + 2, '='),
         TokenTree::Punct(_) | TokenTree::Literal(_) => false,
@@ -402,7 +402,7 @@ fn mentions(text: TokenStream, name: &syn::Ident) -> bool {
 }
 
 /// Class of an expression by the generator's own attributes that it accepts.
-fn carrier(expr: &syn::Expr) -> Carrier {
+fn attribute_carrier(expr: &syn::Expr) -> Carrier {
     match expr {
         syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Loop(_) => Carrier::Loop,
         syn::Expr::If(_) | syn::Expr::Match(_) => Carrier::Branch,
@@ -424,7 +424,7 @@ fn leftmost(mut expr: &mut syn::Expr) -> &mut syn::Expr {
 }
 
 /// The attributes of an expression.
-fn attrs(expr: &mut syn::Expr) -> Option<&mut Vec<syn::Attribute>> {
+fn expr_attributes(expr: &mut syn::Expr) -> Option<&mut Vec<syn::Attribute>> {
     macro_rules! each {
         ($($variant:ident)*) => {
             match expr {

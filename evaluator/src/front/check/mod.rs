@@ -30,46 +30,46 @@ impl Check {
     }
 
     /// Another one, for another item of the same file.
-    pub fn beside(&self) -> Self {
+    pub fn for_same_file(&self) -> Self {
         Check::new(self.lower.file())
     }
 
     /// This one, leaving a fresh one.
-    pub fn taken(&mut self) -> Self {
-        let fresh = self.beside();
+    pub fn take_current(&mut self) -> Self {
+        let fresh = self.for_same_file();
         std::mem::replace(self, fresh)
     }
 
     /// The place of a token.
-    pub fn span(&self, span: proc_macro2::Span) -> Span {
-        self.lower.span(span)
+    pub fn token_span(&self, span: proc_macro2::Span) -> Span {
+        self.lower.token_span(span)
     }
 
     /// Errors found so far.
-    pub fn errors(self) -> Vec<Diagnostic> {
+    pub fn into_errors(self) -> Vec<Diagnostic> {
         self.lower.errors
     }
 
     /// Notes that something is not part of the kernel language, and what to write instead.
     pub fn refuse(&mut self, span: proc_macro2::Span, what: &str, instead: &str) {
-        self.lower.unsupported(span, what, instead);
+        self.lower.note_unsupported(span, what, instead);
     }
 
     /// Returns whether `cfg` keeps text with these attributes.
     pub fn keeps(&mut self, attrs: &mut Vec<syn::Attribute>) -> bool {
-        self.lower.keeps(attrs, Carrier::Other)
+        self.lower.keeps_by_cfg(attrs, Carrier::Other)
     }
 
     /// Returns whether `cfg` keeps a function with these attributes.
     pub fn keeps_function(&mut self, attrs: &mut Vec<syn::Attribute>) -> bool {
-        self.lower.keeps(attrs, Carrier::Function)
+        self.lower.keeps_by_cfg(attrs, Carrier::Function)
     }
 
     /// Notes a second definition of a name.
-    pub fn twice(&mut self, name: &syn::Ident) {
-        let span = self.lower.span(name.span());
+    pub fn note_duplicate(&mut self, name: &syn::Ident) {
+        let span = self.lower.token_span(name.span());
         self.lower.errors.push(
-            Diagnostic::at(
+            Diagnostic::error_at(
                 Code::DefinedTwice,
                 span,
                 format!("`{name}` is defined twice among the kernel's files"),
@@ -80,7 +80,7 @@ impl Check {
     }
 
     /// A function or method: its signature, then its body.
-    pub fn function(&mut self, sig: &mut syn::Signature, body: &mut syn::Block) {
+    pub fn check_function(&mut self, sig: &mut syn::Signature, body: &mut syn::Block) {
         let to_plain = "write `fn` alone: a kernel's functions are evaluated when the shader is made";
         if let Some(token) = &sig.asyncness {
             self.refuse(token.span(), "an `async` function", to_plain);
@@ -96,7 +96,7 @@ impl Check {
         if let Some(variadic) = &sig.variadic {
             self.refuse(variadic.span(), "a variadic function", "take an array");
         }
-        self.generics(&mut sig.generics);
+        self.check_generics(&mut sig.generics);
         let mut inputs = Punctuated::new();
         for mut input in std::mem::take(&mut sig.inputs) {
             let attrs = match &mut input {
@@ -107,10 +107,10 @@ impl Check {
                 continue;
             }
             match &mut input {
-                syn::FnArg::Receiver(receiver) => self.receiver(receiver),
+                syn::FnArg::Receiver(receiver) => self.check_receiver(receiver),
                 syn::FnArg::Typed(typed) => {
-                    self.pattern(&mut typed.pat);
-                    self.ty(&mut typed.ty);
+                    self.check_pattern(&mut typed.pat);
+                    self.check_type(&mut typed.ty);
                 }
             }
             inputs.push(input);
@@ -118,12 +118,12 @@ impl Check {
         sig.inputs = inputs;
         match &mut sig.output {
             syn::ReturnType::Default => {}
-            syn::ReturnType::Type(_, ty) => self.ty(ty),
+            syn::ReturnType::Type(_, ty) => self.check_type(ty),
         }
-        self.block(body);
+        self.check_block(body);
     }
 
-    fn receiver(&mut self, receiver: &mut syn::Receiver) {
+    fn check_receiver(&mut self, receiver: &mut syn::Receiver) {
         match &mut receiver.kind {
             syn::ReceiverKind::Value | syn::ReceiverKind::Reference(..) => {}
             syn::ReceiverKind::Typed(_, ty) => {
@@ -138,7 +138,7 @@ impl Check {
     }
 
     /// Generic parameters and the bounds on them, which rustc checks.
-    pub fn generics(&mut self, generics: &mut syn::Generics) {
+    pub fn check_generics(&mut self, generics: &mut syn::Generics) {
         let mut params = Punctuated::new();
         for mut param in std::mem::take(&mut generics.params) {
             let attrs = match &mut param {
@@ -167,7 +167,7 @@ impl Check {
     }
 
     /// A constant's type and value.
-    pub fn constant(&mut self, generics: &mut syn::Generics, ty: &mut syn::Type, value: &mut syn::Expr) {
+    pub fn check_constant(&mut self, generics: &mut syn::Generics, ty: &mut syn::Type, value: &mut syn::Expr) {
         if let Some(param) = generics.params.first() {
             self.refuse(
                 param.span(),
@@ -175,16 +175,16 @@ impl Check {
                 "write a `const fn`, or a constant for each type",
             );
         }
-        self.ty(ty);
-        self.expr(value);
+        self.check_type(ty);
+        self.check_expr(value);
     }
 
     /// A structure's fields.
-    pub fn structure(&mut self, item: &mut syn::ItemStruct) {
-        self.generics(&mut item.generics);
+    pub fn check_struct(&mut self, item: &mut syn::ItemStruct) {
+        self.check_generics(&mut item.generics);
         match &mut item.fields {
-            syn::Fields::Named(fields) => self.fields(&mut fields.named),
-            syn::Fields::Unnamed(fields) => self.fields(&mut fields.unnamed),
+            syn::Fields::Named(fields) => self.check_fields(&mut fields.named),
+            syn::Fields::Unnamed(fields) => self.check_fields(&mut fields.unnamed),
             syn::Fields::Unit => {}
         }
         if let Some(field) = item.fields.iter().find(|f| f.default.is_some()) {
@@ -196,11 +196,11 @@ impl Check {
         }
     }
 
-    fn fields(&mut self, fields: &mut Punctuated<syn::Field, syn::Token![,]>) {
+    fn check_fields(&mut self, fields: &mut Punctuated<syn::Field, syn::Token![,]>) {
         let mut kept = Punctuated::new();
         for mut field in std::mem::take(fields) {
             if self.keeps(&mut field.attrs) {
-                self.ty(&mut field.ty);
+                self.check_type(&mut field.ty);
                 kept.push(field);
             }
         }
@@ -208,16 +208,16 @@ impl Check {
     }
 
     /// An enum's variants and what they hold.
-    pub fn variants(&mut self, item: &mut syn::ItemEnum) {
-        self.generics(&mut item.generics);
+    pub fn check_enum(&mut self, item: &mut syn::ItemEnum) {
+        self.check_generics(&mut item.generics);
         let mut kept = Punctuated::new();
         for mut variant in std::mem::take(&mut item.variants) {
             if !self.keeps(&mut variant.attrs) {
                 continue;
             }
             match &mut variant.fields {
-                syn::Fields::Named(fields) => self.fields(&mut fields.named),
-                syn::Fields::Unnamed(fields) => self.fields(&mut fields.unnamed),
+                syn::Fields::Named(fields) => self.check_fields(&mut fields.named),
+                syn::Fields::Unnamed(fields) => self.check_fields(&mut fields.unnamed),
                 syn::Fields::Unit => {}
             }
             if let Some((_, value)) = &variant.discriminant {

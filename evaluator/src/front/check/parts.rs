@@ -6,43 +6,43 @@ use syn::spanned::Spanned;
 
 impl Check {
     /// A pattern. Those that have no meaning in a kernel are refused by the lowering.
-    pub fn pattern(&mut self, pattern: &mut syn::Pat) {
+    pub fn check_pattern(&mut self, pattern: &mut syn::Pat) {
         use syn::Pat as P;
-        if let Some(attrs) = attrs(pattern) {
+        if let Some(attrs) = pattern_attributes(pattern) {
             let mut taken = std::mem::take(attrs);
             self.lower.keeps_always(&mut taken, super::Carrier::Other);
         }
         match pattern {
             P::Lit(_) | P::Wild(_) => {}
-            P::Ident(p) => p.subpat.iter_mut().for_each(|(_, p)| self.pattern(p)),
+            P::Ident(p) => p.subpat.iter_mut().for_each(|(_, p)| self.check_pattern(p)),
             P::Guard(p) => {
-                self.pattern(&mut p.pat);
-                self.expr(&mut p.guard);
+                self.check_pattern(&mut p.pat);
+                self.check_expr(&mut p.guard);
             }
-            P::Or(p) => p.cases.iter_mut().for_each(|p| self.pattern(p)),
-            P::Paren(p) => self.pattern(&mut p.pat),
+            P::Or(p) => p.cases.iter_mut().for_each(|p| self.check_pattern(p)),
+            P::Paren(p) => self.check_pattern(&mut p.pat),
             P::Path(p) => {
                 if let Some(qself) = &p.qself {
                     self.refuse(qself.span(), "a type in `<>`", "name the constant by its path");
                 }
-                self.path(&mut p.path, false);
+                self.check_path(&mut p.path, false);
             }
             P::Range(p) => [&mut p.start, &mut p.end]
                 .into_iter()
                 .flatten()
-                .for_each(|end| self.expr(end)),
-            P::Reference(p) => self.pattern(&mut p.pat),
-            P::Slice(p) => p.elems.iter_mut().for_each(|p| self.pattern(p)),
-            P::Tuple(p) => p.elems.iter_mut().for_each(|p| self.pattern(p)),
+                .for_each(|end| self.check_expr(end)),
+            P::Reference(p) => self.check_pattern(&mut p.pat),
+            P::Slice(p) => p.elems.iter_mut().for_each(|p| self.check_pattern(p)),
+            P::Tuple(p) => p.elems.iter_mut().for_each(|p| self.check_pattern(p)),
             P::Struct(p) => {
                 if let Some(qself) = &p.qself {
                     self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
                 }
-                self.path(&mut p.path, false);
+                self.check_path(&mut p.path, false);
                 let mut kept = Punctuated::new();
                 for mut field in std::mem::take(&mut p.fields) {
                     if self.keeps(&mut field.attrs) {
-                        self.pattern(&mut field.pat);
+                        self.check_pattern(&mut field.pat);
                         kept.push(field);
                     }
                 }
@@ -52,8 +52,8 @@ impl Check {
                 if let Some(qself) = &p.qself {
                     self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
                 }
-                self.path(&mut p.path, false);
-                p.elems.iter_mut().for_each(|p| self.pattern(p));
+                self.check_path(&mut p.path, false);
+                p.elems.iter_mut().for_each(|p| self.check_pattern(p));
             }
             // The lowering refuses these.
             P::Const(_) | P::Macro(_) | P::Rest(_) | P::Type(_) | P::Verbatim(_) => {}
@@ -63,27 +63,27 @@ impl Check {
     }
 
     /// A type. Those that have no meaning in a kernel are refused by the lowering.
-    pub fn ty(&mut self, ty: &mut syn::Type) {
+    pub fn check_type(&mut self, ty: &mut syn::Type) {
         use syn::Type as T;
         match ty {
             T::Array(t) => {
-                self.ty(&mut t.elem);
-                self.expr(&mut t.len);
+                self.check_type(&mut t.elem);
+                self.check_expr(&mut t.len);
             }
-            T::Group(t) => self.ty(&mut t.elem),
-            T::Paren(t) => self.ty(&mut t.elem),
-            T::Reference(t) => self.ty(&mut t.elem),
-            T::Slice(t) => self.ty(&mut t.elem),
-            T::Tuple(t) => t.elems.iter_mut().for_each(|t| self.ty(t)),
+            T::Group(t) => self.check_type(&mut t.elem),
+            T::Paren(t) => self.check_type(&mut t.elem),
+            T::Reference(t) => self.check_type(&mut t.elem),
+            T::Slice(t) => self.check_type(&mut t.elem),
+            T::Tuple(t) => t.elems.iter_mut().for_each(|t| self.check_type(t)),
             T::FnPtr(t) => {
-                t.inputs.iter_mut().for_each(|input| self.ty(&mut input.ty));
+                t.inputs.iter_mut().for_each(|input| self.check_type(&mut input.ty));
                 if let syn::ReturnType::Type(_, ty) = &mut t.output {
-                    self.ty(ty);
+                    self.check_type(ty);
                 }
             }
             T::Path(t) if t.qself.is_none() => {
-                self.number(&t.path);
-                self.path(&mut t.path, true);
+                self.check_number_type(&t.path);
+                self.check_path(&mut t.path, true);
             }
             // The lowering refuses these.
             T::ImplTrait(_)
@@ -101,7 +101,7 @@ impl Check {
 
     /// Refuses types of numbers that shaders do not have, where a value is said to be of one. Conversions to them are refused
     /// where they are evaluated.
-    fn number(&mut self, path: &syn::Path) {
+    fn check_number_type(&mut self, path: &syn::Path) {
         let Some(name) = path.segments.last().map(|s| s.ident.to_string()) else {
             return;
         };
@@ -115,7 +115,7 @@ impl Check {
     }
 
     /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments.
-    pub fn path(&mut self, path: &mut syn::Path, last: bool) {
+    pub fn check_path(&mut self, path: &mut syn::Path, last: bool) {
         let count = path.segments.len();
         for (k, segment) in path.segments.iter_mut().enumerate() {
             let list = match &mut segment.arguments {
@@ -141,8 +141,8 @@ impl Check {
             for argument in &mut list.args {
                 match argument {
                     syn::GenericArgument::Lifetime(_) => {}
-                    syn::GenericArgument::Type(ty) => self.ty(ty),
-                    syn::GenericArgument::Const(value) => self.expr(value),
+                    syn::GenericArgument::Type(ty) => self.check_type(ty),
+                    syn::GenericArgument::Const(value) => self.check_expr(value),
                     other => {
                         let span = other.span();
                         self.refuse(span, "this generic argument", "give types and constants alone");
@@ -153,7 +153,7 @@ impl Check {
     }
 }
 
-fn attrs(pattern: &mut syn::Pat) -> Option<&mut Vec<syn::Attribute>> {
+fn pattern_attributes(pattern: &mut syn::Pat) -> Option<&mut Vec<syn::Attribute>> {
     macro_rules! each {
         ($($variant:ident)*) => {
             match pattern {

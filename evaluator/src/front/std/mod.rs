@@ -229,7 +229,7 @@ mod tests {
             };
             let mut parsed = front::parse(&files, &name).unwrap_or_else(|e| panic!("{name}:\n{e}"));
             assert!(parsed.library.functions.contains_key(&name), "{name}");
-            if let Err(errors) = crate::infer::infer(&mut parsed.library, &parsed.reached) {
+            if let Err(errors) = crate::infer::infer_types(&mut parsed.library, &parsed.reached) {
                 panic!("{name}: {errors:?}");
             }
         }

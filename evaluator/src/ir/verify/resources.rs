@@ -3,29 +3,29 @@
 use crate::ir::{Access, AtomicOp, Graph, Invocation, Memory, Node, Op, Scalar, Texture, TextureKind, Type};
 
 /// Checks an operation on a texture or a buffer, whose arguments are of `types`.
-pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
-    let expect = |holds: bool, what: &str| super::expect(holds, what, types);
+pub fn check_resource_op(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
+    let expect = |holds: bool, what: &str| super::expect_types(holds, what, types);
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
     match &node.op {
         Op::TextureSize(texture) => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             count(0)?;
-            expect(node.ty == entry.kind.coordinate(), "a size is a vector of i32")
+            expect(node.ty == entry.kind.coordinate_type(), "a size is a vector of i32")
         }
         Op::TextureLevels(texture) => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             count(0)?;
             let levels = entry.kind != TextureKind::Multisampled;
             expect(levels && node.ty == Type::I32, "a number of levels is an i32")
         }
         Op::TextureLayers(texture) => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             count(0)?;
             let layers = entry.kind.has_layers();
             expect(layers && node.ty == Type::I32, "a number of layers is an i32")
         }
         Op::Load { texture, .. } => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             let least = 1 + usize::from(entry.kind.is_indexed());
             let levels = usize::from(entry.kind != TextureKind::Multisampled);
             expect(
@@ -33,27 +33,30 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
                 "wrong number of arguments",
             )?;
             expect(
-                types[0] == entry.kind.coordinate() && !entry.kind.is_cube(),
-                &format!("a coordinate is a {}", entry.kind.coordinate()),
+                types[0] == entry.kind.coordinate_type() && !entry.kind.is_cube(),
+                &format!("a coordinate is a {}", entry.kind.coordinate_type()),
             )?;
             expect(
                 types[1..].iter().all(|t| *t == Type::I32),
                 "a layer and a level are an i32",
             )?;
-            expect(node.ty == entry.texel(), "a texel of the texture's components")
+            expect(node.ty == entry.texel_type(), "a texel of the texture's components")
         }
         Op::Sample { texture, sampler, .. } => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             expect(
                 entry.kind.is_filtered() && entry.scalar == Scalar::F32 && !through.comparison,
                 "a texture of floats and a filtering sampler",
             )?;
-            let (place, layers) = (entry.kind.place(), usize::from(entry.kind.has_layers()));
+            let (place, layers) = (entry.kind.position_type(), usize::from(entry.kind.has_layers()));
             let least = 1 + layers;
             expect((least..=least + 2).contains(&types.len()), "wrong number of arguments")?;
             let placed = types[0] == place && types[1..least].iter().all(|t| *t == Type::I32);
-            expect(placed && node.ty == entry.texel(), "a place to what the texture holds")?;
+            expect(
+                placed && node.ty == entry.texel_type(),
+                "a place to what the texture holds",
+            )?;
             match types[least..] {
                 [] => Ok(()),
                 [level] => expect(level == Type::F32, "a level is an f32"),
@@ -69,7 +72,7 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
             component,
             ..
         } => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             let layers = usize::from(entry.kind.has_layers());
             count(1 + layers)?;
@@ -79,7 +82,7 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
                     && !through.comparison,
                 "a flat texture of floats, or layers of them, and a sampler that does not compare",
             )?;
-            let placed = types[0] == entry.kind.place() && types[1..].iter().all(|t| *t == Type::I32);
+            let placed = types[0] == entry.kind.position_type() && types[1..].iter().all(|t| *t == Type::I32);
             expect(
                 placed && node.ty == Type::value(Scalar::F32, 4),
                 "a vec2<f32> to a component of four texels",
@@ -90,7 +93,7 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
             )
         }
         Op::Compare { texture, sampler, .. } => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             let layers = usize::from(entry.kind.has_layers());
             count(2 + layers)?;
@@ -98,14 +101,14 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
                 entry.kind.is_depth() && through.comparison,
                 "a depth texture and a comparison sampler",
             )?;
-            let placed = types[0] == entry.kind.place() && types[1..=layers].iter().all(|t| *t == Type::I32);
+            let placed = types[0] == entry.kind.position_type() && types[1..=layers].iter().all(|t| *t == Type::I32);
             expect(
                 placed && types.last() == Some(&Type::F32) && node.ty == Type::F32,
                 "a place and a reference, an f32, to an f32",
             )
         }
         Op::GatherCompare { texture, sampler, .. } => {
-            let entry = textures(graph, *texture)?;
+            let entry = find_texture(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             count(2)?;
             expect(
@@ -124,10 +127,10 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
         }
         Op::BufferLoad { buffer, field, .. } => {
             let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
-            let part = entry.element.field(*field).ok_or("no such field")?;
+            let part = entry.element.field_type(*field).ok_or("no such field")?;
             count(1 + usize::from(part.is_array()))?;
             expect(
-                types.iter().all(|t| *t == Type::I32) && node.ty == part.element(),
+                types.iter().all(|t| *t == Type::I32) && node.ty == part.element_type(),
                 "an index to an element",
             )?;
             expect(entry.access == Access::Read, "a buffer that is only read")
@@ -180,7 +183,7 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
     }
 }
 
-fn textures(graph: &Graph, index: u32) -> Result<&Texture, String> {
+fn find_texture(graph: &Graph, index: u32) -> Result<&Texture, String> {
     let found = graph.textures.get(index as usize);
     found.ok_or_else(|| "no such texture".to_owned())
 }
@@ -192,7 +195,7 @@ fn memory_of(graph: &Graph, memory: Memory) -> Result<(Type, Access), String> {
         Memory::Buffer(k) => graph
             .buffers
             .get(k as usize)
-            .map(|buffer| (buffer.value(), buffer.access)),
+            .map(|buffer| (buffer.value_type(), buffer.access)),
         Memory::Shared(k) => graph.shared.get(k as usize).filter(|_| group).map(|shared| {
             let access = if shared.atomic { Access::Atomic } else { Access::Write };
             (shared.element, access)

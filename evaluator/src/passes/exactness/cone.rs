@@ -1,6 +1,6 @@
 //! Cancelling terms of one sum, difference or comparison.
 
-use super::terms::{By, Choice, Dependence, Made, Part, Place, Term};
+use super::terms::{Choice, Definition, Dependence, Place, Rounding, Term, WeightedTerm};
 use crate::ir::{BinaryOp, Graph, NodeId, Op};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
@@ -27,7 +27,7 @@ const SIDES: usize = 4;
 
 /// Result of the search in a graph.
 #[derive(Default)]
-pub struct Found {
+pub struct ExactSearch {
     /// Operations through which terms pass that cancel.
     pub marks: FxHashSet<NodeId>,
     /// Sums and differences that would be 0 without rounding: errors of others.
@@ -41,7 +41,7 @@ pub struct Found {
 /// - of a large constant, by which something is rounded.
 ///
 /// Of other sums, such as `(a + b) - (a - b)`, reordering changes a rounding.
-pub fn cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mut Found) {
+pub fn find_cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mut ExactSearch) {
     let node = graph.node(id);
     let sign = match &node.op {
         Op::Binary(BinaryOp::Add) => 1.0,
@@ -54,20 +54,20 @@ pub fn cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mu
     if !of.is_float() || of.is_array() {
         return;
     }
-    let search = |lane: u8, found: &mut Found| {
-        let side = |k: usize, times: f64| Part {
-            term: dependence.term(node.args[k], lane),
+    let search = |lane: u8, found: &mut ExactSearch| {
+        let side = |k: usize, times: f64| WeightedTerm {
+            term: dependence.component_term(node.args[k], lane),
             times,
-            by: By::Itself,
+            by: Rounding::Itself,
         };
         let sides = match node.op {
             Op::Dot => {
-                let lanes = 0..of.components();
+                let lanes = 0..of.component_count();
                 lanes.map(|lane| dependence.dot_part(graph, id, lane)).collect()
             }
             _ => vec![vec![side(0, 1.0)], vec![side(1, sign)]],
         };
-        if !meet(dependence, &sides) {
+        if !may_share_terms(dependence, &sides) {
             return Outcome::Nothing;
         }
         let mut search = Search {
@@ -84,7 +84,7 @@ pub fn cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mu
             search.run();
         }
         let (outcome, is_error) = (search.outcome, search.is_error);
-        if is_error && node.op.rounds() {
+        if is_error && node.op.is_rounding() {
             found.errors.insert(id);
         }
         outcome
@@ -95,11 +95,11 @@ pub fn cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mu
     };
     let cancels = match whole {
         Outcome::ByLane => {
-            (0..of.components()).fold(false, |some, lane| some | (search(lane, found) == Outcome::Cancels))
+            (0..of.component_count()).fold(false, |some, lane| some | (search(lane, found) == Outcome::Cancels))
         }
         outcome => outcome == Outcome::Cancels,
     };
-    if cancels && node.op.rounds() {
+    if cancels && node.op.is_rounding() {
         found.marks.insert(id);
     }
 }
@@ -115,10 +115,10 @@ enum Outcome {
 }
 
 /// Tells if two sides may have a term in common.
-fn meet(dependence: &Dependence, sides: &[Vec<Part>]) -> bool {
-    let reach = |side: &Vec<Part>| {
+fn may_share_terms(dependence: &Dependence, sides: &[Vec<WeightedTerm>]) -> bool {
+    let reach = |side: &Vec<WeightedTerm>| {
         let all = side.iter().filter_map(|part| part.term.place);
-        all.map(|place| dependence.reach(place.node)).fold([0; 4], union)
+        all.map(|place| dependence.reach_bits(place.node)).fold([0; 4], union)
     };
     let reaches: Vec<[u64; 4]> = sides.iter().map(reach).collect();
     let pairs = (0..reaches.len()).flat_map(|k| (0..k).map(move |l| (k, l)));
@@ -136,19 +136,19 @@ fn intersect(a: [u64; 4], b: [u64; 4]) -> bool {
 struct Search<'g> {
     graph: &'g Graph,
     dependence: &'g Dependence,
-    sides: Vec<Vec<Part>>,
+    sides: Vec<Vec<WeightedTerm>>,
     /// Alternatives that are followed: the first, the second, or none.
     choices: Vec<(Choice, usize)>,
     /// Combinations that may still be looked at.
     left: u32,
-    found: &'g mut Found,
+    found: &'g mut ExactSearch,
     outcome: Outcome,
     /// True if nothing is left of the sum without rounding.
     is_error: bool,
 }
 
 /// Step from a term to one that it is made of: the term, its count, and the operation.
-type Edge = (usize, f64, By);
+type Edge = (usize, f64, Rounding);
 
 /// Ways that reach a term: their number, by side; and if a rounding or, by side, a sum lies between.
 #[derive(Clone, Copy, Default)]
@@ -163,12 +163,12 @@ impl Share {
         self.times.iter().sum()
     }
 
-    fn most(&self) -> f64 {
+    fn largest_times(&self) -> f64 {
         self.times.iter().fold(0.0, |most, x| most.max(x.abs()))
     }
 
-    fn cancels(&self) -> bool {
-        self.sum().abs() <= self.most() * LEFT
+    fn is_cancelled(&self) -> bool {
+        self.sum().abs() <= self.largest_times() * LEFT
     }
 
     fn sides(&self) -> impl Iterator<Item = usize> {
@@ -177,12 +177,12 @@ impl Share {
     }
 
     /// Adds what reaches another term by way of an edge.
-    fn add(&mut self, from: Share, times: f64, by: By) {
+    fn add(&mut self, from: Share, times: f64, by: Rounding) {
         for side in from.sides() {
             self.times[side] += from.times[side] * times;
-            self.summed[side] |= from.summed[side] || by == By::Sum;
+            self.summed[side] |= from.summed[side] || by == Rounding::Sum;
         }
-        self.rounded |= from.rounded || by != By::Itself;
+        self.rounded |= from.rounded || by != Rounding::Itself;
     }
 }
 
@@ -210,7 +210,7 @@ impl Cone {
     }
 
     /// Terms before those that they are made of.
-    fn order(&self, roots: impl Iterator<Item = usize>) -> Vec<usize> {
+    fn dependency_order(&self, roots: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut order = Vec::with_capacity(self.terms.len());
         let mut seen = vec![false; self.terms.len()];
         for root in roots {
@@ -243,7 +243,7 @@ impl Search<'_> {
         if self.dependence.has_loops() {
             return true;
         }
-        let newest = |side: &[Part]| side.iter().filter_map(|part| part.term.newest()).max();
+        let newest = |side: &[WeightedTerm]| side.iter().filter_map(|part| part.term.newest_node()).max();
         let (short, bound) = match newest(left) > newest(right) {
             true => (left, newest(right)),
             false => (right, newest(left)),
@@ -251,14 +251,14 @@ impl Search<'_> {
         let mut seen: FxHashSet<Term> = short.iter().map(|part| part.term.clone()).collect();
         let mut pending: Vec<Term> = seen.iter().cloned().collect();
         while let Some(term) = pending.pop() {
-            if term.newest() <= bound || seen.len() > FEW_TERMS {
+            if term.newest_node() <= bound || seen.len() > FEW_TERMS {
                 return true;
             }
-            let parts = match self.dependence.made(self.graph, &term) {
-                Made::Leaf => continue,
-                Made::ByLane => return true,
-                Made::Sum(parts) => parts,
-                Made::Either(_, parts) => parts.into(),
+            let parts = match self.dependence.term_definition(self.graph, &term) {
+                Definition::Leaf => continue,
+                Definition::ByLane => return true,
+                Definition::Sum(parts) => parts,
+                Definition::Either(_, parts) => parts.into(),
             };
             let new = parts
                 .into_iter()
@@ -274,11 +274,11 @@ impl Search<'_> {
             return;
         }
         self.left -= 1;
-        let (cone, roots, pending) = self.cone();
+        let (cone, roots, pending) = self.build_cone();
         if self.outcome == Outcome::ByLane {
             return;
         }
-        self.cancel(&cone, &roots);
+        self.find_cancelled(&cone, &roots);
         let Some(choice) = pending.filter(|_| self.choices.len() < MAX_CHOICES) else {
             return;
         };
@@ -294,7 +294,7 @@ impl Search<'_> {
     }
 
     /// The terms under the choices made, the first terms of each side, and a choice that is still open.
-    fn cone(&mut self) -> (Cone, Vec<Vec<Edge>>, Option<Choice>) {
+    fn build_cone(&mut self) -> (Cone, Vec<Vec<Edge>>, Option<Choice>) {
         let mut cone = Cone::default();
         let mut queue = VecDeque::new();
         let mut roots = Vec::new();
@@ -315,14 +315,14 @@ impl Search<'_> {
                 cone.is_cut = true;
                 break;
             }
-            let parts = match self.dependence.made(self.graph, &cone.terms[k]) {
-                Made::Leaf => continue,
-                Made::ByLane => {
+            let parts = match self.dependence.term_definition(self.graph, &cone.terms[k]) {
+                Definition::Leaf => continue,
+                Definition::ByLane => {
                     self.outcome = Outcome::ByLane;
                     break;
                 }
-                Made::Sum(parts) => parts,
-                Made::Either(choice, [first, second]) => {
+                Definition::Sum(parts) => parts,
+                Definition::Either(choice, [first, second]) => {
                     match self.choices.iter().find(|(known, _)| *known == choice) {
                         Some((_, 0)) => vec![first],
                         Some((_, 1)) => vec![second],
@@ -346,7 +346,7 @@ impl Search<'_> {
     }
 
     /// Finds the terms that cancel, and notes the operations through which they pass.
-    fn cancel(&mut self, cone: &Cone, roots: &[Vec<Edge>]) {
+    fn find_cancelled(&mut self, cone: &Cone, roots: &[Vec<Edge>]) {
         let mut shares = vec![Share::default(); cone.terms.len()];
         let mut users: Vec<Vec<usize>> = vec![Vec::new(); cone.terms.len()];
         for (side, parts) in roots.iter().enumerate() {
@@ -358,13 +358,13 @@ impl Search<'_> {
         }
         let mut cancelled = Vec::new();
         let mut is_error = !cone.is_cut;
-        for k in cone.order(roots.iter().flatten().map(|(k, ..)| *k)) {
+        for k in cone.dependency_order(roots.iter().flatten().map(|(k, ..)| *k)) {
             let share = shares[k];
             // A constant is looked at together with all others.
-            if share.cancels() && !self.is_constant(&cone.terms[k]) {
+            if share.is_cancelled() && !self.is_constant(&cone.terms[k]) {
                 // Of one value from itself nothing is lost, nor of what it is made of.
-                if share.sides().count() > 1 && (share.rounded || self.contracts(&cone.terms[k])) {
-                    cancelled.push((k, matters(&cone.terms[k], &share)));
+                if share.sides().count() > 1 && (share.rounded || self.is_contractible(&cone.terms[k])) {
+                    cancelled.push((k, order_matters(&cone.terms[k], &share)));
                 }
                 continue;
             }
@@ -387,16 +387,16 @@ impl Search<'_> {
                 for user in &users[at] {
                     if seen.insert(*user) {
                         stack.push(*user);
-                        self.mark(&cone.terms[*user]);
+                        self.mark_term(&cone.terms[*user]);
                     }
                 }
             }
         }
     }
 
-    fn mark(&mut self, term: &Term) {
+    fn mark_term(&mut self, term: &Term) {
         if let Some(place) = term.place
-            && self.graph.node(place.node).op.rounds()
+            && self.graph.node(place.node).op.is_rounding()
         {
             self.found.marks.insert(place.node);
         }
@@ -404,29 +404,29 @@ impl Search<'_> {
 
     /// A product that cancels itself: a contraction would leave its rounding error.
     fn mark_product(&mut self, term: &Term) {
-        if self.contracts(term) {
-            self.mark(term);
+        if self.is_contractible(term) {
+            self.mark_term(term);
         }
     }
 
     fn is_constant(&self, term: &Term) -> bool {
         term.place
-            .is_some_and(|place| self.graph.constant(place.node).is_some())
+            .is_some_and(|place| self.graph.constant_bits(place.node).is_some())
     }
 
     /// Tells if a term is a product that may be contracted with the sum that it goes into.
-    fn contracts(&self, term: &Term) -> bool {
+    fn is_contractible(&self, term: &Term) -> bool {
         let is_product = |place: Place| matches!(self.graph.node(place.node).op, Op::Binary(BinaryOp::Mul) | Op::Dot);
         term.factors.is_empty() && term.place.is_some_and(is_product)
     }
 }
 
 /// Tells if a result hangs on the order in which a term cancels: one side is the term itself, or it is a large constant.
-fn matters(term: &Term, share: &Share) -> bool {
+fn order_matters(term: &Term, share: &Share) -> bool {
     let is_itself = share.sides().any(|side| !share.summed[side]);
     match (term.place, &term.factors[..]) {
         (Some(_), _) | (None, []) if is_itself => true,
-        (None, _) => share.most() >= LARGE,
+        (None, _) => share.largest_times() >= LARGE,
         _ => false,
     }
 }

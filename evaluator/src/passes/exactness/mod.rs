@@ -16,8 +16,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use terms::Dependence;
 
 /// The kernel with the operations marked whose order matters.
-pub fn exactness(graph: &Graph) -> Graph {
-    let marks = marks(graph);
+pub fn mark_exact_ops(graph: &Graph) -> Graph {
+    let marks = find_exact_ops(graph);
     if marks.is_empty() {
         return graph.clone();
     }
@@ -30,7 +30,7 @@ pub fn exactness(graph: &Graph) -> Graph {
 
 /// The first origin of the exact operations of each line, by file and line.
 pub fn exact_places(graph: &Graph) -> Vec<&Origin> {
-    let exact = graph.ids().filter(|id| graph.node(*id).op == Op::Exact);
+    let exact = graph.node_ids().filter(|id| graph.node(*id).op == Op::Exact);
     let origins = exact.filter_map(|id| graph.origin(id).or_else(|| graph.origin(graph.node(id).args[0])));
     let mut places: Vec<&Origin> = origins.filter(|origin| origin.line != Origin::NOWHERE).collect();
     places.sort_by_key(|origin| (origin.file, origin.line));
@@ -39,23 +39,23 @@ pub fn exact_places(graph: &Graph) -> Vec<&Origin> {
 }
 
 /// The operations whose results must be rounded as they are written.
-fn marks(graph: &Graph) -> FxHashSet<NodeId> {
-    let dependence = Dependence::of(graph);
-    let mut found = cone::Found::default();
-    for id in graph.ids() {
-        cone::cancelling(graph, &dependence, id, &mut found);
+fn find_exact_ops(graph: &Graph) -> FxHashSet<NodeId> {
+    let dependence = Dependence::from_graph(graph);
+    let mut found = cone::ExactSearch::default();
+    for id in graph.node_ids() {
+        cone::find_cancelling(graph, &dependence, id, &mut found);
     }
     let mut ordered = found.marks;
     ordered.extend(made_of(graph, &dependence, found.errors));
     // Operations that are exact already, by request.
-    let asked = graph.ids().filter(|id| graph.node(*id).op == Op::Exact);
+    let asked = graph.node_ids().filter(|id| graph.node(*id).op == Op::Exact);
     let asked: FxHashSet<NodeId> = asked.map(|id| graph.node(id).args[0]).collect();
     let mut marks = ordered.clone();
     let mut seen = FxHashMap::default();
     for id in ordered.iter().chain(&asked) {
         // A rounded sum is that of rounded operands.
         for arg in &graph.node(*id).args {
-            operands(graph, &dependence, *arg, DEPTH, &mut seen, &mut marks);
+            collect_operands(graph, &dependence, *arg, DEPTH, &mut seen, &mut marks);
         }
     }
     marks.retain(|id| !asked.contains(id));
@@ -76,10 +76,12 @@ fn made_of(graph: &Graph, dependence: &Dependence, errors: FxHashSet<NodeId>) ->
         // Seen through what rounds nothing, and once more for what loops carry back.
         let (mut seen, mut next) = (last, FxHashSet::default());
         for _ in 0..if dependence.has_loops() { 2 } else { 1 } {
-            for id in graph.ids().filter(|id| graph.ty(*id).is_float()) {
+            for id in graph.node_ids().filter(|id| graph.ty(*id).is_float()) {
                 let node = graph.node(id);
                 let goes_in = match node.op {
-                    Op::Param(..) | Op::Result(_) => dependence.sources(graph, id).iter().any(|of| seen.contains(of)),
+                    Op::Param(..) | Op::Result(_) => {
+                        dependence.incoming_values(graph, id).iter().any(|of| seen.contains(of))
+                    }
                     _ => node.args.iter().any(|arg| seen.contains(arg)),
                 };
                 if !goes_in {
@@ -111,7 +113,7 @@ fn made_of(graph: &Graph, dependence: &Dependence, errors: FxHashSet<NodeId>) ->
 const DEPTH: u32 = 3;
 
 /// Adds the operations that compute an operand, seen through what rounds nothing.
-fn operands(
+fn collect_operands(
     graph: &Graph,
     dependence: &Dependence,
     id: NodeId,
@@ -125,7 +127,7 @@ fn operands(
     seen.insert(id, depth);
     let node = graph.node(id);
     let (further, depth): (Vec<NodeId>, u32) = match &node.op {
-        op if op.rounds() => {
+        op if op.is_rounding() => {
             marks.insert(id);
             match op {
                 Op::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul) if depth > 0 => {
@@ -138,11 +140,11 @@ fn operands(
             (node.args.clone(), depth)
         }
         Op::Select => (node.args[1..].to_vec(), depth),
-        Op::Param(..) | Op::Result(_) => (dependence.sources(graph, id), depth),
+        Op::Param(..) | Op::Result(_) => (dependence.incoming_values(graph, id), depth),
         _ => return,
     };
     for id in further {
-        operands(graph, dependence, id, depth, seen, marks);
+        collect_operands(graph, dependence, id, depth, seen, marks);
     }
 }
 
@@ -152,14 +154,14 @@ struct Marking<'g> {
 }
 
 impl Replace for Marking<'_> {
-    fn begin(&mut self, _: &mut Builder<'_>) {}
+    fn add_prologue(&mut self, _: &mut Builder<'_>) {}
 
-    fn node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
+    fn replace_node(&mut self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
         if !self.marks.contains(&id) {
             return None;
         }
         let node = self.old.node(id);
         let args: Option<Vec<NodeId>> = node.args.iter().map(|arg| new[arg.0 as usize]).collect();
-        Some(b.exactly(node.op.clone(), &args?, node.ty))
+        Some(b.add_exact(node.op.clone(), &args?, node.ty))
     }
 }

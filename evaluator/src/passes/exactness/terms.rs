@@ -39,7 +39,7 @@ pub struct Term {
 
 impl Term {
     /// A value.
-    pub fn of(place: Place) -> Term {
+    pub fn from_place(place: Place) -> Term {
         Term {
             place: Some(place),
             factors: Vec::new(),
@@ -47,7 +47,7 @@ impl Term {
     }
 
     /// The value in it that was made last; `None` of a constant.
-    pub fn newest(&self) -> Option<NodeId> {
+    pub fn newest_node(&self) -> Option<NodeId> {
         let factors = self.factors.iter().map(|(factor, _)| factor.node);
         self.place.map(|place| place.node).into_iter().chain(factors).max()
     }
@@ -80,15 +80,15 @@ impl Term {
 }
 
 /// A part of a term: how often it is taken, and what the operation does that takes it.
-pub struct Part {
+pub struct WeightedTerm {
     pub term: Term,
     pub times: f64,
-    pub by: By,
+    pub by: Rounding,
 }
 
 /// Effect of an operation on the parts of its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum By {
+pub enum Rounding {
     /// Rounds nothing.
     Itself,
     /// Rounds a product or a quotient.
@@ -107,15 +107,15 @@ pub enum Choice {
 }
 
 /// Terms that a term is made of.
-pub enum Made {
+pub enum Definition {
     /// Nothing else is known of it.
     Leaf,
     /// Components are computed differently: each must be looked at by itself.
     ByLane,
     /// A sum of others.
-    Sum(Vec<Part>),
+    Sum(Vec<WeightedTerm>),
     /// Two alternatives, of which a choice takes one.
-    Either(Choice, [Part; 2]),
+    Either(Choice, [WeightedTerm; 2]),
 }
 
 /// Loops that values depend on, the nodes of loops and branches, and what values may be made of.
@@ -130,7 +130,7 @@ pub struct Dependence {
 }
 
 impl Dependence {
-    pub fn of(graph: &Graph) -> Dependence {
+    pub fn from_graph(graph: &Graph) -> Dependence {
         let depths: Vec<u32> = {
             let mut depths: Vec<u32> = vec![0; graph.regions.len()];
             for (k, region) in graph.regions.iter().enumerate() {
@@ -141,7 +141,7 @@ impl Dependence {
         let parents: Vec<RegionId> = graph.regions.iter().map(|r| r.parent.unwrap_or(Graph::BODY)).collect();
         let mut innermost = vec![Graph::BODY; graph.nodes.len()];
         let mut owners = FxHashMap::default();
-        for id in graph.ids() {
+        for id in graph.node_ids() {
             for region in graph.regions_of(id) {
                 owners.insert(region, id);
             }
@@ -167,12 +167,12 @@ impl Dependence {
         };
         // Again for what loops carry back, and once more for a loop in a loop.
         for _ in 0..if dependence.has_loops { 3 } else { 1 } {
-            graph.ids().for_each(|id| dependence.gather(graph, id));
+            graph.node_ids().for_each(|id| dependence.record_node(graph, id));
         }
         dependence
     }
 
-    fn gather(&mut self, graph: &Graph, id: NodeId) {
+    fn record_node(&mut self, graph: &Graph, id: NodeId) {
         let node = graph.node(id);
         let mut reach = [0; 4];
         let mut bit = |n: u32| reach[(n / 64 % 4) as usize] |= 1 << (n % 64);
@@ -182,7 +182,7 @@ impl Dependence {
             _ => bit(1 + id.0.wrapping_mul(0x9e37_79b9) % 255),
         }
         let args = match node.op {
-            Op::Param(..) | Op::Result(_) => self.sources(graph, id),
+            Op::Param(..) | Op::Result(_) => self.incoming_values(graph, id),
             _ if node.ty.is_float() => node.args.clone(),
             _ => Vec::new(),
         };
@@ -199,12 +199,12 @@ impl Dependence {
     }
 
     /// A set of the values that a value may be made of, as bits.
-    pub fn reach(&self, id: NodeId) -> [u64; 4] {
+    pub fn reach_bits(&self, id: NodeId) -> [u64; 4] {
         self.reach[id.0 as usize]
     }
 
     /// Tells if a value may differ from iteration to iteration of a loop.
-    fn varies(&self, id: NodeId, region: RegionId) -> bool {
+    fn varies_in(&self, id: NodeId, region: RegionId) -> bool {
         let mut at = self.innermost[id.0 as usize];
         while at != Graph::BODY {
             if at == region {
@@ -216,7 +216,7 @@ impl Dependence {
     }
 
     /// The values that may come to be that of a parameter or a result.
-    pub fn sources(&self, graph: &Graph, id: NodeId) -> Vec<NodeId> {
+    pub fn incoming_values(&self, graph: &Graph, id: NodeId) -> Vec<NodeId> {
         let node = graph.node(id);
         match node.op {
             Op::Param(region, k) if k > 0 => {
@@ -241,8 +241,8 @@ impl Dependence {
         }
     }
 
-    fn place(&self, node: NodeId, lane: u8, age: (RegionId, u8)) -> Place {
-        let age = match age.1 > 0 && self.varies(node, age.0) {
+    fn component_place(&self, node: NodeId, lane: u8, age: (RegionId, u8)) -> Place {
+        let age = match age.1 > 0 && self.varies_in(node, age.0) {
             true => age,
             false => (Graph::BODY, 0),
         };
@@ -250,16 +250,18 @@ impl Dependence {
     }
 
     /// The term of a component of a value.
-    pub fn term(&self, node: NodeId, lane: u8) -> Term {
-        Term::of(self.place(node, lane, (Graph::BODY, 0)))
+    pub fn component_term(&self, node: NodeId, lane: u8) -> Term {
+        Term::from_place(self.component_place(node, lane, (Graph::BODY, 0)))
     }
 
     /// Terms that a term is made of.
-    pub fn made(&self, graph: &Graph, term: &Term) -> Made {
-        let Some(place) = term.place else { return Made::Leaf };
+    pub fn term_definition(&self, graph: &Graph, term: &Term) -> Definition {
+        let Some(place) = term.place else {
+            return Definition::Leaf;
+        };
         let node = graph.node(place.node);
         if !node.ty.is_float() || node.ty.is_array() {
-            return Made::Leaf;
+            return Definition::Leaf;
         }
         let (lane, age) = (place.lane, place.age);
         // Of a scalar there is one component.
@@ -267,24 +269,24 @@ impl Dependence {
             true => 0,
             false => lane,
         };
-        let arg = |k: usize| self.place(node.args[k], lane_of(node.args[k]), age);
-        let part = |term: Term, times: f64, by: By| Part { term, times, by };
-        let same = |place: Place, times: f64, by: By| part(term.at(place), times, by);
-        let constant = |id: NodeId| self.constant(graph, id, lane_of(id));
+        let arg = |k: usize| self.component_place(node.args[k], lane_of(node.args[k]), age);
+        let part = |term: Term, times: f64, by: Rounding| WeightedTerm { term, times, by };
+        let same = |place: Place, times: f64, by: Rounding| part(term.at(place), times, by);
+        let constant = |id: NodeId| self.known_factor(graph, id, lane_of(id));
         match &node.op {
             Op::Const(_) => match constant(place.node) {
-                Known::Number(value) => {
+                ConstantFact::Number(value) => {
                     let one = Term {
                         place: None,
                         factors: term.factors.clone(),
                     };
-                    Made::Sum(vec![part(one, value, By::Itself)])
+                    Definition::Sum(vec![part(one, value, Rounding::Itself)])
                 }
-                Known::ByLane => Made::ByLane,
-                Known::Nothing => Made::Leaf,
+                ConstantFact::ByLane => Definition::ByLane,
+                ConstantFact::Nothing => Definition::Leaf,
             },
-            Op::Exact | Op::Tally(_) => Made::Sum(vec![same(arg(0), 1.0, By::Itself)]),
-            Op::Unary(UnaryOp::Neg) => Made::Sum(vec![same(arg(0), -1.0, By::Itself)]),
+            Op::Exact | Op::Tally(_) => Definition::Sum(vec![same(arg(0), 1.0, Rounding::Itself)]),
+            Op::Unary(UnaryOp::Neg) => Definition::Sum(vec![same(arg(0), -1.0, Rounding::Itself)]),
             Op::Unary(UnaryOp::Sqrt) => {
                 // The root multiplied by itself.
                 let by_itself = term
@@ -292,42 +294,58 @@ impl Dependence {
                     .iter()
                     .any(|(factor, power)| *factor == place && *power > 0);
                 match by_itself.then(|| term.times(arg(0), place, -1)).flatten() {
-                    Some(square) => Made::Sum(vec![part(square, 1.0, By::Product)]),
-                    None => Made::Leaf,
+                    Some(square) => Definition::Sum(vec![part(square, 1.0, Rounding::Product)]),
+                    None => Definition::Leaf,
                 }
             }
-            Op::Binary(BinaryOp::Add) => Made::Sum(vec![same(arg(0), 1.0, By::Sum), same(arg(1), 1.0, By::Sum)]),
-            Op::Binary(BinaryOp::Sub) => Made::Sum(vec![same(arg(0), 1.0, By::Sum), same(arg(1), -1.0, By::Sum)]),
+            Op::Binary(BinaryOp::Add) => {
+                Definition::Sum(vec![same(arg(0), 1.0, Rounding::Sum), same(arg(1), 1.0, Rounding::Sum)])
+            }
+            Op::Binary(BinaryOp::Sub) => Definition::Sum(vec![
+                same(arg(0), 1.0, Rounding::Sum),
+                same(arg(1), -1.0, Rounding::Sum),
+            ]),
             Op::Binary(BinaryOp::Mul) => match (constant(node.args[0]), constant(node.args[1])) {
-                (Known::ByLane, _) | (_, Known::ByLane) => Made::ByLane,
-                (_, Known::Number(by)) => Made::Sum(vec![same(arg(0), by, scaling(by))]),
-                (Known::Number(by), _) => Made::Sum(vec![same(arg(1), by, scaling(by))]),
-                _ => Made::Sum(self.product(term, arg(0), arg(1))),
+                (ConstantFact::ByLane, _) | (_, ConstantFact::ByLane) => Definition::ByLane,
+                (_, ConstantFact::Number(by)) => Definition::Sum(vec![same(arg(0), by, scaling_effect(by))]),
+                (ConstantFact::Number(by), _) => Definition::Sum(vec![same(arg(1), by, scaling_effect(by))]),
+                _ => Definition::Sum(self.expand_product(term, arg(0), arg(1))),
             },
             Op::Binary(BinaryOp::Div) => match constant(node.args[1]) {
-                Known::ByLane => Made::ByLane,
-                Known::Number(0.0) => Made::Leaf,
-                Known::Number(by) => Made::Sum(vec![same(arg(0), 1.0 / by, scaling(by))]),
-                Known::Nothing => match term.times(arg(0), arg(1), -1) {
-                    Some(quotient) => Made::Sum(vec![part(quotient, 1.0, By::Product)]),
-                    None => Made::Leaf,
+                ConstantFact::ByLane => Definition::ByLane,
+                ConstantFact::Number(0.0) => Definition::Leaf,
+                ConstantFact::Number(by) => Definition::Sum(vec![same(arg(0), 1.0 / by, scaling_effect(by))]),
+                ConstantFact::Nothing => match term.times(arg(0), arg(1), -1) {
+                    Some(quotient) => Definition::Sum(vec![part(quotient, 1.0, Rounding::Product)]),
+                    None => Definition::Leaf,
                 },
             },
             Op::Dot => {
-                let lanes = 0..graph.ty(node.args[0]).components();
-                Made::Sum(lanes.flat_map(|lane| self.product_of(graph, term, lane)).collect())
+                let lanes = 0..graph.ty(node.args[0]).component_count();
+                Definition::Sum(lanes.flat_map(|lane| self.product_of(graph, term, lane)).collect())
             }
-            Op::Splat => Made::Sum(vec![same(self.place(node.args[0], 0, age), 1.0, By::Itself)]),
-            Op::Compose if lane == Place::ALL => Made::ByLane,
-            Op::Compose => Made::Sum(vec![same(
-                self.place(node.args[lane as usize], 0, age),
+            Op::Splat => Definition::Sum(vec![same(
+                self.component_place(node.args[0], 0, age),
                 1.0,
-                By::Itself,
+                Rounding::Itself,
             )]),
-            Op::Extract(k) => Made::Sum(vec![same(self.place(node.args[0], *k, age), 1.0, By::Itself)]),
+            Op::Compose if lane == Place::ALL => Definition::ByLane,
+            Op::Compose => Definition::Sum(vec![same(
+                self.component_place(node.args[lane as usize], 0, age),
+                1.0,
+                Rounding::Itself,
+            )]),
+            Op::Extract(k) => Definition::Sum(vec![same(
+                self.component_place(node.args[0], *k, age),
+                1.0,
+                Rounding::Itself,
+            )]),
             Op::Select => {
                 let choice = Choice::Condition(node.args[0]);
-                Made::Either(choice, [same(arg(1), 1.0, By::Itself), same(arg(2), 1.0, By::Itself)])
+                Definition::Either(
+                    choice,
+                    [same(arg(1), 1.0, Rounding::Itself), same(arg(2), 1.0, Rounding::Itself)],
+                )
             }
             Op::Result(k) => {
                 let owner = graph.node(node.args[0]);
@@ -335,101 +353,111 @@ impl Dependence {
                 match &owner.op {
                     Op::If(then, otherwise) => match (result(then), result(otherwise)) {
                         (Some(yes), Some(no)) => {
-                            let sides = [yes, no].map(|side| same(self.place(side, lane, age), 1.0, By::Itself));
-                            Made::Either(Choice::Condition(owner.args[0]), sides)
+                            let sides = [yes, no]
+                                .map(|side| same(self.component_place(side, lane, age), 1.0, Rounding::Itself));
+                            Definition::Either(Choice::Condition(owner.args[0]), sides)
                         }
-                        _ => Made::Leaf,
+                        _ => Definition::Leaf,
                     },
                     Op::Loop(body) => match (result(body), owner.args.get(*k as usize + 2)) {
                         (Some(last), Some(before)) if age.1 == 0 => {
-                            let sides = [last, *before].map(|side| same(self.place(side, lane, age), 1.0, By::Itself));
-                            Made::Either(Choice::Left(*body), sides)
+                            let sides = [last, *before]
+                                .map(|side| same(self.component_place(side, lane, age), 1.0, Rounding::Itself));
+                            Definition::Either(Choice::Left(*body), sides)
                         }
-                        _ => Made::Leaf,
+                        _ => Definition::Leaf,
                     },
-                    _ => Made::Leaf,
+                    _ => Definition::Leaf,
                 }
             }
             Op::Param(region, k) if *k > 0 => {
                 let back = match age {
                     (_, 0) => 1,
                     (of, back) if of == *region && back < MAX_AGE => back + 1,
-                    _ => return Made::Leaf,
+                    _ => return Definition::Leaf,
                 };
                 let last = graph.region(*region).results.get(*k as usize - 1);
                 let owner = self.owners.get(region).map(|owner| graph.node(*owner));
                 match (last, owner.and_then(|owner| owner.args.get(*k as usize + 1))) {
                     (Some(last), Some(before)) => {
-                        let last = same(self.place(*last, lane, (*region, back)), 1.0, By::Itself);
-                        let before = same(self.place(*before, lane, (Graph::BODY, 0)), 1.0, By::Itself);
-                        Made::Either(Choice::Carried(*region, back), [last, before])
+                        let last = same(
+                            self.component_place(*last, lane, (*region, back)),
+                            1.0,
+                            Rounding::Itself,
+                        );
+                        let before = same(
+                            self.component_place(*before, lane, (Graph::BODY, 0)),
+                            1.0,
+                            Rounding::Itself,
+                        );
+                        Definition::Either(Choice::Carried(*region, back), [last, before])
                     }
-                    _ => Made::Leaf,
+                    _ => Definition::Leaf,
                 }
             }
-            _ => Made::Leaf,
+            _ => Definition::Leaf,
         }
     }
 
     /// The product of one component of a dot product.
-    pub fn dot_part(&self, graph: &Graph, dot: NodeId, lane: u8) -> Vec<Part> {
-        self.product_of(graph, &self.term(dot, 0), lane)
+    pub fn dot_part(&self, graph: &Graph, dot: NodeId, lane: u8) -> Vec<WeightedTerm> {
+        self.product_of(graph, &self.component_term(dot, 0), lane)
     }
 
-    fn product_of(&self, graph: &Graph, term: &Term, lane: u8) -> Vec<Part> {
+    fn product_of(&self, graph: &Graph, term: &Term, lane: u8) -> Vec<WeightedTerm> {
         let Some(place) = term.place else { return Vec::new() };
         let args = &graph.node(place.node).args;
-        let [left, right] = [0, 1].map(|k| self.place(args[k], lane, place.age));
+        let [left, right] = [0, 1].map(|k| self.component_place(args[k], lane, place.age));
         let scaled = |place: Place, times: f64| {
-            vec![Part {
+            vec![WeightedTerm {
                 term: term.at(place),
                 times,
-                by: By::Sum,
+                by: Rounding::Sum,
             }]
         };
-        match [0, 1].map(|k| self.constant(graph, args[k], lane)) {
-            [_, Known::Number(by)] => scaled(left, by),
-            [Known::Number(by), _] => scaled(right, by),
-            _ => self.product(term, left, right),
+        match [0, 1].map(|k| self.known_factor(graph, args[k], lane)) {
+            [_, ConstantFact::Number(by)] => scaled(left, by),
+            [ConstantFact::Number(by), _] => scaled(right, by),
+            _ => self.expand_product(term, left, right),
         }
     }
 
     /// A product of two values as each of them times the other.
-    fn product(&self, term: &Term, x: Place, y: Place) -> Vec<Part> {
+    fn expand_product(&self, term: &Term, x: Place, y: Place) -> Vec<WeightedTerm> {
         let both = [term.times(x, y, 1), term.times(y, x, 1).filter(|_| x != y)];
-        let part = |term| Part {
+        let part = |term| WeightedTerm {
             term,
             times: 1.0,
-            by: By::Product,
+            by: Rounding::Product,
         };
         both.into_iter().flatten().map(part).collect()
     }
 
-    fn constant(&self, graph: &Graph, id: NodeId, lane: u8) -> Known {
+    fn known_factor(&self, graph: &Graph, id: NodeId, lane: u8) -> ConstantFact {
         let ty = graph.ty(id);
-        let Some(bits) = graph.constant(id) else {
+        let Some(bits) = graph.constant_bits(id) else {
             return match (&graph.node(id).op, lane) {
                 // A vector of one number.
-                (Op::Splat, _) => self.constant(graph, graph.node(id).args[0], 0),
-                _ => Known::Nothing,
+                (Op::Splat, _) => self.known_factor(graph, graph.node(id).args[0], 0),
+                _ => ConstantFact::Nothing,
             };
         };
-        let lanes = &bits[..usize::from(ty.components())];
+        let lanes = &bits[..usize::from(ty.component_count())];
         let bits = match lane {
-            Place::ALL if lanes.iter().any(|bits| *bits != lanes[0]) => return Known::ByLane,
+            Place::ALL if lanes.iter().any(|bits| *bits != lanes[0]) => return ConstantFact::ByLane,
             Place::ALL => lanes[0],
             lane => lanes[usize::from(lane)],
         };
         let value = f32::from_bits(bits);
         match value.is_finite() && ty != Type::Results {
-            true => Known::Number(value.into()),
-            false => Known::Nothing,
+            true => ConstantFact::Number(value.into()),
+            false => ConstantFact::Nothing,
         }
     }
 }
 
 /// Facts about a component that are known without running anything.
-enum Known {
+enum ConstantFact {
     Number(f64),
     /// Components differ.
     ByLane,
@@ -437,9 +465,9 @@ enum Known {
 }
 
 /// Effect of multiplying by a number: by a power of two it rounds nothing.
-fn scaling(x: f64) -> By {
+fn scaling_effect(x: f64) -> Rounding {
     match x != 0.0 && x.to_bits() << 12 == 0 {
-        true => By::Itself,
-        false => By::Product,
+        true => Rounding::Itself,
+        false => Rounding::Product,
     }
 }

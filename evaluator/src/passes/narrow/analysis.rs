@@ -26,14 +26,14 @@ pub struct Analysis<'g> {
 
 /// Returns whether a node is a `usize`, or an array of them.
 pub fn is_wide(graph: &Graph, id: NodeId) -> bool {
-    graph.ty(id).kind() == Some(Scalar::Usize)
+    graph.ty(id).scalar_kind() == Some(Scalar::Usize)
 }
 
 impl<'g> Analysis<'g> {
     /// Finds the extents.
-    pub fn of(graph: &'g Graph, facts: &'g Facts, caps: &'g HashMap<NodeId, i128>) -> Analysis<'g> {
+    pub fn from_graph(graph: &'g Graph, facts: &'g Facts, caps: &'g HashMap<NodeId, i128>) -> Analysis<'g> {
         let mut owners = HashMap::new();
-        for id in graph.ids() {
+        for id in graph.node_ids() {
             owners.extend(graph.regions_of(id).into_iter().map(|region| (region, id)));
         }
         let mut analysis = Analysis {
@@ -45,11 +45,11 @@ impl<'g> Analysis<'g> {
         };
         let mut carried: HashMap<NodeId, Extent> = HashMap::new();
         for round in 0..=GIVE_UP {
-            for id in graph.ids().filter(|id| is_wide(graph, *id)) {
-                let found = analysis.extent(id, &carried);
+            for id in graph.node_ids().filter(|id| is_wide(graph, *id)) {
+                let found = analysis.compute_extent(id, &carried);
                 analysis.extents[id.0 as usize] = found;
             }
-            if !analysis.carry(&mut carried, round) {
+            if !analysis.propagate_carried(&mut carried, round) {
                 break;
             }
         }
@@ -57,7 +57,7 @@ impl<'g> Analysis<'g> {
     }
 
     /// Takes what loops carry over into their next iteration. Returns whether that is more than before.
-    fn carry(&self, carried: &mut HashMap<NodeId, Extent>, round: u32) -> bool {
+    fn propagate_carried(&self, carried: &mut HashMap<NodeId, Extent>, round: u32) -> bool {
         let mut changed = false;
         for (k, node) in self.graph.nodes.iter().enumerate() {
             let Op::Loop(region) = node.op else { continue };
@@ -69,13 +69,13 @@ impl<'g> Analysis<'g> {
                 if !is_wide(self.graph, *param) {
                     continue;
                 }
-                let before = self.known(*param);
-                let after = before.join(self.known(*result));
+                let before = self.usize_extent(*param);
+                let after = before.join(self.usize_extent(*result));
                 if after != before {
                     changed = true;
                     let wider = match round {
                         GIVE_UP.. => Extent::Lost,
-                        WIDEN.. => widened(before, after),
+                        WIDEN.. => widen_extent(before, after),
                         _ => after,
                     };
                     carried.insert(*param, wider);
@@ -86,34 +86,34 @@ impl<'g> Analysis<'g> {
     }
 
     /// Returns the extent of a `usize`.
-    pub fn known(&self, id: NodeId) -> Extent {
+    pub fn usize_extent(&self, id: NodeId) -> Extent {
         self.extents[id.0 as usize]
     }
 
     /// Returns the extent of an argument of a node.
-    pub fn arg(&self, id: NodeId, k: usize) -> Extent {
-        self.known(self.graph.node(id).args[k])
+    pub fn arg_extent(&self, id: NodeId, k: usize) -> Extent {
+        self.usize_extent(self.graph.node(id).args[k])
     }
 
     /// Returns whether a difference wraps intentionally.
-    fn wraps(&self, id: NodeId) -> bool {
+    fn is_wrapping(&self, id: NodeId) -> bool {
         self.facts.wrapping.contains(&id)
     }
 
-    fn extent(&self, id: NodeId, carried: &HashMap<NodeId, Extent>) -> Extent {
+    fn compute_extent(&self, id: NodeId, carried: &HashMap<NodeId, Extent>) -> Extent {
         let node = self.graph.node(id);
-        let of = |k: usize| self.known(node.args[k]);
+        let of = |k: usize| self.usize_extent(node.args[k]);
         let found = match &node.op {
             Op::Const(bits) => {
                 let value = i128::from(usize_value(bits) as i64);
                 Extent::range(value, value)
             }
-            Op::Unused => Extent::range(0, 0),
-            Op::Convert => self.converted(id),
+            Op::Undef => Extent::range(0, 0),
+            Op::Convert => self.converted_extent(id),
             Op::Unary(UnaryOp::BitNot) => of(0).inverted(),
             Op::Unary(UnaryOp::CountOneBits) if of(0).is_exact() => Extent::range(0, 32),
             Op::Binary(BinaryOp::Add) => of(0).plus(of(1)),
-            Op::Binary(BinaryOp::Sub) => of(0).minus(of(1), self.wraps(id)),
+            Op::Binary(BinaryOp::Sub) => of(0).minus(of(1), self.is_wrapping(id)),
             Op::Binary(BinaryOp::Mul) => of(0).times(of(1)),
             Op::Binary(BinaryOp::Div) => of(0).divided(of(1)).unwrap_or(Extent::Lost),
             Op::Binary(BinaryOp::Rem | BinaryOp::And) if self.float_by(id).is_some() => match self.float_by(id) {
@@ -124,39 +124,41 @@ impl<'g> Analysis<'g> {
             Op::Binary(BinaryOp::Rem) => of(0).rest(of(1)).unwrap_or(Extent::Lost),
             Op::Binary(BinaryOp::And) => of(0).masked(of(1)),
             Op::Binary(BinaryOp::Or | BinaryOp::Xor) => of(0).mixed(of(1)),
-            Op::Binary(BinaryOp::Shl) => power(of(1)).map_or(Extent::Lost, |by| of(0).times(by)),
-            Op::Binary(BinaryOp::Shr) => power(of(1)).and_then(|by| of(0).divided(by)).unwrap_or(Extent::Lost),
+            Op::Binary(BinaryOp::Shl) => power_of_two(of(1)).map_or(Extent::Lost, |by| of(0).times(by)),
+            Op::Binary(BinaryOp::Shr) => power_of_two(of(1))
+                .and_then(|by| of(0).divided(by))
+                .unwrap_or(Extent::Lost),
             Op::Binary(BinaryOp::Min) => of(0).smaller(of(1)),
             Op::Binary(BinaryOp::Max) => of(0).larger(of(1)),
             Op::Clamp => of(0).larger(of(1)).smaller(of(2)),
             Op::Select => {
                 let condition = node.args[0];
-                let side = |k: usize, holds| self.under(node.args[k], condition, holds);
+                let side = |k: usize, holds| self.extent_under(node.args[k], condition, holds);
                 side(1, true).join(side(2, false))
             }
             Op::MakeArray => node
                 .args
                 .iter()
-                .map(|id| self.known(*id))
+                .map(|id| self.usize_extent(*id))
                 .reduce(Extent::join)
                 .unwrap_or(Extent::Lost),
             Op::ArraySet => of(0).join(of(2)),
-            Op::ArrayGet | Op::Tally(_) | Op::Message(_) => of(0),
-            Op::Param(region, 0) => self.counter(*region),
+            Op::ArrayGet | Op::Tally(_) | Op::QuadSwap(_) => of(0),
+            Op::Param(region, 0) => self.counter_extent(*region),
             Op::Param(region, k) => {
                 let owner = self.owners.get(region).map(|owner| self.graph.node(*owner));
                 let first = owner.and_then(|owner| owner.args.get(*k as usize + 1));
-                let first = first.map_or(Extent::Lost, |first| self.known(*first));
+                let first = first.map_or(Extent::Lost, |first| self.usize_extent(*first));
                 carried.get(&id).map_or(first, |carried| carried.join(first))
             }
             Op::Result(k) => {
                 let (owner, k) = (self.graph.node(node.args[0]), *k as usize);
-                let results = |region: &RegionId| self.known(self.graph.region(*region).results[k]);
+                let results = |region: &RegionId| self.usize_extent(self.graph.region(*region).results[k]);
                 match &owner.op {
-                    Op::Loop(region) => self.known(owner.args[k + 2]).join(results(region)),
+                    Op::Loop(region) => self.usize_extent(owner.args[k + 2]).join(results(region)),
                     Op::If(then, otherwise) => {
                         let side = |region: &RegionId, holds| {
-                            self.under(self.graph.region(*region).results[k], owner.args[0], holds)
+                            self.extent_under(self.graph.region(*region).results[k], owner.args[0], holds)
                         };
                         side(then, true).join(side(otherwise, false))
                     }
@@ -166,7 +168,7 @@ impl<'g> Analysis<'g> {
             _ => Extent::Lost,
         };
         match self.facts.counters.get(&id) {
-            Some((start, end)) => self.between(*start, *end).unwrap_or(found),
+            Some((start, end)) => self.range_extent(*start, *end).unwrap_or(found),
             None => found,
         }
     }
@@ -176,13 +178,16 @@ impl<'g> Analysis<'g> {
         let node = self.graph.node(id);
         let float = *node.args.first()?;
         let made = node.op == Op::Convert && self.graph.ty(float) == Type::F32 && !self.caps.contains_key(&id);
-        (made && self.known(id).bounds().is_none()).then_some(float)
+        (made && self.usize_extent(id).bounds().is_none()).then_some(float)
     }
 
     /// The float and the constant of a remainder or a mask of an unbounded float, whose 64 bits a shader can compute with.
     pub fn float_by(&self, id: NodeId) -> Option<(NodeId, u32)> {
         let node = self.graph.node(id);
-        let by = self.graph.constant(*node.args.get(1)?).map(|bits| usize_value(&bits))?;
+        let by = self
+            .graph
+            .constant_bits(*node.args.get(1)?)
+            .map(|bits| usize_value(&bits))?;
         let most = match node.op {
             Op::Binary(BinaryOp::Rem) if by > 0 => u64::from(u16::MAX),
             Op::Binary(BinaryOp::And) => u64::from(u32::MAX),
@@ -193,13 +198,13 @@ impl<'g> Analysis<'g> {
     }
 
     /// The loop or branch of a region.
-    pub fn owner(&self, region: RegionId) -> Option<NodeId> {
+    pub fn region_owner(&self, region: RegionId) -> Option<NodeId> {
         self.owners.get(&region).copied()
     }
 
     /// Returns the extent of a value where a comparison of it with a constant holds, or where it does not.
-    fn under(&self, id: NodeId, condition: NodeId, holds: bool) -> Extent {
-        let (whole, node) = (self.known(id), self.graph.node(condition));
+    fn extent_under(&self, id: NodeId, condition: NodeId, holds: bool) -> Extent {
+        let (whole, node) = (self.usize_extent(id), self.graph.node(condition));
         let (Op::Binary(op), Some((low, high)), [first, second]) = (&node.op, whole.bounds(), node.args.as_slice())
         else {
             return whole;
@@ -218,10 +223,10 @@ impl<'g> Analysis<'g> {
             ),
             _ => return whole,
         };
-        if !is_wide(self.graph, other) || !whole.is_ordered_with(self.known(other)) {
+        if !is_wide(self.graph, other) || !whole.is_ordered_with(self.usize_extent(other)) {
             return whole;
         }
-        let Some((least, most)) = self.known(other).bounds() else {
+        let Some((least, most)) = self.usize_extent(other).bounds() else {
             return whole;
         };
         // Of negative ones, which are the largest, and of others.
@@ -230,7 +235,7 @@ impl<'g> Analysis<'g> {
             false => whole,
         };
         match (op, holds) {
-            (BinaryOp::Eq, true) | (BinaryOp::Ne, false) => self.known(other),
+            (BinaryOp::Eq, true) | (BinaryOp::Ne, false) => self.usize_extent(other),
             (BinaryOp::Eq, false) | (BinaryOp::Ne, true) if least == most && least == low => bounded(low + 1, high),
             (BinaryOp::Eq, false) | (BinaryOp::Ne, true) if least == most && least == high => bounded(low, high - 1),
             (BinaryOp::Lt, true) | (BinaryOp::Ge, false) if least >= 0 => bounded(low.max(0), high.min(most - 1)),
@@ -240,7 +245,7 @@ impl<'g> Analysis<'g> {
     }
 
     /// A number that becomes a `usize`.
-    fn converted(&self, id: NodeId) -> Extent {
+    fn converted_extent(&self, id: NodeId) -> Extent {
         let from = self.graph.node(id).args[0];
         let cap = self.caps.get(&id).copied();
         let (low, high) = match self.graph.ty(from) {
@@ -250,7 +255,7 @@ impl<'g> Analysis<'g> {
             },
             Type::BOOL => (0, 1),
             ty => {
-                let (low, high) = ranges::bounds(self.graph, from).unwrap_or(match ty {
+                let (low, high) = ranges::integer_bounds(self.graph, from).unwrap_or(match ty {
                     Type::U32 => (0, u32::MAX.into()),
                     _ => (i32::MIN.into(), i32::MAX.into()),
                 });
@@ -265,11 +270,11 @@ impl<'g> Analysis<'g> {
     }
 
     /// The counter of a loop.
-    fn counter(&self, region: RegionId) -> Extent {
+    fn counter_extent(&self, region: RegionId) -> Extent {
         let Some(owner) = self.owners.get(&region) else {
             return Extent::Lost;
         };
-        let (start, end) = (self.arg(*owner, 0), self.arg(*owner, 1));
+        let (start, end) = (self.arg_extent(*owner, 0), self.arg_extent(*owner, 1));
         let (
             Extent::Known { low, high, .. },
             Extent::Known {
@@ -285,21 +290,21 @@ impl<'g> Analysis<'g> {
     }
 
     /// Returns the extent of the values between the ends of a range.
-    fn between(&self, start: NodeId, end: NodeId) -> Option<Extent> {
-        let ((low, high), (from, to)) = (self.known(start).bounds()?, self.known(end).bounds()?);
+    fn range_extent(&self, start: NodeId, end: NodeId) -> Option<Extent> {
+        let ((low, high), (from, to)) = (self.usize_extent(start).bounds()?, self.usize_extent(end).bounds()?);
         let last = if from < 0 { i32::MAX.into() } else { to };
         (low >= 0).then(|| Extent::range(low, last.max(high)))
     }
 }
 
 /// 2 to the power of a shift's count, which a shader may shift by.
-pub fn power(count: Extent) -> Option<Extent> {
+pub fn power_of_two(count: Extent) -> Option<Extent> {
     let (low, high) = count.bounds()?;
     (low >= 0 && high < 32).then(|| Extent::range(1 << low, 1 << high))
 }
 
 /// Extent of a carried value that still grows after [`WIDEN`] rounds.
-fn widened(before: Extent, after: Extent) -> Extent {
+fn widen_extent(before: Extent, after: Extent) -> Extent {
     match (before, after) {
         (
             Extent::Known {

@@ -116,7 +116,7 @@ impl Extent {
                 let least = [cap, cap_b].into_iter().flatten().min();
                 let both = Extent::capped(low.min(low_b), high.max(high_b), least);
                 let longer = (counted && high >= high_b) || (counted_b && high_b >= high);
-                both.marked(longer)
+                both.with_counted(longer)
             }
             (Lost, _) | (_, Lost) => Lost,
             (a, b) if a.has_bits() && b.has_bits() => Modular,
@@ -124,7 +124,7 @@ impl Extent {
         }
     }
 
-    fn marked(self, longer: bool) -> Extent {
+    fn with_counted(self, longer: bool) -> Extent {
         match self {
             Known { low, high, cap, .. } => Known {
                 low,

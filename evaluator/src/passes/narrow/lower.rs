@@ -1,6 +1,6 @@
 //! The graph with an `i32` or a `u32` for each `usize`.
 
-use super::analysis::{Analysis, is_wide, power};
+use super::analysis::{Analysis, is_wide, power_of_two};
 use super::extent::{Extent, WORD};
 use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, RegionId, Replace, Scalar, Type, UnaryOp, usize_value};
 use std::collections::HashMap;
@@ -26,8 +26,10 @@ type New<'n> = &'n [Option<NodeId>];
 impl<'a> Lower<'a> {
     pub fn new(of: &'a Analysis<'a>, caps: &'a HashMap<NodeId, i128>) -> Lower<'a> {
         let graph = of.graph;
-        let arrays = graph.ids().filter(|id| graph.ty(*id).is_array() && is_wide(graph, *id));
-        let arrays = match arrays.into_iter().all(|id| of.known(id).is_signed()) {
+        let arrays = graph
+            .node_ids()
+            .filter(|id| graph.ty(*id).is_array() && is_wide(graph, *id));
+        let arrays = match arrays.into_iter().all(|id| of.usize_extent(id).is_signed()) {
             true => Scalar::I32,
             false => Scalar::U32,
         };
@@ -40,7 +42,7 @@ impl<'a> Lower<'a> {
             refused: Vec::new(),
             following: Vec::new(),
         };
-        for id in graph.ids() {
+        for id in graph.node_ids() {
             match &graph.node(id).op {
                 Op::Loop(body) => {
                     let params = graph.region(*body).params.iter().skip(1).enumerate();
@@ -58,7 +60,7 @@ impl<'a> Lower<'a> {
                     for (k, (a, b)) in pairs.enumerate().filter(|(_, (a, _))| is_wide(graph, **a)) {
                         let kind = match graph.ty(*a).is_array() {
                             true => arrays,
-                            false => kind_of(of.known(*a).join(of.known(*b))),
+                            false => kind_of(of.usize_extent(*a).join(of.usize_extent(*b))),
                         };
                         lower.results.insert((*then, k), kind);
                         lower.results.insert((*otherwise, k), kind);
@@ -71,7 +73,7 @@ impl<'a> Lower<'a> {
     }
 
     /// Operations that the shader would compute otherwise; of those that follow from each other the first.
-    pub fn refused(self) -> Vec<NodeId> {
+    pub fn into_refused(self) -> Vec<NodeId> {
         match self.refused.is_empty() {
             true => self.following,
             false => self.refused,
@@ -82,12 +84,12 @@ impl<'a> Lower<'a> {
     fn own_kind(&self, id: NodeId) -> Scalar {
         match self.graph.ty(id).is_array() {
             true => self.arrays,
-            false => kind_of(self.of.known(id)),
+            false => kind_of(self.of.usize_extent(id)),
         }
     }
 
     /// The kind that stands for a `usize`.
-    fn kind(&self, id: NodeId) -> Scalar {
+    fn usize_kind(&self, id: NodeId) -> Scalar {
         let node = self.graph.node(id);
         match node.op {
             Op::Param(region, 0) => self.counted_in(region),
@@ -102,8 +104,8 @@ impl<'a> Lower<'a> {
 
     /// The kind of a loop's counter.
     fn counted_in(&self, region: RegionId) -> Scalar {
-        match self.of.owner(region) {
-            Some(owner) if (0..2).all(|k| self.of.arg(owner, k).is_natural()) => Scalar::I32,
+        match self.of.region_owner(region) {
+            Some(owner) if (0..2).all(|k| self.of.arg_extent(owner, k).is_natural()) => Scalar::I32,
             _ => Scalar::U32,
         }
     }
@@ -114,19 +116,19 @@ impl<'a> Lower<'a> {
             return b.constant(Type::scalar(kind), [usize_value(bits) as u32, 0, 0, 0]);
         }
         let id = new[old.0 as usize].expect("arguments are built before their users");
-        convert(b, id, kind)
+        convert_node(b, id, kind)
     }
 
     /// An operation on arguments of a kind.
-    fn operation(&self, b: &mut Builder<'_>, old: NodeId, kind: Scalar, ty: Type, new: New<'_>) -> NodeId {
+    fn lower_operation(&self, b: &mut Builder<'_>, old: NodeId, kind: Scalar, ty: Type, new: New<'_>) -> NodeId {
         let node = self.graph.node(old);
         let args: Vec<NodeId> = node.args.iter().map(|arg| self.as_kind(b, *arg, kind, new)).collect();
         b.add(node.op.clone(), args, ty)
     }
 
     /// The kind in which numbers are ordered as they are natively.
-    fn ordered(&self, args: &[NodeId]) -> Scalar {
-        match args.iter().all(|arg| self.of.known(*arg).is_natural()) {
+    fn ordered_kind(&self, args: &[NodeId]) -> Scalar {
+        match args.iter().all(|arg| self.of.usize_extent(*arg).is_natural()) {
             true => Scalar::I32,
             false => Scalar::U32,
         }
@@ -135,13 +137,13 @@ impl<'a> Lower<'a> {
     /// Returns whether the shader's operation gives the native result.
     fn is_same(&self, id: NodeId) -> bool {
         let node = self.graph.node(id);
-        let of = |k: usize| self.of.known(node.args[k]);
+        let of = |k: usize| self.of.usize_extent(node.args[k]);
         match &node.op {
             Op::Binary(BinaryOp::Div) => of(0).divided(of(1)).is_some(),
             Op::Binary(BinaryOp::Rem | BinaryOp::And) if self.of.float_by(id).is_some() => true,
             Op::Binary(BinaryOp::Rem) => of(0).rest(of(1)).is_some(),
-            Op::Binary(BinaryOp::Shl) => power(of(1)).is_some(),
-            Op::Binary(BinaryOp::Shr) => power(of(1)).is_some_and(|by| of(0).divided(by).is_some()),
+            Op::Binary(BinaryOp::Shl) => power_of_two(of(1)).is_some(),
+            Op::Binary(BinaryOp::Shr) => power_of_two(of(1)).is_some_and(|by| of(0).divided(by).is_some()),
             Op::Binary(BinaryOp::Min | BinaryOp::Max) => of(0).is_ordered_with(of(1)),
             Op::Binary(op) if op.is_comparison() => of(0).is_ordered_with(of(1)),
             Op::Clamp => of(0).is_ordered_with(of(1)) && of(0).larger(of(1)).is_ordered_with(of(2)),
@@ -150,7 +152,7 @@ impl<'a> Lower<'a> {
             Op::Convert if !is_wide(self.graph, id) => of(0).has_bits() || self.of.float_of(node.args[0]).is_some(),
             Op::Bitcast => of(0) != Extent::Lost,
             Op::Unary(UnaryOp::BitNot) => true,
-            Op::Unary(_) => self.of.known(id) != Extent::Lost,
+            Op::Unary(_) => self.of.usize_extent(id) != Extent::Lost,
             _ => true,
         }
     }
@@ -163,141 +165,148 @@ impl<'a> Lower<'a> {
     }
 
     /// A number that becomes a `usize`.
-    fn widen(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
+    fn widen_node(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
         let from = self.graph.node(old).args[0];
         let id = new[from.0 as usize].expect("arguments are built before their users");
         let mut id = match b.graph().ty(id) {
-            Type::F32 => convert(b, id, Scalar::U32),
+            Type::F32 => convert_node(b, id, Scalar::U32),
             _ => id,
         };
-        if let (Extent::Known { cap: Some(cap), .. }, Some(_)) = (self.of.known(old), self.caps.get(&old)) {
-            let unsigned = convert(b, id, Scalar::U32);
+        if let (Extent::Known { cap: Some(cap), .. }, Some(_)) = (self.of.usize_extent(old), self.caps.get(&old)) {
+            let unsigned = convert_node(b, id, Scalar::U32);
             let cap = b.constant(Type::U32, [cap as u32, 0, 0, 0]);
             id = b.add(Op::Binary(BinaryOp::Min), [unsigned, cap], Type::U32);
         }
-        convert(b, id, self.kind(old))
+        convert_node(b, id, self.usize_kind(old))
     }
 
     /// A `usize` as a float.
     fn to_float(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
         let whole = self.graph.node(old).args[0];
-        let kind = self.ordered(&[whole]);
-        let (Some(float), false) = (self.source_of_float(old), self.of.known(whole).is_exact()) else {
+        let kind = self.ordered_kind(&[whole]);
+        let (Some(float), false) = (self.source_of_float(old), self.of.usize_extent(whole).is_exact()) else {
             let whole = self.as_kind(b, whole, kind, new);
-            return convert(b, whole, Scalar::F32);
+            return convert_node(b, whole, Scalar::F32);
         };
         // A float from 2^32 on is a whole number already.
         let x = new[float.0 as usize].expect("arguments are built before their users");
         let [word, most] = [b.f32(WORD as f32), b.f32(u64::MAX as f32)];
         let large = b.add(Op::Binary(BinaryOp::Ge), [x, word], Type::BOOL);
         let bounded = b.add(Op::Binary(BinaryOp::Min), [x, most], Type::F32);
-        let whole = convert(b, x, Scalar::U32);
-        let small = convert(b, whole, Scalar::F32);
+        let whole = convert_node(b, x, Scalar::U32);
+        let small = convert_node(b, whole, Scalar::F32);
         b.add(Op::Select, [large, bounded, small], Type::F32)
     }
 }
 
 impl Replace for Lower<'_> {
-    fn begin(&mut self, _: &mut Builder<'_>) {}
+    fn add_prologue(&mut self, _: &mut Builder<'_>) {}
 
-    fn node(&mut self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> Option<NodeId> {
+    fn replace_node(&mut self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> Option<NodeId> {
         let node = self.graph.node(old);
         let wide = is_wide(self.graph, old);
         if !wide && !node.args.iter().any(|arg| is_wide(self.graph, *arg)) {
             return None;
         }
         if !self.is_same(old) {
-            let lost = |arg: &NodeId| is_wide(self.graph, *arg) && self.of.known(*arg) == Extent::Lost;
+            let lost = |arg: &NodeId| is_wide(self.graph, *arg) && self.of.usize_extent(*arg) == Extent::Lost;
             match node.args.iter().any(lost) {
                 true => self.following.push(old),
                 false => self.refused.push(old),
             }
         }
         let own = match wide {
-            true => self.kind(old),
+            true => self.usize_kind(old),
             false => Scalar::I32,
         };
         let ty = node.ty.with_scalar(own);
         Some(match &node.op {
             Op::Const(bits) => b.constant(ty, [usize_value(bits) as u32, 0, 0, 0]),
-            Op::Unused => b.intern(Op::Unused, Vec::new(), ty),
-            Op::Convert if wide => self.widen(b, old, new),
+            Op::Undef => b.intern(Op::Undef, Vec::new(), ty),
+            Op::Convert if wide => self.widen_node(b, old, new),
             Op::Convert if node.ty == Type::F32 => self.to_float(b, old, new),
             Op::Convert if self.of.float_of(node.args[0]).is_some() => {
                 let float = self.of.float_of(node.args[0])?;
-                let [_, low] = words(b, new[float.0 as usize]?);
-                convert(b, low, node.ty.kind()?)
+                let [_, low] = split_words(b, new[float.0 as usize]?);
+                convert_node(b, low, node.ty.scalar_kind()?)
             }
             Op::Binary(op @ (BinaryOp::Rem | BinaryOp::And)) if self.of.float_by(old).is_some() => {
                 let (float, by) = self.of.float_by(old)?;
-                let [high, low] = words(b, new[float.0 as usize]?);
+                let [high, low] = split_words(b, new[float.0 as usize]?);
                 let found = match op {
-                    BinaryOp::And => with(b, BinaryOp::And, low, by),
+                    BinaryOp::And => binary_with(b, BinaryOp::And, low, by),
                     _ => {
                         // (high * 2^32 + low) % n, none of which leaves 32 bits.
-                        let high = with(b, BinaryOp::Rem, high, by);
-                        let high = with(b, BinaryOp::Mul, high, (WORD as u64 % u64::from(by)) as u32);
-                        let low = with(b, BinaryOp::Rem, low, by);
+                        let high = binary_with(b, BinaryOp::Rem, high, by);
+                        let high = binary_with(b, BinaryOp::Mul, high, (WORD as u64 % u64::from(by)) as u32);
+                        let low = binary_with(b, BinaryOp::Rem, low, by);
                         let sum = b.add(Op::Binary(BinaryOp::Add), [high, low], Type::U32);
                         match sum == low {
                             true => low,
-                            false => with(b, BinaryOp::Rem, sum, by),
+                            false => binary_with(b, BinaryOp::Rem, sum, by),
                         }
                     }
                 };
-                convert(b, found, own)
+                convert_node(b, found, own)
             }
             Op::Convert | Op::Bitcast => {
-                let kind = node.ty.kind().unwrap_or(Scalar::I32);
+                let kind = node.ty.scalar_kind().unwrap_or(Scalar::I32);
                 self.as_kind(b, node.args[0], kind, new)
             }
             Op::Binary(op) if op.is_comparison() => {
                 let by_bits = matches!(op, BinaryOp::Eq | BinaryOp::Ne);
-                let kind = match by_bits && node.args.iter().all(|arg| self.of.known(*arg).is_signed()) {
+                let kind = match by_bits && node.args.iter().all(|arg| self.of.usize_extent(*arg).is_signed()) {
                     true => Scalar::I32,
-                    false => self.ordered(&node.args),
+                    false => self.ordered_kind(&node.args),
                 };
-                self.operation(b, old, kind, node.ty, new)
+                self.lower_operation(b, old, kind, node.ty, new)
             }
             Op::Clamp | Op::Binary(BinaryOp::Div | BinaryOp::Rem | BinaryOp::Shr | BinaryOp::Min | BinaryOp::Max) => {
-                let kind = self.ordered(&node.args);
-                let found = self.operation(b, old, kind, Type::scalar(kind), new);
-                convert(b, found, own)
+                let kind = self.ordered_kind(&node.args);
+                let found = self.lower_operation(b, old, kind, Type::scalar(kind), new);
+                convert_node(b, found, own)
             }
-            Op::Binary(_) | Op::Unary(_) => self.operation(b, old, own, ty, new),
+            Op::Binary(_) | Op::Unary(_) => self.lower_operation(b, old, own, ty, new),
             Op::Select => {
                 let condition = new[node.args[0].0 as usize]?;
                 let [yes, no] = [1, 2].map(|k| self.as_kind(b, node.args[k], own, new));
                 b.add(Op::Select, [condition, yes, no], ty)
             }
-            Op::MakeArray => self.operation(b, old, self.arrays, ty, new),
+            Op::MakeArray => self.lower_operation(b, old, self.arrays, ty, new),
             Op::ArrayGet => {
                 let args = [new[node.args[0].0 as usize]?, new[node.args[1].0 as usize]?];
                 let element = b.add(Op::ArrayGet, args, Type::scalar(self.arrays));
-                convert(b, element, own)
+                convert_node(b, element, own)
             }
             Op::ArraySet => {
                 let element = self.as_kind(b, node.args[2], self.arrays, new);
                 let args = [new[node.args[0].0 as usize]?, new[node.args[1].0 as usize]?, element];
                 b.add(Op::ArraySet, args, ty)
             }
-            Op::Tally(_) | Op::Message(_) => self.operation(b, old, own, ty, new),
+            Op::Tally(_) | Op::QuadSwap(_) => self.lower_operation(b, old, own, ty, new),
             _ => return None,
         })
     }
 
-    fn ty(&self, old: NodeId, ty: Type) -> Type {
-        match ty.kind() {
-            Some(Scalar::Usize) => ty.with_scalar(self.kind(old)),
+    fn replace_type(&self, old: NodeId, ty: Type) -> Type {
+        match ty.scalar_kind() {
+            Some(Scalar::Usize) => ty.with_scalar(self.usize_kind(old)),
             _ => ty,
         }
     }
 
-    fn bound(&mut self, b: &mut Builder<'_>, region: RegionId, old: NodeId, new: New<'_>) -> Option<NodeId> {
+    fn replace_bound(&mut self, b: &mut Builder<'_>, region: RegionId, old: NodeId, new: New<'_>) -> Option<NodeId> {
         is_wide(self.graph, old).then(|| self.as_kind(b, old, self.counted_in(region), new))
     }
 
-    fn passed(&mut self, b: &mut Builder<'_>, region: RegionId, k: usize, old: NodeId, new: New<'_>) -> Option<NodeId> {
+    fn replace_passed(
+        &mut self,
+        b: &mut Builder<'_>,
+        region: RegionId,
+        k: usize,
+        old: NodeId,
+        new: New<'_>,
+    ) -> Option<NodeId> {
         if !is_wide(self.graph, old) || self.graph.ty(old).is_array() {
             return None;
         }
@@ -308,22 +317,22 @@ impl Replace for Lower<'_> {
 
 /// The upper and the lower 32 bits of a float as a number of 64 bits, each a `u32`. All of it is exact: a float is scaled by powers
 /// of two, and what is subtracted from it are its upper bits.
-fn words(b: &mut Builder<'_>, x: NodeId) -> [NodeId; 2] {
+fn split_words(b: &mut Builder<'_>, x: NodeId) -> [NodeId; 2] {
     let op = |op: BinaryOp| Op::Binary(op);
     let [word, inverse, end] = [b.f32(WORD as f32), b.f32(1.0 / WORD as f32), b.f32(u64::MAX as f32)];
     let scaled = b.add(op(BinaryOp::Mul), [x, inverse], Type::F32);
-    let high = convert(b, scaled, Scalar::U32);
+    let high = convert_node(b, scaled, Scalar::U32);
     let whole = b.add(Op::Unary(UnaryOp::Trunc), [scaled], Type::F32);
     let upper = b.add(op(BinaryOp::Mul), [whole, word], Type::F32);
     let rest = b.add(op(BinaryOp::Sub), [x, upper], Type::F32);
-    let low = convert(b, rest, Scalar::U32);
+    let low = convert_node(b, rest, Scalar::U32);
     let beyond = b.add(op(BinaryOp::Ge), [x, end], Type::BOOL);
     let most = b.constant(Type::U32, [u32::MAX, 0, 0, 0]);
     [high, b.add(Op::Select, [beyond, most, low], Type::U32)]
 }
 
 /// `x op n` of a `u32`.
-fn with(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
+fn binary_with(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
     let n = b.constant(Type::U32, [n, 0, 0, 0]);
     b.add(Op::Binary(op), [x, n], Type::U32)
 }
@@ -336,8 +345,8 @@ fn kind_of(extent: Extent) -> Scalar {
     }
 }
 
-fn convert(b: &mut Builder<'_>, id: NodeId, kind: Scalar) -> NodeId {
-    match b.graph().ty(id).kind() == Some(kind) {
+fn convert_node(b: &mut Builder<'_>, id: NodeId, kind: Scalar) -> NodeId {
+    match b.graph().ty(id).scalar_kind() == Some(kind) {
         true => id,
         false => b.add(Op::Convert, [id], Type::scalar(kind)),
     }

@@ -36,24 +36,24 @@ const CAPS: [i128; 4] = [1 << 30, 1 << 28, 1 << 24, 1 << 20];
 /// # Errors
 ///
 /// Operations whose results may differ from the native ones.
-pub fn narrow(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<Refusal>> {
-    if !graph.ids().any(|id| is_wide(graph, id)) {
+pub fn narrow_usize(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<Refusal>> {
+    if !graph.node_ids().any(|id| is_wide(graph, id)) {
         return Ok(None);
     }
     let mut caps: HashMap<NodeId, i128> = HashMap::new();
     loop {
-        let analysis = Analysis::of(graph, facts, &caps);
+        let analysis = Analysis::from_graph(graph, facts, &caps);
         let mut lower = lower::Lower::new(&analysis, &caps);
         let rebuild = Rebuild {
             rules: &super::Exact,
             share_loads: false,
         };
         let narrowed = rebuild_replacing(graph, &rebuild, &mut lower);
-        let refused = lower.refused();
+        let refused = lower.into_refused();
         if refused.is_empty() {
             return Ok(Some(narrowed));
         }
-        let leaves = refuse::leaves(graph, &refused);
+        let leaves = refuse::source_conversions(graph, &refused);
         let mut next = caps.clone();
         for leaf in leaves {
             let before = caps.get(&leaf).copied().unwrap_or(i128::MAX);
@@ -64,13 +64,13 @@ pub fn narrow(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<Refusal
         if next == caps {
             // Of the values themselves, not of what has been tried with them; what can be helped is no error.
             let none = HashMap::new();
-            let analysis = Analysis::of(graph, facts, &none);
+            let analysis = Analysis::from_graph(graph, facts, &none);
             let mut lower = lower::Lower::new(&analysis, &none);
             rebuild_replacing(graph, &rebuild, &mut lower);
-            let mut first = lower.refused();
+            let mut first = lower.into_refused();
             first.retain(|id| refused.contains(id));
             let refused = if first.is_empty() { refused } else { first };
-            return Err(refuse::refusals(graph, facts, &refused));
+            return Err(refuse::collect_refusals(graph, facts, &refused));
         }
         caps = next;
     }

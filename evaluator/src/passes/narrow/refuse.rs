@@ -15,12 +15,12 @@ pub struct Refusal {
 }
 
 /// Conversions to `usize` that the operands of operations come from.
-pub fn leaves(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId> {
+pub fn source_conversions(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId> {
     let (mut seen, mut found) = (HashSet::new(), BTreeSet::new());
     let mut pending: Vec<NodeId> = refused.iter().flat_map(|id| graph.node(*id).args.clone()).collect();
     while let Some(id) = pending.pop() {
         let node = graph.node(id);
-        if node.ty.kind() != Some(crate::ir::Scalar::Usize) || !seen.insert(id) {
+        if node.ty.scalar_kind() != Some(crate::ir::Scalar::Usize) || !seen.insert(id) {
             continue;
         }
         match &node.op {
@@ -28,7 +28,7 @@ pub fn leaves(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId> {
                 found.insert(id);
             }
             Op::Param(region, k) => {
-                let owner = graph.ids().find(|id| graph.node(*id).op == Op::Loop(*region));
+                let owner = graph.node_ids().find(|id| graph.node(*id).op == Op::Loop(*region));
                 let args = owner.map(|owner| graph.node(owner).args.clone()).unwrap_or_default();
                 match k {
                     0 => pending.extend(args.iter().take(2)),
@@ -54,7 +54,7 @@ pub fn leaves(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId> {
 }
 
 /// The errors of operations, one for each place.
-pub fn refusals(graph: &Graph, facts: &Facts, refused: &[NodeId]) -> Vec<Refusal> {
+pub fn collect_refusals(graph: &Graph, facts: &Facts, refused: &[NodeId]) -> Vec<Refusal> {
     let mut places = HashSet::new();
     let mut found = Vec::new();
     for id in refused {
@@ -62,14 +62,14 @@ pub fn refusals(graph: &Graph, facts: &Facts, refused: &[NodeId]) -> Vec<Refusal
         if places.insert(span) {
             found.push(Refusal {
                 node: *id,
-                error: error(graph, *id, span),
+                error: refusal_error(graph, *id, span),
             });
         }
     }
     found
 }
 
-fn error(graph: &Graph, id: NodeId, span: Span) -> Diagnostic {
+fn refusal_error(graph: &Graph, id: NodeId, span: Span) -> Diagnostic {
     let what = match &graph.node(id).op {
         Op::Binary(op) => match op {
             BinaryOp::Div => "this quotient of a `usize`",
@@ -85,8 +85,8 @@ fn error(graph: &Graph, id: NodeId, span: Span) -> Diagnostic {
         Op::Convert if graph.ty(id) == Type::F32 => "this `usize` as an f32",
         _ => "this `usize`",
     };
-    let (label, help) = cause(graph, id);
-    Diagnostic::at(
+    let (label, help) = refusal_cause(graph, id);
+    Diagnostic::error_at(
         Code::NarrowUsize,
         span,
         format!("{what} may differ from the native one"),
@@ -97,7 +97,7 @@ fn error(graph: &Graph, id: NodeId, span: Span) -> Diagnostic {
 }
 
 /// Why, by what the operands come from.
-fn cause(graph: &Graph, id: NodeId) -> (&'static str, &'static str) {
+fn refusal_cause(graph: &Graph, id: NodeId) -> (&'static str, &'static str) {
     let mut cause = (
         "the value may need more than 32 bits",
         "compute it in u32, with `wrapping_add` and its like where it is to wrap, and convert the result with `as usize`",
@@ -105,7 +105,7 @@ fn cause(graph: &Graph, id: NodeId) -> (&'static str, &'static str) {
     if matches!(graph.node(id).op, Op::Unary(_)) {
         return ("of 64 bits", "count those of a u32: `(x as u32).leading_zeros()`");
     }
-    let by_unknown = |args: &[NodeId]| graph.constant(args[1]).is_none();
+    let by_unknown = |args: &[NodeId]| graph.constant_bits(args[1]).is_none();
     match &graph.node(id).op {
         Op::Binary(BinaryOp::Shl) => return ("the count may be 32 or more", "mask the count: `x << (n & 31)`"),
         Op::Binary(BinaryOp::Shr) if by_unknown(&graph.node(id).args) => {
@@ -113,10 +113,10 @@ fn cause(graph: &Graph, id: NodeId) -> (&'static str, &'static str) {
         }
         _ => {}
     }
-    for leaf in leaves(graph, &[id]) {
+    for leaf in source_conversions(graph, &[id]) {
         let from = graph.node(leaf).args[0];
         match graph.ty(from) {
-            Type::I32 if ranges::bounds(graph, from).is_none_or(|(low, _)| low < 0) => {
+            Type::I32 if ranges::integer_bounds(graph, from).is_none_or(|(low, _)| low < 0) => {
                 return (
                     "an i32 below 0 `as usize` is a number of 64 bits",
                     "take the remainder or quotient before the conversion, `i.rem_euclid(n) as usize`, or convert with `i as u32 as usize`",

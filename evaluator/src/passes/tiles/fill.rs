@@ -2,7 +2,7 @@
 
 use super::{Candidate, Tile};
 use crate::ir::{
-    BinaryOp, Bits, Builder, Graph, Invocation, Memory, Naming, NodeId, Op, Origin, Replace, Scalar, Shared, Type,
+    BinaryOp, Bits, Builder, Graph, Invocation, Memory, Naming, NodeId, Op, Origin, Replace, Scalar, SharedArray, Type,
 };
 use std::collections::{BTreeMap, HashMap};
 
@@ -15,13 +15,13 @@ struct Place {
     texture: u32,
     layer: Option<(Type, Bits)>,
     components: Vec<u8>,
-    shared: Shared,
+    shared: SharedArray,
 }
 
 impl Place {
     /// Returns whether an element is a texel as reads return it.
     fn is_whole(&self, texel: Type) -> bool {
-        self.shared.element == texel && self.components.len() == usize::from(texel.components())
+        self.shared.element == texel && self.components.len() == usize::from(texel.component_count())
     }
 }
 
@@ -47,9 +47,9 @@ impl<'g> Tiling<'g> {
             texture: candidate.texture,
             layer: candidate.layer,
             components: candidate.components.clone(),
-            shared: Shared {
+            shared: SharedArray {
                 name: tile.name.clone(),
-                ..candidate.shared(old)
+                ..candidate.tile_memory(old)
             },
         });
         let loads = kept.iter().enumerate().flat_map(|(k, candidate)| {
@@ -67,12 +67,12 @@ impl<'g> Tiling<'g> {
     }
 
     /// Fills all tiles of one rectangle.
-    fn fill(&self, b: &mut Builder<'_>, tiles: &[usize], index: NodeId) {
+    fn fill_tiles(&self, b: &mut Builder<'_>, tiles: &[usize], index: NodeId) {
         let Place { first, size, .. } = self.tiles[tiles[0]];
         let origin = b.add(Op::GroupOrigin, Vec::new(), PAIR);
         let offset = b.constant(PAIR, [first[0] as u32, first[1] as u32, 0, 0]);
         let corner = add(b, BinaryOp::Add, origin, offset);
-        named(b, corner, "corner");
+        name_node(b, corner, "corner");
         let threads = self.threads[0] * self.threads[1];
         let texels = size[0] * size[1];
         for turn in 0..texels.div_ceil(threads) {
@@ -80,7 +80,7 @@ impl<'g> Tiling<'g> {
             if turn > 0 {
                 let behind = b.i32((turn * threads) as i32);
                 texel = add(b, BinaryOp::Add, index, behind);
-                named(b, texel, "index");
+                name_node(b, texel, "index");
             }
             if (turn + 1) * threads <= texels {
                 self.fill_texel(b, tiles, corner, texel);
@@ -103,15 +103,15 @@ impl<'g> Tiling<'g> {
         let [x, y] = [BinaryOp::Rem, BinaryOp::Div].map(|op| add(b, op, texel, width));
         let place = b.add(Op::Compose, [x, y], PAIR);
         let place = add(b, BinaryOp::Add, corner, place);
-        let (zero, last) = (b.constant(PAIR, [0; 4]), last(b));
+        let (zero, last) = (b.constant(PAIR, [0; 4]), last_pixel(b));
         let at = b.add(Op::Clamp, [place, zero, last], PAIR);
-        named(b, at, "at");
+        name_node(b, at, "at");
         let always = b.bool(true);
         for k in tiles {
             let tile = &self.tiles[*k];
             let mut args = vec![at];
             args.extend(tile.layer.map(|(ty, bits)| b.constant(ty, bits)));
-            let ty = b.graph().textures[tile.texture as usize].texel();
+            let ty = b.graph().textures[tile.texture as usize].texel_type();
             let read = Op::Load {
                 texture: tile.texture,
                 site: 0,
@@ -127,7 +127,7 @@ impl<'g> Tiling<'g> {
                         false => b.add(Op::Extract(*component), [read], scalar),
                     });
                     let mut used: Vec<NodeId> = used.collect();
-                    used.resize_with(usize::from(tile.shared.element.components()), || {
+                    used.resize_with(usize::from(tile.shared.element.component_count()), || {
                         b.constant(scalar, [0; 4])
                     });
                     match used[..] {
@@ -137,23 +137,23 @@ impl<'g> Tiling<'g> {
                 }
             };
             let memory = Memory::Shared(*k as u32);
-            b.effect(Op::Store(memory), vec![always, texel, value], Type::Results);
+            b.add_effect(Op::Store(memory), vec![always, texel, value], Type::Results);
         }
     }
 
     /// A texel of a tile, in the type of the read that it replaces; components that the tile lacks are unused.
-    fn texel(&self, b: &mut Builder<'_>, load: NodeId) -> Option<NodeId> {
+    fn tile_texel(&self, b: &mut Builder<'_>, load: NodeId) -> Option<NodeId> {
         let (k, offset) = *self.loads.get(&load)?;
         let tile = &self.tiles[k];
         let [across, down] = [0, 1].map(|axis| offset[axis] - tile.first[axis]);
         let behind = b.i32(down * tile.size[0] as i32 + across);
         let element = add(b, BinaryOp::Add, self.here[k], behind);
         let always = b.bool(true);
-        let found = b.effect(Op::SharedLoad(k as u32), vec![always, element], tile.shared.element);
+        let found = b.add_effect(Op::SharedLoad(k as u32), vec![always, element], tile.shared.element);
         if let Some(origin) = self.old.origin(load) {
             b.set_origin(found, origin);
         }
-        let ty = b.graph().textures[tile.texture as usize].texel();
+        let ty = b.graph().textures[tile.texture as usize].texel_type();
         if tile.is_whole(ty) {
             return Some(found);
         }
@@ -166,13 +166,13 @@ impl<'g> Tiling<'g> {
                 None => b.constant(scalar, [0; 4]),
             }
         };
-        let parts: Vec<NodeId> = (0..ty.components()).map(|component| part(b, component)).collect();
+        let parts: Vec<NodeId> = (0..ty.component_count()).map(|component| part(b, component)).collect();
         Some(b.add(Op::Compose, parts, ty))
     }
 }
 
 impl Replace for Tiling<'_> {
-    fn begin(&mut self, b: &mut Builder<'_>) {
+    fn add_prologue(&mut self, b: &mut Builder<'_>) {
         b.graph_mut().invocation = Invocation::Group(self.threads);
         b.graph_mut().shared = self.tiles.iter().map(|tile| tile.shared.clone()).collect();
         let local = b.add(Op::Thread, Vec::new(), PAIR);
@@ -183,7 +183,7 @@ impl Replace for Tiling<'_> {
             add(b, BinaryOp::Add, row, x)
         };
         let index = row_of(b, self.threads[0]);
-        named(b, index, "index");
+        name_node(b, index, "index");
         let mut rectangles: BTreeMap<([i32; 2], [u32; 2]), Vec<usize>> = BTreeMap::new();
         for (k, tile) in self.tiles.iter().enumerate() {
             rectangles.entry((tile.first, tile.size)).or_default().push(k);
@@ -191,35 +191,35 @@ impl Replace for Tiling<'_> {
         let mut rectangles: Vec<Vec<usize>> = rectangles.into_values().collect();
         rectangles.sort();
         for tiles in rectangles {
-            self.fill(b, &tiles, index);
+            self.fill_tiles(b, &tiles, index);
         }
-        b.effect(Op::Barrier { buffers: false }, Vec::new(), Type::Results);
+        b.add_effect(Op::Barrier { buffers: false }, Vec::new(), Type::Results);
         for tile in &self.tiles {
             let here = row_of(b, tile.size[0]);
-            named(b, here, "here");
+            name_node(b, here, "here");
             self.here.push(here);
         }
         let mut inner: Vec<NodeId> = self.loads.keys().copied().collect();
         inner.retain(|load| self.old.homes[load.0 as usize] != Graph::BODY);
         inner.sort_unstable();
         for load in inner {
-            if let Some(texel) = self.texel(b, load) {
+            if let Some(texel) = self.tile_texel(b, load) {
                 self.early.insert(load, texel);
             }
         }
     }
 
-    fn node(&mut self, b: &mut Builder<'_>, old: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
+    fn replace_node(&mut self, b: &mut Builder<'_>, old: NodeId, _: &[Option<NodeId>]) -> Option<NodeId> {
         if let Some(texel) = self.early.get(&old) {
             return Some(*texel);
         }
         if self.old.node(old).op != Op::Pixel {
-            return self.texel(b, old);
+            return self.tile_texel(b, old);
         }
         // A thread outside of the frame computes what the nearest pixel does, so that all that is known of pixels holds.
-        let (pixel, last) = (b.add(Op::Pixel, Vec::new(), PAIR), last(b));
+        let (pixel, last) = (b.add(Op::Pixel, Vec::new(), PAIR), last_pixel(b));
         let inside = add(b, BinaryOp::Min, pixel, last);
-        named(b, inside, "nearest");
+        name_node(b, inside, "nearest");
         Some(inside)
     }
 }
@@ -230,15 +230,15 @@ fn add(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
 }
 
 /// The frame's last pixel.
-fn last(b: &mut Builder<'_>) -> NodeId {
+fn last_pixel(b: &mut Builder<'_>) -> NodeId {
     let (frame, one) = (b.add(Op::FrameSize, Vec::new(), PAIR), b.constant(PAIR, [1, 1, 0, 0]));
     let last = add(b, BinaryOp::Sub, frame, one);
-    named(b, last, "last");
+    name_node(b, last, "last");
     last
 }
 
 /// Names a value that is nowhere in the source.
-fn named(b: &mut Builder<'_>, id: NodeId, name: &str) {
+fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
     let fixed = matches!(b.graph().node(id).op, Op::Const(_) | Op::GroupOrigin | Op::Pixel);
     if fixed || b.graph().origin(id).is_some() {
         return;

@@ -10,9 +10,11 @@
 mod fill;
 
 use super::fold::Exact;
-use super::offsets::offsets;
-use super::schedule::schedule;
-use crate::ir::{Bits, Graph, Invocation, MOST_SHARED_BYTES, NodeId, Op, Rebuild, Shared, Type, rebuild_replacing};
+use super::offsets::pixel_offsets;
+use super::schedule::schedule_graph;
+use crate::ir::{
+    Bits, Graph, Invocation, MOST_SHARED_BYTES, NodeId, Op, Rebuild, SharedArray, Type, rebuild_replacing,
+};
 use crate::policy::ReadOrder;
 use fill::Tiling;
 use std::collections::BTreeSet;
@@ -43,7 +45,7 @@ pub struct Tile {
 
 impl Tile {
     /// The texture, and its layer or sample where there are several, for people.
-    pub fn of(&self) -> String {
+    pub fn display_name(&self) -> String {
         match self.layer {
             Some(layer) => format!("{}[{layer}]", self.texture),
             None => self.texture.clone(),
@@ -53,7 +55,7 @@ impl Tile {
 
 /// Reads of a texture that stay as they are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Apart {
+pub struct UnsharedReads {
     /// The texture's name.
     pub texture: String,
     /// Number of reads of a pixel.
@@ -70,12 +72,12 @@ pub struct Sharing {
     /// In the order of the first read of each.
     pub tiles: Vec<Tile>,
     /// Reads that stay.
-    pub apart: Vec<Apart>,
+    pub unshared: Vec<UnsharedReads>,
 }
 
 impl Sharing {
     /// Bytes of a workgroup's memory.
-    pub fn bytes(&self) -> u64 {
+    pub fn byte_size(&self) -> u64 {
         self.tiles.iter().map(|tile| tile.bytes).sum()
     }
 }
@@ -99,15 +101,15 @@ pub fn by_workgroup(graph: &Graph, threads: [u32; 2]) -> Result<(Graph, Sharing)
     if graph.has_effects() {
         return Err("it writes to buffers or pictures, and threads outside of the frame would too".to_owned());
     }
-    let (candidates, mut apart) = candidates(graph);
-    let kept = chosen(graph, candidates, threads, &mut apart);
+    let (candidates, mut apart) = find_candidates(graph);
+    let kept = choose_tiles(graph, candidates, threads, &mut apart);
     let mut sharing = Sharing {
         threads,
         tiles: kept.iter().map(|candidate| candidate.tile.clone()).collect(),
-        apart: merged(apart),
+        unshared: merge_apart(apart),
     };
     if kept.is_empty() {
-        let all = sharing.apart.iter();
+        let all = sharing.unshared.iter();
         let why: Vec<String> = all
             .map(|apart| format!("of `{}` {}", apart.texture, apart.why))
             .collect();
@@ -116,7 +118,7 @@ pub fn by_workgroup(graph: &Graph, threads: [u32; 2]) -> Result<(Graph, Sharing)
             false => format!("it reads nothing that pixels can share: {}", why.join("; ")),
         });
     }
-    name(graph, &mut sharing.tiles);
+    name_tiles(graph, &mut sharing.tiles);
     let mut tiling = Tiling::new(graph, threads, &kept, &sharing.tiles);
     let pass = Rebuild {
         rules: &Exact,
@@ -139,20 +141,20 @@ struct Candidate {
 }
 
 /// Reads that could be shared, by texture and layer, and those that could not.
-fn candidates(graph: &Graph) -> (Vec<Candidate>, Vec<Apart>) {
-    let schedule = schedule(graph, ReadOrder::Source);
-    let offsets = offsets(graph);
-    let components = components(graph);
+fn find_candidates(graph: &Graph) -> (Vec<Candidate>, Vec<UnsharedReads>) {
+    let schedule = schedule_graph(graph, ReadOrder::Source);
+    let offsets = pixel_offsets(graph);
+    let components = components_used(graph);
     let mut all: Vec<Candidate> = Vec::new();
     let mut apart = Vec::new();
-    for id in graph.ids().filter(|id| schedule.has(*id)) {
+    for id in graph.node_ids().filter(|id| schedule.has_node(*id)) {
         let node = graph.node(id);
         let Some(index) = node.op.texture().filter(|_| node.op.is_read()) else {
             continue;
         };
         let texture = &graph.textures[index as usize];
         let mut stays = |why: &str| {
-            apart.push(Apart {
+            apart.push(UnsharedReads {
                 texture: texture.name.clone(),
                 reads: 1,
                 why: why.to_owned(),
@@ -160,7 +162,7 @@ fn candidates(graph: &Graph) -> (Vec<Candidate>, Vec<Apart>) {
         };
         let indexed = usize::from(texture.kind.is_indexed());
         let layer = (indexed == 1).then(|| node.args[1]);
-        let known = layer.map(|layer| graph.constant(layer).map(|bits| (graph.ty(layer), bits)));
+        let known = layer.map(|layer| graph.constant_bits(layer).map(|bits| (graph.ty(layer), bits)));
         match (&node.op, offsets[node.args[0].0 as usize], known) {
             (Op::Load { .. }, ..) if !texture.framed => stays("it has a size of its own"),
             (Op::Load { .. }, ..) if node.args.len() > 1 + indexed => stays("a coarser level is read"),
@@ -209,7 +211,7 @@ impl Candidate {
     }
 
     /// Type of a tile's elements. Three components take the space of four, and are read at once as four.
-    fn element(&self, graph: &Graph) -> Type {
+    fn element_type(&self, graph: &Graph) -> Type {
         let scalar = graph.textures[self.texture as usize].scalar;
         let lanes = match self.components.len() as u8 {
             3 => 4,
@@ -219,7 +221,7 @@ impl Candidate {
     }
 
     /// Computes the size of the tile, and the reads that it saves.
-    fn measure(&mut self, graph: &Graph, threads: [u32; 2]) {
+    fn measure_tile(&mut self, graph: &Graph, threads: [u32; 2]) {
         self.components.sort_unstable();
         self.components.dedup();
         for axis in 0..2 {
@@ -231,7 +233,7 @@ impl Candidate {
         let texels = self.texels();
         self.tile.reads = self.loads.len() as u32;
         self.tile.fills = u32::try_from(texels.div_ceil(u64::from(threads[0] * threads[1]))).unwrap_or(u32::MAX);
-        self.tile.bytes = self.shared(graph).bytes().max(texels);
+        self.tile.bytes = self.tile_memory(graph).byte_size().max(texels);
     }
 
     fn texels(&self) -> u64 {
@@ -239,35 +241,40 @@ impl Candidate {
     }
 
     /// The memory of the tile.
-    fn shared(&self, graph: &Graph) -> Shared {
-        Shared {
+    fn tile_memory(&self, graph: &Graph) -> SharedArray {
+        SharedArray {
             name: self.tile.name.clone(),
-            element: self.element(graph),
+            element: self.element_type(graph),
             len: u32::try_from(self.texels()).unwrap_or(u32::MAX),
             atomic: false,
             filled: true,
         }
     }
 
-    fn saved(&self) -> u32 {
+    fn saved_reads(&self) -> u32 {
         self.tile.reads.saturating_sub(self.tile.fills)
     }
 }
 
 /// Returns the tiles that save reads and fit into the memory together.
-fn chosen(graph: &Graph, candidates: Vec<Candidate>, threads: [u32; 2], apart: &mut Vec<Apart>) -> Vec<Candidate> {
+fn choose_tiles(
+    graph: &Graph,
+    candidates: Vec<Candidate>,
+    threads: [u32; 2],
+    apart: &mut Vec<UnsharedReads>,
+) -> Vec<Candidate> {
     let mut kept = Vec::new();
     let mut leave = |candidate: &Candidate, why: String| {
-        apart.push(Apart {
+        apart.push(UnsharedReads {
             texture: candidate.tile.texture.clone(),
             reads: candidate.tile.reads,
             why,
         });
     };
     for mut candidate in candidates {
-        candidate.measure(graph, threads);
+        candidate.measure_tile(graph, threads);
         let [width, height] = candidate.tile.size;
-        match candidate.saved() {
+        match candidate.saved_reads() {
             0 if candidate.tile.reads == 1 => leave(&candidate, "a pixel reads one texel".to_owned()),
             0 => {
                 let fills = candidate.tile.fills;
@@ -281,7 +288,7 @@ fn chosen(graph: &Graph, candidates: Vec<Candidate>, threads: [u32; 2], apart: &
         }
     }
     while kept.iter().map(|candidate| candidate.tile.bytes).sum::<u64>() > MOST_SHARED_BYTES {
-        let least = (0..kept.len()).min_by_key(|k| (kept[*k].saved(), u64::MAX - kept[*k].tile.bytes));
+        let least = (0..kept.len()).min_by_key(|k| (kept[*k].saved_reads(), u64::MAX - kept[*k].tile.bytes));
         let Some(least) = least else { break };
         leave(&kept.remove(least), TOO_LARGE.to_owned());
     }
@@ -289,8 +296,8 @@ fn chosen(graph: &Graph, candidates: Vec<Candidate>, threads: [u32; 2], apart: &
 }
 
 /// Reads of one texture for one reason together.
-fn merged(apart: Vec<Apart>) -> Vec<Apart> {
-    let mut all: Vec<Apart> = Vec::new();
+fn merge_apart(apart: Vec<UnsharedReads>) -> Vec<UnsharedReads> {
+    let mut all: Vec<UnsharedReads> = Vec::new();
     for one in apart {
         match all.iter_mut().find(|a| a.texture == one.texture && a.why == one.why) {
             Some(same) => same.reads += one.reads,
@@ -301,20 +308,20 @@ fn merged(apart: Vec<Apart>) -> Vec<Apart> {
 }
 
 /// Components of each read that are used, by node.
-pub(super) fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
+pub(super) fn components_used(graph: &Graph) -> Vec<BTreeSet<u8>> {
     let mut used = vec![BTreeSet::new(); graph.nodes.len()];
-    let mut whole = |id: NodeId| used[id.0 as usize].extend(0..graph.ty(id).components());
+    let mut whole = |id: NodeId| used[id.0 as usize].extend(0..graph.ty(id).component_count());
     graph.outputs().iter().for_each(|id| whole(*id));
     for region in &graph.regions {
-        region.leaving().for_each(&mut whole);
+        region.yielded_values().for_each(&mut whole);
     }
-    for id in graph.ids() {
+    for id in graph.node_ids() {
         let node = graph.node(id);
         match node.op {
             Op::Extract(component) => _ = used[node.args[0].0 as usize].insert(component),
             _ => {
                 for arg in &node.args {
-                    used[arg.0 as usize].extend(0..graph.ty(*arg).components());
+                    used[arg.0 as usize].extend(0..graph.ty(*arg).component_count());
                 }
             }
         }
@@ -323,30 +330,30 @@ pub(super) fn components(graph: &Graph) -> Vec<BTreeSet<u8>> {
 }
 
 /// Gives tiles names that nothing else in the shader has.
-fn name(graph: &Graph, tiles: &mut [Tile]) {
-    let mut taken = taken(graph);
+fn name_tiles(graph: &Graph, tiles: &mut [Tile]) {
+    let mut taken = taken_names(graph);
     for tile in tiles {
         let base = match tile.layer {
             Some(layer) => format!("{}_{layer}_tile", tile.texture),
             None => format!("{}_tile", tile.texture),
         };
-        tile.name = unused(&taken, base);
+        tile.name = unused_name(&taken, base);
         taken.insert(tile.name.clone());
     }
 }
 
 /// Names of what a shader binds.
-pub(super) fn taken(graph: &Graph) -> BTreeSet<String> {
+pub(super) fn taken_names(graph: &Graph) -> BTreeSet<String> {
     let names = graph.textures.iter().map(|t| &t.name);
     let names = names.chain(graph.buffers.iter().map(|b| &b.name));
     let names = names.chain(graph.samplers.iter().map(|s| &s.name));
     let names = names.chain(graph.uniforms.iter().map(|u| &u.name));
     let names = names.chain(graph.varyings.iter().map(|v| &v.name));
-    names.chain(graph.pictures().map(|p| &p.name)).cloned().collect()
+    names.chain(graph.written_targets().map(|p| &p.name)).cloned().collect()
 }
 
 /// A name that is not taken: this one, or with a number behind it.
-pub(super) fn unused(taken: &BTreeSet<String>, base: String) -> String {
+pub(super) fn unused_name(taken: &BTreeSet<String>, base: String) -> String {
     let names = (2..).map(|k| format!("{base}_{k}"));
     let mut names = std::iter::once(base.clone()).chain(names);
     names.find(|name| !taken.contains(name)).unwrap_or(base)

@@ -4,8 +4,8 @@ mod shadow;
 mod surface;
 
 pub use shadow::{
-    Counted, Shadow, blockers, counted as counted_coordinates, mean, middle, pcf_around, pcf_bilinear, pcss,
-    slope_fitted, slope_prewitt,
+    Counted, Shadow, counted_coordinates, find_blockers, mean_coordinates, pcf_around, pcf_bilinear, pcss,
+    slope_fitted, slope_prewitt, weighted_middle,
 };
 pub use surface::{Ao, Light, ssao, ssao_between};
 
@@ -19,7 +19,7 @@ pub struct Picture {
 
 impl Picture {
     /// The texel at a place, or the nearest one on the border.
-    pub fn at(&self, x: i64, y: i64) -> [f64; 4] {
+    pub fn texel_at(&self, x: i64, y: i64) -> [f64; 4] {
         let (x, y) = (x.clamp(0, self.size[0] - 1), y.clamp(0, self.size[1] - 1));
         self.texels[(y * self.size[0] + x) as usize]
     }
@@ -40,11 +40,11 @@ pub fn bounded_image(image: &Picture, heaviest: f64) -> Picture {
 }
 
 /// The sum of the pixels around, each times its weight.
-pub fn convolution(image: &Picture, radius: i64, weight: impl Fn(i64, i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
+pub fn convolve_pixel(image: &Picture, radius: i64, weight: impl Fn(i64, i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
     let mut sum = [0.0; 4];
     for j in -radius..=radius {
         for i in -radius..=radius {
-            let texel = image.at(x + i, y + j);
+            let texel = image.texel_at(x + i, y + j);
             for k in 0..4 {
                 sum[k] += weight(i, j) * texel[k];
             }
@@ -55,7 +55,7 @@ pub fn convolution(image: &Picture, radius: i64, weight: impl Fn(i64, i64) -> f6
 
 /// The plane that fits the bilinear taps of a quad's (2k+2)² pixels best, where the pixel lies. `weight` is that of a column,
 /// or row, by its number outwards from the middle.
-pub fn fitted(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
+pub fn fit_plane(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
     let corner = [x - x.rem_euclid(2), y - y.rem_euclid(2)];
     // Of a column, or row: the two pixels, from the quad's first, the share of the farther, the place and the weight.
     let mut axis = Vec::new();
@@ -69,7 +69,7 @@ pub fn fitted(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]:
     let mut normal = [[0.0; 7]; 3];
     for &(x0, x1, s, px, wx) in &axis {
         for &(y0, y1, t, py, wy) in &axis {
-            let texel = |i: i64, j: i64| image.at(corner[0] + i, corner[1] + j);
+            let texel = |i: i64, j: i64| image.texel_at(corner[0] + i, corner[1] + j);
             let [a, b, c, d] = [texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)];
             let basis = [1.0, px, py];
             for row in 0..3 {
@@ -117,22 +117,22 @@ const DEEPEST: f64 = 1.0e30_f32 as f64;
 const BRIGHTEST: f64 = 1.5e38_f32 as f64;
 
 /// `depth` as it counts.
-pub fn bounded(depth: f64) -> f64 {
+pub fn clamp_depth(depth: f64) -> f64 {
     if depth.abs() < DEEPEST { depth } else { DEEPEST }
 }
 
 /// A texel as it counts, colour and depth: one of whose first `lanes` components any is not finite is black, and of no
 /// surface.
-pub fn counted(texel: [f64; 4], lanes: usize) -> [f64; 4] {
+pub fn counted_texel(texel: [f64; 4], lanes: usize) -> [f64; 4] {
     match texel.iter().take(lanes).all(|c| c.abs() < BRIGHTEST) {
-        true => [texel[0], texel[1], texel[2], bounded(texel[3])],
+        true => [texel[0], texel[1], texel[2], clamp_depth(texel[3])],
         false => [0.0, 0.0, 0.0, -DEEPEST],
     }
 }
 
 /// The mean of the pixels around, weighed by Gaussians of distance and of depth, the fourth component.
-pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x, y]: [i64; 2]) -> [f64; 4] {
-    let surface = |x: i64, y: i64| counted(image.at(x, y), 3);
+pub fn bilateral_mean(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x, y]: [i64; 2]) -> [f64; 4] {
+    let surface = |x: i64, y: i64| counted_texel(image.texel_at(x, y), 3);
     let centre = surface(x, y);
     let (mut sum, mut total) = ([0.0; 3], 0.0);
     for j in -radius..=radius {
@@ -150,7 +150,7 @@ pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x,
         sum[0] / total,
         sum[1] / total,
         sum[2] / total,
-        bounded(image.at(x, y)[3]),
+        clamp_depth(image.texel_at(x, y)[3]),
     ]
 }
 
@@ -196,8 +196,8 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
     let factor = inputs.factor as f64;
     let place = [(x as f64 + 0.5) / factor, (y as f64 + 0.5) / factor];
     let first = place.map(f64::floor);
-    let z = bounded(inputs.depth.at(x, y)[0]);
-    let normal = inputs.normal.at(x, y);
+    let z = clamp_depth(inputs.depth.texel_at(x, y)[0]);
+    let normal = inputs.normal.texel_at(x, y);
     [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[i, j]| {
         let at = [first[0] + i, first[1] + j];
         let apart = [(place[0] - at[0]).abs(), (place[1] - at[1]).abs()];
@@ -205,10 +205,10 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
             None => (1.0 - apart[0]) * (1.0 - apart[1]),
             Some(sigma) => (-0.5 * (apart[0] * apart[0] + apart[1] * apart[1]) / (sigma * sigma)).exp(),
         };
-        let texel = inputs.low.at(at[0] as i64, at[1] as i64);
-        let surface = inputs.surface.at(at[0] as i64, at[1] as i64);
+        let texel = inputs.low.texel_at(at[0] as i64, at[1] as i64);
+        let surface = inputs.surface.texel_at(at[0] as i64, at[1] as i64);
         let (color, depth) = match texel.iter().all(|c| c.abs() < BRIGHTEST) {
-            true => (texel, bounded(surface[3])),
+            true => (texel, clamp_depth(surface[3])),
             false => ([0.0; 4], -DEEPEST),
         };
         let away = (depth - z).abs();
@@ -234,7 +234,7 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
 
 /// The four texels of low resolution around the pixel's centre, weighed: by their distance on the screen, times Gaussians. Where none is of a like
 /// surface, the one with the nearest depth.
-pub fn upsampling(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
+pub fn upsample_pixel(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
     let taps = upsampling_taps(inputs, at);
     let (mut sum, mut total) = ([0.0; 4], 0.0);
     let mut nearest = (f64::INFINITY, [0.0; 4]);
@@ -256,12 +256,12 @@ pub fn upsampling(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
 }
 
 /// The depth nearest to the viewer among the pixels around a corner, and where it is.
-pub fn downsampling(depth: &Picture, factor: i64, [x, y]: [i64; 2]) -> ([i64; 2], f64) {
+pub fn downsample_corner(depth: &Picture, factor: i64, [x, y]: [i64; 2]) -> ([i64; 2], f64) {
     let mut found = ([0, 0], f64::INFINITY);
     for j in 0..factor {
         for i in 0..factor {
             let at = [x * factor - factor / 2 + i, y * factor - factor / 2 + j];
-            let z = depth.at(at[0], at[1])[0];
+            let z = depth.texel_at(at[0], at[1])[0];
             if z < found.1 {
                 found = (at, z);
             }

@@ -19,16 +19,16 @@ impl Shadow {
         self.depths[(y * self.size[0] + x) as usize]
     }
 
-    fn lit(&self, x: i64, y: i64, reference: f64) -> f64 {
+    fn compare_texel(&self, x: i64, y: i64, reference: f64) -> f64 {
         if reference <= self.depth(x, y) { 1.0 } else { 0.0 }
     }
 
     /// Returns the share of light that passes at a place in texels, by a filter that weighs the four texels around it.
-    pub fn bilinear(&self, [x, y]: [f64; 2], reference: f64) -> f64 {
+    pub fn compare_bilinear(&self, [x, y]: [f64; 2], reference: f64) -> f64 {
         let (x, y) = (x - 0.5, y - 0.5);
         let (i, j) = (x.floor() as i64, y.floor() as i64);
         let (s, t) = (x - x.floor(), y - y.floor());
-        let row = |j| (1.0 - s) * self.lit(i, j, reference) + s * self.lit(i + 1, j, reference);
+        let row = |j| (1.0 - s) * self.compare_texel(i, j, reference) + s * self.compare_texel(i + 1, j, reference);
         (1.0 - t) * row(j) + t * row(j + 1)
     }
 
@@ -70,7 +70,7 @@ pub struct Counted {
 
 /// `coord` as it counts, of a filter that reaches `reach` texels in a map of `size`: 0 if a component is no number or too large, and at
 /// most as far from the map as the filter reaches.
-pub fn counted(coord: [f64; 3], size: [i64; 2], reach: f64) -> Counted {
+pub fn counted_coordinates(coord: [f64; 3], size: [i64; 2], reach: f64) -> Counted {
     if !coord.iter().all(|c| c.abs() < FARTHEST) {
         return Counted {
             coord: [0.0; 3],
@@ -86,14 +86,14 @@ pub fn counted(coord: [f64; 3], size: [i64; 2], reach: f64) -> Counted {
 }
 
 /// Mean coordinates of the lanes of a quad that count, or of all if none does.
-pub fn mean(lanes: &[Counted; 4]) -> [f64; 3] {
+pub fn mean_coordinates(lanes: &[Counted; 4]) -> [f64; 3] {
     let any = lanes.iter().any(|lane| lane.counts);
     let taken: Vec<_> = lanes.iter().filter(|lane| lane.counts || !any).collect();
     std::array::from_fn(|k| taken.iter().map(|lane| lane.coord[k]).sum::<f64>() / taken.len() as f64)
 }
 
 /// Mean place, from the centre, of the texels that are weighed on one axis.
-pub fn middle(shadow: &Shadow, texels: i64, centre: f64) -> f64 {
+pub fn weighted_middle(shadow: &Shadow, texels: i64, centre: f64) -> f64 {
     let first = (centre - 0.5).floor() as i64 - texels / 2 + 1;
     let (mut sum, mut total) = (0.0, 0.0);
     for k in first..first + texels {
@@ -120,7 +120,7 @@ pub fn pcf_around(shadow: &Shadow, texels: i64, centre: [f64; 2], from: [f64; 2]
                 true => 1.0,
                 false => shadow.weight(i as f64 + 0.5 - from[0]) * shadow.weight(j as f64 + 0.5 - from[1]),
             };
-            sum += weight * shadow.lit(i, j, reference);
+            sum += weight * shadow.compare_texel(i, j, reference);
             total += weight;
         }
     }
@@ -129,7 +129,7 @@ pub fn pcf_around(shadow: &Shadow, texels: i64, centre: [f64; 2], from: [f64; 2]
 
 /// Returns the place between texels `first` and `first + 1`, counted from the one at the upper left of the centre, at which one
 /// comparison weighs both as the filter does: from the centre, whose fraction is `a`.
-fn between(shadow: &Shadow, a: f64, first: f64) -> f64 {
+fn tap_position(shadow: &Shadow, a: f64, first: f64) -> f64 {
     let at = first - a;
     match shadow.weights.as_str() {
         "box" => at + 0.5,
@@ -142,7 +142,7 @@ fn between(shadow: &Shadow, a: f64, first: f64) -> f64 {
 
 /// All comparisons of a filter of `texels` by `texels`: places from the centre, numbers of their middles, and results, where
 /// `result` gives those.
-fn taps(
+fn comparison_taps(
     shadow: &Shadow,
     texels: i64,
     centre: [f64; 2],
@@ -153,7 +153,7 @@ fn taps(
     let mut all = Vec::new();
     for y in &numbers {
         for x in &numbers {
-            let place = [between(shadow, a[0], *x), between(shadow, a[1], *y)];
+            let place = [tap_position(shadow, a[0], *x), tap_position(shadow, a[1], *y)];
             all.push((place, [*x, *y], result(place)));
         }
     }
@@ -163,14 +163,14 @@ fn taps(
 /// The mean of bilinear comparisons in the middles of 2×2 texels, `spread` times as far apart.
 pub fn pcf_bilinear(shadow: &Shadow, texels: i64, centre: [f64; 2], spread: f64, reference: f64) -> f64 {
     let at = |p: [f64; 2]| [centre[0] + spread * p[0], centre[1] + spread * p[1]];
-    let taps = taps(shadow, texels, centre, |p| shadow.bilinear(at(p), reference));
+    let taps = comparison_taps(shadow, texels, centre, |p| shadow.compare_bilinear(at(p), reference));
     taps.iter().map(|(_, _, lit)| lit).sum::<f64>() / taps.len() as f64
 }
 
 /// Slope for each texel by the moments of the comparisons about their numbers.
 pub fn slope_prewitt(shadow: &Shadow, texels: i64, centre: [f64; 2], reference: f64) -> [f64; 2] {
     let at = |p: [f64; 2]| [centre[0] + p[0], centre[1] + p[1]];
-    let taps = taps(shadow, texels, centre, |p| shadow.bilinear(at(p), reference));
+    let taps = comparison_taps(shadow, texels, centre, |p| shadow.compare_bilinear(at(p), reference));
     [0, 1].map(|axis| {
         let squares: f64 = taps.iter().map(|(_, n, _)| n[axis] * n[axis]).sum();
         taps.iter().map(|(_, n, lit)| n[axis] * lit).sum::<f64>() / squares
@@ -180,7 +180,7 @@ pub fn slope_prewitt(shadow: &Shadow, texels: i64, centre: [f64; 2], reference: 
 /// Slope for each texel of the least-squares plane through the comparisons.
 pub fn slope_fitted(shadow: &Shadow, texels: i64, centre: [f64; 2], reference: f64) -> [f64; 2] {
     let at = |p: [f64; 2]| [centre[0] + p[0], centre[1] + p[1]];
-    let taps = taps(shadow, texels, centre, |p| shadow.bilinear(at(p), reference));
+    let taps = comparison_taps(shadow, texels, centre, |p| shadow.compare_bilinear(at(p), reference));
     let count = taps.len() as f64;
     let lit: f64 = taps.iter().map(|t| t.2).sum::<f64>() / count;
     [0, 1].map(|axis| {
@@ -191,13 +191,13 @@ pub fn slope_fitted(shadow: &Shadow, texels: i64, centre: [f64; 2], reference: f
 }
 
 /// Sixteen places: -3, -1, 1 and 3 on each axis.
-fn grid() -> impl Iterator<Item = [f64; 2]> {
+fn grid_positions() -> impl Iterator<Item = [f64; 2]> {
     (0..16).map(|k| [f64::from(2 * (k % 4) - 3), f64::from(2 * (k / 4) - 3)])
 }
 
 /// Depths nearer than `reference` among sixteen in a width of `search` texels.
-pub fn blockers(shadow: &Shadow, centre: [f64; 2], reference: f64, search: f64) -> Vec<f64> {
-    let depths = grid().map(|g| {
+pub fn find_blockers(shadow: &Shadow, centre: [f64; 2], reference: f64, search: f64) -> Vec<f64> {
+    let depths = grid_positions().map(|g| {
         let at = [0, 1].map(|axis| (centre[axis] + g[axis] * search / 8.0).floor() as i64);
         shadow.depth(at[0], at[1])
     });
@@ -206,11 +206,12 @@ pub fn blockers(shadow: &Shadow, centre: [f64; 2], reference: f64, search: f64) 
 
 /// Contact-hardening light: sixteen depths, those nearer than `reference` its blockers, and sixteen comparisons.
 pub fn pcss(shadow: &Shadow, centre: [f64; 2], reference: f64, [search, light, low, high]: [f64; 4]) -> f64 {
-    let blockers = blockers(shadow, centre, reference, search);
+    let blockers = find_blockers(shadow, centre, reference, search);
     let width = match blockers.len() {
         0 => low,
         n => ((reference - blockers.iter().sum::<f64>() / n as f64) * light).clamp(low, high),
     };
-    let taps = grid().map(|g| shadow.bilinear([0, 1].map(|axis| centre[axis] + g[axis] * width / 8.0), reference));
+    let taps = grid_positions()
+        .map(|g| shadow.compare_bilinear([0, 1].map(|axis| centre[axis] + g[axis] * width / 8.0), reference));
     taps.sum::<f64>() / 16.0
 }

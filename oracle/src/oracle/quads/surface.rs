@@ -34,7 +34,7 @@ pub struct Light {
 }
 
 impl Light {
-    fn each(self, f: impl Fn(f64) -> f64) -> Light {
+    fn map_bounds(self, f: impl Fn(f64) -> f64) -> Light {
         Light {
             value: f(self.value),
             low: f(self.low),
@@ -43,7 +43,7 @@ impl Light {
     }
 }
 
-fn position(ao: &Ao, size: [i64; 2], [x, y]: [i64; 2], z: f64) -> [f64; 3] {
+fn view_position(ao: &Ao, size: [i64; 2], [x, y]: [i64; 2], z: f64) -> [f64; 3] {
     let across = (x as f64 + 0.5 - size[0] as f64 / 2.0) * ao.pixel_angle * z;
     let down = (y as f64 + 0.5 - size[1] as f64 / 2.0) * ao.pixel_angle * z;
     [across, down, z]
@@ -54,7 +54,7 @@ fn length(v: [f64; 3]) -> f64 {
 }
 
 /// Returns the occlusion of `from` by the surface at `there`.
-fn occlusion(ao: &Ao, from: [f64; 3], there: [f64; 3], n: [f64; 4]) -> Light {
+fn tap_occlusion(ao: &Ao, from: [f64; 3], there: [f64; 3], n: [f64; 4]) -> Light {
     let unit = Rounding::SINGLE.unit;
     let way = [0, 1, 2].map(|k| there[k] - from[k]);
     let far = length(way);
@@ -88,16 +88,22 @@ fn occlusion(ao: &Ao, from: [f64; 3], there: [f64; 3], n: [f64; 4]) -> Light {
 }
 
 /// The mean occlusion that a pixel finds by some of the taps of its spiral, 0 to 1.
-fn found(ao: &Ao, depth: &Picture, normal: &Picture, [x, y]: [i64; 2], which: impl Iterator<Item = usize>) -> Light {
-    let z = of_surface(depth.at(x, y)[0]);
-    let from = position(ao, depth.size, [x, y], z);
-    let n = normal.at(x, y);
+fn mean_occlusion(
+    ao: &Ao,
+    depth: &Picture,
+    normal: &Picture,
+    [x, y]: [i64; 2],
+    which: impl Iterator<Item = usize>,
+) -> Light {
+    let z = of_surface(depth.texel_at(x, y)[0]);
+    let from = view_position(ao, depth.size, [x, y], z);
+    let n = normal.texel_at(x, y);
     let reach = (ao.radius / (ao.pixel_angle * z)).min(48.0);
     let at = |[i, j]: [i64; 2]| {
         let tap = [x + i, y + j];
-        let there = position(ao, depth.size, tap, depth.at(tap[0], tap[1])[0]);
+        let there = view_position(ao, depth.size, tap, depth.texel_at(tap[0], tap[1])[0]);
         match there.iter().all(|c| c.is_finite()) {
-            true => occlusion(ao, from, there, n),
+            true => tap_occlusion(ao, from, there, n),
             false => Light::default(),
         }
     };
@@ -128,7 +134,7 @@ fn found(ao: &Ao, depth: &Picture, normal: &Picture, [x, y]: [i64; 2], which: im
         low: sum.low * (1.0 - rounded),
         high: sum.high * (1.0 + rounded),
     }
-    .each(|sum| if sum > 0.0 { (sum / count).min(1.0) } else { 0.0 })
+    .map_bounds(|sum| if sum > 0.0 { (sum / count).min(1.0) } else { 0.0 })
 }
 
 /// Light that comes to a pixel: by all of its own taps, or, with `quad`, by a quarter of its own and by what the three
@@ -141,16 +147,16 @@ pub fn ssao(ao: &Ao, depth: &Picture, normal: &Picture, quad: bool, at: [i64; 2]
 pub fn ssao_between(ao: &Ao, depth: &Picture, normal: &Picture, quad: bool, [x, y]: [i64; 2]) -> Light {
     let unit = Rounding::SINGLE.unit;
     let occluded = if quad {
-        let z = of_surface(depth.at(x, y)[0]);
+        let z = of_surface(depth.texel_at(x, y)[0]);
         let (mut sum, mut total, mut by_taps) = (0.0, 0.0, [0.0; 2]);
         let mut shares = Vec::new();
         for number in 0..4 {
             let at = [x / 2 * 2 + number % 2, y / 2 * 2 + number / 2];
-            let away = (of_surface(depth.at(at[0], at[1])[0]) - z) / (ao.depth_sigma * ao.radius);
+            let away = (of_surface(depth.texel_at(at[0], at[1])[0]) - z) / (ao.depth_sigma * ao.radius);
             let exponent = 0.5 * away * away;
             let weight = (-exponent).exp();
             let which = (0..ao.taps).map(|k| 4 * k + number as usize);
-            let found = found(ao, depth, normal, at, which);
+            let found = mean_occlusion(ao, depth, normal, at, which);
             let share = Rounding::SINGLE.of_exponential(exponent) + 16.0 * unit * (1.0 + exponent);
             shares.push(Share {
                 color: [found.value, 0.0, 0.0, 0.0],
@@ -170,10 +176,10 @@ pub fn ssao_between(ao: &Ao, depth: &Picture, normal: &Picture, quad: bool, [x, 
             high: value + 1.001 * by_taps[1] / total + off,
         }
     } else {
-        found(ao, depth, normal, [x, y], 0..4 * ao.taps)
+        mean_occlusion(ao, depth, normal, [x, y], 0..4 * ao.taps)
     };
     let rounded = 4.0 * unit * (1.0 + ao.strength);
-    let light = occluded.each(|share| 1.0 - ao.strength * share);
+    let light = occluded.map_bounds(|share| 1.0 - ao.strength * share);
     Light {
         value: light.value.clamp(0.0, 1.0),
         low: (light.high - rounded).clamp(0.0, 1.0),

@@ -32,8 +32,8 @@ pub(super) struct ScreenTriangle {
 
 impl ScreenTriangle {
     /// Returns the shares of the whole triangle's corners at the centre of `pixel`; their sum is 1.
-    pub fn shares(&self, pixel: UVec2, size: UVec2) -> DVec3 {
-        let shares = (self.to_shares * place(pixel.as_dvec2().to_array(), size)).max(DVec3::ZERO);
+    pub fn corner_shares(&self, pixel: UVec2, size: UVec2) -> DVec3 {
+        let shares = (self.to_shares * screen_position(pixel.as_dvec2().to_array(), size)).max(DVec3::ZERO);
         let sum = shares.element_sum();
         // A pixel at a rounded corner may lie just outside.
         if sum > 0.0 {
@@ -44,21 +44,21 @@ impl ScreenTriangle {
     }
 
     /// The reciprocal of depth at the centre of pixel (0, y), and how it grows from pixel to pixel to the right.
-    pub fn row(&self, y: u32, size: UVec2) -> (f64, f64) {
+    pub fn inverse_depth_row(&self, y: u32, size: UVec2) -> (f64, f64) {
         let total = self.to_shares.transpose() * DVec3::ONE;
-        let start = total.dot(place([0.0, f64::from(y)], size));
+        let start = total.dot(screen_position([0.0, f64::from(y)], size));
         (start, total.x * 2.0 / f64::from(size.x))
     }
 }
 
 /// The centre of pixel (x, y) on the screen, -1..=1 from left to right and from bottom to top.
-fn place([x, y]: [f64; 2], size: UVec2) -> DVec3 {
+fn screen_position([x, y]: [f64; 2], size: UVec2) -> DVec3 {
     let size = size.as_dvec2();
     dvec3((x + 0.5) * 2.0 / size.x - 1.0, 1.0 - (y + 0.5) * 2.0 / size.y, 1.0)
 }
 
 /// The pieces of a triangle with clip-space `corners` that a picture of `size` shows.
-pub(super) fn project(source: u32, corners: [Vec4; 3], near: f32, size: UVec2) -> Pieces {
+pub(super) fn project_triangle(source: u32, corners: [Vec4; 3], near: f32, size: UVec2) -> Pieces {
     let mut pieces = Pieces {
         found: [None; MAX_CORNERS - 2],
         next: 0,
@@ -88,7 +88,7 @@ pub(super) fn project(source: u32, corners: [Vec4; 3], near: f32, size: UVec2) -
         reach: [0.0; 2],
         to_shares: to_clip.inverse(),
     };
-    let polygon = Polygon::of(corners).inside(near);
+    let polygon = Polygon::from_triangle(corners).clip_to_view(near);
     let screen = |corner: &Vec4| {
         let step = |place: f32, side: u32| ((0.5 + 0.5 * place) * (side as f32 * STEPS as f32)).round() as i32;
         [step(corner.x / corner.w, size.x), step(-corner.y / corner.w, size.y)]
@@ -148,7 +148,7 @@ struct Polygon {
 }
 
 impl Polygon {
-    fn of(triangle: [Vec4; 3]) -> Self {
+    fn from_triangle(triangle: [Vec4; 3]) -> Self {
         let mut polygon = Polygon {
             corners: [Vec4::ZERO; MAX_CORNERS],
             count: 0,
@@ -166,7 +166,7 @@ impl Polygon {
     }
 
     /// The part beyond the near plane and within the guard band.
-    fn inside(self, near: f32) -> Polygon {
+    fn clip_to_view(self, near: f32) -> Polygon {
         self.cut(|corner| corner.w - near)
             .cut(|corner| GUARD * corner.w - corner.x)
             .cut(|corner| GUARD * corner.w + corner.x)

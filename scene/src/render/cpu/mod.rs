@@ -4,8 +4,8 @@ mod clip;
 mod raster;
 
 use super::frame::{Lighting, Pass};
-use super::paint::painted;
-use super::shade::{self, Surface, direct, paint, shade};
+use super::paint::sample_texture;
+use super::shade::{self, Surface, direct_light, shade_surface, surface_paint};
 use super::{RenderError, Renderer};
 use crate::scene::{Camera, Image, Material, Scene, Vertex};
 use clip::ScreenTriangle;
@@ -47,25 +47,25 @@ impl CpuRenderer {
     }
 
     /// Draws what is seen at `offset` from each pixel's centre, and makes of each pixel what `finish` says.
-    fn draw<T: Copy + Default + Send>(
+    fn draw_pixels<T: Copy + Default + Send>(
         &self,
         offset: Vec2,
         finish: impl Fn(&Pass, UVec2, &Surface) -> T + Sync,
     ) -> Vec<T> {
         let pass = Pass::new(&self.scene.camera, self.size, offset);
         let triangles = self.project(&pass);
-        let bands = raster::bands(&triangles, self.size.y.div_ceil(BAND), BAND);
+        let bands = raster::bin_triangles(&triangles, self.size.y.div_ceil(BAND), BAND);
         let width = self.size.x as usize;
         let mut pixels = vec![T::default(); width * self.size.y as usize];
         let rows = pixels.par_chunks_mut(width * BAND as usize).zip(bands).enumerate();
         rows.for_each(|(band, (pixels, inside))| {
             let top = band as u32 * BAND;
             let band = uvec2(self.size.x, (pixels.len() / width) as u32);
-            let holes = |triangle| self.holes(&pass, triangle);
+            let holes = |triangle| self.coverage_test(&pass, triangle);
             let visible = Visible::draw(&triangles, &inside, top, band, self.size, holes);
             for (at, pixel) in pixels.iter_mut().enumerate() {
                 let place = uvec2((at % width) as u32, top + (at / width) as u32);
-                let surface = match visible.at(at) {
+                let surface = match visible.triangle_at(at) {
                     Some(triangle) => self.surface(&pass, &triangles[triangle], place),
                     None => Surface::SKY,
                 };
@@ -76,19 +76,25 @@ impl CpuRenderer {
     }
 
     /// Of an alpha-tested triangle, where it is there; `None` for all others.
-    fn holes<'a>(&'a self, pass: &'a Pass, triangle: &'a ScreenTriangle) -> Option<impl Fn(UVec2) -> bool + 'a> {
+    fn coverage_test<'a>(
+        &'a self,
+        pass: &'a Pass,
+        triangle: &'a ScreenTriangle,
+    ) -> Option<impl Fn(UVec2) -> bool + 'a> {
         let corners = self.corners(triangle);
         let cutoff = self.image(corners).map_or(0.0, |image| image.cutoff);
         let is_fence = corners[0].material == Material::ChainLink as u32;
         let there = move |pixel| {
-            let shares = triangle.shares(pixel, self.size).as_vec3();
+            let shares = triangle.corner_shares(pixel, self.size).as_vec3();
             if is_fence {
                 let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
                 if !shade::is_wire(a * shares.x + b * shares.y + c * shares.z) {
                     return false;
                 }
             }
-            self.paint(pass, triangle, pixel, self.normal(pass, corners, shares)).w >= cutoff
+            self.texture_color(pass, triangle, pixel, self.normal(pass, corners, shares))
+                .w
+                >= cutoff
         };
         (is_fence || cutoff > 0.0).then_some(there)
     }
@@ -109,17 +115,17 @@ impl CpuRenderer {
     }
 
     /// Colour and alpha of a triangle's texture at `pixel`: white without one.
-    fn paint(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2, normal: Vec3) -> Vec4 {
+    fn texture_color(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2, normal: Vec3) -> Vec4 {
         let corners = self.corners(triangle);
         let Some(number) = corners[0].texture.checked_sub(1) else {
             return Vec4::ONE;
         };
-        let shares = triangle.shares(pixel, self.size).as_vec3();
+        let shares = triangle.corner_shares(pixel, self.size).as_vec3();
         let [u, v, density] = mix(corners.map(|c| [c.uv[0], c.uv[1], c.density]), shares).to_array();
         let view = pass.ray(&self.lighting, pixel).normalize();
         let away = shares.dot(triangle.depths) * pass.pixel_angle;
         let footprint = away * density / normal.dot(view).abs().max(0.05);
-        painted(&self.scene.textures, number, vec2(u, v), footprint)
+        sample_texture(&self.scene.textures, number, vec2(u, v), footprint)
     }
 
     /// Every triangle that may be seen, in order.
@@ -131,17 +137,17 @@ impl CpuRenderer {
         triangles
             .flat_map_iter(|(source, triangle)| {
                 let corners = triangle.map(|index| corners[index as usize]);
-                clip::project(source as u32, corners, near, self.size)
+                clip::project_triangle(source as u32, corners, near, self.size)
             })
             .collect()
     }
 
     /// Returns the surface of `triangle` at `pixel`.
     fn surface(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2) -> Surface {
-        let shares = triangle.shares(pixel, self.size).as_vec3();
+        let shares = triangle.corner_shares(pixel, self.size).as_vec3();
         let corners = self.corners(triangle);
         let normal = self.normal(pass, corners, shares);
-        let paint = self.paint(pass, triangle, pixel, normal).truncate();
+        let paint = self.texture_color(pass, triangle, pixel, normal).truncate();
         Surface {
             normal: if triangle.front { normal } else { -normal },
             depth: shares.dot(triangle.depths),
@@ -165,39 +171,39 @@ impl Renderer for CpuRenderer {
         self.scene.camera
     }
 
-    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+    fn draw_geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
         super::check_offsets(&[offset])?;
-        let pixels = self.draw(offset, |_, _, surface| (surface.depth, surface.normal));
+        let pixels = self.draw_pixels(offset, |_, _, surface| (surface.depth, surface.normal));
         let (depth, normal) = pixels.into_iter().unzip();
         Ok((Frame::new(self.size, depth), Frame::new(self.size, normal)))
     }
 
-    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+    fn draw_shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
         super::check_offsets(&[offset])?;
-        let pixels = self.draw(offset, |pass, pixel, surface| {
-            shade(&self.lighting, surface, pass.ray(&self.lighting, pixel)).extend(1.0)
+        let pixels = self.draw_pixels(offset, |pass, pixel, surface| {
+            shade_surface(&self.lighting, surface, pass.ray(&self.lighting, pixel)).extend(1.0)
         });
         Ok(Frame::new(self.size, pixels))
     }
 
-    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
+    fn draw_surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
         super::check_offsets(&[offset])?;
-        let seen = self.draw(offset, |_, _, surface| Some(*surface));
+        let seen = self.draw_pixels(offset, |_, _, surface| Some(*surface));
         Ok(seen
             .into_iter()
             .map(|surface| surface.unwrap_or(Surface::SKY))
             .collect())
     }
 
-    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        shade(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn shade_surface(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        shade_surface(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
-    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
-        paint(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn surface_paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        surface_paint(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
-    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        direct(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        direct_light(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 }

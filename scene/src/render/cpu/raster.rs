@@ -4,10 +4,10 @@ use super::clip::{STEPS, ScreenTriangle};
 use glam::{UVec2, uvec2};
 
 /// For each of `count` bands of `height` rows, the triangles that may reach into it, in order.
-pub(super) fn bands(triangles: &[ScreenTriangle], count: u32, height: u32) -> Vec<Vec<u32>> {
+pub(super) fn bin_triangles(triangles: &[ScreenTriangle], count: u32, height: u32) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); count as usize];
     for (at, triangle) in triangles.iter().enumerate() {
-        let [top, bottom] = rows(triangle);
+        let [top, bottom] = row_range(triangle);
         let band = |row: i32| row.div_euclid(height as i32);
         for inside in band(top).max(0)..=band(bottom).min(count as i32 - 1) {
             bands[inside as usize].push(at as u32);
@@ -17,7 +17,7 @@ pub(super) fn bands(triangles: &[ScreenTriangle], count: u32, height: u32) -> Ve
 }
 
 /// First and last row whose pixels' centres lie between a triangle's highest and lowest corner.
-fn rows(triangle: &ScreenTriangle) -> [i32; 2] {
+fn row_range(triangle: &ScreenTriangle) -> [i32; 2] {
     let heights = triangle.corners.map(|[_, y]| y);
     let top = heights.into_iter().fold(i32::MAX, i32::min);
     let bottom = heights.into_iter().fold(i32::MIN, i32::max);
@@ -55,13 +55,13 @@ impl Visible {
             let triangle = &triangles[at as usize];
             let [least, most] = triangle.reach;
             let there = holes(triangle);
-            let [first, last] = rows(triangle);
+            let [first, last] = row_range(triangle);
             let last = last.min((top + size.y) as i32 - 1);
             for y in first.max(top as i32)..=last {
-                let Some([left, right]) = span(triangle, y, size.x) else {
+                let Some([left, right]) = pixel_span(triangle, y, size.x) else {
                     continue;
                 };
-                let (start, step) = triangle.row(y as u32, picture);
+                let (start, step) = triangle.inverse_depth_row(y as u32, picture);
                 let (start, step) = ((start + step * left as f64) as f32, step as f32);
                 let row = (y as usize - top as usize) * width;
                 let pixels = row + left..=row + right;
@@ -80,7 +80,7 @@ impl Visible {
     }
 
     /// Index of the triangle seen at a pixel, counted row by row from the band's first.
-    pub fn at(&self, pixel: usize) -> Option<usize> {
+    pub fn triangle_at(&self, pixel: usize) -> Option<usize> {
         match self.triangles[pixel] {
             NONE => None,
             triangle => Some(triangle as usize),
@@ -90,7 +90,7 @@ impl Visible {
 
 /// First and last pixel of row `y` whose centres lie in `triangle`. A centre on an edge belongs to the triangle
 /// below or to the right of it, so that of two triangles with a common edge it is in exactly one.
-fn span(triangle: &ScreenTriangle, y: i32, width: u32) -> Option<[usize; 2]> {
+fn pixel_span(triangle: &ScreenTriangle, y: i32, width: u32) -> Option<[usize; 2]> {
     let steps = i64::from(STEPS);
     let (mut first, mut last) = (0, i64::from(width) - 1);
     let centre = i64::from(y) * steps + steps / 2;
@@ -114,17 +114,17 @@ fn span(triangle: &ScreenTriangle, y: i32, width: u32) -> Option<[usize; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::clip::project;
+    use super::super::clip::project_triangle;
     use super::*;
     use glam::{Vec4, vec4};
 
     fn covered(corners: [Vec4; 3], size: UVec2) -> Vec<u32> {
-        let triangles: Vec<_> = project(0, corners, 0.1, size).collect();
+        let triangles: Vec<_> = project_triangle(0, corners, 0.1, size).collect();
         let inside: Vec<u32> = (0..triangles.len() as u32).collect();
         let whole = |_: &ScreenTriangle| None::<fn(UVec2) -> bool>;
         let visible = Visible::draw(&triangles, &inside, 0, size, size, whole);
         (0..visible.triangles.len())
-            .map(|at| u32::from(visible.at(at).is_some()))
+            .map(|at| u32::from(visible.triangle_at(at).is_some()))
             .collect()
     }
 

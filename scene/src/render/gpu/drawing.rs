@@ -21,7 +21,7 @@ pub(super) struct Drawn<'a> {
 }
 
 impl Drawn<'_> {
-    pub fn pipeline(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+    pub fn create_pipeline(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
         let [vertex, fragment] = self.entries;
         let attributes = wgpu::vertex_attr_array![
             0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32, 4 => Float32x2, 5 => Uint32, 6 => Float32
@@ -157,6 +157,6 @@ impl Drawing<'_> {
 }
 
 /// All of a texture.
-pub(super) fn view(texture: &wgpu::Texture) -> TextureView {
+pub(super) fn full_view(texture: &wgpu::Texture) -> TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

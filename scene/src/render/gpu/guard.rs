@@ -12,7 +12,11 @@ use std::task::{Context, Poll, Waker};
 /// # Errors
 ///
 /// [`RenderError::Device`] with `doing` and what wgpu said.
-pub fn guarded<T>(device: &wgpu::Device, doing: &'static str, work: impl FnOnce() -> T) -> Result<T, RenderError> {
+pub fn with_error_scope<T>(
+    device: &wgpu::Device,
+    doing: &'static str,
+    work: impl FnOnce() -> T,
+) -> Result<T, RenderError> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -23,13 +27,13 @@ pub fn guarded<T>(device: &wgpu::Device, doing: &'static str, work: impl FnOnce(
         at_once(memory.pop()),
     ];
     match errors.into_iter().flatten().next() {
-        Some(error) => Err(failed(doing, error)),
+        Some(error) => Err(device_error(doing, error)),
         None => Ok(value),
     }
 }
 
 /// That the device failed.
-pub(super) fn failed(doing: &'static str, error: impl std::fmt::Display) -> RenderError {
+pub(super) fn device_error(doing: &'static str, error: impl std::fmt::Display) -> RenderError {
     RenderError::Device {
         doing,
         description: error.to_string().trim().to_owned(),

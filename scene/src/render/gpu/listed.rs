@@ -1,10 +1,12 @@
 //! Further shading samples of the pixels that the kernel `sraa_extra` lists, by dispatches whose size the list says.
 
 use super::GpuRenderer;
-use super::guard::guarded;
-use super::pipelines::{group_layout, pipeline_layout, read_storage, storage, texture, uniform};
+use super::guard::with_error_scope;
+use super::pipelines::{
+    group_layout, pipeline_layout, read_storage, storage_binding, texture_binding, uniform_binding,
+};
 use super::read;
-use super::resources::{empty, group};
+use super::resources::{create_bind_group, create_buffer};
 use crate::render::RenderError;
 use crate::render::check_offsets;
 use crate::render::frame::Pass;
@@ -30,7 +32,7 @@ impl<'a> Listed<'a> {
     /// [`RenderError::Device`].
     pub fn new(renderer: &'a GpuRenderer) -> Result<Self, RenderError> {
         let device = &renderer.device;
-        guarded(device, "compiling the renderer's shaders", || {
+        with_error_scope(device, "compiling the renderer's shaders", || {
             let text = [
                 include_str!("../shade.wgsl"),
                 include_str!("shading.wgsl"),
@@ -41,14 +43,14 @@ impl<'a> Listed<'a> {
                 source: wgpu::ShaderSource::Wgsl(text.join("\n").into()),
             });
             let bindings = [
-                uniform(),
-                uniform(),
-                texture(),
-                texture(),
-                storage(),
+                uniform_binding(),
+                uniform_binding(),
+                texture_binding(),
+                texture_binding(),
+                storage_binding(),
                 read_storage(),
                 read_storage(),
-                uniform(),
+                uniform_binding(),
             ];
             let layout = group_layout(device, &bindings.map(|binding| (ShaderStages::COMPUTE, binding)));
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -63,7 +65,7 @@ impl<'a> Listed<'a> {
                 renderer,
                 layout,
                 pipeline,
-                drawn: empty(device, BufferUsages::UNIFORM | BufferUsages::COPY_DST, 4),
+                drawn: create_buffer(device, BufferUsages::UNIFORM | BufferUsages::COPY_DST, 4),
             }
         })
     }
@@ -75,7 +77,7 @@ impl<'a> Listed<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Renderer::geometry`](crate::render::Renderer::geometry).
+    /// As [`Renderer::geometry`](crate::render::Renderer::draw_geometry).
     pub fn shade(
         &self,
         samples: &[Vec2],
@@ -91,7 +93,7 @@ impl<'a> Listed<'a> {
             size,
             ..
         } = self.renderer;
-        let group = guarded(device, "binding a list of pixels", || {
+        let group = with_error_scope(device, "binding a list of pixels", || {
             let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
             let bindings = [
                 resources.pass.as_entire_binding(),
@@ -106,20 +108,21 @@ impl<'a> Listed<'a> {
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             encoder.clear_buffer(&resources.colors, 0, None);
             queue.submit([encoder.finish()]);
-            group(device, &self.layout, &bindings)
+            create_bind_group(device, &self.layout, &bindings)
         })?;
         for (sample, offset) in samples.iter().enumerate() {
             queue.write_buffer(&self.drawn, 0, &(sample as u32).to_ne_bytes());
-            self.renderer.pass(Pass::new(camera, *size, *offset), |encoder| {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                    label: Some("straightline listed shading"),
-                    timestamp_writes: None,
-                });
-                pass.set_pipeline(&self.pipeline);
-                pass.set_bind_group(0, &group, &[]);
-                pass.dispatch_workgroups_indirect(counts, 0);
-            })?;
+            self.renderer
+                .submit_pass(Pass::new(camera, *size, *offset), |encoder| {
+                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                        label: Some("straightline listed shading"),
+                        timestamp_writes: None,
+                    });
+                    pass.set_pipeline(&self.pipeline);
+                    pass.set_bind_group(0, &group, &[]);
+                    pass.dispatch_workgroups_indirect(counts, 0);
+                })?;
         }
-        Ok(Frame::new(*size, read::buffer(device, queue, &resources.colors)?))
+        Ok(Frame::new(*size, read::read_buffer(device, queue, &resources.colors)?))
     }
 }

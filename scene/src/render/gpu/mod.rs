@@ -10,11 +10,11 @@ mod read;
 mod resources;
 
 use super::frame::{Lighting, Pass};
-use super::shade::{Surface, direct, paint, shade};
+use super::shade::{Surface, direct_light, shade_surface, surface_paint};
 use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
-use guard::guarded;
+use guard::with_error_scope;
 pub use listed::Listed;
 pub use multisampled::MultisampledGeometry;
 pub use passes::{FramePass, FramePasses, Samples, Timestamps};
@@ -44,10 +44,10 @@ impl GpuRenderer {
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene, size: UVec2) -> Result<Self, RenderError> {
         scene.check()?;
         check_limits(device, scene, size)?;
-        let pipelines = guarded(device, "compiling the renderer's shaders", || {
+        let pipelines = with_error_scope(device, "compiling the renderer's shaders", || {
             Pipelines::new(device, scene)
         })?;
-        let resources = guarded(device, "uploading the scene", || {
+        let resources = with_error_scope(device, "uploading the scene", || {
             Resources::new(device, queue, &pipelines, scene, size)
         })?;
         Ok(GpuRenderer {
@@ -62,8 +62,8 @@ impl GpuRenderer {
     }
 
     /// Draws the G-buffer at `offset`, and what `more` records after it.
-    fn pass(&self, pass: Pass, more: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), RenderError> {
-        guarded(&self.device, "drawing", || {
+    fn submit_pass(&self, pass: Pass, more: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), RenderError> {
+        with_error_scope(&self.device, "drawing", || {
             self.queue
                 .write_buffer(&self.resources.pass, 0, bytemuck::bytes_of(&pass));
             let mut encoder = self
@@ -71,7 +71,7 @@ impl GpuRenderer {
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let resources = &self.resources;
             self.pipelines
-                .draw(&mut encoder, resources, &resources.geometry_group, None);
+                .record_draw(&mut encoder, resources, &resources.geometry_group, None);
             more(&mut encoder);
             self.queue.submit([encoder.finish()]);
         })
@@ -87,22 +87,22 @@ impl Renderer for GpuRenderer {
         self.camera
     }
 
-    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+    fn draw_geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
         check_offsets(&[offset])?;
-        self.pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
-        let texels = read::texture(&self.device, &self.queue, &self.resources.normal_depth)?;
+        self.submit_pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
+        let texels = read::read_texture(&self.device, &self.queue, &self.resources.normal_depth)?;
         let (depth, normal) = texels.iter().map(|texel| (texel.w, texel.truncate())).unzip();
         Ok((Frame::new(self.size, depth), Frame::new(self.size, normal)))
     }
 
-    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
-        self.mean(&[offset])
+    fn draw_shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        self.draw_mean(&[offset])
     }
 
-    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
+    fn draw_surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
         check_offsets(&[offset])?;
-        self.pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
-        let read = |texture| read::texture(&self.device, &self.queue, texture);
+        self.submit_pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
+        let read = |texture| read::read_texture(&self.device, &self.queue, texture);
         let (geometry, paint) = (
             read(&self.resources.normal_depth)?,
             read(&self.resources.color_material)?,
@@ -116,29 +116,29 @@ impl Renderer for GpuRenderer {
         Ok(geometry.iter().zip(&paint).map(surface).collect())
     }
 
-    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        shade(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn shade_surface(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        shade_surface(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
-    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
-        paint(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn surface_paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        surface_paint(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
-    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        direct(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        direct_light(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
     /// Adds up on the device, in 32 bits, and reads back once.
-    fn mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
+    fn draw_mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
         check_offsets(offsets)?;
         for (i, offset) in offsets.iter().enumerate() {
             let mut pass = Pass::new(&self.camera, self.size, *offset);
             pass.keep = if i == 0 { 0.0 } else { 1.0 };
-            self.pass(pass, |encoder| {
-                self.pipelines.shade(encoder, &self.resources, self.size)
+            self.submit_pass(pass, |encoder| {
+                self.pipelines.record_shading(encoder, &self.resources, self.size)
             })?;
         }
-        let sums = read::buffer(&self.device, &self.queue, &self.resources.colors)?;
+        let sums = read::read_buffer(&self.device, &self.queue, &self.resources.colors)?;
         let share = 1.0 / offsets.len() as f32;
         Ok(Frame::new(self.size, sums.into_iter().map(|sum| sum * share).collect()))
     }

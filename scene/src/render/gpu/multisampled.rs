@@ -1,9 +1,9 @@
 //! A 4× multisampled pass instead of four shifted ones (paper §3.4).
 
-use super::drawing::{Drawing, Drawn, Target, view};
-use super::guard::guarded;
-use super::pipelines::{Pipelines, group_layout, pipeline_layout, storage, uniform};
-use super::resources::{DEPTH_FORMAT, Resources, group};
+use super::drawing::{Drawing, Drawn, Target, full_view};
+use super::guard::with_error_scope;
+use super::pipelines::{Pipelines, group_layout, pipeline_layout, storage_binding, uniform_binding};
+use super::resources::{DEPTH_FORMAT, Resources, create_bind_group};
 use super::{GpuRenderer, read};
 use crate::render::RenderError;
 use crate::render::frame::Pass;
@@ -66,7 +66,7 @@ impl MultisampledGeometry {
         let size = glam::uvec2(self.depth.width(), self.depth.height());
         let (mut depths, mut normals) = (Vec::new(), Vec::new());
         for sample in 0..SAMPLES {
-            let texels = self.sample(sample)?;
+            let texels = self.read_sample(sample)?;
             let (depth, normal) = texels.iter().map(|texel| (texel.w, texel.truncate())).unzip();
             depths.push(Frame::new(size, depth));
             normals.push(Frame::new(size, normal));
@@ -75,10 +75,10 @@ impl MultisampledGeometry {
     }
 
     /// Normal and depth of one sample of each pixel.
-    fn sample(&self, sample: u32) -> Result<Vec<Vec4>, RenderError> {
+    fn read_sample(&self, sample: u32) -> Result<Vec<Vec4>, RenderError> {
         let device = &self.device;
         let pixels = u64::from(self.depth.width()) * u64::from(self.depth.height());
-        let texels = guarded(device, "reading samples", || {
+        let texels = with_error_scope(device, "reading samples", || {
             let buffer = |usage, size| {
                 device.create_buffer(&wgpu::BufferDescriptor {
                     label: None,
@@ -105,8 +105,8 @@ impl MultisampledGeometry {
                 &[
                     (compute, multisampled),
                     (compute, multisampled),
-                    (compute, storage()),
-                    (compute, uniform()),
+                    (compute, storage_binding()),
+                    (compute, uniform_binding()),
                 ],
             );
             let module = device.create_shader_module(wgpu::include_wgsl!("samples.wgsl"));
@@ -114,12 +114,12 @@ impl MultisampledGeometry {
                 label: Some("straightline samples"),
                 layout: Some(&pipeline_layout(device, &[&layout])),
                 module: &module,
-                entry_point: Some("read_sample"),
+                entry_point: Some("sample"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 cache: None,
             });
             let views = [&self.depth, &self.normal].map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
-            let group = group(
+            let group = create_bind_group(
                 device,
                 &layout,
                 &[
@@ -138,30 +138,30 @@ impl MultisampledGeometry {
             self.queue.submit([encoder.finish()]);
             texels
         })?;
-        read::buffer(device, &self.queue, &texels)
+        read::read_buffer(device, &self.queue, &texels)
     }
 }
 
 impl GpuRenderer {
-    /// Geometry at four samples of each pixel from one multisampled pass: the same as [`geometry`] at each offset of the
+    /// Geometry at four samples of each pixel from one multisampled pass: the same as [`draw_geometry`] at each offset of the
     /// pattern `latin4`, but for samples within a rounding of a triangle's edge. Compiles its pipeline each time.
     ///
-    /// [`geometry`]: crate::render::Renderer::geometry
+    /// [`draw_geometry`]: crate::render::Renderer::draw_geometry
     ///
     /// # Errors
     ///
     /// [`RenderError::Device`] if the device has too little memory, or is gone.
-    pub fn multisampled(&self) -> Result<MultisampledGeometry, RenderError> {
+    pub fn draw_multisampled(&self) -> Result<MultisampledGeometry, RenderError> {
         let device = &self.device;
-        guarded(device, "drawing multisampled geometry", || {
+        with_error_scope(device, "drawing multisampled geometry", || {
             let targets = Multisampled::new(device, self.size, &self.pipelines);
             let pass = Pass::new(&self.camera, self.size, Vec2::ZERO);
             self.queue
                 .write_buffer(&self.resources.pass, 0, bytemuck::bytes_of(&pass));
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            targets.draw(&mut encoder, &self.resources, &self.resources.geometry_group, None);
+            targets.record_draw(&mut encoder, &self.resources, &self.resources.geometry_group, None);
             self.queue.submit([encoder.finish()]);
-            targets.geometry(device, &self.queue)
+            targets.to_geometry(device, &self.queue)
         })
     }
 }
@@ -180,7 +180,7 @@ impl Multisampled {
     pub fn new(device: &wgpu::Device, size: UVec2, pipelines: &Pipelines) -> Self {
         let target = |format, usage| multisampled_target(device, size, format, usage);
         Multisampled {
-            pipeline: pipeline(device, pipelines),
+            pipeline: create_pipeline(device, pipelines),
             depth: target(DEPTH, TextureUsages::TEXTURE_BINDING),
             normal: target(NORMAL, TextureUsages::TEXTURE_BINDING),
             tested: target(DEPTH_FORMAT, TextureUsages::empty()),
@@ -188,14 +188,14 @@ impl Multisampled {
     }
 
     /// Records the pass, as seen by the [`Pass`] of `group`.
-    pub fn draw(
+    pub fn record_draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         resources: &Resources,
         group: &wgpu::BindGroup,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let [depth, normal, tested] = [&self.depth, &self.normal, &self.tested].map(view);
+        let [depth, normal, tested] = [&self.depth, &self.normal, &self.tested].map(full_view);
         let drawing = Drawing {
             label: "straightline multisampled geometry",
             pipeline: &self.pipeline,
@@ -209,7 +209,7 @@ impl Multisampled {
     }
 
     /// Returns the geometry that was drawn.
-    pub fn geometry(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> MultisampledGeometry {
+    pub fn to_geometry(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> MultisampledGeometry {
         MultisampledGeometry {
             device: device.clone(),
             queue: queue.clone(),
@@ -242,7 +242,7 @@ pub(super) fn multisampled_target(
     })
 }
 
-fn pipeline(device: &wgpu::Device, pipelines: &Pipelines) -> wgpu::RenderPipeline {
+fn create_pipeline(device: &wgpu::Device, pipelines: &Pipelines) -> wgpu::RenderPipeline {
     let text = [&pipelines.geometry_text, include_str!("multisampled.wgsl")].join("\n");
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline multisampled geometry"),
@@ -250,12 +250,12 @@ fn pipeline(device: &wgpu::Device, pipelines: &Pipelines) -> wgpu::RenderPipelin
     });
     let drawn = Drawn {
         label: "straightline multisampled geometry",
-        layouts: pipelines.drawing(),
+        layouts: pipelines.drawing_layouts(),
         module: &module,
         entries: ["sampled_corner", "sampled_texels"],
         targets: &[DEPTH, NORMAL],
         samples: SAMPLES,
         behind: false,
     };
-    drawn.pipeline(device)
+    drawn.create_pipeline(device)
 }

@@ -1,6 +1,6 @@
 //! The two pipelines: triangles to G-buffer, G-buffer to colours.
 
-use super::drawing::{Drawing, Drawn, Target, view};
+use super::drawing::{Drawing, Drawn, Target, full_view};
 use super::resources::{Resources, TEXEL_FORMAT};
 use crate::scene::Scene;
 use glam::UVec2;
@@ -23,21 +23,21 @@ pub(super) struct Pipelines {
 impl Pipelines {
     pub fn new(device: &wgpu::Device, scene: &Scene) -> Self {
         let geometry_text = geometry_text(scene);
-        let geometry_layout = group_layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform())]);
+        let geometry_layout = group_layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform_binding())]);
         let read = (
             ShaderStages::FRAGMENT,
-            buffer(BufferBindingType::Storage { read_only: true }),
+            buffer_binding(BufferBindingType::Storage { read_only: true }),
         );
         let texture_layout = group_layout(device, &[read, read]);
         let compute = ShaderStages::COMPUTE;
         let shading_layout = group_layout(
             device,
             &[
-                (compute, uniform()),
-                (compute, uniform()),
-                (compute, texture()),
-                (compute, texture()),
-                (compute, storage()),
+                (compute, uniform_binding()),
+                (compute, uniform_binding()),
+                (compute, texture_binding()),
+                (compute, texture_binding()),
+                (compute, storage_binding()),
             ],
         );
         Pipelines {
@@ -51,12 +51,12 @@ impl Pipelines {
     }
 
     /// Groups of what draws the scene: a view, and textures.
-    pub fn drawing(&self) -> [&wgpu::BindGroupLayout; 2] {
+    pub fn drawing_layouts(&self) -> [&wgpu::BindGroupLayout; 2] {
         [&self.geometry_layout, &self.texture_layout]
     }
 
     /// Records drawing the scene into the G-buffer, as seen by the [`Pass`](crate::render::frame::Pass) of `group`.
-    pub fn draw(
+    pub fn record_draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         resources: &Resources,
@@ -64,7 +64,7 @@ impl Pipelines {
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let [normal_depth, color_material, tested] =
-            [&resources.normal_depth, &resources.color_material, &resources.depth].map(view);
+            [&resources.normal_depth, &resources.color_material, &resources.depth].map(full_view);
         // `Surface::SKY`.
         let sky = wgpu::Color {
             r: 0.0,
@@ -88,7 +88,7 @@ impl Pipelines {
     }
 
     /// Records shading the G-buffer of `size` pixels.
-    pub fn shade(&self, encoder: &mut wgpu::CommandEncoder, resources: &Resources, size: UVec2) {
+    pub fn record_shading(&self, encoder: &mut wgpu::CommandEncoder, resources: &Resources, size: UVec2) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("straightline shading"),
             timestamp_writes: None,
@@ -119,7 +119,7 @@ fn geometry_pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]
         samples: 1,
         behind: false,
     };
-    drawn.pipeline(device)
+    drawn.create_pipeline(device)
 }
 
 fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
@@ -164,19 +164,19 @@ pub(super) fn group_layout(device: &wgpu::Device, bindings: &[(ShaderStages, Bin
 
 /// A storage buffer that is read.
 pub(super) fn read_storage() -> BindingType {
-    buffer(BufferBindingType::Storage { read_only: true })
+    buffer_binding(BufferBindingType::Storage { read_only: true })
 }
 
-pub(super) fn uniform() -> BindingType {
-    buffer(BufferBindingType::Uniform)
+pub(super) fn uniform_binding() -> BindingType {
+    buffer_binding(BufferBindingType::Uniform)
 }
 
 /// A storage buffer that is written.
-pub(super) fn storage() -> BindingType {
-    buffer(BufferBindingType::Storage { read_only: false })
+pub(super) fn storage_binding() -> BindingType {
+    buffer_binding(BufferBindingType::Storage { read_only: false })
 }
 
-fn buffer(ty: BufferBindingType) -> BindingType {
+fn buffer_binding(ty: BufferBindingType) -> BindingType {
     BindingType::Buffer {
         ty,
         has_dynamic_offset: false,
@@ -184,7 +184,7 @@ fn buffer(ty: BufferBindingType) -> BindingType {
     }
 }
 
-pub(super) fn texture() -> BindingType {
+pub(super) fn texture_binding() -> BindingType {
     BindingType::Texture {
         // Floats of 32 bits cannot be filtered everywhere, and need not be.
         sample_type: wgpu::TextureSampleType::Float { filterable: false },

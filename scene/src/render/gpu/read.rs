@@ -1,6 +1,6 @@
 //! From the device back to memory.
 
-use super::guard::{failed, guarded};
+use super::guard::{device_error, with_error_scope};
 use super::resources::TEXEL_FORMAT;
 use crate::render::RenderError;
 use glam::Vec4;
@@ -11,26 +11,31 @@ use wgpu::{Buffer, CommandEncoder, Device, Queue, Texture, TextureFormat};
 const DOING: &str = "reading a picture back";
 
 /// All of a buffer of colours.
-pub(super) fn buffer(device: &Device, queue: &Queue, source: &Buffer) -> Result<Vec<Vec4>, RenderError> {
-    let bytes = read(device, queue, source.size(), |encoder, staging| {
+pub(super) fn read_buffer(device: &Device, queue: &Queue, source: &Buffer) -> Result<Vec<Vec4>, RenderError> {
+    let bytes = read_staged(device, queue, source.size(), |encoder, staging| {
         encoder.copy_buffer_to_buffer(source, 0, staging, 0, source.size());
     })?;
     Ok(bytemuck::pod_collect_to_vec(&bytes))
 }
 
 /// All texels of a G-buffer texture, row by row from the top.
-pub(super) fn texture(device: &Device, queue: &Queue, source: &Texture) -> Result<Vec<Vec4>, RenderError> {
+pub(super) fn read_texture(device: &Device, queue: &Queue, source: &Texture) -> Result<Vec<Vec4>, RenderError> {
     debug_assert_eq!(source.format(), TEXEL_FORMAT);
-    layer(device, queue, source, 0)
+    read_layer(device, queue, source, 0)
 }
 
 /// All texels of a texture's layer, row by row from the top, of one or four components of 32 bits or of four halves.
-pub(super) fn layer(device: &Device, queue: &Queue, source: &Texture, layer: u32) -> Result<Vec<Vec4>, RenderError> {
+pub(super) fn read_layer(
+    device: &Device,
+    queue: &Queue,
+    source: &Texture,
+    layer: u32,
+) -> Result<Vec<Vec4>, RenderError> {
     let format = source.format();
     let row = source.width() * format.block_copy_size(None).unwrap_or(size_of::<Vec4>() as u32);
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let size = u64::from(padded) * u64::from(source.height());
-    let bytes = read(device, queue, size, |encoder, staging| {
+    let bytes = read_staged(device, queue, size, |encoder, staging| {
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(padded),
@@ -67,14 +72,14 @@ pub(super) fn layer(device: &Device, queue: &Queue, source: &Texture, layer: u32
 }
 
 /// The `size` bytes that `copy` puts into a buffer.
-fn read(
+fn read_staged(
     device: &Device,
     queue: &Queue,
     size: u64,
     copy: impl FnOnce(&mut CommandEncoder, &Buffer),
 ) -> Result<Vec<u8>, RenderError> {
     let (sender, receiver) = mpsc::channel();
-    let staging = guarded(device, DOING, || {
+    let staging = with_error_scope(device, DOING, || {
         let staging = device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size,
@@ -92,12 +97,14 @@ fn read(
     })?;
     device
         .poll(wgpu::PollType::wait_indefinitely())
-        .map_err(|error| failed(DOING, error))?;
+        .map_err(|error| device_error(DOING, error))?;
     match receiver.recv() {
         Ok(Ok(())) => {}
-        Ok(Err(error)) => return Err(failed(DOING, error)),
-        Err(error) => return Err(failed(DOING, error)),
+        Ok(Err(error)) => return Err(device_error(DOING, error)),
+        Err(error) => return Err(device_error(DOING, error)),
     }
-    let mapped = staging.get_mapped_range(..).map_err(|error| failed(DOING, error))?;
+    let mapped = staging
+        .get_mapped_range(..)
+        .map_err(|error| device_error(DOING, error))?;
     Ok(mapped.to_vec())
 }

@@ -71,7 +71,7 @@ pub(super) fn check_limits(device: &wgpu::Device, scene: &Scene, size: UVec2) ->
 impl Resources {
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, pipelines: &Pipelines, scene: &Scene, size: UVec2) -> Self {
         let filled = |usage: BufferUsages, bytes: &[u8]| {
-            let buffer = empty(device, usage | BufferUsages::COPY_DST, bytes.len() as u64);
+            let buffer = create_buffer(device, usage | BufferUsages::COPY_DST, bytes.len() as u64);
             queue.write_buffer(&buffer, 0, bytes);
             buffer
         };
@@ -79,33 +79,33 @@ impl Resources {
         let indices = filled(BufferUsages::INDEX, bytemuck::cast_slice(&scene.triangles));
         let images = filled(
             BufferUsages::STORAGE,
-            some(bytemuck::cast_slice(&scene.textures.images)),
+            bytes_or_padding(bytemuck::cast_slice(&scene.textures.images)),
         );
         let texels = filled(
             BufferUsages::STORAGE,
-            some(bytemuck::cast_slice(&scene.textures.texels)),
+            bytes_or_padding(bytemuck::cast_slice(&scene.textures.texels)),
         );
         let lighting = filled(BufferUsages::UNIFORM, bytemuck::bytes_of(&Lighting::new(scene, size)));
-        let pass = empty(
+        let pass = create_buffer(
             device,
             BufferUsages::UNIFORM | BufferUsages::COPY_DST,
             size_of::<Pass>() as u64,
         );
         let pixels = u64::from(size.x) * u64::from(size.y);
-        let colors = empty(
+        let colors = create_buffer(
             device,
             BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
             pixels * size_of::<Vec4>() as u64,
         );
         let read = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-        let normal_depth = target(device, size, TEXEL_FORMAT, read);
-        let color_material = target(device, size, TEXEL_FORMAT, read);
+        let normal_depth = create_target(device, size, TEXEL_FORMAT, read);
+        let color_material = create_target(device, size, TEXEL_FORMAT, read);
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let (normal_depth_view, color_material_view) = (view(&normal_depth), view(&color_material));
-        let geometry_group = group(device, &pipelines.geometry_layout, &[pass.as_entire_binding()]);
+        let geometry_group = create_bind_group(device, &pipelines.geometry_layout, &[pass.as_entire_binding()]);
         let textures = [images.as_entire_binding(), texels.as_entire_binding()];
-        let texture_group = group(device, &pipelines.texture_layout, &textures);
-        let shading_group = group(
+        let texture_group = create_bind_group(device, &pipelines.texture_layout, &textures);
+        let shading_group = create_bind_group(
             device,
             &pipelines.shading_layout,
             &[
@@ -124,7 +124,7 @@ impl Resources {
             lighting,
             normal_depth,
             color_material,
-            depth: target(device, size, DEPTH_FORMAT, TextureUsages::empty()),
+            depth: create_target(device, size, DEPTH_FORMAT, TextureUsages::empty()),
             colors,
             geometry_group,
             texture_group,
@@ -134,14 +134,14 @@ impl Resources {
 }
 
 /// Returns the scene's data, or some unread bytes if a scene without textures has none: no buffer is empty.
-fn some(bytes: &[u8]) -> &[u8] {
+fn bytes_or_padding(bytes: &[u8]) -> &[u8] {
     match bytes {
         [] => &[0; 32],
         bytes => bytes,
     }
 }
 
-pub(super) fn empty(device: &wgpu::Device, usage: BufferUsages, size: u64) -> wgpu::Buffer {
+pub(super) fn create_buffer(device: &wgpu::Device, usage: BufferUsages, size: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size,
@@ -150,7 +150,7 @@ pub(super) fn empty(device: &wgpu::Device, usage: BufferUsages, size: u64) -> wg
     })
 }
 
-fn target(device: &wgpu::Device, size: UVec2, format: TextureFormat, usage: TextureUsages) -> wgpu::Texture {
+fn create_target(device: &wgpu::Device, size: UVec2, format: TextureFormat, usage: TextureUsages) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d {
@@ -168,7 +168,7 @@ fn target(device: &wgpu::Device, size: UVec2, format: TextureFormat, usage: Text
 }
 
 /// Bindings 0, 1, 2, ... of group 0.
-pub(super) fn group(
+pub(super) fn create_bind_group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     resources: &[wgpu::BindingResource],

@@ -26,7 +26,7 @@ pub(super) mod paint {
 }
 
 /// The scene. About 34 000 triangles; one unit is a metre.
-pub fn builtin() -> Scene {
+pub fn builtin_scene() -> Scene {
     let mut mesh = Mesh::default();
     house::add(&mut mesh);
     stair::add(&mut mesh);
@@ -58,7 +58,7 @@ pub fn builtin() -> Scene {
 }
 
 /// A fixed number in 0..1 for each `seed`, without pattern (PCG's output permutation).
-pub(super) fn noise(seed: u32) -> f32 {
+pub(super) fn hash_noise(seed: u32) -> f32 {
     let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     ((word >> 22) ^ word) as f32 / u32::MAX as f32
@@ -70,8 +70,8 @@ mod tests {
 
     #[test]
     fn it_can_be_drawn_and_is_the_same_each_time() {
-        let scene = builtin();
+        let scene = builtin_scene();
         scene.check().expect("a scene");
-        assert!(scene == builtin());
+        assert!(scene == builtin_scene());
     }
 }

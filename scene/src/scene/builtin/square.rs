@@ -1,6 +1,6 @@
 //! The ground, the hills, the fences, the trees and a faceted stone.
 
-use super::{noise, paint};
+use super::{hash_noise, paint};
 use crate::scene::Material;
 use crate::scene::mesh::Mesh;
 use glam::{Affine3A, Vec3, vec3};
@@ -13,9 +13,9 @@ const CUTS: [f32; 15] = [
 ];
 
 pub(super) fn add(mesh: &mut Mesh) {
-    ground(mesh);
-    hills(mesh);
-    fence(mesh, vec3(11.0, 0.0, -3.4), vec3(45.0, 0.0, -9.0), 150);
+    add_ground(mesh);
+    add_hills(mesh);
+    add_fence(mesh, vec3(11.0, 0.0, -3.4), vec3(45.0, 0.0, -9.0), 150);
     for (i, (x, z, height)) in [
         (-6.9, -3.5, 4.6),
         (-7.7, -9.0, 5.6),
@@ -27,56 +27,56 @@ pub(super) fn add(mesh: &mut Mesh) {
     .into_iter()
     .enumerate()
     {
-        cypress(mesh, vec3(x, 0.0, z), height, i as u32);
+        add_cypress(mesh, vec3(x, 0.0, z), height, i as u32);
     }
     let place = Affine3A::from_translation(vec3(-6.0, 0.0, 3.9));
-    mesh.at(place, monument);
+    mesh.add_at(place, add_monument);
 }
 
 /// A tiled floor up to the horizon.
-pub(in crate::scene) fn ground(mesh: &mut Mesh) {
+pub(in crate::scene) fn add_ground(mesh: &mut Mesh) {
     for x in CUTS.windows(2) {
         for z in CUTS.windows(2) {
             let corners = [(x[0], z[1]), (x[1], z[1]), (x[1], z[0]), (x[0], z[0])].map(|(x, z)| vec3(x, 0.0, z));
-            mesh.patch(&corners, vec3(0.60, 0.48, 0.36), Material::Tiles);
+            mesh.add_patch(&corners, vec3(0.60, 0.48, 0.36), Material::Tiles);
         }
     }
 }
 
 /// Two ranges around the far half of the horizon, in large facets.
-fn hills(mesh: &mut Mesh) {
+fn add_hills(mesh: &mut Mesh) {
     const FACETS: u32 = 90;
     for (range, (distance, height)) in [(900.0, 95.0), (620.0, 42.0)].into_iter().enumerate() {
         let range = range as u32;
         let point = |at: u32, row: u32| {
             let seed = range * 1000 + row * 300 + at;
-            let angle = PI * (at as f32 + 0.5 * row as f32 + 0.4 * noise(seed)) / FACETS as f32;
-            let out = distance * (1.0 + 0.06 * row as f32 + 0.03 * noise(seed + 100));
+            let angle = PI * (at as f32 + 0.5 * row as f32 + 0.4 * hash_noise(seed)) / FACETS as f32;
+            let out = distance * (1.0 + 0.06 * row as f32 + 0.03 * hash_noise(seed + 100));
             // Long waves, and short ones on them.
             let wave = 0.55 + 0.45 * (0.23 * at as f32 + 2.0 * range as f32).sin();
-            let rise = [0.0, 0.55, 1.0][row as usize] * height * (0.25 + 0.6 * wave + 0.3 * noise(seed + 200));
+            let rise = [0.0, 0.55, 1.0][row as usize] * height * (0.25 + 0.6 * wave + 0.3 * hash_noise(seed + 200));
             vec3(-angle.cos() * out, rise, -angle.sin() * out)
         };
         for row in 0..2 {
             for at in 0..FACETS {
-                let color = vec3(0.20, 0.25, 0.13) * (0.85 + 0.3 * noise(at + 500 * row));
+                let color = vec3(0.20, 0.25, 0.13) * (0.85 + 0.3 * hash_noise(at + 500 * row));
                 let (a, b) = (point(at, row), point(at + 1, row));
                 let (c, d) = (point(at + 1, row + 1), point(at, row + 1));
-                mesh.polygon(&[a, b, d], color);
-                mesh.polygon(&[b, c, d], color);
+                mesh.add_polygon(&[a, b, d], color);
+                mesh.add_polygon(&[b, c, d], color);
             }
         }
     }
 }
 
 /// Pickets with points and two rails, from one post to the other.
-pub(in crate::scene) fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
+pub(in crate::scene) fn add_fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
     let color = paint::TRIM * 0.8;
     let along = (to - from).normalize();
     let out = along.cross(Vec3::Y) * 0.02;
     for height in [0.25, 0.85] {
         let rise = Vec3::Y * height;
-        mesh.bar(from + rise - out, to + rise - out, 0.025, 4, color * 0.8);
+        mesh.add_bar(from + rise - out, to + rise - out, 0.025, 4, color * 0.8);
     }
     for i in 0..=pickets {
         let foot = from.lerp(to, i as f32 / pickets as f32);
@@ -90,24 +90,24 @@ pub(in crate::scene) fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u3
             ]
             .map(|p| p + Vec3::Y * y)
         };
-        mesh.hexahedron([plank(0.05), plank(0.95)], color);
+        mesh.add_hexahedron([plank(0.05), plank(0.95)], color);
         let [a, b, c, d] = plank(0.95);
         let tip = foot + Vec3::Y * 1.08;
         for (p, q) in [(a, b), (b, c), (c, d), (d, a)] {
-            mesh.polygon(&[p, q, tip], color);
+            mesh.add_polygon(&[p, q, tip], color);
         }
     }
 }
 
 /// A slender tree of flat facets.
-pub(in crate::scene) fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
+pub(in crate::scene) fn add_cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
     const RINGS: u32 = 9;
     const SIDES: u32 = 9;
-    mesh.bar(foot, foot + Vec3::Y * 0.6, 0.09, 6, paint::TIMBER);
+    mesh.add_bar(foot, foot + Vec3::Y * 0.6, 0.09, 6, paint::TIMBER);
     let point = |ring: u32, side: u32| {
         let share = ring as f32 / RINGS as f32;
         let side = side % SIDES;
-        let wobble = 0.8 + 0.4 * noise(seed * 997 + ring * SIDES + side);
+        let wobble = 0.8 + 0.4 * hash_noise(seed * 997 + ring * SIDES + side);
         let radius = height * 0.16 * (PI * share.powf(0.65)).sin().max(0.0).powf(0.8) * wobble;
         let angle = TAU * (side as f32 + 0.5 * (ring % 2) as f32) / SIDES as f32;
         foot + vec3(
@@ -118,27 +118,27 @@ pub(in crate::scene) fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: 
     };
     for ring in 0..RINGS {
         for side in 0..SIDES {
-            let tint = 0.75 + 0.5 * noise(seed * 131 + ring * SIDES + side);
+            let tint = 0.75 + 0.5 * hash_noise(seed * 131 + ring * SIDES + side);
             let color = vec3(0.045, 0.115, 0.035) * tint;
             let (a, b) = (point(ring, side), point(ring, side + 1));
             let (c, d) = (point(ring + 1, side + 1), point(ring + 1, side));
-            mesh.polygon(&[a, b, c], color);
-            mesh.polygon(&[a, c, d], color);
+            mesh.add_polygon(&[a, b, c], color);
+            mesh.add_polygon(&[a, c, d], color);
         }
     }
 }
 
 /// A stone of large facets, creases without a step in depth, on a pedestal that is smooth.
-fn monument(mesh: &mut Mesh) {
-    mesh.block(vec3(-0.75, 0.0, -0.75), vec3(0.75, 0.14, 0.75), paint::STONE);
-    mesh.block(vec3(-0.6, 0.14, -0.6), vec3(0.6, 0.28, 0.6), paint::STONE);
-    mesh.frustum(
+fn add_monument(mesh: &mut Mesh) {
+    mesh.add_block(vec3(-0.75, 0.0, -0.75), vec3(0.75, 0.14, 0.75), paint::STONE);
+    mesh.add_block(vec3(-0.6, 0.14, -0.6), vec3(0.6, 0.28, 0.6), paint::STONE);
+    mesh.add_frustum(
         [(vec3(0.0, 0.28, 0.0), 0.42), (vec3(0.0, 0.95, 0.0), 0.32)],
         32,
         paint::TRIM,
         true,
     );
-    mesh.frustum(
+    mesh.add_frustum(
         [(vec3(0.0, 0.95, 0.0), 0.46), (vec3(0.0, 1.05, 0.0), 0.46)],
         32,
         paint::TRIM,
@@ -158,8 +158,8 @@ fn monument(mesh: &mut Mesh) {
             let (a, b) = (point(ring, side), point(ring, side + 1));
             let (c, d) = (point(ring + 1, side + 1), point(ring + 1, side));
             // Rings are turned by half a side against each other: two triangles that meet in a crease.
-            mesh.polygon(&[a, b, d], color);
-            mesh.polygon(&[b, c, d], color);
+            mesh.add_polygon(&[a, b, d], color);
+            mesh.add_polygon(&[b, c, d], color);
         }
     }
 }

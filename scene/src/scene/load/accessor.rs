@@ -7,12 +7,12 @@ use gltf::accessor::{Accessor, DataType};
 use gltf::buffer::Data;
 
 /// The elements of `accessor` as `N` numbers each. Integers that stand for fractions are made such.
-pub(super) fn floats<const N: usize>(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<[f32; N]>, String> {
-    let elements = Elements::find(accessor, buffers, N)?;
+pub(super) fn read_floats<const N: usize>(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<[f32; N]>, String> {
+    let elements = Elements::from_accessor(accessor, buffers, N)?;
     let kind = accessor.data_type();
     let normalized = accessor.normalized();
     let number = |bytes: &[u8]| match (kind, normalized) {
-        (DataType::F32, _) => f32::from_le_bytes(word(bytes)),
+        (DataType::F32, _) => f32::from_le_bytes(word_bytes(bytes)),
         (DataType::I8, true) => (f32::from(bytes[0] as i8) / 127.0).max(-1.0),
         (DataType::I8, false) => f32::from(bytes[0] as i8),
         (DataType::U8, true) => f32::from(bytes[0]) / 255.0,
@@ -21,7 +21,7 @@ pub(super) fn floats<const N: usize>(accessor: &Accessor, buffers: &[Data]) -> R
         (DataType::I16, false) => f32::from(u16_of(bytes) as i16),
         (DataType::U16, true) => f32::from(u16_of(bytes)) / 65_535.0,
         (DataType::U16, false) => f32::from(u16_of(bytes)),
-        (DataType::U32, _) => u32::from_le_bytes(word(bytes)) as f32,
+        (DataType::U32, _) => u32::from_le_bytes(word_bytes(bytes)) as f32,
     };
     let size = kind.size();
     let element = |bytes: &[u8]| std::array::from_fn(|axis| number(&bytes[axis * size..(axis + 1) * size]));
@@ -29,12 +29,12 @@ pub(super) fn floats<const N: usize>(accessor: &Accessor, buffers: &[Data]) -> R
 }
 
 /// The elements of `accessor` as indices.
-pub(super) fn indices(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<u32>, String> {
-    let elements = Elements::find(accessor, buffers, 1)?;
+pub(super) fn read_indices(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<u32>, String> {
+    let elements = Elements::from_accessor(accessor, buffers, 1)?;
     let index: fn(&[u8]) -> u32 = match accessor.data_type() {
         DataType::U8 => |bytes| u32::from(bytes[0]),
         DataType::U16 => |bytes| u32::from(u16_of(bytes)),
-        DataType::U32 => |bytes| u32::from_le_bytes(word(bytes)),
+        DataType::U32 => |bytes| u32::from_le_bytes(word_bytes(bytes)),
         other => return Err(format!("accessor {} has indices of type {other:?}", accessor.index())),
     };
     Ok(elements.iter().map(index).collect())
@@ -44,7 +44,7 @@ fn u16_of(bytes: &[u8]) -> u16 {
     u16::from_le_bytes([bytes[0], bytes[1]])
 }
 
-fn word(bytes: &[u8]) -> [u8; 4] {
+fn word_bytes(bytes: &[u8]) -> [u8; 4] {
     [bytes[0], bytes[1], bytes[2], bytes[3]]
 }
 
@@ -57,7 +57,7 @@ struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    fn find(accessor: &Accessor, buffers: &'a [Data], components: usize) -> Result<Self, String> {
+    fn from_accessor(accessor: &Accessor, buffers: &'a [Data], components: usize) -> Result<Self, String> {
         let index = accessor.index();
         let found = accessor.dimensions().multiplicity();
         if found != components {

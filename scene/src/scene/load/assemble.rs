@@ -53,7 +53,7 @@ pub(super) struct Place {
 
 impl Place {
     /// Converts a point of the file's world space to the scene.
-    pub fn of(&self, point: Vec3) -> Vec3 {
+    pub fn to_scene(self, point: Vec3) -> Vec3 {
         ((point.as_dvec3() - self.centre) * self.scale).as_vec3()
     }
 }
@@ -62,7 +62,7 @@ impl Place {
 const DIAGONAL: f32 = 10.0;
 
 /// Joins `parts`, or says what is wrong with one of them.
-pub(super) fn assemble(parts: Vec<Part>) -> Result<Assembled, String> {
+pub(super) fn assemble_parts(parts: Vec<Part>) -> Result<Assembled, String> {
     let mut mesh = Assembled {
         vertices: Vec::new(),
         triangles: Vec::new(),
@@ -72,17 +72,17 @@ pub(super) fn assemble(parts: Vec<Part>) -> Result<Assembled, String> {
         },
     };
     for part in parts {
-        check(&part)?;
+        check_part(&part)?;
         if mesh.triangles.len() + part.triangles.len() > MAX_TRIANGLES {
             return Err(format!("there are more than {MAX_TRIANGLES} triangles"));
         }
         mesh.add(part);
     }
-    mesh.centre()?;
+    mesh.centre_and_scale()?;
     Ok(mesh)
 }
 
-fn check(part: &Part) -> Result<(), String> {
+fn check_part(part: &Part) -> Result<(), String> {
     let name = &part.name;
     let count = part.positions.len();
     if let Some(at) = part.positions.iter().position(|position| !position.is_finite()) {
@@ -125,7 +125,7 @@ fn check(part: &Part) -> Result<(), String> {
 }
 
 /// Texels to a unit of length around each position: by the areas in the image and in space of the triangles that it is a corner of.
-fn densities(part: &Part, paint: &Paint) -> Vec<f32> {
+fn texel_densities(part: &Part, paint: &Paint) -> Vec<f32> {
     let mut areas = vec![DVec2::ZERO; part.positions.len()];
     let texels = paint.size.as_dvec2();
     for triangle in &part.triangles {
@@ -162,7 +162,7 @@ impl Assembled {
             Normals::Flat => flat_normals(&part.positions, &triangles),
             Normals::Smooth => smooth_normals(&part.positions, &triangles),
         };
-        let density = part.paint.as_ref().map(|paint| densities(&part, paint));
+        let density = part.paint.as_ref().map(|paint| texel_densities(&part, paint));
         let mut last: Vec<Option<(u32, Vec3)>> = vec![None; part.positions.len()];
         for (triangle, normals) in triangles.into_iter().zip(normals) {
             let mut indices = [0, 1, 2].map(|i: usize| {
@@ -206,7 +206,7 @@ impl Assembled {
     }
 
     /// Moves and scales everything to where it can be looked at.
-    fn centre(&mut self) -> Result<(), String> {
+    fn centre_and_scale(&mut self) -> Result<(), String> {
         if self.vertices.is_empty() {
             return Ok(());
         }
@@ -221,7 +221,7 @@ impl Assembled {
             scale: f64::from(DIAGONAL) / diagonal,
         };
         for vertex in &mut self.vertices {
-            vertex.position = self.place.of(vertex.position.into()).into();
+            vertex.position = self.place.to_scene(vertex.position.into()).into();
             vertex.density = (f64::from(vertex.density) / self.place.scale) as f32;
         }
         Ok(())

@@ -1,9 +1,9 @@
 //! glTF 2.0, as text or binary.
 
-use super::accessor::{floats, indices};
+use super::accessor::{read_floats, read_indices};
 use super::assemble::{Normals, Paint, Part};
-use super::parse::{parse, unescaped};
-use super::texture::{HALF, Library, decode};
+use super::parse::{parse, unescape_uri};
+use super::texture::{HALF, Library, decode_image};
 use super::{MAX_BYTES, MAX_TRIANGLES, read_file};
 use crate::scene::{Image, SceneError, Textures};
 use glam::{Mat3, Mat4, Vec2, Vec3};
@@ -16,17 +16,17 @@ use std::path::{Path, PathBuf};
 use straightline_files::{self as files, shorten};
 
 /// Every mesh of the default scene, in world space, and its textures.
-pub(super) fn read(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
+pub(super) fn read_gltf(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
     let bytes = read_file(path)?;
     let parts = || {
         let (document, blob) = parse(&bytes)?;
-        let buffers = buffers(&document, path.parent(), blob)?;
+        let buffers = read_buffers(&document, path.parent(), blob)?;
         let model = Model {
             base: path.parent(),
             buffers: &buffers,
             document: &document,
         };
-        model.parts()
+        model.read_parts()
     };
     parts().map_err(|problem| SceneError::Malformed {
         path: path.to_owned(),
@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
 }
 
 /// The bytes of every buffer, padded to whole words.
-fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) -> Result<Vec<Data>, String> {
+fn read_buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) -> Result<Vec<Data>, String> {
     let mut all = Vec::new();
     for buffer in document.buffers() {
         let index = buffer.index();
@@ -44,7 +44,7 @@ fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) 
                 .take()
                 .ok_or_else(|| format!("buffer {index} is in no binary chunk"))?,
             gltf::buffer::Source::Uri(uri) => {
-                resource(uri, base).map_err(|problem| format!("buffer {index}: {problem}"))?
+                read_resource(uri, base).map_err(|problem| format!("buffer {index}: {problem}"))?
             }
         };
         bytes.resize(bytes.len().next_multiple_of(4), 0);
@@ -60,7 +60,7 @@ fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) 
 }
 
 /// Reads the contents of a URI: data in itself, or a file beside the model.
-fn resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
+fn read_resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
     let shown = || shorten(uri);
     let path = match uri.split_once(':') {
         // The crate decodes what needs no file.
@@ -73,7 +73,7 @@ fn resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
         Some(("file", path)) => PathBuf::from(path.strip_prefix("//").unwrap_or(path)),
         Some(_) => return Err(format!("`{}` is neither a file nor data", shown())),
         None => {
-            let name = String::from_utf8(unescaped(uri)).map_err(|_| format!("`{}` is no text", shown()))?;
+            let name = String::from_utf8(unescape_uri(uri)).map_err(|_| format!("`{}` is no text", shown()))?;
             base.unwrap_or(Path::new("")).join(name)
         }
     };
@@ -87,7 +87,7 @@ struct Model<'a> {
 }
 
 impl Model<'_> {
-    fn parts(&self) -> Result<(Vec<Part>, Textures), String> {
+    fn read_parts(&self) -> Result<(Vec<Part>, Textures), String> {
         let scene = self.document.default_scene().or_else(|| self.document.scenes().next());
         let scene = scene.ok_or("it has no scene")?;
         let mut parts = Vec::new();
@@ -104,7 +104,7 @@ impl Model<'_> {
             for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
                 let mesh = node.mesh().map_or(0, |mesh| mesh.index());
                 let name = format!("mesh {mesh}, primitive {}", primitive.index());
-                let part = self.part(&name, &primitive, place, &mut library);
+                let part = self.read_part(&name, &primitive, place, &mut library);
                 let part = part.map_err(|problem| format!("{name}: {problem}"))?;
                 triangles += part.triangles.len();
                 if triangles > MAX_TRIANGLES {
@@ -117,7 +117,7 @@ impl Model<'_> {
         Ok((parts, library.finish()))
     }
 
-    fn part(
+    fn read_part(
         &self,
         name: &str,
         primitive: &Primitive,
@@ -125,35 +125,35 @@ impl Model<'_> {
         library: &mut Library<usize>,
     ) -> Result<Part, String> {
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
-        let positions = vectors(&floats::<3>(&positions, self.buffers)?);
+        let positions = vectors(&read_floats::<3>(&positions, self.buffers)?);
         let normals = match primitive.get(&Semantic::Normals) {
             Some(normals) => {
                 // Normals stay at right angles to surfaces, whatever the scale along each axis.
                 let rotate = cofactor(Mat3::from_mat4(place));
-                let normals = vectors(&floats::<3>(&normals, self.buffers)?);
+                let normals = vectors(&read_floats::<3>(&normals, self.buffers)?);
                 Normals::Given(normals.into_iter().map(|normal| rotate * normal).collect())
             }
             None => Normals::Flat,
         };
         let corners = match primitive.indices() {
-            Some(accessor) => indices(&accessor, self.buffers)?,
+            Some(accessor) => read_indices(&accessor, self.buffers)?,
             None => (0..positions.len() as u32).collect(),
         };
         Ok(Part {
             name: name.to_owned(),
-            colors: self.colors(primitive, positions.len())?,
-            paint: self.paint(primitive, library)?,
+            colors: self.vertex_colors(primitive, positions.len())?,
+            paint: self.read_paint(primitive, library)?,
             positions: positions
                 .into_iter()
                 .map(|position| place.transform_point3(position))
                 .collect(),
             normals,
-            triangles: triangles(primitive.mode(), &corners),
+            triangles: primitive_triangles(primitive.mode(), &corners),
         })
     }
 
     /// Linear colour of each of `count` vertices.
-    fn colors(&self, primitive: &Primitive, count: usize) -> Result<Vec<Vec3>, String> {
+    fn vertex_colors(&self, primitive: &Primitive, count: usize) -> Result<Vec<Vec3>, String> {
         let material = primitive.material().pbr_metallic_roughness();
         let [r, g, b, _] = material.base_color_factor();
         let mut colors = vec![Vec3::new(r, g, b); count];
@@ -166,18 +166,18 @@ impl Model<'_> {
         };
         if let Some(accessor) = primitive.get(&Semantic::Colors(0)) {
             tint(match accessor.dimensions() {
-                gltf::accessor::Dimensions::Vec4 => floats::<4>(&accessor, self.buffers)?
+                gltf::accessor::Dimensions::Vec4 => read_floats::<4>(&accessor, self.buffers)?
                     .into_iter()
                     .map(|[r, g, b, _]| Vec3::new(r, g, b))
                     .collect(),
-                _ => vectors(&floats::<3>(&accessor, self.buffers)?),
+                _ => vectors(&read_floats::<3>(&accessor, self.buffers)?),
             })?;
         }
         Ok(colors)
     }
 
     /// The base colour texture, if there is one, and holes where the material has them.
-    fn paint(&self, primitive: &Primitive, library: &mut Library<usize>) -> Result<Option<Paint>, String> {
+    fn read_paint(&self, primitive: &Primitive, library: &mut Library<usize>) -> Result<Option<Paint>, String> {
         let material = primitive.material();
         let base = material.pbr_metallic_roughness();
         let Some(info) = base.base_color_texture() else {
@@ -190,7 +190,7 @@ impl Model<'_> {
         let image = match library.get(&source.index()) {
             Some(image) => image,
             None => self
-                .picture(&source)
+                .read_image(&source)
                 .and_then(|picture| library.add(source.index(), &picture, 0.0))
                 .map_err(|problem| format!("image {}: {problem}", source.index()))?,
         };
@@ -201,11 +201,11 @@ impl Model<'_> {
             AlphaMode::Mask => of_texture(material.alpha_cutoff().unwrap_or(HALF)),
             AlphaMode::Blend => of_texture(HALF),
         };
-        let uvs = floats::<2>(&accessor, self.buffers)?.into_iter().map(Vec2::from);
-        Ok(Some(library.paint(Image { cutoff, ..image }, uvs.collect())))
+        let uvs = read_floats::<2>(&accessor, self.buffers)?.into_iter().map(Vec2::from);
+        Ok(Some(library.add_paint(Image { cutoff, ..image }, uvs.collect())))
     }
 
-    fn picture(&self, image: &gltf::Image) -> Result<image::RgbaImage, String> {
+    fn read_image(&self, image: &gltf::Image) -> Result<image::RgbaImage, String> {
         let bytes = match image.source() {
             gltf::image::Source::View { view, .. } => {
                 let bytes = self.buffers.get(view.buffer().index()).and_then(|buffer| {
@@ -214,9 +214,9 @@ impl Model<'_> {
                 });
                 bytes.ok_or("reaches beyond its buffer")?.to_vec()
             }
-            gltf::image::Source::Uri { uri, .. } => resource(uri, self.base)?,
+            gltf::image::Source::Uri { uri, .. } => read_resource(uri, self.base)?,
         };
-        decode(&bytes)
+        decode_image(&bytes)
     }
 }
 
@@ -233,7 +233,7 @@ fn cofactor(matrix: Mat3) -> Mat3 {
 }
 
 /// Triangles of a primitive with these corners; none of points and lines.
-fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
+fn primitive_triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
     match mode {
         Mode::Triangles => corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
         Mode::TriangleStrip => {

@@ -33,27 +33,27 @@ pub const MAX_TRIANGLES: usize = 1 << 25;
 /// # Errors
 ///
 /// [`SceneError`] names the file and what is wrong with it. Nothing in a file makes this panic.
-pub fn load(path: &Path) -> Result<Scene, SceneError> {
+pub fn load_scene(path: &Path) -> Result<Scene, SceneError> {
     load_seen(path, &Viewpoint::default())
 }
 
-/// [`load()`], seen from elsewhere. The viewpoint is in the file's own world space, before the model is moved and scaled.
+/// [`load_scene()`], seen from elsewhere. The viewpoint is in the file's own world space, before the model is moved and scaled.
 ///
 /// # Errors
 ///
-/// As [`load()`], and [`SceneError::Unusable`] for a viewpoint from which nothing can be seen.
+/// As [`load_scene()`], and [`SceneError::Unusable`] for a viewpoint from which nothing can be seen.
 pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     let (parts, textures) = match extension.to_ascii_lowercase().as_str() {
-        "gltf" | "glb" => gltf::read(path)?,
-        "obj" => obj::read(path)?,
+        "gltf" | "glb" => gltf::read_gltf(path)?,
+        "obj" => obj::read_obj(path)?,
         _ => return Err(SceneError::UnknownExtension { path: path.to_owned() }),
     };
     let malformed = |problem| SceneError::Malformed {
         path: path.to_owned(),
         problem,
     };
-    let mesh = assemble::assemble(parts).map_err(malformed)?;
+    let mesh = assemble::assemble_parts(parts).map_err(malformed)?;
     if mesh.triangles.is_empty() {
         return Err(SceneError::NoTriangles { path: path.to_owned() });
     }
@@ -74,7 +74,7 @@ pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError
         },
         camera: viewpoint.camera(
             |fov| Camera::framing(bounds[0], bounds[1], fov),
-            |point| mesh.place.of(point),
+            |point| mesh.place.to_scene(point),
         ),
     };
     scene.check()?;

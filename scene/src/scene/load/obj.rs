@@ -2,7 +2,7 @@
 
 use super::assemble::{Normals, Paint, Part};
 use super::read_file;
-use super::texture::{Library, cutoff, decode};
+use super::texture::{Library, alpha_cutoff, decode_image};
 use crate::scene::{Image, SceneError, Textures};
 use glam::{Vec3, vec2, vec3};
 use std::cell::RefCell;
@@ -20,7 +20,7 @@ const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
 };
 
 /// Every object of the file, and its textures.
-pub(super) fn read(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
+pub(super) fn read_obj(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
     let bytes = read_file(path)?;
     check_faces(path, &bytes)?;
     let base = path.parent().unwrap_or(Path::new(""));
@@ -50,8 +50,8 @@ pub(super) fn read(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
     let mut library = Library::new();
     let part = |model: tobj::Model| {
         let material = model.mesh.material_id.and_then(|id| materials.get(id));
-        let paint = paint(&model.mesh, material, base, &mut library)?;
-        Ok(part(model, material, paint))
+        let paint = read_paint(&model.mesh, material, base, &mut library)?;
+        Ok(to_part(model, material, paint))
     };
     let parts: Result<Vec<Part>, SceneError> = models.into_iter().map(part).collect();
     Ok((parts?, library.finish()))
@@ -131,7 +131,7 @@ fn in_line(path: &Path, at: usize, problem: &str) -> SceneError {
     }
 }
 
-fn part(model: tobj::Model, material: Option<&Material>, paint: Option<Paint>) -> Part {
+fn to_part(model: tobj::Model, material: Option<&Material>, paint: Option<Paint>) -> Part {
     let vectors = |numbers: &[f32]| -> Vec<Vec3> { numbers.chunks_exact(3).map(Vec3::from_slice).collect() };
     let mesh = &model.mesh;
     Part {
@@ -141,14 +141,14 @@ fn part(model: tobj::Model, material: Option<&Material>, paint: Option<Paint>) -
             [] => Normals::Smooth,
             normals => Normals::Given(vectors(normals)),
         },
-        colors: colors(mesh, material),
+        colors: vertex_colors(mesh, material),
         paint,
         triangles: mesh.indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
     }
 }
 
 /// Linear colour of each vertex.
-fn colors(mesh: &Mesh, material: Option<&Material>) -> Vec<Vec3> {
+fn vertex_colors(mesh: &Mesh, material: Option<&Material>) -> Vec<Vec3> {
     let count = mesh.positions.len() / 3;
     let mut colors = vec![material.and_then(|m| m.diffuse).map_or(PLAIN, Vec3::from); count];
     for (color, own) in colors.iter_mut().zip(mesh.vertex_color.chunks_exact(3)) {
@@ -160,7 +160,7 @@ fn colors(mesh: &Mesh, material: Option<&Material>) -> Vec<Vec3> {
 }
 
 /// The texture of a material's colour, its holes by its own alpha or by another texture's brightness.
-fn paint(
+fn read_paint(
     mesh: &Mesh,
     material: Option<&Material>,
     base: &Path,
@@ -179,7 +179,7 @@ fn paint(
     };
     // Here v points up.
     let uvs = mesh.texcoords.chunks_exact(2).map(|uv| vec2(uv[0], 1.0 - uv[1]));
-    Ok(Some(library.paint(image, uvs.collect())))
+    Ok(Some(library.add_paint(image, uvs.collect())))
 }
 
 fn add(library: &mut Library<[Option<PathBuf>; 2]>, key: [Option<PathBuf>; 2]) -> Result<Image, SceneError> {
@@ -187,7 +187,7 @@ fn add(library: &mut Library<[Option<PathBuf>; 2]>, key: [Option<PathBuf>; 2]) -
         path: path.clone(),
         problem,
     };
-    let picture = |path: &PathBuf| decode(&read_file(path)?).map_err(|problem| malformed(path, problem));
+    let picture = |path: &PathBuf| decode_image(&read_file(path)?).map_err(|problem| malformed(path, problem));
     let [color, holes] = [
         key[0].as_ref().map(picture).transpose()?,
         key[1].as_ref().map(picture).transpose()?,
@@ -207,7 +207,7 @@ fn add(library: &mut Library<[Option<PathBuf>; 2]>, key: [Option<PathBuf>; 2]) -
         }
         (None, None) => unreachable!("a key names a texture"),
     };
-    let cutoff = cutoff(&both);
+    let cutoff = alpha_cutoff(&both);
     let named = key.iter().flatten().next().cloned().unwrap_or_default();
     library
         .add(key, &both, cutoff)

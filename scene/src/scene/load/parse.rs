@@ -12,7 +12,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), String>
         false => error.to_string(),
     })?;
     let json = document.into_json();
-    check(&json)?;
+    check_document(&json)?;
     let document = Document::from_json(json).map_err(|error| error.to_string())?;
     Ok((document, blob))
 }
@@ -35,7 +35,7 @@ fn is_first(bytes: &[u8]) -> bool {
 
 /// Refuses what the `gltf` crate would panic on, in its validation or later: positions and images that are nowhere,
 /// and names that are no text.
-fn check(json: &Root) -> Result<(), String> {
+fn check_document(json: &Root) -> Result<(), String> {
     let accessors = json.accessors.len();
     for (at, primitive) in json.meshes.iter().flat_map(|mesh| &mesh.primitives).enumerate() {
         let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
@@ -64,11 +64,11 @@ fn check(json: &Root) -> Result<(), String> {
 
 /// Returns whether `uri` is text once its percent escapes are resolved.
 fn is_text(uri: &str) -> bool {
-    String::from_utf8(unescaped(uri)).is_ok()
+    String::from_utf8(unescape_uri(uri)).is_ok()
 }
 
 /// The bytes of `uri` with its percent escapes resolved.
-pub(super) fn unescaped(uri: &str) -> Vec<u8> {
+pub(super) fn unescape_uri(uri: &str) -> Vec<u8> {
     let bytes = uri.as_bytes();
     let mut decoded = Vec::with_capacity(bytes.len());
     let mut at = 0;

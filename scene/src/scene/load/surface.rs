@@ -8,22 +8,22 @@ const CREASE: f32 = 0.574;
 
 /// Unit normal of a triangle, counter-clockwise seen from the side it points to; `None` without an area.
 pub(super) fn face_normal(corners: [Vec3; 3]) -> Option<Vec3> {
-    area(corners).try_normalize().map(|normal| normal.as_vec3())
+    area_vector(corners).try_normalize().map(|normal| normal.as_vec3())
 }
 
 /// Twice the area along the normal. In double precision, as models may be of any scale.
-fn area([a, b, c]: [Vec3; 3]) -> DVec3 {
+fn area_vector([a, b, c]: [Vec3; 3]) -> DVec3 {
     let origin = a.as_dvec3();
     (b.as_dvec3() - origin).cross(c.as_dvec3() - origin)
 }
 
-fn corners(positions: &[Vec3], triangle: [u32; 3]) -> [Vec3; 3] {
+fn triangle_corners(positions: &[Vec3], triangle: [u32; 3]) -> [Vec3; 3] {
     triangle.map(|index| positions[index as usize])
 }
 
 /// For each corner the normal of its face. Of a triangle without an area, z.
 pub(super) fn flat_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
-    let face = |triangle: &[u32; 3]| [face_normal(corners(positions, *triangle)).unwrap_or(Vec3::Z); 3];
+    let face = |triangle: &[u32; 3]| [face_normal(triangle_corners(positions, *triangle)).unwrap_or(Vec3::Z); 3];
     triangles.iter().map(face).collect()
 }
 
@@ -40,7 +40,7 @@ pub(super) fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<
     }
     let areas: Vec<DVec3> = triangles
         .iter()
-        .map(|triangle| area(corners(positions, *triangle)))
+        .map(|triangle| area_vector(triangle_corners(positions, *triangle)))
         .collect();
     let crowded: HashMap<[u32; 3], BTreeMap<[i8; 3], Vec3>> = meeting
         .iter()
@@ -50,7 +50,7 @@ pub(super) fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<
     let normal = |at: usize, index: u32| {
         let own = flat[at][0];
         if let Some(smooth) = crowded.get(&key(index)) {
-            return smooth.get(&direction(own)).copied().unwrap_or(own);
+            return smooth.get(&round_normal(own)).copied().unwrap_or(own);
         }
         let faces = meeting[&key(index)].iter().map(|face| *face as usize);
         let smooth = faces.filter(|face| flat[*face][0].dot(own) > CREASE);
@@ -69,7 +69,7 @@ const CROWD: usize = 256;
 const STEPS: f32 = 16.0;
 
 /// A normal, rounded: what lies within a sixteenth is taken together.
-fn direction(normal: Vec3) -> [i8; 3] {
+fn round_normal(normal: Vec3) -> [i8; 3] {
     normal.to_array().map(|axis| (axis * STEPS).round() as i8)
 }
 
@@ -79,7 +79,7 @@ fn by_direction(faces: &[u32], flat: &[[Vec3; 3]], areas: &[DVec3]) -> BTreeMap<
     let mut groups: BTreeMap<[i8; 3], (Vec3, DVec3)> = BTreeMap::new();
     for face in faces.iter().map(|face| *face as usize) {
         let own = flat[face][0];
-        let group = groups.entry(direction(own)).or_insert((own, DVec3::ZERO));
+        let group = groups.entry(round_normal(own)).or_insert((own, DVec3::ZERO));
         group.1 += areas[face];
     }
     let mean = |own: Vec3| {

@@ -28,13 +28,13 @@ impl Drop for Scratch {
 }
 
 fn refusal(path: &Path) -> String {
-    load(path).expect_err("a refusal").to_string()
+    load_scene(path).expect_err("a refusal").to_string()
 }
 
 const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 /// A glTF file of one triangle, in a buffer of 3 positions and 3 indices of 16 bits; `change` edits the text.
-fn triangle(scratch: &Scratch, change: impl Fn(String) -> String) -> PathBuf {
+fn write_triangle(scratch: &Scratch, change: impl Fn(String) -> String) -> PathBuf {
     let numbers: [f32; 9] = [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 2.0, 0.0];
     let mut bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
     bytes.extend([0, 0, 1, 0, 2, 0, 0, 0]);
@@ -59,7 +59,7 @@ fn an_obj_is_triangulated_lit_and_framed() {
     let scratch = Scratch::new("obj");
     scratch.file("paint.mtl", "newmtl red\nKd 0.8 0.1 0.2\n");
     let path = scratch.file("quad.OBJ", format!("mtllib paint.mtl\nusemtl red\n{QUAD}"));
-    let scene = load(&path).expect("a scene");
+    let scene = load_scene(&path).expect("a scene");
     assert_eq!(scene.triangles.len(), 2);
     assert!(scene.vertices.iter().all(|vertex| vertex.color == [0.8, 0.1, 0.2]));
     assert!(scene.vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
@@ -124,7 +124,7 @@ fn textures_lie_on_surfaces() {
     scratch.file("paint.mtl", "newmtl flag\nKd 1 0.5 1\nmap_Kd flag.png\n");
     let text = "mtllib paint.mtl\nusemtl flag\nv 0 0 0\nv 4 0 0\nv 0 4 0\nvt 0 0\nvt 4 0\nvt 0 4\nf 1/1 2/2 3/3\n";
     let path = scratch.file("flag.obj", text);
-    let scene = load(&path).expect("a scene");
+    let scene = load_scene(&path).expect("a scene");
     let places: Vec<[f32; 2]> = scene.vertices.iter().map(|vertex| vertex.uv).collect();
     // v points down in scenes.
     assert_eq!(places, [[0.0, 1.0], [4.0, 1.0], [0.0, -3.0]]);
@@ -148,7 +148,7 @@ fn textures_lie_on_surfaces() {
     let holes = image::GrayImage::from_raw(1, 2, vec![255, 0]).expect("two pixels");
     holes.save(scratch.0.join("holes.png")).expect("a file for the test");
     scratch.file("paint.mtl", "newmtl flag\nKd 1 1 1\nmap_Kd flag.png\nmap_d holes.png\n");
-    let textures = load(&path).expect("a scene").textures;
+    let textures = load_scene(&path).expect("a scene").textures;
     assert_eq!(textures.images[0].cutoff, 0.5);
     assert_eq!(textures.texels[..2], [0xff00_00ff, 0x00ff_0000]);
 
@@ -165,7 +165,7 @@ fn textures_lie_on_surfaces() {
 #[test]
 fn a_gltf_keeps_its_transforms_and_colours() {
     let scratch = Scratch::new("gltf");
-    let scene = load(&triangle(&scratch, |text| text)).expect("a scene");
+    let scene = load_scene(&write_triangle(&scratch, |text| text)).expect("a scene");
     assert_eq!(scene.triangles.len(), 1);
     for vertex in &scene.vertices {
         assert_eq!(vertex.color, [0.5, 0.25, 1.0]);
@@ -182,10 +182,10 @@ fn a_gltf_keeps_its_transforms_and_colours() {
 #[test]
 fn mirrored_nodes_still_face_outwards() {
     let scratch = Scratch::new("mirror");
-    let path = triangle(&scratch, |text| {
+    let path = write_triangle(&scratch, |text| {
         text.replace(r#""rotation": [0, 1, 0, 0]"#, r#""scale": [-1, 1, 1]"#)
     });
-    let scene = load(&path).expect("a scene");
+    let scene = load_scene(&path).expect("a scene");
     let [a, b, c] = scene.triangles[0].map(|i| Vec3::from(scene.vertices[i as usize].position));
     let face = (b - a).cross(c - a);
     assert!(face.dot(scene.vertices[0].normal.into()) > 0.0);
@@ -206,9 +206,9 @@ fn files_that_are_not_there_or_not_known() {
     );
     let path = scratch.file("lone.obj", format!("mtllib absent.mtl\n{QUAD}"));
     assert!(refusal(&path).contains("absent.mtl"), "{}", refusal(&path));
-    let path = triangle(&scratch, |text| text.replace("data.bin", "absent.bin"));
+    let path = write_triangle(&scratch, |text| text.replace("data.bin", "absent.bin"));
     assert!(refusal(&path).contains("triangle.gltf"), "{}", refusal(&path));
-    let path = triangle(&scratch, |text| text.replace("data.bin", "%ff.bin"));
+    let path = write_triangle(&scratch, |text| text.replace("data.bin", "%ff.bin"));
     assert!(refusal(&path).contains("%ff.bin"), "{}", refusal(&path));
 }
 
@@ -288,7 +288,7 @@ fn broken_gltf_files() {
         ("}", "", "triangle.gltf"),
     ];
     for (from, to, wanted) in cases {
-        let path = triangle(&scratch, |text| text.replacen(from, to, 1));
+        let path = write_triangle(&scratch, |text| text.replacen(from, to, 1));
         let message = refusal(&path);
         assert!(
             message.contains("triangle.gltf") && message.contains(wanted),
@@ -300,7 +300,7 @@ fn broken_gltf_files() {
 #[test]
 fn truncated_files_are_refused_at_any_length() {
     let scratch = Scratch::new("truncated");
-    let whole = fs::read(triangle(&scratch, |text| text)).expect("the file just written");
+    let whole = fs::read(write_triangle(&scratch, |text| text)).expect("the file just written");
     // The last byte is the closing brace.
     for length in 0..whole.len() {
         let path = scratch.file("short.gltf", &whole[..length]);
@@ -346,6 +346,6 @@ fn only_regular_files_are_read() {
     refused(&pipe);
     refused(&scratch.file("lib.obj", format!("mtllib /dev/zero\n{QUAD}")));
     for uri in ["/dev/zero", "pipe.obj", "file:///dev/zero"] {
-        refused(&triangle(&scratch, |text| text.replace("data.bin", uri)));
+        refused(&write_triangle(&scratch, |text| text.replace("data.bin", uri)));
     }
 }

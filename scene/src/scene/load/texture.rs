@@ -43,7 +43,7 @@ impl<K: Hash + Eq> Library<K> {
     }
 
     /// An image on a part.
-    pub fn paint(&mut self, image: Image, uvs: Vec<Vec2>) -> Paint {
+    pub fn add_paint(&mut self, image: Image, uvs: Vec<Vec2>) -> Paint {
         let images = &mut self.textures.images;
         let number = images.iter().position(|known| *known == image).unwrap_or_else(|| {
             images.push(image);
@@ -62,13 +62,13 @@ impl<K: Hash + Eq> Library<K> {
 }
 
 /// Decodes a PNG or JPEG file.
-pub(super) fn decode(bytes: &[u8]) -> Result<image::RgbaImage, String> {
+pub(super) fn decode_image(bytes: &[u8]) -> Result<image::RgbaImage, String> {
     let image = image::load_from_memory(bytes).map_err(|error| error.to_string())?;
     Ok(image.to_rgba8())
 }
 
 /// From which alpha on a picture's surface is there, where the file does not say it: 0 of one without holes.
-pub(super) fn cutoff(image: &image::RgbaImage) -> f32 {
+pub(super) fn alpha_cutoff(image: &image::RgbaImage) -> f32 {
     let has_holes = image.pixels().any(|pixel| pixel.0[3] < 128);
     if has_holes { HALF } else { 0.0 }
 }

@@ -13,7 +13,7 @@ mod terrain;
 mod tubes;
 mod wires;
 
-use super::builtin::builtin;
+use super::builtin::builtin_scene;
 use super::mesh::Mesh;
 use super::{Camera, Scene, SceneError, Sky, Sun, Textures};
 use glam::{Vec3, vec3};
@@ -73,21 +73,21 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::UnknownName`], which lists the names.
-    pub fn named(name: &str) -> Result<Scene, SceneError> {
+    pub fn from_name(name: &str) -> Result<Scene, SceneError> {
         match name {
-            "roof" => Ok(builtin()),
-            "grooves" => Ok(grooves::scene()),
-            "creases" => Ok(creases::scene()),
-            "floor" => Ok(floor::scene()),
-            "railings" => Ok(railings::scene()),
-            "wires" => Ok(wires::scene()),
-            "tubes" => Ok(tubes::scene()),
-            "sparkle" => Ok(sparkle::scene()),
-            "emissive" => Ok(emissive::scene()),
-            "sky" => Ok(sky::scene()),
-            "terrain" => Ok(terrain::scene()),
-            "posters" => Ok(posters::scene()),
-            "awning" => Ok(awning::scene()),
+            "roof" => Ok(builtin_scene()),
+            "grooves" => Ok(grooves::build_scene()),
+            "creases" => Ok(creases::build_scene()),
+            "floor" => Ok(floor::build_scene()),
+            "railings" => Ok(railings::build_scene()),
+            "wires" => Ok(wires::build_scene()),
+            "tubes" => Ok(tubes::build_scene()),
+            "sparkle" => Ok(sparkle::build_scene()),
+            "emissive" => Ok(emissive::build_scene()),
+            "sky" => Ok(sky::build_scene()),
+            "terrain" => Ok(terrain::build_scene()),
+            "posters" => Ok(posters::build_scene()),
+            "awning" => Ok(awning::build_scene()),
             _ => Err(SceneError::UnknownName { name: name.to_owned() }),
         }
     }
@@ -95,7 +95,7 @@ impl Scene {
 
 /// `mesh` on a clear afternoon, seen from `position` towards `target` at an angle of `fov` degrees from the lower to the
 /// upper edge.
-fn outdoors(mesh: Mesh, position: Vec3, target: Vec3, fov: f32) -> Scene {
+fn outdoor_scene(mesh: Mesh, position: Vec3, target: Vec3, fov: f32) -> Scene {
     Scene {
         vertices: mesh.vertices,
         triangles: mesh.triangles,
@@ -122,26 +122,26 @@ fn outdoors(mesh: Mesh, position: Vec3, target: Vec3, fov: f32) -> Scene {
 }
 
 /// A level square of plain ground, cut up so that no triangle is large where it passes the camera.
-fn lawn(mesh: &mut Mesh, half: f32, color: Vec3) {
+fn add_lawn(mesh: &mut Mesh, half: f32, color: Vec3) {
     const CUTS: i32 = 16;
     let at = |k: i32| half * (k as f32 / CUTS as f32).powi(3);
     for x in -CUTS..CUTS {
         for z in -CUTS..CUTS {
             let corner = |i: i32, j: i32| vec3(at(x + i), 0.0, at(z + j));
-            mesh.polygon(&[corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)], color);
+            mesh.add_polygon(&[corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)], color);
         }
     }
 }
 
 /// A bar of `sides` flat faces through `points`.
-fn tube(mesh: &mut Mesh, points: &[Vec3], radius: f32, sides: u32, color: Vec3) {
+fn add_tube(mesh: &mut Mesh, points: &[Vec3], radius: f32, sides: u32, color: Vec3) {
     for pair in points.windows(2) {
-        mesh.bar(pair[0], pair[1], radius, sides, color);
+        mesh.add_bar(pair[0], pair[1], radius, sides, color);
     }
 }
 
 /// A ball of `rings` × twice as many faces, with rounded normals if `smooth`.
-fn ball(mesh: &mut Mesh, centre: Vec3, radius: f32, rings: u32, smooth: bool, color: Vec3) {
+fn add_ball(mesh: &mut Mesh, centre: Vec3, radius: f32, rings: u32, smooth: bool, color: Vec3) {
     let out = |ring: u32, side: u32| {
         let polar = std::f32::consts::PI * ring as f32 / rings as f32;
         let angle = std::f32::consts::PI * side as f32 / rings as f32;
@@ -157,10 +157,10 @@ fn ball(mesh: &mut Mesh, centre: Vec3, radius: f32, rings: u32, smooth: bool, co
             ];
             if smooth {
                 let corners = corners.map(|n| (centre + n * radius, n));
-                let material = mesh.material();
-                mesh.fan(&corners, color, material);
+                let material = mesh.current_material();
+                mesh.add_fan(&corners, color, material);
             } else {
-                mesh.polygon(&corners.map(|n| centre + n * radius), color);
+                mesh.add_polygon(&corners.map(|n| centre + n * radius), color);
             }
         }
     }
@@ -173,9 +173,9 @@ mod tests {
     #[test]
     fn every_name_is_a_scene_that_can_be_drawn_and_is_the_same_each_time() {
         for (name, purpose) in NAMES.into_iter().chain(OF_SHADING) {
-            let scene = Scene::named(name).expect(name);
+            let scene = Scene::from_name(name).expect(name);
             scene.check().unwrap_or_else(|error| panic!("{name}: {error}"));
-            assert!(scene == Scene::named(name).expect(name), "{name}");
+            assert!(scene == Scene::from_name(name).expect(name), "{name}");
             assert!(purpose.len() < 100, "{name} is for more than one line");
             let (triangles, most) = (scene.triangles.len(), 90_000);
             assert!(triangles < most, "{name} has {triangles} triangles");
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_refused_with_those_that_there_are() {
-        let message = Scene::named("rooof").expect_err("no scene").to_string();
+        let message = Scene::from_name("rooof").expect_err("no scene").to_string();
         assert!(
             message.contains("rooof") && message.contains("roof, grooves"),
             "{message}"

@@ -51,13 +51,13 @@ pub fn expected_result(form: &Form, options: &OptionValues, reads: &Reads) -> Re
     match form.family {
         Family::Sraa => {
             let params = reads.params.clone().unwrap_or_default();
-            let resolved = oracle::sraa(inputs, &params)?;
-            let bounds = bound::sraa(inputs, &params, &Rounding::SINGLE)?;
+            let resolved = oracle::resolve_sraa(inputs, &params)?;
+            let bounds = bound::bound_sraa(inputs, &params, &Rounding::SINGLE)?;
             Ok(Expected {
                 colors: resolved.into_iter().map(|pixel| pixel.color).collect(),
                 device_bounds: bounds.clone(),
                 bounds,
-                half_bounds: Some(bound::sraa(inputs, &params, &Rounding::HALF)?),
+                half_bounds: Some(bound::bound_sraa(inputs, &params, &Rounding::HALF)?),
                 lanes: 4,
             })
         }
@@ -123,7 +123,7 @@ fn expected_edges(family: Family, options: &OptionValues, inputs: &Inputs) -> Ex
                 depth_weight: number_or(options, "depth-weight", 1.0),
                 kernel: number_or(options, "kernel", 1.0),
             };
-            (filter.edges(&geometry), filter.antialiased(&geometry, &color))
+            (filter.edges(&geometry), filter.filter_picture(&geometry, &color))
         }
         _ => {
             let filter = TabulaRasa {
@@ -132,7 +132,7 @@ fn expected_edges(family: Family, options: &OptionValues, inputs: &Inputs) -> Ex
                 normal_sensibility: number_or(options, "normal-sensibility", 1.0),
                 weight: number_or(options, "weight", 1.0),
             };
-            (filter.edges(&geometry), filter.antialiased(&geometry, &color))
+            (filter.edges(&geometry), filter.filter_picture(&geometry, &color))
         }
     };
     let size = color.size().as_ivec2();
@@ -231,15 +231,15 @@ fn expected_blur(options: &OptionValues, inputs: &Inputs) -> Expected {
     let depth_sigma = number_or(options, "depth-sigma", 0.1);
     let image = input_picture(inputs, "image", |t| t);
     let colors = pixel_positions(inputs)
-        .map(|at| quads::bilateral(&image, radius, sigma, depth_sigma, at))
+        .map(|at| quads::bilateral_mean(&image, radius, sigma, depth_sigma, at))
         .collect();
     let most_off = |[x, y]: [i64; 2]| {
-        let centre = quads::counted(image.at(x, y), 3);
+        let centre = quads::counted_texel(image.texel_at(x, y), 3);
         let mut shares = Vec::new();
         let mut brightest = largest_component(&color_of(centre));
         for j in -radius..=radius {
             for i in -radius..=radius {
-                let texel = quads::counted(image.at(x + i, y + j), 3);
+                let texel = quads::counted_texel(image.texel_at(x + i, y + j), 3);
                 let z = (texel[3] - centre[3]) / depth_sigma;
                 let near = (i * i + j * j) as f64 / (sigma * sigma);
                 let (weight, off) = gaussian_weight(1.0, 0.5 * (z * z + near), 0.0);
@@ -293,7 +293,7 @@ fn expected_upsampling(options: &OptionValues, inputs: &Inputs) -> Expected {
             .then(|| number_or(options, "screen-sigma", 0.5)),
     };
     let colors = pixel_positions(inputs)
-        .map(|at| quads::upsampling(&given, at))
+        .map(|at| quads::upsample_pixel(&given, at))
         .collect();
     let bounds: Vec<f64> = pixel_positions(inputs).map(|at| upsampling_off(&given, at)).collect();
     Expected {

@@ -24,11 +24,11 @@ pub fn expected_shadow(family: Family, options: &OptionValues, inputs: &Inputs) 
     let (mut colors, mut bounds, mut device_bounds) = (Vec::new(), Vec::new(), Vec::new());
     for [x, y] in pixel_positions(inputs) {
         let lanes = [0, 1, 2, 3].map(|k| {
-            let [x, y, z, _] = coord.at(x / 2 * 2 + k % 2, y / 2 * 2 + k / 2);
+            let [x, y, z, _] = coord.texel_at(x / 2 * 2 + k % 2, y / 2 * 2 + k / 2);
             quads::counted_coordinates([x, y, z], filter.map.size, filter.reach)
         });
         let own = lanes[(x % 2 + 2 * (y % 2)) as usize];
-        let (value, off, by_device) = filter.light_with_bounds(own, quads::mean(&lanes));
+        let (value, off, by_device) = filter.light_with_bounds(own, quads::mean_coordinates(&lanes));
         colors.push([value; 4]);
         bounds.push(off);
         device_bounds.push(by_device);
@@ -125,7 +125,7 @@ impl<'a> Filter<'a> {
             _ => own,
         };
         let place = [0, 1].map(|axis| from[axis] * self.map.size[axis] as f64);
-        quads::blockers(&self.map, place, from[2], number_or(self.options, "search", 16.0))
+        quads::find_blockers(&self.map, place, from[2], number_or(self.options, "search", 16.0))
     }
 
     /// Light for a pixel at `own` of a quad at `mean`, and by how much an error of all comparisons counts in its slope.
@@ -159,8 +159,8 @@ impl<'a> Filter<'a> {
             "fitted" => quads::slope_fitted(&self.map, self.texels, place, mean[2]),
             _ => return (light, 0.0),
         };
-        let away =
-            [0, 1].map(|axis| own_place[axis] - place[axis] - quads::middle(&self.map, self.texels, place[axis]));
+        let away = [0, 1]
+            .map(|axis| own_place[axis] - place[axis] - quads::weighted_middle(&self.map, self.texels, place[axis]));
         let light = light + slope[0] * away[0] + slope[1] * away[1];
         (light.clamp(0.0, 1.0), away[0].abs() + away[1].abs())
     }

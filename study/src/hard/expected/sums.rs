@@ -19,10 +19,10 @@ pub fn expected_convolution(options: &OptionValues, inputs: &Inputs) -> Expected
     let width = (2 * radius + 1) as f64;
     let unit = Rounding::SINGLE.unit;
     let color = |at: [i64; 2]| match (is_bilinear, is_box) {
-        (false, true) => quads::convolution(&image, radius, |_, _| 1.0 / (width * width), at),
+        (false, true) => quads::convolve_pixel(&image, radius, |_, _| 1.0 / (width * width), at),
         (false, false) => {
             let weight = |x: i64, y: i64| quads::binomial(radius, x) * quads::binomial(radius, y);
-            quads::convolution(&image, radius, weight, at)
+            quads::convolve_pixel(&image, radius, weight, at)
         }
         (true, _) => {
             let n = 2 * radius + 1;
@@ -30,7 +30,7 @@ pub fn expected_convolution(options: &OptionValues, inputs: &Inputs) -> Expected
                 true => 1.0 / (n + 1) as f64,
                 false => quads::pascal(n, radius + 1 + k),
             };
-            quads::fitted(&raw, radius, weight, at)
+            quads::fit_plane(&raw, radius, weight, at)
         }
     };
     let colors: Vec<_> = pixel_positions(inputs).map(color).collect();
@@ -59,7 +59,7 @@ pub fn expected_convolution(options: &OptionValues, inputs: &Inputs) -> Expected
 fn brightest_around(image: &Picture, radius: i64, [x, y]: [i64; 2]) -> f64 {
     let around = (-radius..=radius).flat_map(|j| (-radius..=radius).map(move |i| [x + i, y + j]));
     around
-        .map(|[x, y]| largest_component(&image.at(x, y)))
+        .map(|[x, y]| largest_component(&image.texel_at(x, y)))
         .fold(0.0, f64::max)
 }
 

@@ -73,7 +73,7 @@ impl Ground {
         let mut all = reads("centre")?;
         let mut inputs = Inputs::new(capture.size);
         if let Some((compiled, _)) = all.last() {
-            inputs = gbuffer::inputs(capture, &compiled.options)?;
+            inputs = gbuffer::sraa_inputs(capture, &compiled.options)?;
         }
         let place = placed.map(|_| {
             let options = place_options(
@@ -86,7 +86,7 @@ impl Ground {
         let place = place.transpose()?;
         if let Some((compiled, manifest)) = &place {
             // Normals may be what no filter reads.
-            let own = gbuffer::inputs(capture, &compiled.options)?.images;
+            let own = gbuffer::sraa_inputs(capture, &compiled.options)?.images;
             let missing = own
                 .into_iter()
                 .filter(|(name, _)| inputs.images.iter().all(|(known, _)| known != name));
@@ -114,9 +114,9 @@ impl Ground {
             .zip(placed)
             .map(|((compiled, manifest), placed)| -> Result<Placing, TuneError> {
                 let there = Manifest { bindings: wide, ..here };
-                let (pass, _) = bench.pass(&compiled, Stage::Compute)?;
+                let (pass, _) = bench.compile_pass(&compiled, Stage::Compute)?;
                 Ok(Placing {
-                    reads: bench.share(&manifest, &inputs, &uploaded)?,
+                    reads: bench.share_inputs(&manifest, &inputs, &uploaded)?,
                     known: Static::from_compiled(&compiled),
                     compiled,
                     pass,
@@ -180,7 +180,7 @@ fn merge_bindings<'a>(manifests: impl Iterator<Item = &'a Manifest>) -> Vec<Bind
 fn manifest_of(bench: &Bench, kernel: &Kernel, settings: &Settings) -> Result<(Compiled, Manifest), TuneError> {
     let compiled = kernel.compile(settings)?;
     let emitted = compiled
-        .emit(&bench.options(Stage::Compute))
+        .emit(&bench.emit_options(Stage::Compute))
         .map_err(ExecuteError::from)?;
     Ok((compiled, emitted.manifest))
 }
@@ -207,13 +207,13 @@ fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText>
 
 /// Returns the inputs of a filter of placed shading.
 fn placed_inputs(inputs: &Inputs, placed: &Placed) -> Inputs {
-    let mut moved = inputs.clone().image("color", placed.color.clone());
+    let mut moved = inputs.clone().with_image("color", placed.color.clone());
     for (name, frame) in [("direct", &placed.direct), ("rest", &placed.rest)] {
         if let Some(frame) = frame {
-            moved = moved.image(name, frame.clone());
+            moved = moved.with_image(name, frame.clone());
         }
     }
-    moved.integers(PLACE, vec![gbuffer::places(&placed.place)])
+    moved.with_integers(PLACE, vec![gbuffer::encode_places(&placed.place)])
 }
 
 /// Returns the variants of a subject that may be searched.

@@ -234,12 +234,12 @@ impl Search {
         let ground = ground.ok_or_else(|| ExecuteError::Input("there is no such set of samples".to_owned()))?;
         let precision: Precision = self.space.precision(variant);
         let compiled = self.compile(variant)?;
-        let bench = self.bench.clone().precision(precision);
-        let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
+        let bench = self.bench.clone().with_precision(precision);
+        let (pass, manifest) = bench.compile_pass(&compiled, Stage::Compute)?;
         let there = self
             .placing_for(variant)
             .map_or(&ground.uploaded, |placing| &placing.uploaded);
-        let uploaded = bench.share(&manifest, &ground.inputs, there)?;
+        let uploaded = bench.share_inputs(&manifest, &ground.inputs, there)?;
         Ok((pass, uploaded))
     }
 }

@@ -149,7 +149,7 @@ impl Search {
             let place = self.placing_for(self.entries[*k].variant);
             let mut jobs: Vec<Job<'_>> = place.iter().map(|place| job(&place.pass, &place.reads)).collect();
             jobs.push(job(pass, uploaded));
-            self.bench.following(&jobs)
+            self.bench.sequence_work(&jobs)
         };
         let mut works: Vec<Work<'_>> = all.iter().map(work).collect::<Result<_, _>>()?;
         progress.begin(what, rounds as usize);

@@ -166,7 +166,7 @@ fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(T
 /// Returns whether the kernel is refused because a language or a stage has no such shaders, whatever it computes.
 fn has_no_such_text(error: &Errors) -> bool {
     matches!(
-        error.code(),
+        error.first_code(),
         Some(Code::NotInTarget | Code::FrameSize | Code::StageUnfit)
     )
 }

@@ -208,7 +208,7 @@ impl Driver {
     }
 
     fn glsl(&self, compiled: &Compiled) -> Result<Glsl, String> {
-        let options = self.bench.options(Stage::Compute).targets([Target::Glsl450]);
+        let options = self.bench.emit_options(Stage::Compute).targets([Target::Glsl450]);
         let emitted = compiled.emit(&options).map_err(|error| error.to_string())?;
         Ok(Glsl {
             text: String::from_utf8_lossy(&emitted.files[&Target::Glsl450]).into_owned(),

@@ -100,6 +100,6 @@ impl Given {
 ///
 /// What the kernel reads is not bound, or threads of a workgroup race.
 pub fn computed<R: Real>(compiled: &Compiled, world: &World) -> Result<Given, String> {
-    let found = execute::interpret::<R>(compiled, &world.inputs(), false).map_err(|e| e.to_string())?;
+    let found = execute::interpret_kernel::<R>(compiled, &world.inputs(), false).map_err(|e| e.to_string())?;
     Ok(Given::of_run(compiled, &found.targets, found.buffers))
 }

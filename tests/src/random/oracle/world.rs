@@ -83,48 +83,48 @@ impl World {
         let texels = self.texels.iter().map(|t| Vec4::from_array(*t)).collect();
         let whole = |k: usize| f64::from(w.bit(k) as i32);
         let inputs = Inputs::new(size)
-            .image("a", Frame::new(size, texels))
-            .buffer("b", self.buffer.iter().map(|x| one(f64::from(*x))).collect())
-            .uniform("p", &[f64::from(self.p)])
-            .uniform("q", &[f64::from(self.q)])
-            .uniform("r", &[f64::from(self.r)])
-            .buffer("bu", w.bu.elements().iter().map(|x| one(f64::from(*x))).collect())
-            .buffer("bi", w.bi.elements().iter().map(|x| one(f64::from(*x))).collect())
-            .buffer("table", w.bi.elements().iter().map(|x| one(f64::from(*x))).collect())
-            .buffer(
+            .with_image("a", Frame::new(size, texels))
+            .with_buffer("b", self.buffer.iter().map(|x| one(f64::from(*x))).collect())
+            .with_uniform("p", &[f64::from(self.p)])
+            .with_uniform("q", &[f64::from(self.q)])
+            .with_uniform("r", &[f64::from(self.r)])
+            .with_buffer("bu", w.bu.elements().iter().map(|x| one(f64::from(*x))).collect())
+            .with_buffer("bi", w.bi.elements().iter().map(|x| one(f64::from(*x))).collect())
+            .with_buffer("table", w.bi.elements().iter().map(|x| one(f64::from(*x))).collect())
+            .with_buffer(
                 "bv",
                 w.bv.elements().iter().map(|v| v.to_array().map(f64::from)).collect(),
             )
-            .buffer(
+            .with_buffer(
                 "bw",
                 w.bw.elements()
                     .iter()
                     .map(|v| [f64::from(v.x), f64::from(v.y), 0.0, 0.0])
                     .collect(),
             )
-            .buffer("bs", self.records())
-            .uniform("un", &[50, 51, 52].map(float))
-            .uniform("tint", &[3, 6, 9].map(float));
+            .with_buffer("bs", self.records())
+            .with_uniform("un", &[50, 51, 52].map(float))
+            .with_uniform("tint", &[3, 6, 9].map(float));
         let inputs = ["x_axis", "y_axis", "z_axis"]
             .iter()
             .enumerate()
             .fold(inputs, |inputs, (k, axis)| {
-                inputs.uniform(&format!("um_{axis}"), &[40, 41, 42].map(|at| float(at + 3 * k)))
+                inputs.with_uniform(&format!("um_{axis}"), &[40, 41, 42].map(|at| float(at + 3 * k)))
             });
         let inputs = (0..4).fold(inputs, |inputs, k| {
-            let inputs = inputs.uniform(&format!("ua_{k}"), &[float(k + 20), float(k + 27)]);
-            let inputs = inputs.uniform(&format!("ui_{k}"), &[whole(k + 30)]);
-            inputs.uniform(&format!("steps_{k}"), &[f64::from(w.bit(k + 11))])
+            let inputs = inputs.with_uniform(&format!("ua_{k}"), &[float(k + 20), float(k + 27)]);
+            let inputs = inputs.with_uniform(&format!("ui_{k}"), &[whole(k + 30)]);
+            inputs.with_uniform(&format!("steps_{k}"), &[f64::from(w.bit(k + 11))])
         });
         let inputs = [2, 8].iter().enumerate().fold(inputs, |inputs, (k, from)| {
-            let inputs = inputs.uniform(&format!("up_{k}_scale"), &[float(*from)]);
+            let inputs = inputs.with_uniform(&format!("up_{k}_scale"), &[float(*from)]);
             (0..3).fold(inputs, |inputs, n| {
-                inputs.uniform(&format!("up_{k}_powers_{n}"), &[float(from + 1 + n)])
+                inputs.with_uniform(&format!("up_{k}_powers_{n}"), &[float(from + 1 + n)])
             })
         });
         let inputs = ["wf", "wv", "wi", "xu", "xi"]
             .iter()
-            .fold(inputs, |inputs, name| inputs.buffer(name, self.initial(name)));
+            .fold(inputs, |inputs, name| inputs.with_buffer(name, self.initial(name)));
         self.images(inputs)
     }
 
@@ -155,36 +155,36 @@ impl World {
         let shade = frame(&w.ff, |x| vec4(*x, 0.0, 0.0, 1.0));
         let ti = w.ti.texels().iter().map(|v| v.as_uvec4()).collect();
         inputs
-            .integers("fu", vec![frame(&w.fu, |x| uvec4(*x, 0, 0, 1))])
-            .integers("fi", vec![frame(&w.fi, |v| v.as_uvec2().extend(0).extend(1))])
-            .integers("fw", vec![w.fw.clone()])
-            .integers("ti", vec![Frame::new(w.ti.size(), ti)])
-            .image("ff", shade.clone())
-            .image("shade", shade)
-            .image("fv", frame(&w.fv, |v| v.extend(1.0)))
-            .layers(
+            .with_integers("fu", vec![frame(&w.fu, |x| uvec4(*x, 0, 0, 1))])
+            .with_integers("fi", vec![frame(&w.fi, |v| v.as_uvec2().extend(0).extend(1))])
+            .with_integers("fw", vec![w.fw.clone()])
+            .with_integers("ti", vec![Frame::new(w.ti.size(), ti)])
+            .with_image("ff", shade.clone())
+            .with_image("shade", shade)
+            .with_image("fv", frame(&w.fv, |v| v.extend(1.0)))
+            .with_layers(
                 "fl",
                 w.fl.layers()
                     .iter()
                     .map(|layer| frame(layer, |v| v.extend(0.0).extend(1.0)))
                     .collect(),
             )
-            .levels("tm", levels(&[&w.tm]))
-            .levels("ta", levels(&[0, 1, 2].map(|k| w.ta.layer(k))))
-            .levels("tv", vec![slices(0, uvec3(3, 2, 2)), slices(1, UVec3::ONE)])
-            .levels("tc", levels(&w.tc.faces().each_ref()))
-            .layers(
+            .with_levels("tm", levels(&[&w.tm]))
+            .with_levels("ta", levels(&[0, 1, 2].map(|k| w.ta.layer(k))))
+            .with_levels("tv", vec![slices(0, uvec3(3, 2, 2)), slices(1, UVec3::ONE)])
+            .with_levels("tc", levels(&w.tc.faces().each_ref()))
+            .with_layers(
                 "ts",
                 w.ts.samples()
                     .iter()
                     .map(|t| Frame::new(t.size(), t.texels().to_vec()))
                     .collect(),
             )
-            .image("td", depths(&w.td))
-            .layers("tda", (0..2).map(|k| depths(w.tda.layer(k))).collect())
-            .layers("tdc", w.tdc.faces().iter().map(depths).collect())
-            .sampler("s", state(w.s.filter, w.s.address, w.s.mip))
-            .sampler("sc", state(w.sc.filter, Address::default(), Filter::default()))
+            .with_image("td", depths(&w.td))
+            .with_layers("tda", (0..2).map(|k| depths(w.tda.layer(k))).collect())
+            .with_layers("tdc", w.tdc.faces().iter().map(depths).collect())
+            .with_sampler("s", state(w.s.filter, w.s.address, w.s.mip))
+            .with_sampler("sc", state(w.sc.filter, Address::default(), Filter::default()))
     }
 
     /// The elements of `bs`, each number and vector one after the other.

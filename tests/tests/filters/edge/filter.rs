@@ -164,9 +164,9 @@ impl Filter {
     /// Inputs of the filter, numbers included.
     pub fn inputs(&self, world: &World) -> Inputs {
         let (_, numbers) = self.options();
-        numbers
-            .iter()
-            .fold(world.inputs(), |inputs, (k, v)| inputs.uniform(k, &[f64::from(*v)]))
+        numbers.iter().fold(world.inputs(), |inputs, (k, v)| {
+            inputs.with_uniform(k, &[f64::from(*v)])
+        })
     }
 
     pub fn native(&self, world: &World) -> Vec<[f32; 4]> {
@@ -199,7 +199,7 @@ impl Filter {
                 };
                 (
                     exact.edges(&world.geometry()),
-                    exact.antialiased(&world.geometry(), &world.color),
+                    exact.filter_picture(&world.geometry(), &world.color),
                 )
             }
             Filter::TabulaRasa(cfg) => {
@@ -211,7 +211,7 @@ impl Filter {
                 };
                 (
                     exact.edges(&world.geometry()),
-                    exact.antialiased(&world.geometry(), &world.color),
+                    exact.filter_picture(&world.geometry(), &world.color),
                 )
             }
         };

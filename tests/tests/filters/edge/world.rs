@@ -68,9 +68,9 @@ impl World {
         let depth = self.depth.texels().iter().map(|d| Vec4::splat(*d)).collect();
         let normal = self.stored.texels().iter().map(|n| n.extend(0.0)).collect();
         Inputs::new(size)
-            .image("depth", Frame::new(size, depth))
-            .image("normal", Frame::new(size, normal))
-            .image("color", self.color.clone())
+            .with_image("depth", Frame::new(size, depth))
+            .with_image("normal", Frame::new(size, normal))
+            .with_image("color", self.color.clone())
     }
 
     pub fn geometry(&self) -> oracle::Geometry<'_> {

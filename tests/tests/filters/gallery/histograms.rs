@@ -2,7 +2,7 @@
 
 use crate::common::{bench, forms::pixels};
 use crate::gallery::shaders::{average_luminance, global_histogram, luminance_histogram};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 
@@ -52,10 +52,10 @@ fn compiled(name: &str, unroll: Unroll) -> Compiled {
 
 fn histogram_inputs() -> Inputs {
     Inputs::new(SIZE)
-        .image("color", color())
-        .buffer("bins", vec![[0.0; 4]; 256])
-        .uniform("least", &[LEAST.into()])
-        .uniform("inverse_range", &[(1.0 / RANGE).into()])
+        .with_image("color", color())
+        .with_buffer("bins", vec![[0.0; 4]; 256])
+        .with_uniform("least", &[LEAST.into()])
+        .with_uniform("inverse_range", &[(1.0 / RANGE).into()])
 }
 
 /// Pixels by which two histograms differ.
@@ -93,7 +93,8 @@ fn histograms_agree() {
     for name in ["luminance_histogram", "global_histogram"] {
         for unroll in [Unroll::Full, Unroll::None] {
             let compiled = compiled(name, unroll);
-            let found = interpret::<f32>(&compiled, &histogram_inputs(), false).unwrap_or_else(|e| panic!("{e}"));
+            let found =
+                interpret_kernel::<f32>(&compiled, &histogram_inputs(), false).unwrap_or_else(|e| panic!("{e}"));
             let bins = |buffers: &[(String, Vec<[f64; 4]>)]| -> Vec<i64> {
                 buffers[0].1.iter().map(|element| element[0] as i64).collect()
             };
@@ -141,16 +142,16 @@ fn average_luminance() {
         "{native} for {wanted}"
     );
     let inputs = Inputs::new(uvec2(1, 1))
-        .buffer("bins", bins.iter().map(|n| [f64::from(*n), 0.0, 0.0, 0.0]).collect())
-        .uniform("least", &[LEAST.into()])
-        .uniform("range", &[RANGE.into()])
-        .uniform("pixels", &[f64::from(pixels)])
-        .uniform("last", &[last.into()])
-        .uniform("share", &[share.into()]);
+        .with_buffer("bins", bins.iter().map(|n| [f64::from(*n), 0.0, 0.0, 0.0]).collect())
+        .with_uniform("least", &[LEAST.into()])
+        .with_uniform("range", &[RANGE.into()])
+        .with_uniform("pixels", &[f64::from(pixels)])
+        .with_uniform("last", &[last.into()])
+        .with_uniform("share", &[share.into()]);
     let bench = bench();
     for unroll in [Unroll::Full, Unroll::None] {
         let compiled = compiled("average_luminance", unroll);
-        let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+        let found = interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(found.targets[0].texels[0][0] as f32, native);
         let (targets, _) = bench
             .all_written(&compiled, Stage::Compute, &inputs)

@@ -25,12 +25,12 @@ impl Shader {
     }
 
     pub fn number(mut self, name: &str, value: f64) -> Shader {
-        self.inputs = self.inputs.uniform(name, &[value]);
+        self.inputs = self.inputs.with_uniform(name, &[value]);
         self
     }
 
     pub fn vector(mut self, name: &str, value: &[f64]) -> Shader {
-        self.inputs = self.inputs.uniform(name, value);
+        self.inputs = self.inputs.with_uniform(name, value);
         self
     }
 

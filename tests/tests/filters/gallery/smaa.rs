@@ -108,12 +108,12 @@ impl<'a> Chain<'a> {
         let settings = Settings::new().unroll(unroll).branches(branches);
         let compiled = Example::new("examples/gallery", name).compile(&settings);
         let emitted = compiled
-            .emit(&self.bench.options(Stage::Fragment))
+            .emit(&self.bench.emit_options(Stage::Fragment))
             .unwrap_or_else(|e| panic!("{e}"));
         let options = PassOptions::default().target_format(format);
         let pass = self
             .bench
-            .made(&emitted, &options)
+            .create_pass(&emitted, &options)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         let target = self.texture(self.size, format);
         let view = target.create_view(&Default::default());

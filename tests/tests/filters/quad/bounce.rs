@@ -12,7 +12,7 @@ fn light(cfg: &Bounce, [depth, normal, color]: [&Picture; 3], [x, y]: [i64; 2]) 
     let angle = f64::from(cfg.pixel_angle);
     let radius = f64::from(cfg.radius);
     let position = |[x, y]: [i64; 2]| {
-        let z = depth.at(x, y)[0];
+        let z = depth.texel_at(x, y)[0];
         let off = |axis: usize, p: i64| (p as f64 + 0.5 - depth.size[axis] as f64 / 2.0) * angle * z;
         [off(0, x), -off(1, y), -z]
     };
@@ -24,7 +24,7 @@ fn light(cfg: &Bounce, [depth, normal, color]: [&Picture; 3], [x, y]: [i64; 2]) 
         let at = [x / 2 * 2 + lane % 2, y / 2 * 2 + lane / 2];
         let here = position(at);
         let reach = (radius / (angle * -here[2])).min(64.0);
-        let away = (depth.at(at[0], at[1])[0] - depth.at(x, y)[0]) / (f64::from(cfg.depth_sigma) * radius);
+        let away = (depth.texel_at(at[0], at[1])[0] - depth.texel_at(x, y)[0]) / (f64::from(cfg.depth_sigma) * radius);
         let weight = (-0.5 * away * away).exp();
         total += weight;
         for k in (lane..taps).step_by(4) {
@@ -35,11 +35,11 @@ fn light(cfg: &Bounce, [depth, normal, color]: [&Picture; 3], [x, y]: [i64; 2]) 
             let to = [0, 1, 2].map(|k| there[k] - here[k]);
             let squared: f64 = to.iter().map(|c| c * c).sum();
             let along = to.map(|c| c / squared.max(1.0e-12).sqrt());
-            let arrives = dot(along, normal.at(at[0], at[1])).max(0.0);
-            let leaves = (-dot(along, normal.at(tap[0], tap[1]))).max(0.0);
+            let arrives = dot(along, normal.texel_at(at[0], at[1])).max(0.0);
+            let leaves = (-dot(along, normal.texel_at(tap[0], tap[1]))).max(0.0);
             let near = (1.0 - squared / (radius * radius)).max(0.0);
             for (k, sum) in sum.iter_mut().enumerate() {
-                *sum += weight * color.at(tap[0], tap[1])[k] * arrives * leaves * near / f64::from(cfg.taps);
+                *sum += weight * color.texel_at(tap[0], tap[1])[k] * arrives * leaves * near / f64::from(cfg.taps);
             }
         }
     }
@@ -64,7 +64,7 @@ fn a_bounce_of_light_is_gathered_by_quads() {
             };
             let expected = defined(size, |at| {
                 let light = light(&cfg, pictures.each_ref(), at);
-                let own = pictures[2].at(at[0], at[1]);
+                let own = pictures[2].texel_at(at[0], at[1]);
                 match gives {
                     Gives::Light => [light[0], light[1], light[2], 1.0],
                     Gives::Picture => [
@@ -81,9 +81,9 @@ fn a_bounce_of_light_is_gathered_by_quads() {
                 [&format!("bounce {word}"), file],
                 &[("gives", word), ("pixel-angle", "0.05")],
                 &Inputs::new(size)
-                    .image("depth", depth.clone())
-                    .image("normal", normal.clone())
-                    .image("color", color.clone()),
+                    .with_image("depth", depth.clone())
+                    .with_image("normal", normal.clone())
+                    .with_image("color", color.clone()),
                 &native(size, |pixel| bounce(&cfg, &z, &n, &color, size, pixel)),
                 &expected,
                 [2.0e-4, 2.0e-4],

@@ -17,7 +17,7 @@ fn convolutions_are_sums_of_weighted_pixels() {
     let given_text = given_text.join(",");
     for size in SIZES {
         let image = noise(size, 7);
-        let inputs = Inputs::new(size).image("image", image.clone());
+        let inputs = Inputs::new(size).with_image("image", image.clone());
         let whole = picture(&image);
         for (radius, weights, word) in [
             (0, Weights::Box, "box"),
@@ -63,7 +63,7 @@ fn convolutions_are_sums_of_weighted_pixels() {
                 &options,
                 &inputs,
                 &native(size, |pixel| quad_convolution(&cfg, &image, &Sampler::default(), pixel)),
-                &defined(size, |at| quads::convolution(&whole, radius.into(), weight, at)),
+                &defined(size, |at| quads::convolve_pixel(&whole, radius.into(), weight, at)),
                 [4.0e-6, 2.0e-6],
             );
         }
@@ -76,7 +76,7 @@ fn bilinear_taps_give_the_plane_that_fits_them() {
     let gpu = bench();
     for size in SIZES {
         let image = noise(size, 9);
-        let inputs = Inputs::new(size).image("image", image.clone());
+        let inputs = Inputs::new(size).with_image("image", image.clone());
         let whole = picture(&image);
         for (radius, weights, word) in [
             (1, Weights::Box, "box"),
@@ -100,7 +100,7 @@ fn bilinear_taps_give_the_plane_that_fits_them() {
                 &[("radius", &radius.to_string()), ("weights", word), ("taps", "bilinear")],
                 &inputs,
                 &native(size, |pixel| quad_convolution(&cfg, &image, &Sampler::default(), pixel)),
-                &defined(size, |at| quads::fitted(&whole, radius.into(), weight, at)),
+                &defined(size, |at| quads::fit_plane(&whole, radius.into(), weight, at)),
                 [2.0e-3, 2.0e-6],
             );
         }
@@ -127,10 +127,10 @@ fn bilateral_blur_is_a_mean_of_near_pixels() {
                 &gpu,
                 [&format!("bilateral {radius} {word}"), "quad_bilateral"],
                 &[("radius", &radius.to_string()), ("sharing", word)],
-                &Inputs::new(size).image("image", image.clone()),
+                &Inputs::new(size).with_image("image", image.clone()),
                 &native(size, |pixel| quad_bilateral(&cfg, &image, pixel)),
                 &defined(size, |at| {
-                    quads::bilateral(&whole, radius.into(), cfg.sigma.into(), cfg.depth_sigma.into(), at)
+                    quads::bilateral_mean(&whole, radius.into(), cfg.sigma.into(), cfg.depth_sigma.into(), at)
                 }),
                 [2.0e-5, 2.0e-5],
             );
@@ -226,10 +226,10 @@ fn upsampling_is_near_on_the_screen_times_gaussians() {
                     let (surface_picture, depth_picture) = (picture(&low.surface), picture(&low.depth));
                     let normal_picture = picture(&low.normal);
                     let inputs = Inputs::new(size)
-                        .image("low", image.clone())
-                        .image("low_surface", low.surface.clone())
-                        .image("depth", low.depth.clone())
-                        .image("normal", low.normal.clone());
+                        .with_image("low", image.clone())
+                        .with_image("low_surface", low.surface.clone())
+                        .with_image("depth", low.depth.clone())
+                        .with_image("normal", low.normal.clone());
                     let by_definition = defined(size, |at| {
                         let inputs = quads::Upsampled {
                             factor: pixels.into(),
@@ -241,7 +241,7 @@ fn upsampling_is_near_on_the_screen_times_gaussians() {
                             normal_sigma: normals.then_some(cfg.normal_sigma.into()),
                             screen_sigma: gaussian.then_some(cfg.screen_sigma.into()),
                         };
-                        quads::upsampling(&inputs, at)
+                        quads::upsample_pixel(&inputs, at)
                     });
                     check(
                         &gpu,
@@ -282,7 +282,9 @@ fn without_a_like_surface_the_nearest_depth_counts() {
             .collect(),
     );
     let depth = Frame::new(size, vec![Vec4::splat(1.0e4); 36]);
-    let inputs = Inputs::new(size).image("low", low.clone()).image("depth", depth);
+    let inputs = Inputs::new(size)
+        .with_image("low", low.clone())
+        .with_image("depth", depth);
     for (transport, stage) in [
         (Some(Transport::Subgroup), Stage::Fragment),
         (Some(Transport::Block), Stage::Compute),
@@ -320,14 +322,14 @@ fn downsampling_takes_the_nearest_pixel_around_a_corner() {
             ] {
                 let low = size.map(|n| n.div_ceil(pixels) + 1);
                 let inputs = Inputs::new(low)
-                    .image("image", image.clone())
-                    .image("depth", depth.clone())
-                    .image("normal", normal.clone());
+                    .with_image("image", image.clone())
+                    .with_image("depth", depth.clone())
+                    .with_image("normal", normal.clone());
                 let cfg = Downsampling { factor, gives };
                 let (colors, depths, normals) = (picture(&image), picture(&depth), picture(&normal));
                 let expected = defined(low, |at| {
-                    let (at, z) = quads::downsampling(&depths, pixels.into(), at);
-                    let (c, n) = (colors.at(at[0], at[1]), normals.at(at[0], at[1]));
+                    let (at, z) = quads::downsample_corner(&depths, pixels.into(), at);
+                    let (c, n) = (colors.texel_at(at[0], at[1]), normals.texel_at(at[0], at[1]));
                     match gives {
                         Gives::Packed => [c[0], c[1], c[2], z],
                         Gives::Color => c,
@@ -386,8 +388,8 @@ fn occlusion_is_shared_with_near_surfaces_alone() {
                 [&format!("ssao {word}"), "quad_ssao"],
                 &[("sharing", word), ("pixel-angle", "0.05")],
                 &Inputs::new(size)
-                    .image("depth", depth.clone())
-                    .image("normal", normal.clone()),
+                    .with_image("depth", depth.clone())
+                    .with_image("normal", normal.clone()),
                 &native(size, |pixel| quad_ssao(&cfg, &z, &n, size, pixel)),
                 &defined(size, |at| {
                     [quads::ssao(&ao, &depths, &normals, sharing == Sharing::Quad, at); 4]
@@ -413,10 +415,10 @@ fn constant_images_stay_constant() {
         let low = Frame::new(uvec2(6, 5), vec![Vec4::splat(value); 30]);
         let depth = noise(size, 17);
         let inputs = Inputs::new(size)
-            .image("image", image)
-            .image("low", low.clone())
-            .image("low_surface", low)
-            .image("depth", depth);
+            .with_image("image", image)
+            .with_image("low", low.clone())
+            .with_image("low_surface", low)
+            .with_image("depth", depth);
         for (name, options) in [
             ("quad_convolution", vec![("radius", "1")]),
             ("quad_convolution", vec![("radius", "2")]),
@@ -457,7 +459,7 @@ fn ramps_stay_ramps_when_brought_up() {
         };
         let low = Frame::new(low_size, (0..low_size.x * low_size.y).map(texel).collect());
         let depth = Frame::new(size, vec![Vec4::ONE; (size.x * size.y) as usize]);
-        let inputs = Inputs::new(size).image("low", low).image("depth", depth);
+        let inputs = Inputs::new(size).with_image("low", low).with_image("depth", depth);
         for (transport, stage) in [
             (Transport::Subgroup, Stage::Fragment),
             (Transport::Derivatives, Stage::Fragment),

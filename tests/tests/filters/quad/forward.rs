@@ -50,7 +50,7 @@ fn text_of(emitted: &Emitted) -> (Manifest, String) {
 /// The kernel as a function, and a shader that calls it and then discards fragments where `condition` holds of `pixel`: after the
 /// last message, where a lane that goes takes nothing from the others.
 fn discarding(gpu: &Bench, compiled: &Compiled, condition: &str) -> (Manifest, String) {
-    let options = gpu.options(Stage::Fragment);
+    let options = gpu.emit_options(Stage::Fragment);
     let whole = compiled.emit(&options).expect("it is emitted");
     let function = compiled
         .emit(&options.form(Form::Function))
@@ -84,14 +84,14 @@ fn helper_lanes_answer_at_the_edges_of_triangles() {
                 let compiled = compile_text(PLACES, "places", &settings);
                 let inputs = Inputs::new(size);
                 let forward = match discard {
-                    None => gpu.forward(&compiled, &inputs, &triangles(size)),
+                    None => gpu.prepare_forward(&compiled, &inputs, &triangles(size)),
                     Some(condition) => {
                         let (manifest, text) = discarding(&gpu, &compiled, condition);
                         gpu.forward_by(&manifest, &text, &inputs, &triangles(size))
                     }
                 };
                 let forward = forward.unwrap_or_else(|e| panic!("{e}"));
-                let found = gpu.picture(&forward).expect("it is drawn");
+                let found = gpu.draw_forward(&forward).expect("it is drawn");
                 let (mut drawn, mut edges) = (0, 0);
                 for y in 0..size.y as i32 {
                     for x in 0..size.x as i32 {
@@ -147,12 +147,16 @@ fn coarse_derivatives_spoil_the_picture_and_are_refused() {
     let gpu = Bench::new(&device, &queue, false);
     let size = uvec2(24, 16);
     let image = noise(size, 40);
-    let inputs = Inputs::new(size).image("image", image);
+    let inputs = Inputs::new(size).with_image("image", image);
     let compiled = compile("quad_convolution", &[], Unroll::Full, Some(Transport::Derivatives));
-    let expected = interpret::<f32>(&compiled, &inputs, false).expect("it runs").texels;
+    let expected = interpret_kernel::<f32>(&compiled, &inputs, false)
+        .expect("it runs")
+        .texels;
     let expected: Vec<[f64; 4]> = expected.iter().map(|t| t.map(f64::from)).collect();
     let off = |coarse: bool| {
-        let emitted = compiled.emit(&gpu.options(Stage::Fragment)).expect("it is emitted");
+        let emitted = compiled
+            .emit(&gpu.emit_options(Stage::Fragment))
+            .expect("it is emitted");
         let (manifest, mut text) = text_of(&emitted);
         if coarse {
             text = text.replace("dpdxFine", "dpdxCoarse").replace("dpdyFine", "dpdyCoarse");
@@ -160,7 +164,7 @@ fn coarse_derivatives_spoil_the_picture_and_are_refused() {
         let forward = gpu
             .forward_by(&manifest, &text, &inputs, &cover())
             .expect("it can be drawn");
-        largest(&texels(&gpu.picture(&forward).expect("it is drawn")), &expected)
+        largest(&texels(&gpu.draw_forward(&forward).expect("it is drawn")), &expected)
     };
     assert!(off(false) < 1.0e-6);
     let quads = Quads::detect_with(&device, &queue, DerivativeControl::Coarse).expect("pixels are drawn");

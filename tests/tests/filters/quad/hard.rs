@@ -82,7 +82,7 @@ fn same_everywhere(
 ) -> Vec<[f32; 4]> {
     for unroll in [Unroll::Full, Unroll::None] {
         let compiled = compile(name, options, unroll, None);
-        let found = interpret::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{words}: {e}"));
+        let found = interpret_kernel::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{words}: {e}"));
         same_bits(&native, &found.texels).unwrap_or_else(|e| panic!("{words} {unroll}: {e}"));
     }
     for transport in transports {
@@ -135,8 +135,8 @@ fn occlusion_before_an_infinite_sky_is_finite_and_the_same_everywhere() {
     ] {
         let (z, n) = (components(&depth, |t| t.x), components(&normal, Vec4::truncate));
         let inputs = Inputs::new(SIZE)
-            .image("depth", depth.clone())
-            .image("normal", normal.clone());
+            .with_image("depth", depth.clone())
+            .with_image("normal", normal.clone());
         let found = native(SIZE, |pixel| quad_ssao(&cfg, &z, &n, SIZE, pixel));
         let found = same_everywhere(&gpu, ["quad_ssao", words], &[], &inputs, found, &ALL, 2.0e-4);
         for (light, z) in found.iter().zip(z.texels()) {
@@ -156,9 +156,9 @@ fn a_bounce_of_light_beside_the_sky_is_finite_and_the_same_everywhere() {
     for (words, color) in [("plain", noise(SIZE, 3)), ("colours that are no numbers", bad_color)] {
         let (z, n) = (components(&depth, |t| t.x), components(&normal, Vec4::truncate));
         let inputs = Inputs::new(SIZE)
-            .image("depth", depth.clone())
-            .image("normal", normal.clone())
-            .image("color", color.clone());
+            .with_image("depth", depth.clone())
+            .with_image("normal", normal.clone())
+            .with_image("color", color.clone());
         let found = native(SIZE, |pixel| bounce(&cfg, &z, &n, &color, SIZE, pixel));
         same_everywhere(&gpu, [&example("bounce"), words], &[], &inputs, found, &ALL, 2.0e-4);
     }
@@ -185,8 +185,8 @@ fn bad_coordinates_spoil_no_other_lane() {
     ] {
         let coord = coordinates(bad, is_bad);
         let inputs = Inputs::new(SIZE)
-            .image("shadow", map.clone())
-            .image("coord", coord.clone());
+            .with_image("shadow", map.clone())
+            .with_image("coord", coord.clone());
         let (coords, good) = (components(&coord, Vec4::truncate), components(&plain, Vec4::truncate));
         let cfg = Pcf {
             weights: ShadowWeights::Quadratic,
@@ -267,9 +267,9 @@ fn tables_without_weights_give_light() {
         let lookup = Frame::new(uvec2(8, 1), vec![Vec4::splat(value); 8]);
         let table = Texture::new(lookup.size(), lookup.texels().to_vec());
         let inputs = Inputs::new(SIZE)
-            .image("shadow", map.clone())
-            .image("coord", coord.clone())
-            .image("lookup", lookup);
+            .with_image("shadow", map.clone())
+            .with_image("coord", coord.clone())
+            .with_image("lookup", lookup);
         for (method, gradient, options) in [
             (Method::Quad, Gradient::None, [("method", "quad"), ("gradient", "none")]),
             (
@@ -329,7 +329,7 @@ fn given_weights_do_not_overflow() {
     };
     let words: Vec<String> = given.iter().map(|w| format!("{w:?}")).collect();
     let list = words.join(",");
-    let inputs = Inputs::new(image.size()).image("image", image.clone());
+    let inputs = Inputs::new(image.size()).with_image("image", image.clone());
     let found = native(image.size(), |p| quad_convolution(&cfg, &image, &Sampler::default(), p));
     let options = [("weights", "given"), ("given", list.as_str())];
     same_everywhere(
@@ -380,7 +380,9 @@ fn every_hard_case_is_finite_by_every_transport() {
                 Stage::Fragment
             };
             let compiled = compile(name, &[], Unroll::Full, Some(*transport));
-            let (pass, manifest) = gpu.pass(&compiled, stage).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let (pass, manifest) = gpu
+                .compile_pass(&compiled, stage)
+                .unwrap_or_else(|e| panic!("{name}: {e}"));
             for case in hard::all_cases()
                 .iter()
                 .filter(|case| case.options.is_empty() && (is_shadow || case.coord.is_none()))
@@ -389,19 +391,19 @@ fn every_hard_case_is_finite_by_every_transport() {
                 let packed = |seen: hard::Seen| seen.color.truncate().extend(seen.depth);
                 let map = filled(case.map, |texel| Vec4::splat(case.shadow_at(texel)));
                 let inputs = Inputs::new(case.size)
-                    .image("depth", seen(case, |seen| Vec4::splat(seen.depth)))
-                    .image("normal", seen(case, normal))
-                    .image("color", seen(case, |seen| seen.color))
-                    .image("image", seen(case, packed))
-                    .image(
+                    .with_image("depth", seen(case, |seen| Vec4::splat(seen.depth)))
+                    .with_image("normal", seen(case, normal))
+                    .with_image("color", seen(case, |seen| seen.color))
+                    .with_image("image", seen(case, packed))
+                    .with_image(
                         "low",
                         filled(low, |at| {
                             packed(case.surface_at((at * 2).min(case.size - 1), Vec2::ZERO, None))
                         }),
                     )
-                    .image("shadow", map.clone())
-                    .image("levels", map)
-                    .image(
+                    .with_image("shadow", map.clone())
+                    .with_image("levels", map)
+                    .with_image(
                         "coord",
                         filled(case.size, |pixel| case.coordinates_at(pixel).extend(0.0)),
                     );
@@ -419,7 +421,8 @@ fn every_hard_case_is_finite_by_every_transport() {
                 if *transport != Transport::Block {
                     continue;
                 }
-                let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+                let found =
+                    interpret_kernel::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
                 assert!(
                     found.texels.iter().flatten().all(|c| c.is_finite()),
                     "{what}: interpreted"

@@ -71,7 +71,7 @@ fn quad_operations_move_bits_and_derivatives_err_as_predicted() {
     let size = uvec2(2 * PAIRS.len() as u32, 2);
     let row = || PAIRS.iter().flat_map(|(_, a, b)| [*a, *b]);
     let image = Frame::new(size, row().chain(row()).map(Vec4::splat).collect());
-    let inputs = Inputs::new(size).image("value", image.clone());
+    let inputs = Inputs::new(size).with_image("value", image.clone());
     let exact = gpu
         .run(&heard(Some(Transport::Subgroup)), Stage::Fragment, &inputs)
         .expect("it runs");
@@ -81,7 +81,7 @@ fn quad_operations_move_bits_and_derivatives_err_as_predicted() {
     let lossy = gpu
         .run(&heard(Some(Transport::Derivatives)), Stage::Fragment, &inputs)
         .expect("it runs");
-    let predicted = interpret::<f32>(&heard(Some(Transport::Derivatives)), &inputs, false).expect("it runs");
+    let predicted = interpret_kernel::<f32>(&heard(Some(Transport::Derivatives)), &inputs, false).expect("it runs");
     println!("pair | subgroup | derivatives | predicted");
     for (k, (name, a, b)) in PAIRS.iter().enumerate() {
         let arithmetic = by_derivatives([*a, *b, *a, *b]);
@@ -132,13 +132,13 @@ fn quad_operations_move_bits_and_derivatives_err_as_predicted() {
 fn half_precision_loses_more() {
     let size = uvec2(2, 2);
     let image = Frame::new(size, [1000.0, 0.3, 1000.0, 0.3].map(Vec4::splat).to_vec());
-    let inputs = Inputs::new(size).image("value", image);
-    let found = interpret::<F16>(&heard(Some(Transport::Derivatives)), &inputs, false).expect("it runs");
+    let inputs = Inputs::new(size).with_image("value", image);
+    let found = interpret_kernel::<F16>(&heard(Some(Transport::Derivatives)), &inputs, false).expect("it runs");
     let heard_left = half::f16::from_f32(1000.0) + (half::f16::from_f32(0.3) - half::f16::from_f32(1000.0));
     let left = found.frame(&inputs).load(IVec2::ZERO).y;
     assert_eq!(left, heard_left.to_f32());
     assert!((left - 0.3).abs() > 0.1, "the loss shows: {left}");
-    let exact = interpret::<F16>(&heard(None), &inputs, false).expect("it runs");
+    let exact = interpret_kernel::<F16>(&heard(None), &inputs, false).expect("it runs");
     assert_eq!(
         exact.frame(&inputs).load(IVec2::ZERO).y,
         half::f16::from_f32(0.3).to_f32()
@@ -211,12 +211,12 @@ fn every_method_means_the_same_natively_and_in_a_shader() {
     let gpu = bench();
     for size in SIZES {
         let image = noise(size, 21);
-        let inputs = Inputs::new(size).image("value", image.clone());
+        let inputs = Inputs::new(size).with_image("value", image.clone());
         let expected = native(size, |pixel| methods(&image, pixel));
         for unroll in FORMS {
             let settings = Settings::new().unroll(unroll);
             let compiled = compile_text(METHODS, "methods", &settings);
-            let found = interpret::<f32>(&compiled, &inputs, false).expect("it runs");
+            let found = interpret_kernel::<f32>(&compiled, &inputs, false).expect("it runs");
             same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{unroll}: {e}"));
             for (transport, stage) in [
                 (Transport::Subgroup, Stage::Fragment),
@@ -250,14 +250,16 @@ pub fn box3(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
 }
 ";
     for size in SIZES {
-        let inputs = Inputs::new(size).image("image", noise(size, 5));
+        let inputs = Inputs::new(size).with_image("image", noise(size, 5));
         let plain = compile_text(text, "box3", &Settings::default());
-        let expected = interpret::<f32>(&plain, &inputs, false).expect("it runs").texels;
+        let expected = interpret_kernel::<f32>(&plain, &inputs, false).expect("it runs").texels;
         for (block, reads) in [([2, 1], 12), ([1, 2], 12), ([2, 2], 16), ([4, 2], 24)] {
             let settings = Settings::new().block(block[0], block[1]);
             let compiled = compile_text(text, "box3", &settings);
             assert_eq!(compiled.counts.texture_reads, reads, "{block:?}");
-            let found = interpret::<f32>(&compiled, &inputs, false).expect("it runs").texels;
+            let found = interpret_kernel::<f32>(&compiled, &inputs, false)
+                .expect("it runs")
+                .texels;
             same_bits(&expected, &found).unwrap_or_else(|e| panic!("{block:?}: {e}"));
             let shown = gpu.run(&compiled, Stage::Compute, &inputs).expect("it runs");
             let wanted: Vec<[f64; 4]> = expected.iter().map(|t| t.map(f64::from)).collect();

@@ -114,10 +114,10 @@ fn filters_are_as_wide_as_the_quad() {
         let plane = from_afar(MAP, step);
         let coord = coordinates(size, plane);
         let inputs = Inputs::new(size)
-            .image("shadow", map())
-            .image("coord", coord.clone())
-            .levels("levels", chain.iter().map(|level| vec![level.clone()]).collect())
-            .sampler(
+            .with_image("shadow", map())
+            .with_image("coord", coord.clone())
+            .with_levels("levels", chain.iter().map(|level| vec![level.clone()]).collect())
+            .with_sampler(
                 "nearest",
                 SamplerState {
                     linear: false,
@@ -141,7 +141,7 @@ fn filters_are_as_wide_as_the_quad() {
             assert!(share <= 0.05, "{word}, {step}: natively {:.1} % are off", share * 100.0);
             let options = [("remedy", word)];
             for unroll in FORMS {
-                let interpreted = interpret::<f32>(&compile(file, &options, unroll, None), &inputs, false);
+                let interpreted = interpret_kernel::<f32>(&compile(file, &options, unroll, None), &inputs, false);
                 let interpreted = interpreted.expect("it runs");
                 same_bits(&found, &interpreted.texels).unwrap_or_else(|e| panic!("{word} {unroll}: {e}"));
             }
@@ -274,7 +274,9 @@ fn cascades_are_chosen_by_the_quad() {
     let expected = defined(size, |at| light(at).0);
     let coord = coordinates(size, plane);
     let coords = components(&coord, Vec4::truncate);
-    let inputs = Inputs::new(size).image("shadow", map.clone()).image("coord", coord);
+    let inputs = Inputs::new(size)
+        .with_image("shadow", map.clone())
+        .with_image("coord", coord);
     let sampler = ComparisonSampler::default();
     let found = native(size, |pixel| {
         let corner = |p: Quad<IVec2>| Quad::new(p.lanes().map(|p| plane.at([p.x.into(), p.y.into()])));
@@ -286,7 +288,7 @@ fn cascades_are_chosen_by_the_quad() {
     assert!(share <= 0.03, "natively {:.1} % are off", share * 100.0);
     let clamped = native(size, |pixel| cascades::cascades(&depth, &sampler, coords.load(pixel)));
     for unroll in FORMS {
-        let interpreted = interpret::<f32>(&compile(file, &[], unroll, None), &inputs, false).expect("it runs");
+        let interpreted = interpret_kernel::<f32>(&compile(file, &[], unroll, None), &inputs, false).expect("it runs");
         same_bits(&clamped, &interpreted.texels).unwrap_or_else(|e| panic!("{unroll}: {e}"));
     }
     let mut shown = format!("cascades | {off:.1e}");

@@ -168,7 +168,7 @@ fn passes_refuse_what_they_cannot_draw() {
     let gpu = bench();
     let compiled = compile("pcf", &[], Unroll::Full, Some(Transport::Subgroup));
     let error = gpu
-        .pass(&compiled, Stage::Fragment)
+        .compile_pass(&compiled, Stage::Fragment)
         .expect_err("interpolated")
         .to_string();
     says(
@@ -183,7 +183,7 @@ fn passes_refuse_what_they_cannot_draw() {
     let gpu = Bench::new(&device, &queue, false);
     let compiled = compile("quad_convolution", &[], Unroll::Full, Some(Transport::Subgroup));
     let error = gpu
-        .pass(&compiled, Stage::Fragment)
+        .compile_pass(&compiled, Stage::Fragment)
         .expect_err("no subgroups")
         .to_string();
     says(&error, &["SUBGROUP", "`derivatives` or `block`"]);

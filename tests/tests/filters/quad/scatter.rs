@@ -28,7 +28,9 @@ fn a_wide_penumbra_has_its_colours() {
     };
     let size = uvec2(24, 18);
     let coord = coordinates(size, PLANE);
-    let inputs = Inputs::new(size).image("shadow", map()).image("coord", coord.clone());
+    let inputs = Inputs::new(size)
+        .with_image("shadow", map())
+        .with_image("coord", coord.clone());
     let texture = DepthTexture::new(MAP, map().texels().iter().map(|t| t.x).collect());
     let coords = components(&coord, Vec4::truncate);
     let sampler = ComparisonSampler::default();

@@ -203,7 +203,7 @@ fn definition(case: &Case, coord: impl Fn([i64; 2]) -> [f64; 3], [x, y]: [i64; 2
                 + (0..2)
                     .map(|axis| {
                         let centre = of(mean)[axis];
-                        slope[axis] * (of(own)[axis] - centre - quads::middle(&map, texels, centre))
+                        slope[axis] * (of(own)[axis] - centre - quads::weighted_middle(&map, texels, centre))
                     })
                     .sum::<f64>();
             value.clamp(0.0, 1.0)
@@ -213,9 +213,9 @@ fn definition(case: &Case, coord: impl Fn([i64; 2]) -> [f64; 3], [x, y]: [i64; 2
 
 pub(super) fn draw(gpu: &Bench, compiled: &Compiled, inputs: &Inputs, plane: Plane) -> Frame<Vec4> {
     let forward: Forward = gpu
-        .forward(compiled, inputs, &plane.cover(inputs.size))
+        .prepare_forward(compiled, inputs, &plane.cover(inputs.size))
         .expect("it can be drawn");
-    gpu.picture(&forward).expect("it is drawn")
+    gpu.draw_forward(&forward).expect("it is drawn")
 }
 
 /// The coordinates of every pixel, as a compute shader and the interpreter read them.
@@ -246,7 +246,9 @@ fn every_filter_is_its_definition() {
     let gpu = bench();
     for size in [uvec2(24, 18), uvec2(25, 17)] {
         let coord = coordinates(size, PLANE);
-        let inputs = Inputs::new(size).image("shadow", map()).image("coord", coord.clone());
+        let inputs = Inputs::new(size)
+            .with_image("shadow", map())
+            .with_image("coord", coord.clone());
         let texture = DepthTexture::new(MAP, map().texels().iter().map(|t| t.x).collect());
         let coords = components(&coord, Vec4::truncate);
         for case in cases() {
@@ -264,7 +266,7 @@ fn every_filter_is_its_definition() {
             let lookup = cubic_table(texels_of(case.width).1 as f32 / 2.0);
             let inputs = inputs
                 .clone()
-                .image("lookup", Frame::new(lookup.size(), lookup.texels().to_vec()));
+                .with_image("lookup", Frame::new(lookup.size(), lookup.texels().to_vec()));
             let sampler = ComparisonSampler::default();
             let found = native(size, |pixel| {
                 pcf(
@@ -279,7 +281,7 @@ fn every_filter_is_its_definition() {
             let forms = if size.x % 2 == 1 { &FORMS[..] } else { &FORMS[..1] };
             for unroll in forms.iter().copied() {
                 let compiled = compile("pcf", &options, unroll, None);
-                let interpreted = interpret::<f32>(&compiled, &inputs, false).expect("it runs");
+                let interpreted = interpret_kernel::<f32>(&compiled, &inputs, false).expect("it runs");
                 same_bits(&found, &interpreted.texels).unwrap_or_else(|e| panic!("{row} {unroll}: {e}"));
             }
             // Beyond the border a compute shader has the border's coordinates, a rasteriser those of the plane.
@@ -327,7 +329,9 @@ fn penumbras_widen_with_distance() {
     let gpu = bench();
     for size in [uvec2(24, 18), uvec2(25, 17)] {
         let coord = coordinates(size, PLANE);
-        let inputs = Inputs::new(size).image("shadow", map()).image("coord", coord.clone());
+        let inputs = Inputs::new(size)
+            .with_image("shadow", map())
+            .with_image("coord", coord.clone());
         let texture = DepthTexture::new(MAP, map().texels().iter().map(|t| t.x).collect());
         let coords = components(&coord, Vec4::truncate);
         for (sharing, word) in [(SearchSharing::Quad, "quad"), (SearchSharing::Alone, "alone")] {
@@ -354,7 +358,7 @@ fn penumbras_widen_with_distance() {
             let found = native(size, |pixel| pcss(&cfg, &texture, &sampler, coords.load(pixel)));
             let options = [("sharing", word)];
             for unroll in [Unroll::Full, Unroll::None] {
-                let interpreted = interpret::<f32>(&compile("pcss", &options, unroll, None), &inputs, false);
+                let interpreted = interpret_kernel::<f32>(&compile("pcss", &options, unroll, None), &inputs, false);
                 let interpreted = interpreted.expect("it runs");
                 same_bits(&found, &interpreted.texels).unwrap_or_else(|e| panic!("pcss {word} {unroll}: {e}"));
             }
@@ -475,8 +479,8 @@ fn gradients_take_the_blocks_away() {
         down: [0.0, 0.01, 0.0],
     };
     let inputs = Inputs::new(size)
-        .image("shadow", map)
-        .image("coord", coordinates(size, plane));
+        .with_image("shadow", map)
+        .with_image("coord", coordinates(size, plane));
     for (options, blocky) in [
         (&[("weights", "quadratic")][..], true),
         (&[("weights", "quadratic"), ("gradient", "prewitt")], false),

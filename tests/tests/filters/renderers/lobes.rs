@@ -2,7 +2,7 @@
 
 use crate::common::{bench, same_bits};
 use glam::{UVec2, Vec4, uvec2, vec4};
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_oracle::oracle::{self, SraaParams};
@@ -52,11 +52,13 @@ fn no_component_leaves_the_range_of_the_samples() {
         let form = |unroll| compiled(&set, unroll).unwrap_or_else(|errors| panic!("{set:?}:\n{errors}"));
         let expected = native::run(&set, &inputs);
         for unroll in [Unroll::Full, Unroll::None] {
-            let found = interpret::<f32>(&form(unroll), &inputs, false).expect("it runs").texels;
+            let found = interpret_kernel::<f32>(&form(unroll), &inputs, false)
+                .expect("it runs")
+                .texels;
             same_bits(&expected, &found).unwrap_or_else(|e| panic!("{set:?} {unroll}: {e}"));
         }
-        let params = SraaParams::of(&values(&set)).expect("options");
-        let defined = oracle::sraa(&inputs, &params).expect("a definition");
+        let params = SraaParams::from_options(&values(&set)).expect("options");
+        let defined = oracle::resolve_sraa(&inputs, &params).expect("a definition");
         let device = bench
             .run(&form(Unroll::Full), Stage::Compute, &inputs)
             .expect("a picture");

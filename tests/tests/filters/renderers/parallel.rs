@@ -2,7 +2,7 @@
 
 use crate::common::{bench, same_bits};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3};
-use straightline_bench::execute::interpret;
+use straightline_bench::execute::interpret_kernel;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_oracle::oracle::{self, SraaParams};
@@ -90,11 +90,11 @@ fn every_form_gives_what_the_definition_says() {
             let inputs = surfaces::inputs_of(&captured(&set, space), &set, 9);
             let expected = native::run(&set, &inputs);
             for form in [&full, &form(Unroll::None)] {
-                let found = interpret::<f32>(form, &inputs, false).expect("it runs").texels;
+                let found = interpret_kernel::<f32>(form, &inputs, false).expect("it runs").texels;
                 same_bits(&expected, &found).unwrap_or_else(|e| panic!("{set:?}: {e}"));
             }
-            let params = SraaParams::of(&values(&set)).expect("options");
-            let defined = oracle::sraa(&inputs, &params).expect("a definition");
+            let params = SraaParams::from_options(&values(&set)).expect("options");
+            let defined = oracle::resolve_sraa(&inputs, &params).expect("a definition");
             let found = bench.run(&full, Stage::Compute, &inputs).expect("a picture");
             let off = difference(&found, &defined);
             assert!(
@@ -112,8 +112,8 @@ fn a_plane_is_one_surface() {
     let kept = |set: &Options| {
         let capture = captured(set, NormalSpace::World);
         let form = compiled(set, Unroll::Full).unwrap_or_else(|errors| panic!("{errors}"));
-        let inputs = gbuffer::inputs(&capture, &form.options).expect("inputs");
-        let found = interpret::<f32>(&form, &inputs, false).expect("it runs").texels;
+        let inputs = gbuffer::sraa_inputs(&capture, &form.options).expect("inputs");
+        let found = interpret_kernel::<f32>(&form, &inputs, false).expect("it runs").texels;
         let own = capture.color.texels().iter().zip(&found);
         own.filter(|(own, found)| own.to_array() == **found).count()
     };
@@ -127,8 +127,8 @@ fn a_plane_is_one_surface() {
     );
     let set = parallel(&[("metric", "planes-normals"), ("depth-scale", "2")]);
     let place = kernel("sraa_place", &set, Unroll::Full).unwrap_or_else(|errors| panic!("{errors}"));
-    let inputs = gbuffer::inputs(&captured(&set, NormalSpace::View), &place.options).expect("inputs");
-    let places = interpret::<f32>(&place, &inputs, false).expect("it runs");
+    let inputs = gbuffer::sraa_inputs(&captured(&set, NormalSpace::View), &place.options).expect("inputs");
+    let places = interpret_kernel::<f32>(&place, &inputs, false).expect("it runs");
     let moved = places.targets[0].texels.iter().filter(|place| place[0] < 4.0).count();
     assert!(moved * 10 < all, "{moved} of {all} moved");
 }
@@ -144,7 +144,7 @@ fn what_only_a_perspective_has_is_refused() {
     }
     let capture = captured(&parallel(&[]), NormalSpace::View);
     let perspective = compiled(&options(&[]), Unroll::Full).unwrap_or_else(|errors| panic!("{errors}"));
-    let refused = gbuffer::inputs(&capture, &perspective.options)
+    let refused = gbuffer::sraa_inputs(&capture, &perspective.options)
         .expect_err("a refusal")
         .to_string();
     assert!(refused.contains("set projection=parallel"), "{refused}");

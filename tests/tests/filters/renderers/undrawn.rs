@@ -3,7 +3,7 @@
 
 use crate::common::{bench, same_bits};
 use glam::{Mat3, UVec2, Vec3, uvec2};
-use straightline_bench::execute::{Bench, Inputs, interpret};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_oracle::metrics::psnr;
@@ -49,8 +49,8 @@ fn form(set: &Options, unroll: Unroll) -> straightline_codegen::Compiled {
 
 /// Largest difference to the definition, by a shader.
 fn off(bench: &Bench, set: &Options, inputs: &Inputs) -> f64 {
-    let params = SraaParams::of(&values(set)).expect("options");
-    let expected = oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"));
+    let params = SraaParams::from_options(&values(set)).expect("options");
+    let expected = oracle::resolve_sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"));
     let found = bench.run(&form(set, Unroll::Full), Stage::Compute, inputs);
     let found = found.unwrap_or_else(|error| panic!("{set:?}: {error}"));
     let difference = difference(&found, &expected);
@@ -71,7 +71,7 @@ fn every_form_goes_by_depth_where_nothing_is_drawn() {
             let inputs = surfaces::inputs_of(&capture, &set, 5);
             let expected = native::run(&set, &inputs);
             for unroll in [Unroll::Full, Unroll::None] {
-                let found = interpret::<f32>(&form(&set, unroll), &inputs, false)
+                let found = interpret_kernel::<f32>(&form(&set, unroll), &inputs, false)
                     .expect("it runs")
                     .texels;
                 same_bits(&expected, &found).unwrap_or_else(|e| panic!("{set:?} {unroll}: {e}"));
@@ -90,12 +90,12 @@ struct World {
 
 impl World {
     fn new(scene: &str) -> World {
-        let scene = Scene::named(scene).expect("a scene");
+        let scene = Scene::from_name(scene).expect("a scene");
         let renderer = CpuRenderer::new(&scene, uvec2(128, 72)).expect("a renderer");
-        let samples = gbuffer::samples("latin4").expect("a pattern");
+        let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
         World {
-            capture: render::capture(&renderer, &samples, ShadingSample::Centre).expect("a capture"),
-            reference: render::reference(&renderer, 4, &mut |_, _| {}).expect("a reference"),
+            capture: render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture"),
+            reference: render::render_reference(&renderer, 4, &mut |_, _| {}).expect("a reference"),
         }
     }
 
@@ -113,7 +113,7 @@ impl World {
     }
 
     fn judged(&self, bench: &Bench, capture: &Capture, set: &Options) -> f64 {
-        let inputs = gbuffer::inputs(capture, &form(set, Unroll::Full).options).expect("inputs");
+        let inputs = gbuffer::sraa_inputs(capture, &form(set, Unroll::Full).options).expect("inputs");
         let resolved = bench
             .run(&form(set, Unroll::Full), Stage::Compute, &inputs)
             .expect("a picture");
@@ -196,8 +196,8 @@ fn nothing_is_placed_in_a_sky() {
         ("depth", "perspective"),
     ]);
     let place = kernel("sraa_place", &set, Unroll::Full).unwrap_or_else(|errors| panic!("{errors}"));
-    let inputs = gbuffer::inputs(&capture, &place.options).expect("inputs");
-    let places = interpret::<f32>(&place, &inputs, false).expect("it runs");
+    let inputs = gbuffer::sraa_inputs(&capture, &place.options).expect("inputs");
+    let places = interpret_kernel::<f32>(&place, &inputs, false).expect("it runs");
     let layers = capture.depth.layers();
     let (mut bare, mut moved) = (0, 0);
     for (at, place) in places.targets[0].texels.iter().enumerate() {

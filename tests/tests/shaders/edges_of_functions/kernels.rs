@@ -3,7 +3,7 @@
 use crate::edges_of_functions::compare::{self, Mismatch};
 use crate::edges_of_functions::functions::{FUNCTIONS, Function};
 use crate::edges_of_functions::roads::INTERPRETER;
-use straightline_bench::execute::{Inputs, interpret};
+use straightline_bench::execute::{Inputs, interpret_kernel};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage};
 use straightline_kernels::prelude::*;
@@ -125,7 +125,7 @@ fn arguments(arity: usize) -> Inputs {
             (uvec2(64, 64), triples.collect())
         }
     };
-    Inputs::new(size).image("a", Frame::new(size, texels))
+    Inputs::new(size).with_image("a", Frame::new(size, texels))
 }
 
 impl Table {
@@ -199,7 +199,7 @@ impl Table {
     ///
     /// The interpreter cannot run it.
     pub fn mismatches_of_interpreter(&self, made: &Made<'_>) -> Result<Vec<Mismatch>, String> {
-        let found = interpret::<f32>(&made.compiled, made.inputs, false).map_err(|e| e.to_string())?;
+        let found = interpret_kernel::<f32>(&made.compiled, made.inputs, false).map_err(|e| e.to_string())?;
         let pictures: Vec<Frame<Vec4>> = found.targets.iter().map(|target| target.frame()).collect();
         Ok(self.compared(INTERPRETER, &pictures, compare::bit_by_bit))
     }

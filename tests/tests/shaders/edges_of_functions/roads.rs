@@ -75,7 +75,7 @@ impl std::fmt::Display for Road {
 fn by_wgpu(bench: &Bench, made: &Made<'_>) -> Result<Vec<Frame<Vec4>>, String> {
     let failed = |e: &dyn std::fmt::Display| e.to_string();
     let pass = bench
-        .made(&made.emitted, &PassOptions::default())
+        .create_pass(&made.emitted, &PassOptions::default())
         .map_err(|e| failed(&e))?;
     let uploaded = bench
         .upload(&made.emitted.manifest, made.inputs)
@@ -84,7 +84,9 @@ fn by_wgpu(bench: &Bench, made: &Made<'_>) -> Result<Vec<Frame<Vec4>>, String> {
         .device()
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let size = made.inputs.size;
-    let targets = pass.targets().map(|(name, format)| (name, bench.target(size, format)));
+    let targets = pass
+        .targets()
+        .map(|(name, format)| (name, bench.create_target(size, format)));
     let targets: Vec<_> = targets.collect();
     let views: Vec<_> = targets
         .iter()

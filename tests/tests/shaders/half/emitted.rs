@@ -38,7 +38,7 @@ fn every_kernel_emits_in_every_language_but_glsl() {
                 Ok(emitted) => emitted,
                 // The kernel needs the frame's size, in every precision.
                 Err(error)
-                    if error.code() == Some(Code::FrameSize)
+                    if error.first_code() == Some(Code::FrameSize)
                         && compiled.kernel == "catmull_rom"
                         && stage == Stage::Fragment =>
                 {

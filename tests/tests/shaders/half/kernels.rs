@@ -146,7 +146,7 @@ fn what_half_precision_costs() {
         let compiled = kernel.compile(&Settings::default()).unwrap_or_else(|e| panic!("{e}"));
         let inputs = test_inputs(&compiled.in_blocks().graph, SIZE);
         let [shown, found] = both(&gpu, &compiled, Stage::Compute, &inputs);
-        let exact = interpret::<f64>(&compiled, &inputs, false)
+        let exact = interpret_kernel::<f64>(&compiled, &inputs, false)
             .expect("it ran in f16")
             .frame(&inputs);
         let [shown, found] = [&shown, &found].map(|picture| apart(picture, &exact));

@@ -21,7 +21,7 @@ fn messages_arrive() {
     let lanes = [1000.0, 0.3, -0.0, 65504.0, 6.0e-8, -7.0, 0.1, 1.0e-4].map(nearest);
     let size = uvec2(4, 2);
     let image = Frame::new(size, lanes.map(Vec4::splat).to_vec());
-    let inputs = Inputs::new(size).image("value", image.clone());
+    let inputs = Inputs::new(size).with_image("value", image.clone());
     let heard =
         |x: i32, y: i32| [(x, y), (x ^ 1, y), (x, y ^ 1), (x ^ 1, y ^ 1)].map(|(x, y)| image.load(ivec2(x, y)).x);
     for (transport, stage) in [

@@ -6,7 +6,7 @@ use straightline_bench::execute::SamplerState;
 /// A row of texels.
 fn row(texels: &[Vec4]) -> Inputs {
     let size = uvec2(texels.len() as u32, 1);
-    Inputs::new(size).image("value", Frame::new(size, texels.to_vec()))
+    Inputs::new(size).with_image("value", Frame::new(size, texels.to_vec()))
 }
 
 /// A kernel of one expression on the texel `v`.
@@ -107,12 +107,12 @@ fn uniforms_and_buffers_are_rounded_once() {
 }";
     let compiled = compile_text(text, &Settings::default());
     let inputs = row(&[Vec4::ONE; 3])
-        .buffer(
+        .with_buffer(
             "weights",
             vec![[0.1, 0.2, 0.0, 0.0], [3.0, 5.0, 0.0, 0.0], [1.0e-3, 7.7, 0.0, 0.0]],
         )
-        .uniform("strength", &[1.5])
-        .uniform("tint", &[0.0, 0.3, 0.7]);
+        .with_uniform("strength", &[1.5])
+        .with_uniform("tint", &[0.0, 0.3, 0.7]);
     let h = f16::from_f64;
     let expected = |w: [f64; 2]| {
         let product = |w: f64| (h(w) * h(1.5)).to_f32();
@@ -157,8 +157,8 @@ fn coordinates_are_coarse() {
         ..SamplerState::default()
     };
     let inputs = Inputs::new(size)
-        .image("image", Frame::new(size, texels))
-        .sampler("nearest", state);
+        .with_image("image", Frame::new(size, texels))
+        .with_sampler("nearest", state);
     let h = f16::from_f64;
     let hit = |x: u32| {
         let place = (h(x.into()) + h(0.5)) / h(4096.0);
@@ -188,7 +188,7 @@ fn references_are_compared_in_full_precision() {
     let compiled = compile_text(text, &Settings::default());
     let depth = 0.251;
     let size = uvec2(16, 1);
-    let inputs = Inputs::new(size).image("shadow", Frame::new(uvec2(1, 1), vec![Vec4::splat(depth)]));
+    let inputs = Inputs::new(size).with_image("shadow", Frame::new(uvec2(1, 1), vec![Vec4::splat(depth)]));
     let h = f16::from_f64;
     for found in both(&half_bench(), &compiled, Stage::Compute, &inputs) {
         for x in 0..16 {

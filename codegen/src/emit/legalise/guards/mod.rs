@@ -135,7 +135,7 @@ fn by_component<'g>(module: &mut Module<'g>, guard: &Guard, scalar: Op, name: &s
             let parts = params.iter().map(|param| part(*param)).collect();
             Expr::new(scalar.clone(), parts, ty.element_of())
         };
-        let all = Expr::new(Op::Construct, (0..ty.components()).map(component).collect(), ty);
+        let all = Expr::new(Op::Construct, (0..ty.component_count()).map(component).collect(), ty);
         Function {
             comment: guard.comment.to_owned(),
             name: name.to_owned(),

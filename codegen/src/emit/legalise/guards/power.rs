@@ -12,7 +12,7 @@ pub const MOST: f32 = 64.0;
 /// An exponent that is the same constant in all components.
 pub fn constant_exponent(args: &[Expr]) -> Option<f32> {
     let bits = args[1].as_constant()?;
-    let lanes = usize::from(args[1].ty.components());
+    let lanes = usize::from(args[1].ty.component_count());
     let first = bits[0];
     bits[..lanes]
         .iter()

@@ -6,7 +6,7 @@ use straightline_evaluator::ir::{Scalar, Texture, TextureKind, Type};
 
 /// The type of an image that is written.
 pub fn image_type(output: &BoundOutput) -> &'static str {
-    match output.ty.kind() {
+    match output.ty.scalar_kind() {
         Some(Scalar::I32) => "iimage2D",
         Some(Scalar::U32) => "uimage2D",
         _ => "image2D",

@@ -62,7 +62,7 @@ pub fn structure_declarations(resources: &Resources) -> String {
                 other => other,
             };
             out += &format!("    {};\n", variable_declared(&field.name, ty.into()));
-            at = field.offset + field.ty.layout().1;
+            at = field.offset + field.ty.memory_layout().1;
         }
         pad(&mut out, &mut at, structure.stride());
         out += "};\n\n";
@@ -112,7 +112,7 @@ fn texture_type(texture: &Texture) -> String {
 
 /// A type as HLSL spells it.
 pub fn type_name(ty: Ty) -> String {
-    let scalar = match ty.kind() {
+    let scalar = match ty.scalar_kind() {
         Some(Scalar::F32) if ty.half => "half",
         Some(Scalar::F32) => "float",
         Some(Scalar::I32) => "int",
@@ -120,7 +120,7 @@ pub fn type_name(ty: Ty) -> String {
         Some(Scalar::Bool) => "bool",
         None => return "void".to_owned(),
     };
-    match ty.components() {
+    match ty.component_count() {
         1 => scalar.to_owned(),
         lanes => format!("{scalar}{lanes}"),
     }

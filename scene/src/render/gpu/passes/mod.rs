@@ -4,7 +4,7 @@ mod pictures;
 mod resources;
 
 use super::GpuRenderer;
-use super::drawing::{Drawing, Target, view};
+use super::drawing::{Drawing, Target, full_view};
 use super::pipelines::WORKGROUP;
 use crate::render::RenderError;
 use crate::scene::Scene;
@@ -44,8 +44,8 @@ impl Samples {
         match self {
             Samples::One => vec![Vec2::ZERO],
             Samples::Three => Samples::Four.offsets().into_iter().skip(1).collect(),
-            Samples::Four => crate::gbuffer::samples("latin4").unwrap_or_default(),
-            Samples::Sixteen => crate::gbuffer::samples("latin16").unwrap_or_default(),
+            Samples::Four => crate::gbuffer::pattern_offsets("latin4").unwrap_or_default(),
+            Samples::Sixteen => crate::gbuffer::pattern_offsets("latin16").unwrap_or_default(),
         }
     }
 }
@@ -70,7 +70,7 @@ pub enum FramePass {
 
 impl FramePass {
     /// Passes of wgpu that it records.
-    pub fn passes(self) -> u32 {
+    pub fn pass_count(self) -> u32 {
         match self {
             FramePass::Geometry(samples) | FramePass::Auxiliary(samples) | FramePass::Shading(samples) => {
                 samples.count()
@@ -137,18 +137,18 @@ impl FramePasses {
         evaluations: u32,
     ) -> Result<Self, RenderError> {
         let renderer = GpuRenderer::new(device, queue, scene, size)?;
-        let passes = super::guarded(device, "making a frame's passes", || {
-            resources::passes(renderer, scene, evaluations.max(1))
+        let passes = super::with_error_scope(device, "making a frame's passes", || {
+            resources::create_passes(renderer, scene, evaluations.max(1))
         })?;
         for samples in Samples::ALL {
-            passes.supersample(samples)?;
+            passes.submit_supersampled(samples)?;
             passes.submit(&[FramePass::Auxiliary(samples)])?;
         }
         passes.submit(&[FramePass::AuxiliaryMultisampled, FramePass::Forward])?;
         Ok(passes)
     }
 
-    /// Records a pass; `timestamps` has one entry for each of its [passes](FramePass::passes), or none if they are not timed.
+    /// Records a pass; `timestamps` has one entry for each of its [passes](FramePass::pass_count), or none if they are not timed.
     ///
     /// Shading reads the G-buffer that was drawn last, and [`FramePass::Resolve`] what was shaded last.
     pub fn encode(&self, pass: FramePass, encoder: &mut CommandEncoder, timestamps: &[Timestamps]) {
@@ -164,7 +164,7 @@ impl FramePasses {
                 let group = &self.places[Samples::One as usize][0].geometry;
                 self.targets
                     .multisampled
-                    .draw(encoder, &self.renderer.resources, group, writes);
+                    .record_draw(encoder, &self.renderer.resources, group, writes);
             }
             FramePass::Resolve(samples) => {
                 let mean = &self.means[samples as usize];
@@ -193,10 +193,10 @@ impl FramePasses {
         }
         let timestamps = timestamps.map(Timestamps::render_writes);
         if let FramePass::Geometry(_) = pass {
-            pipelines.draw(encoder, resources, &place.geometry, timestamps);
+            pipelines.record_draw(encoder, resources, &place.geometry, timestamps);
             return;
         }
-        let tested = view(&resources.depth);
+        let tested = full_view(&resources.depth);
         let [depth, normal] = &self.targets.auxiliary_views[sample];
         let drawing = Drawing {
             label: "straightline auxiliary geometry",
@@ -215,7 +215,7 @@ impl FramePasses {
 
     fn encode_forward(&self, encoder: &mut CommandEncoder, timestamps: Option<&Timestamps>) {
         let forward = &self.forward;
-        let [color, tested, picture] = [&forward.color, &forward.tested, &self.targets.picture].map(view);
+        let [color, tested, picture] = [&forward.color, &forward.tested, &self.targets.picture].map(full_view);
         let drawing = Drawing {
             label: "straightline forward",
             pipeline: &forward.surfaces,

@@ -1,7 +1,7 @@
 //! Pictures that the passes make, read back: timing needs none of them, but what is timed should be right.
 
 use super::{FramePass, FramePasses, Samples};
-use crate::render::gpu::{guarded, multisampled, read};
+use crate::render::gpu::{multisampled, read, with_error_scope};
 use crate::render::{MultisampledGeometry, RenderError};
 use glam::{Vec3, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -12,9 +12,9 @@ impl FramePasses {
     /// # Errors
     ///
     /// [`RenderError::Device`].
-    pub fn supersampled(&self, samples: Samples) -> Result<Frame<Vec4>, RenderError> {
-        self.supersample(samples)?;
-        self.picture()
+    pub fn draw_supersampled(&self, samples: Samples) -> Result<Frame<Vec4>, RenderError> {
+        self.submit_supersampled(samples)?;
+        self.read_picture()
     }
 
     /// The picture of forward rendering with four samples.
@@ -22,9 +22,9 @@ impl FramePasses {
     /// # Errors
     ///
     /// [`RenderError::Device`].
-    pub fn forward(&self) -> Result<Frame<Vec4>, RenderError> {
+    pub fn draw_forward(&self) -> Result<Frame<Vec4>, RenderError> {
         self.submit(&[FramePass::Forward])?;
-        self.picture()
+        self.read_picture()
     }
 
     /// Depths, and normals rounded to halves, from a pass for each sample.
@@ -32,10 +32,10 @@ impl FramePasses {
     /// # Errors
     ///
     /// [`RenderError::Device`].
-    pub fn auxiliary(&self, samples: Samples) -> Result<(FrameLayers<f32>, FrameLayers<Vec3>), RenderError> {
+    pub fn draw_auxiliary(&self, samples: Samples) -> Result<(FrameLayers<f32>, FrameLayers<Vec3>), RenderError> {
         self.submit(&[FramePass::Auxiliary(samples)])?;
         let size = self.renderer.size;
-        let layer = |texture, sample| read::layer(&self.renderer.device, &self.renderer.queue, texture, sample);
+        let layer = |texture, sample| read::read_layer(&self.renderer.device, &self.renderer.queue, texture, sample);
         let (mut depths, mut normals) = (Vec::new(), Vec::new());
         for sample in 0..samples.count() {
             let depth = layer(&self.targets.auxiliary_depth, sample)?;
@@ -54,12 +54,12 @@ impl FramePasses {
     pub fn auxiliary_multisampled(&self) -> Result<MultisampledGeometry, RenderError> {
         self.submit(&[FramePass::AuxiliaryMultisampled])?;
         let multisampled: &multisampled::Multisampled = &self.targets.multisampled;
-        Ok(multisampled.geometry(&self.renderer.device, &self.renderer.queue))
+        Ok(multisampled.to_geometry(&self.renderer.device, &self.renderer.queue))
     }
 
     /// Draws and shades sample after sample, then makes their mean.
-    pub(super) fn supersample(&self, samples: Samples) -> Result<(), RenderError> {
-        self.recorded(|encoder| {
+    pub(super) fn submit_supersampled(&self, samples: Samples) -> Result<(), RenderError> {
+        self.submit_recorded(|encoder| {
             for sample in 0..self.places[samples as usize].len() {
                 self.encode_sample(FramePass::Geometry(samples), samples, sample, encoder, None);
                 self.encode_sample(FramePass::Shading(samples), samples, sample, encoder, None);
@@ -69,12 +69,12 @@ impl FramePasses {
     }
 
     pub(super) fn submit(&self, passes: &[FramePass]) -> Result<(), RenderError> {
-        self.recorded(|encoder| passes.iter().for_each(|pass| self.encode(*pass, encoder, &[])))
+        self.submit_recorded(|encoder| passes.iter().for_each(|pass| self.encode(*pass, encoder, &[])))
     }
 
-    fn recorded(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), RenderError> {
+    fn submit_recorded(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), RenderError> {
         let renderer = &self.renderer;
-        guarded(&renderer.device, "drawing a frame's passes", || {
+        with_error_scope(&renderer.device, "drawing a frame's passes", || {
             let descriptor = wgpu::CommandEncoderDescriptor::default();
             let mut encoder = renderer.device.create_command_encoder(&descriptor);
             record(&mut encoder);
@@ -82,9 +82,9 @@ impl FramePasses {
         })
     }
 
-    fn picture(&self) -> Result<Frame<Vec4>, RenderError> {
+    fn read_picture(&self) -> Result<Frame<Vec4>, RenderError> {
         let renderer = &self.renderer;
-        let texels = read::layer(&renderer.device, &renderer.queue, &self.targets.picture, 0)?;
+        let texels = read::read_layer(&renderer.device, &renderer.queue, &self.targets.picture, 0)?;
         Ok(Frame::new(renderer.size, texels))
     }
 }

@@ -3,10 +3,10 @@
 use super::{FramePasses, Samples};
 use crate::render::frame::{Lighting, Pass};
 use crate::render::gpu::GpuRenderer;
-use crate::render::gpu::drawing::{Drawn, view};
+use crate::render::gpu::drawing::{Drawn, full_view};
 use crate::render::gpu::multisampled::{self, DEPTH, Multisampled, NORMAL, multisampled_target};
-use crate::render::gpu::pipelines::{group_layout, pipeline_layout, texture, uniform};
-use crate::render::gpu::resources::{DEPTH_FORMAT, empty, group};
+use crate::render::gpu::pipelines::{group_layout, pipeline_layout, texture_binding, uniform_binding};
+use crate::render::gpu::resources::{DEPTH_FORMAT, create_bind_group, create_buffer};
 use crate::scene::Scene;
 use glam::UVec2;
 use wgpu::{BindingType, BufferUsages, ShaderStages, TextureFormat, TextureUsages, TextureView};
@@ -50,7 +50,7 @@ pub(super) struct Forward {
 }
 
 /// Makes everything. Errors are the caller's to catch.
-pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> FramePasses {
+pub(super) fn create_passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> FramePasses {
     let (device, size) = (&renderer.device, renderer.size);
     let text = [
         &renderer.pipelines.geometry_text,
@@ -62,7 +62,7 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
         source: wgpu::ShaderSource::Wgsl(text.join("\n").into()),
     });
     let filled = |bytes: &[u8]| {
-        let buffer = empty(
+        let buffer = create_buffer(
             device,
             BufferUsages::UNIFORM | BufferUsages::COPY_DST,
             bytes.len() as u64,
@@ -81,17 +81,17 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
     let shading_layout = group_layout(
         device,
         &[
-            (compute, uniform()),
-            (compute, uniform()),
-            (compute, texture()),
-            (compute, texture()),
-            (compute, written()),
+            (compute, uniform_binding()),
+            (compute, uniform_binding()),
+            (compute, texture_binding()),
+            (compute, texture_binding()),
+            (compute, storage_texture_binding()),
         ],
     );
     let layers = Samples::Sixteen.count();
     let read = TextureUsages::TEXTURE_BINDING;
-    let colors = layered(device, size, layers, COLOR, TextureUsages::STORAGE_BINDING | read);
-    let main = [&renderer.resources.normal_depth, &renderer.resources.color_material].map(view);
+    let colors = create_layered(device, size, layers, COLOR, TextureUsages::STORAGE_BINDING | read);
+    let main = [&renderer.resources.normal_depth, &renderer.resources.color_material].map(full_view);
     let places = Samples::ALL.map(|samples| {
         let place = |(layer, offset): (usize, &glam::Vec2)| {
             let pass = pass(*offset);
@@ -100,21 +100,21 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
                 lighting.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&main[0]),
                 wgpu::BindingResource::TextureView(&main[1]),
-                wgpu::BindingResource::TextureView(&one(&colors, layer)),
+                wgpu::BindingResource::TextureView(&layer_view(&colors, layer)),
             ];
             Place {
-                geometry: group(device, &renderer.pipelines.geometry_layout, &bindings[..1]),
-                shading: group(device, &shading_layout, &bindings),
+                geometry: create_bind_group(device, &renderer.pipelines.geometry_layout, &bindings[..1]),
+                shading: create_bind_group(device, &shading_layout, &bindings),
             }
         };
         samples.offsets().iter().enumerate().map(place).collect()
     });
 
-    let auxiliary_depth = layered(device, size, layers, DEPTH, TextureUsages::RENDER_ATTACHMENT);
-    let auxiliary_normal = layered(device, size, layers, NORMAL, TextureUsages::RENDER_ATTACHMENT);
+    let auxiliary_depth = create_layered(device, size, layers, DEPTH, TextureUsages::RENDER_ATTACHMENT);
+    let auxiliary_normal = create_layered(device, size, layers, NORMAL, TextureUsages::RENDER_ATTACHMENT);
     let auxiliary = Drawn {
         label: "straightline auxiliary geometry",
-        layouts: renderer.pipelines.drawing(),
+        layouts: renderer.pipelines.drawing_layouts(),
         module: &module,
         entries: ["corner", "auxiliary"],
         targets: &[DEPTH, NORMAL],
@@ -124,18 +124,23 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
     let usage = TextureUsages::STORAGE_BINDING | TextureUsages::RENDER_ATTACHMENT;
     let targets = Targets {
         deferred: compute_pipeline(device, &shading_layout, &module, "deferred"),
-        auxiliary: auxiliary.pipeline(device),
+        auxiliary: auxiliary.create_pipeline(device),
         auxiliary_views: (0..layers as usize)
-            .map(|layer| [one(&auxiliary_depth, layer), one(&auxiliary_normal, layer)])
+            .map(|layer| {
+                [
+                    layer_view(&auxiliary_depth, layer),
+                    layer_view(&auxiliary_normal, layer),
+                ]
+            })
             .collect(),
         auxiliary_depth,
         auxiliary_normal,
         multisampled: Multisampled::new(device, size, &renderer.pipelines),
-        picture: layered(device, size, 1, COLOR, usage),
+        picture: create_layered(device, size, 1, COLOR, usage),
     };
-    let means = Samples::ALL.map(|samples| mean(device, samples.count(), &colors, &targets.picture));
+    let means = Samples::ALL.map(|samples| create_mean(device, samples.count(), &colors, &targets.picture));
     let pass = pass(glam::Vec2::ZERO);
-    let forward = forward(
+    let forward = create_forward(
         device,
         size,
         &module,
@@ -151,7 +156,7 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
     }
 }
 
-fn forward(
+fn create_forward(
     device: &wgpu::Device,
     size: UVec2,
     module: &wgpu::ShaderModule,
@@ -159,7 +164,7 @@ fn forward(
     bindings: &[wgpu::BindingResource<'_>],
 ) -> Forward {
     let seen = ShaderStages::VERTEX_FRAGMENT;
-    let layout = group_layout(device, &[(seen, uniform()), (seen, uniform())]);
+    let layout = group_layout(device, &[(seen, uniform_binding()), (seen, uniform_binding())]);
     let surfaces = Drawn {
         label: "straightline forward",
         layouts: [&layout, texture_layout],
@@ -176,16 +181,16 @@ fn forward(
         ..surfaces
     };
     Forward {
-        surfaces: surfaces.pipeline(device),
-        sky: sky.pipeline(device),
-        group: group(device, &layout, bindings),
+        surfaces: surfaces.create_pipeline(device),
+        sky: sky.create_pipeline(device),
+        group: create_bind_group(device, &layout, bindings),
         color: multisampled_target(device, size, COLOR, TextureUsages::empty()),
         tested: multisampled_target(device, size, DEPTH_FORMAT, TextureUsages::empty()),
     }
 }
 
 /// The mean of the first layers of `colors`: as straight as SRAA's own shaders are.
-fn mean(device: &wgpu::Device, samples: u32, colors: &wgpu::Texture, picture: &wgpu::Texture) -> Mean {
+fn create_mean(device: &wgpu::Device, samples: u32, colors: &wgpu::Texture, picture: &wgpu::Texture) -> Mean {
     let reads: String = (0..samples)
         .map(|k| format!("    sum += textureLoad(colors, id.xy, {k}u, 0);\n"))
         .collect();
@@ -211,7 +216,10 @@ fn mean(device: &wgpu::Device, samples: u32, colors: &wgpu::Texture, picture: &w
     };
     let layout = group_layout(
         device,
-        &[(ShaderStages::COMPUTE, read), (ShaderStages::COMPUTE, written())],
+        &[
+            (ShaderStages::COMPUTE, read),
+            (ShaderStages::COMPUTE, storage_texture_binding()),
+        ],
     );
     let all = colors.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2Array),
@@ -219,11 +227,11 @@ fn mean(device: &wgpu::Device, samples: u32, colors: &wgpu::Texture, picture: &w
     });
     let bindings = [
         wgpu::BindingResource::TextureView(&all),
-        wgpu::BindingResource::TextureView(&view(picture)),
+        wgpu::BindingResource::TextureView(&full_view(picture)),
     ];
     Mean {
         pipeline: compute_pipeline(device, &layout, &module, "mean"),
-        group: group(device, &layout, &bindings),
+        group: create_bind_group(device, &layout, &bindings),
     }
 }
 
@@ -244,7 +252,7 @@ fn compute_pipeline(
 }
 
 /// A texture of colours that is written.
-fn written() -> BindingType {
+fn storage_texture_binding() -> BindingType {
     BindingType::StorageTexture {
         access: wgpu::StorageTextureAccess::WriteOnly,
         format: COLOR,
@@ -253,7 +261,7 @@ fn written() -> BindingType {
 }
 
 /// A texture of several layers, which can be read back.
-fn layered(
+fn create_layered(
     device: &wgpu::Device,
     size: UVec2,
     layers: u32,
@@ -277,7 +285,7 @@ fn layered(
 }
 
 /// Returns a view of one layer.
-fn one(texture: &wgpu::Texture, layer: usize) -> TextureView {
+fn layer_view(texture: &wgpu::Texture, layer: usize) -> TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2),
         base_array_layer: layer as u32,
