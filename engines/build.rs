@@ -1,5 +1,5 @@
-//! Makes the tables of built-in engines from the folders in `templates/`: what each `engine.toml` says, and the other files as text. They
-//! are two, so that a program that renders no template holds none.
+//! Generates the tables of built-in engines from the folders in `templates/`: the description in each `engine.toml`, and
+//! the other files as text. The tables are separate, so that a program that renders no template contains none.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

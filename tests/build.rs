@@ -1,4 +1,4 @@
-//! Makes modules of the examples in the pages on the language, so that rustc compiles what they say.
+//! Turns the examples in the language documentation into modules, so that rustc compiles them.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -35,7 +35,7 @@ fn main() {
     std::fs::write(out, modules + &table).expect("the build folder can be written");
 }
 
-/// A module of an example, and how a table has it.
+/// Returns the module of an example, and its entry in a table.
 fn example(source: &str) -> (String, String) {
     let file = syn::parse_file(source).unwrap_or_else(|e| panic!("an example is not Rust: {e}\n{source}"));
     let kernel = file.items.iter().find_map(|item| match item {
@@ -55,12 +55,12 @@ fn example(source: &str) -> (String, String) {
     (module, example)
 }
 
-/// The constructs of `features/` by their titles.
+/// Returns the constructs of `features/` by their titles.
 fn features() -> Vec<(String, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("features");
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut found = Vec::new();
-    // In the order of a page.
+    // In the order of the page.
     for name in [
         "control", "patterns", "closures", "values", "indices", "items", "refused",
     ] {
@@ -75,7 +75,7 @@ fn features() -> Vec<(String, String)> {
     found
 }
 
-/// The text of every block that is marked as Rust.
+/// Returns the text of every block marked as Rust.
 fn blocks(page: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut open: Option<String> = None;
@@ -90,7 +90,7 @@ fn blocks(page: &str) -> Vec<String> {
     found
 }
 
-/// What makes texels of what a kernel gives: of each field of a structure one, of a value itself.
+/// Returns code that converts a kernel's result to texels: one for each field of a structure, or one for a single value.
 fn texels(file: &syn::File, output: &syn::ReturnType) -> String {
     let texel = |value: &str| format!("crate::language::Texel::texel(&{value})");
     let syn::ReturnType::Type(_, ty) = output else {
@@ -116,7 +116,7 @@ fn texels(file: &syn::File, output: &syn::ReturnType) -> String {
     format!("vec![{}]", parts.join(", "))
 }
 
-/// What a parameter is given, by its name and type.
+/// Returns the argument for a parameter, by its name and type.
 fn argument(input: &syn::FnArg) -> String {
     let syn::FnArg::Typed(typed) = input else {
         panic!("a kernel is no method")

@@ -1,4 +1,4 @@
-//! Failure of the command line: one clear error on stderr, exit status 2 for bad use and 1 for all else.
+//! Failure of the command line: one error on stderr; exit status 2 for wrong usage and 1 for everything else.
 
 use crate::output;
 use std::fmt::Display;
@@ -6,24 +6,24 @@ use std::io::IsTerminal;
 use std::process::ExitCode;
 use straightline_codegen::diagnostic::{Code, Errors};
 
-/// Why a command ended without doing what it was asked.
+/// Reason why a command could not do what was requested.
 #[derive(Debug)]
 pub enum Failure {
-    /// The request is wrong or names something that does not exist.
+    /// The request is wrong, or names something that does not exist.
     Usage(String),
-    /// The command could not do its work.
+    /// The command failed at its work.
     Failed(String),
-    /// The kernel, or a setting of it, is wrong.
+    /// The kernel, or one of its settings, is wrong.
     Kernel(Errors),
 }
 
 impl Failure {
-    /// A failure of any error value.
+    /// Creates a failure from any error value.
     pub fn from_error(error: impl Display) -> Failure {
         Failure::Failed(error.to_string())
     }
 
-    /// Prints the failure and gives the exit status.
+    /// Prints the failure and returns the exit status.
     pub fn report(self) -> ExitCode {
         match self {
             Failure::Usage(message) => {
@@ -35,8 +35,8 @@ impl Failure {
                 ExitCode::from(1)
             }
             Failure::Kernel(errors) => {
-                // An unknown kernel, option or value is in no file: a mistake of the command line's. Built-in kernels have no
-                // places in emission, whose codes begin with E07.
+                // An unknown kernel, option or value has no source file: a usage error. Emission errors (codes beginning
+                // with E07) of built-in kernels have no span either, but are not usage errors.
                 let usage = errors
                     .diagnostics
                     .iter()
@@ -51,7 +51,7 @@ impl Failure {
     }
 }
 
-/// A number with its noun: `1 error`, `2 errors`.
+/// Formats a count with its noun: `1 error`, `2 errors`.
 pub fn format_count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }

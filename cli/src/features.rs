@@ -1,9 +1,9 @@
-//! The features that the command `straightline` is built with.
+//! The Cargo features of the command `straightline`.
 //!
-//! It is a library only so that the crate of the workspace's tests can depend on it and ask for all of them: `cargo test
-//! --workspace` then tests the whole command, and `cargo run` builds what the default has.
+//! This is a library only so that the crate of the workspace's tests can depend on it with all features: `cargo test
+//! --workspace` then tests the whole command, and `cargo run` builds the default.
 
-/// The features, and whether each is there.
+/// Names of the features; `true` if built in.
 pub const FEATURES: [(&str, bool); 3] = [
     ("exr", cfg!(feature = "exr")),
     ("models", cfg!(feature = "models")),

@@ -1,20 +1,20 @@
-//! The command line's own device.
+//! The command line's GPU device.
 
 use crate::args::AdapterArgs;
 use crate::failure::Failure;
 use straightline_bench::execute::Bench;
 use wgpu::{Backends, Features};
 
-/// A device to work on, and what it is.
+/// A device, and the description of its adapter.
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub info: wgpu::AdapterInfo,
-    /// True if the device can time passes itself.
+    /// `true` if the device can time passes.
     pub timestamps: bool,
 }
 
-/// Every adapter that the environment's backends offer.
+/// Lists every adapter of the environment's backends.
 pub fn list_adapters() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = Backends::from_env().unwrap_or(Backends::PRIMARY);
@@ -23,7 +23,7 @@ pub fn list_adapters() -> Vec<wgpu::Adapter> {
 }
 
 impl Gpu {
-    /// The adapter asked for, or the fastest kind there is; `None` if there is no adapter at all.
+    /// Opens the requested adapter, or the fastest kind available. Returns `None` if there is no adapter at all.
     pub fn open(args: &AdapterArgs) -> Result<Option<Gpu>, Failure> {
         let mut found = list_adapters();
         found.sort_by_key(|adapter| match adapter.get_info().device_type {
@@ -53,7 +53,7 @@ impl Gpu {
         }
     }
 
-    /// As [`Gpu::open`], where nothing can be done without one.
+    /// Opens a device as [`Gpu::open`], and fails without one.
     pub fn require(args: &AdapterArgs) -> Result<Gpu, Failure> {
         Gpu::open(args)?.ok_or_else(|| {
             Failure::Failed(format!(
@@ -64,8 +64,8 @@ impl Gpu {
 
     fn from_adapter(adapter: wgpu::Adapter) -> Result<Gpu, Failure> {
         let info = adapter.get_info();
-        // A software driver runs passes on this processor, where the wall clock is exact; lavapipe's timestamps (Mesa
-        // 22.3) are not: they may leave out the pass that they stand around.
+        // A software driver runs passes on the CPU, so the wall clock is exact. The timestamps of lavapipe (Mesa 22.3) are
+        // not: they may omit the pass that they surround.
         let timestamps =
             adapter.features().contains(Features::TIMESTAMP_QUERY) && info.device_type != wgpu::DeviceType::Cpu;
         let descriptor = wgpu::DeviceDescriptor {
@@ -92,7 +92,7 @@ impl Gpu {
         })
     }
 
-    /// Name, driver and backend, for records.
+    /// Returns name, driver and backend, for records.
     pub fn describe(&self) -> String {
         describe_adapter(&self.info)
     }
@@ -102,7 +102,7 @@ impl Gpu {
         self.device.features().contains(Features::SHADER_F16)
     }
 
-    /// Runs kernels on the device.
+    /// Returns a bench that runs kernels on the device.
     pub fn bench(&self) -> Bench {
         Bench::new(&self.device, &self.queue, self.timestamps)
     }

@@ -1,20 +1,20 @@
-//! Ctrl-C, and the signals by which a system ends programs: nothing unfinished is left on the disk.
+//! Ctrl-C and termination signals: no unfinished file is left on the disk.
 
 use crate::failure::Failure;
 use std::sync::atomic::{AtomicBool, Ordering};
 use straightline_codegen::files;
 
-/// True if a first Ctrl-C only asks to stop: set while something runs that keeps what it has measured.
+/// `true` if the first Ctrl-C only requests a stop, because the running command keeps its measurements.
 static ASKS: AtomicBool = AtomicBool::new(false);
 
-/// True once Ctrl-C asked to stop.
+/// `true` after Ctrl-C requested a stop.
 static PRESSED: AtomicBool = AtomicBool::new(false);
 
-/// Exit status of a program that was interrupted, as shells have it.
+/// Exit status of an interrupted program, by the convention of shells.
 const INTERRUPTED: i32 = 130;
 
-/// Listens for the program's whole life. Where nothing asks to be stopped, an interrupt removes unfinished files and ends
-/// the program.
+/// Installs the handler for the lifetime of the program. Unless [`defer_interrupt`] was called, an interrupt removes
+/// unfinished files and ends the program.
 pub fn listen_for_interrupt() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
         if ASKS.load(Ordering::SeqCst) && !PRESSED.swap(true, Ordering::SeqCst) {
@@ -27,13 +27,13 @@ pub fn listen_for_interrupt() -> Result<(), Failure> {
     .map_err(|error| Failure::Failed(format!("cannot listen to Ctrl-C: {error}")))
 }
 
-/// From now on a first interrupt only asks to stop.
+/// Makes the first interrupt only request a stop.
 #[cfg(feature = "study")]
 pub fn defer_interrupt() {
     ASKS.store(true, Ordering::SeqCst);
 }
 
-/// Returns whether Ctrl-C asked to stop.
+/// Returns whether Ctrl-C requested a stop.
 #[cfg(feature = "study")]
 pub fn is_stop_requested() -> bool {
     PRESSED.load(Ordering::SeqCst)

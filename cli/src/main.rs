@@ -69,7 +69,7 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Prints the help that was asked for, or what is wrong with the arguments.
+/// Prints the requested help, or the usage error.
 fn print_usage(said: &clap::Error) -> ExitCode {
     let text = |colour: bool| {
         let text = said.render();

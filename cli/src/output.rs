@@ -1,7 +1,7 @@
-//! The one place that writes to standard output and standard error. Neither ever makes the program panic.
+//! The only module that writes to standard output and standard error. Neither ever makes the program panic.
 //!
-//! A pipe whose reader has gone is no error: what is printed after that is dropped, and the work goes on. What else keeps
-//! standard output from being written ends in an error when all is done.
+//! A closed pipe is not an error: later output is dropped, and the work goes on. Any other failure of standard output
+//! becomes an error at the end of the program.
 
 use crate::failure::Failure;
 use std::fmt::Arguments;
@@ -11,7 +11,7 @@ use std::sync::Mutex;
 /// First error of standard output.
 static REFUSED: Mutex<Option<io::Error>> = Mutex::new(None);
 
-/// Most characters of a line of an error.
+/// Maximum length of a line of an error message, in characters.
 const LONGEST: usize = 1000;
 
 /// Prints to standard output.
@@ -25,7 +25,7 @@ pub fn note(text: Arguments<'_>) {
     let _ = io::stderr().write_fmt(text);
 }
 
-/// Flushes standard output, and fails if it refused something. A closed pipe is no error.
+/// Flushes standard output. Fails if a write failed earlier, except for a closed pipe.
 pub fn flush_output() -> Result<(), Failure> {
     write_unless_refused(|| io::stdout().flush());
     let refused = REFUSED.lock().ok().and_then(|mut refused| refused.take());
@@ -37,7 +37,7 @@ pub fn flush_output() -> Result<(), Failure> {
     }
 }
 
-/// Returns whether standard output has refused text. A program that prints until it is stopped has no reader then.
+/// Returns whether a write to standard output failed. A program that prints until stopped then has no reader.
 pub fn is_refused() -> bool {
     REFUSED.lock().map_or(true, |refused| refused.is_some())
 }
@@ -51,7 +51,7 @@ fn write_unless_refused(write: impl FnOnce() -> io::Result<()>) {
     }
 }
 
-/// A message with every line that no screen holds shortened in its middle.
+/// Returns the message with overlong lines shortened in the middle.
 pub fn limit_lines(message: &str) -> String {
     let shortened = |line: &str| {
         let count = line.chars().count();
@@ -65,18 +65,18 @@ pub fn limit_lines(message: &str) -> String {
     message.split('\n').map(shortened).collect::<Vec<_>>().join("\n")
 }
 
-/// `print!` by [`print()`].
+/// `print!` through [`print()`].
 macro_rules! out {
     ($($text:tt)*) => { $crate::output::print(format_args!($($text)*)) };
 }
 
-/// `println!` by [`print()`].
+/// `println!` through [`print()`].
 macro_rules! outln {
     () => { $crate::output::print(format_args!("\n")) };
     ($($text:tt)*) => { $crate::output::print(format_args!("{}\n", format_args!($($text)*))) };
 }
 
-/// `eprintln!` by [`note`].
+/// `eprintln!` through [`note`].
 macro_rules! errln {
     ($($text:tt)*) => { $crate::output::note(format_args!("{}\n", format_args!($($text)*))) };
 }

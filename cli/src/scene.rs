@@ -1,4 +1,4 @@
-//! Scenes and who draws them.
+//! Loading of scenes and choice of a renderer.
 
 use crate::args::ViewArgs;
 use crate::failure::Failure;
@@ -11,12 +11,12 @@ use straightline_scene::gbuffer;
 use straightline_scene::render::{CpuRenderer, GpuRenderer, Renderer};
 use straightline_scene::scene::{self, Scene, Viewpoint};
 
-/// A model, or else the built-in scene of a name.
+/// Loads a model, or else the built-in scene of this name.
 pub fn load_scene(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
     load_seen(mesh, name, &Viewpoint::default())
 }
 
-/// Returns the requested scene, from the requested viewpoint.
+/// Loads the requested scene, seen from the requested viewpoint.
 pub fn load_viewed(args: &ViewArgs) -> Result<Scene, Failure> {
     let viewpoint = Viewpoint {
         eye: args.eye,
@@ -38,7 +38,7 @@ fn load_seen(mesh: Option<&Path>, name: &str, viewpoint: &Viewpoint) -> Result<S
     }
 }
 
-/// Draws on the GPU if there is one, else on the CPU.
+/// Creates a renderer on the GPU if there is one, else on the CPU.
 pub fn create_renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<Box<dyn Renderer>, Failure> {
     Ok(match gpu {
         Some(gpu) => Box::new(GpuRenderer::new(&gpu.device, &gpu.queue, scene, size).map_err(Failure::from_error)?),
@@ -46,7 +46,7 @@ pub fn create_renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<
     })
 }
 
-/// Offsets of the samples of a pattern by its name, or listed.
+/// Returns the sample offsets of a named pattern, or of a list.
 pub fn sample_offsets(name: &str) -> Result<Vec<Vec2>, Failure> {
     gbuffer::pattern_offsets(name).ok_or_else(|| {
         Failure::Usage(format!(
@@ -56,7 +56,7 @@ pub fn sample_offsets(name: &str) -> Result<Vec<Vec2>, Failure> {
     })
 }
 
-/// Returns the place of shading by its name on the command line; `shaded` are the geometry samples of `listed`.
+/// Parses the position of the shading sample; `shaded` are the geometry samples of `listed`.
 pub fn parse_shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
     match (name, shaded) {
         ("centre", []) => Ok(ShadingSample::Centre),
@@ -77,14 +77,14 @@ pub fn parse_shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Fail
     }
 }
 
-/// A bar on stderr for `what`, to be advanced as work is done.
+/// Creates a progress bar on stderr, labelled `what`.
 pub fn progress_bar(what: &str) -> ProgressBar {
     let style = ProgressStyle::with_template("{msg:<28} [{bar:30}] {pos}/{len}, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(1).with_style(style).with_message(what.to_owned())
 }
 
-/// A progress function for `bar`.
+/// Returns a progress callback that advances `bar`.
 pub fn advance_bar(bar: &ProgressBar) -> impl FnMut(usize, usize) + '_ {
     |done, total| {
         bar.set_length(total as u64);

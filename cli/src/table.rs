@@ -1,7 +1,7 @@
-//! Tables and paragraphs of text, for people.
+//! Tables and paragraphs of plain text.
 
-/// Text in lines of at most `width` characters, but for words that are longer; the first begins with `first`, the others with
-/// `next`.
+/// Wraps text to lines of at most `width` characters, except for longer words. The first line begins with `first`, the
+/// others with `next`.
 pub fn wrap_text(text: &str, width: usize, first: &str, next: &str) -> String {
     let mut lines = vec![first.to_owned()];
     let (mut length, mut empty) = (first.chars().count(), true);
@@ -22,7 +22,8 @@ pub fn wrap_text(text: &str, width: usize, first: &str, next: &str) -> String {
     lines.join("\n")
 }
 
-/// Columns under headings, each as wide as its widest cell; the first column left, the others right.
+/// Formats columns under headings, each as wide as its widest cell; the first column is left-aligned, the others
+/// right-aligned.
 pub fn render_table(headings: &[&str], rows: &[Vec<String>]) -> String {
     let width = |k: usize| {
         let cells = rows

@@ -1,4 +1,4 @@
-//! A kernel with everything decided: what the interpreter computes and emission writes.
+//! A compiled kernel: the input of the interpreter and of emission.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -12,14 +12,14 @@ use straightline_evaluator::policy::{Math, Policy, Transport};
 use straightline_kernels::{Entry, HalfPrecision, OptionValues, PaperCounts};
 use straightline_manifest::Counts;
 
-/// A kernel with everything decided, ready to be emitted or interpreted.
+/// A kernel after all compile-time decisions, ready to be emitted or interpreted.
 #[derive(Clone, Debug)]
 pub struct Compiled {
     /// The kernel's name.
     pub kernel: String,
     /// The entry of a built-in kernel.
     pub builtin: Option<&'static Entry>,
-    /// One-line description of the kernel.
+    /// Summary of the kernel in one line.
     pub summary: String,
     /// Value of every option.
     pub options: OptionValues,
@@ -33,22 +33,23 @@ pub struct Compiled {
     pub graph: Graph,
     /// Order in which the graph's values are computed.
     pub schedule: Schedule,
-    /// Operations that one invocation executes. `basic_blocks` counts the blocks of the kernel's own loops and branches; emission counts
-    /// those of the shader. `statements` and `max_live` are 0: they are counted in the text, by emission or by [`Compiled::text_counts`].
+    /// Operations that one invocation executes. `basic_blocks` counts the blocks of the kernel's own loops and branches;
+    /// emission counts those of the shader. `statements` and `max_live` are 0: they are counted in the emitted text, by
+    /// emission or by [`Compiled::text_counts`].
     pub counts: Counts,
     /// Transport requested for quad swaps between lanes.
     pub transport: Option<Transport>,
-    /// Outcome of texel sharing for the reads for which it was requested.
+    /// Outcome of texel sharing for the requested reads.
     pub sharing: Option<Arc<Sharing>>,
-    /// Reads that became gathers, where that was asked for.
+    /// Reads that became gathers, if requested.
     pub gathered: Arc<[Gathered]>,
-    /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
+    /// For a kernel whose invocations are lanes: the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,
     /// Limits on compiling and emitting.
     pub limits: Limits,
-    /// Work of compiling it: expressions evaluated and operations visited by passes. The same on every machine.
+    /// Work of compiling the kernel: expressions evaluated and operations visited by passes. Identical on every machine.
     pub work: u64,
-    /// Time that compiling it took; 0 in WebAssembly, which has no clock.
+    /// Compile time; 0 in WebAssembly, which has no clock.
     pub time: Duration,
     /// Source locations of the kernel and its inputs.
     pub places: Arc<Places>,
@@ -59,15 +60,15 @@ pub struct Compiled {
 pub struct Places {
     /// The kernel's files.
     pub files: Arc<Vec<File>>,
-    /// The kernel's name; `None` of a graph that comes from no text.
+    /// Name of the kernel; `None` for a graph without source.
     pub kernel: Option<Span>,
-    /// Inputs by their names.
+    /// Inputs by name.
     pub inputs: Vec<(String, Span)>,
 }
 
 impl Compiled {
-    /// The kernel's reads and stores with next to no arithmetic between: a lower bound of every form
-    /// ([`passes::build_floor`]). It computes nothing of use, and is there to be timed.
+    /// Returns the kernel's reads and stores with almost no arithmetic between: a lower bound on the time of every form
+    /// ([`passes::build_floor`]). The result is useful only for timing.
     ///
     /// # Errors
     ///
@@ -98,15 +99,16 @@ impl Compiled {
         Ok(floor)
     }
 
-    /// Returns the counts for a pixel that the publication of a built-in kernel states with these options; `None` also where one invocation
-    /// computes several pixels.
+    /// Returns the counts for a pixel that the publication of a built-in kernel states with these options; `None` also
+    /// where one invocation computes several pixels.
     pub fn paper_counts(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.block_size() == [1, 1])?;
         (entry.paper)(&self.options)
     }
 
-    /// Places whose order of operations drivers are kept from changing, each with its file, its line from 1 and what it computes: the
-    /// sums whose meaning hangs on that, and what an attribute asks for. None where strict mathematics asks for it everywhere.
+    /// Returns the source lines whose order of operations drivers must not change, each with its file, its line from 1, and
+    /// its computation. These are the sums whose meaning depends on the order, and the operations under an attribute. Empty
+    /// if strict mathematics covers everything.
     pub fn exact_places(&self) -> Vec<(&str, u32, &str)> {
         if self.policy.math == Math::Strict {
             return Vec::new();
@@ -118,15 +120,15 @@ impl Compiled {
             .collect()
     }
 
-    /// Returns the effect of half precision on the picture of a built-in kernel with these options; an option that a host sets is judged at
-    /// its default.
+    /// Returns the effect of half precision on the picture of a built-in kernel with these options. Options that a host
+    /// sets are judged at their defaults.
     pub fn half_precision(&self) -> HalfPrecision {
         let half = self.builtin.map(|entry| (entry.half)(&self.options));
         half.unwrap_or(HalfPrecision::Unstudied)
     }
 
-    /// The kernel with whole quads computed by one invocation, as compute shaders and the interpreter need it; any other
-    /// kernel as it is.
+    /// Returns the kernel with one invocation for each whole quad, as compute shaders and the interpreter need it; any
+    /// other kernel unchanged.
     pub fn in_blocks(&self) -> Cow<'_, Compiled> {
         let Some(graph) = &self.quad else {
             return Cow::Borrowed(self);
@@ -144,7 +146,7 @@ impl Compiled {
     }
 }
 
-/// An error that says that a graph breaks a rule: a mistake of the generator.
+/// Returns the error for a graph that breaks an invariant: a bug of the generator.
 pub fn internal_error(stage: &str, why: &str) -> Errors {
     Errors::from_diagnostic(
         Diagnostic::new(

@@ -31,8 +31,9 @@ pub use crate::spec::KernelConfig;
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
 
-/// Compiles kernels of the caller's crate: from each file the public function that has the file's name, or else the only public one with
-/// parameters and a result that a kernel can have. Options are at their defaults. For anything else see [`Config`].
+/// Compiles kernels of the caller's crate, with options at their defaults. The kernel of a file is the public function with
+/// the file's name, or else the only public function with a kernel's parameters and result. For anything else see
+/// [`Config`].
 ///
 /// # Errors
 ///
@@ -48,7 +49,7 @@ pub struct Config {
     out_dir: Option<PathBuf>,
 }
 
-/// A shader that is ready to be written.
+/// A shader ready to be written.
 struct Built {
     name: String,
     compiled: Compiled,
@@ -66,7 +67,7 @@ impl Built {
         }
     }
 
-    /// The text of the WGSL, which is always written.
+    /// Returns the text of the WGSL, which is always written.
     fn wgsl(&self) -> &str {
         let bytes = self.files.get(&format!("{}.wgsl", self.name));
         bytes
@@ -75,7 +76,7 @@ impl Built {
     }
 }
 
-/// The shader that a configuration describes.
+/// Builds the shader of a configuration.
 fn build(config: &KernelConfig) -> Result<Built, Error> {
     let kernel = match &config.source {
         Source::Builtin(name) if config.function.is_some() => {
@@ -93,7 +94,7 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
     if syn::parse_str::<syn::Ident>(&raw_name(&name)).is_err() {
         return Err(Error::from_problem(Problem::Name(name)));
     }
-    // The bindings include it.
+    // The bindings include the WGSL.
     let spec = config.spec.clone().target(Target::Wgsl);
     let (compiled, emitted) = spec
         .emit(&kernel)
@@ -108,20 +109,20 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
 }
 
 impl Config {
-    /// No shader yet.
+    /// Creates a configuration without shaders.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// A built-in kernel.
+    /// Adds a built-in kernel.
     pub fn kernel(mut self, name: &str, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
         self.kernels
             .push(options(KernelConfig::new(Source::Builtin(name.to_owned()))));
         self
     }
 
-    /// Adds a kernel of the caller's crate: the public function that has the file's name, or else the only public one with parameters and a
-    /// result that a kernel can have, with its options at their defaults.
+    /// Adds a kernel of the caller's crate, with options at their defaults. The kernel is the public function with the
+    /// file's name, or else the only public function with a kernel's parameters and result.
     pub fn file(self, path: impl AsRef<Path>) -> Self {
         self.file_with(path, |k| k)
     }
@@ -139,7 +140,7 @@ impl Config {
         self
     }
 
-    /// Tells cargo which files the shaders are made of.
+    /// Prints the files that the shaders depend on, for cargo.
     fn print_dependencies(&self) {
         for kernel in &self.kernels {
             let own = match &kernel.source {
@@ -150,18 +151,17 @@ impl Config {
                 println!("cargo::rerun-if-changed={}", path.display());
             }
         }
-        // Without a line of its own cargo would come back for every change in the package.
+        // Without any such line, cargo reruns the script on every change in the package.
         println!("cargo::rerun-if-changed=build.rs");
     }
 
-    /// Emits and writes everything, or nothing; in a build script tells cargo to come back when a
-    /// kernel's file changes, and only then.
+    /// Emits and writes everything, or nothing. In a build script, cargo reruns it only when a kernel's file changes.
     ///
     /// # Errors
     ///
     /// Every error of every kernel at once; two shaders of one name; a folder that cannot be written.
     pub fn compile(&self) -> Result<(), Error> {
-        // Cargo sets it for build scripts, and reads what they print.
+        // Cargo sets `OUT_DIR` for build scripts, and reads their output.
         if std::env::var_os("OUT_DIR").is_some() {
             self.print_dependencies();
         }
@@ -199,7 +199,7 @@ impl Config {
     }
 }
 
-/// Everything that kept a build from its shaders.
+/// All errors of a build.
 pub struct Error {
     problems: Vec<Problem>,
 }
@@ -243,7 +243,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// As `Display`: what `fn main() -> Result<...>` in a `build.rs` prints.
+/// As `Display`, because `fn main() -> Result<...>` in a `build.rs` prints errors with `Debug`.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "\n{self}")

@@ -1,5 +1,5 @@
-//! The shaders that are emitted and checked in as `shaders-out/`: SRAA with its default options, for 4 and for 16
-//! samples, and with its loops left in the shader; an edge filter; and filters of quads.
+//! The shaders in the repository's folder `shaders-out/`: SRAA with its default options for 4 and for 16 samples, and with
+//! its loops left in the shader; an edge filter; and filters of quads.
 
 use crate::compiled::Compiled;
 use crate::emit::{EmitOptions, Target};
@@ -17,7 +17,7 @@ pub struct Entry {
     pub stem: &'static str,
     /// The built-in kernel.
     pub kernel: &'static str,
-    /// Options that are not at their defaults.
+    /// Options that differ from their defaults.
     pub options: &'static [(&'static str, &'static str)],
     /// Unroll policy for its loops.
     pub unroll: Unroll,
@@ -30,7 +30,7 @@ pub struct Entry {
 const SAMPLES4: &[(&str, &str)] = &[("pattern", "latin4")];
 const SAMPLES16: &[(&str, &str)] = &[("pattern", "latin16")];
 
-/// Every shader of the set: few, so that each can be read.
+/// Every shader of the set. The set is small, so that each shader can be read.
 pub const ENTRIES: &[Entry] = &[
     kernel_entry("sraa4", "sraa", SAMPLES4, Unroll::Full, Stage::Compute),
     kernel_entry("sraa4-fragment", "sraa", SAMPLES4, Unroll::Full, Stage::Fragment),
@@ -80,7 +80,7 @@ const fn kernel_entry(
     }
 }
 
-/// Languages that a shader can be written in.
+/// Returns the languages that the shader can be written in.
 fn supported_languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Target>, Errors> {
     let mut languages = BTreeSet::new();
     for target in Target::ALL {
@@ -93,7 +93,7 @@ fn supported_languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTr
     Ok(languages)
 }
 
-/// Every file of the set by name: each shader in every language that has what it needs, and its manifest.
+/// Emits every file of the set, by name: each shader in every language that supports it, and its manifest.
 pub fn emit_files() -> Result<BTreeMap<String, Vec<u8>>, Errors> {
     let mut all = BTreeMap::new();
     for entry in ENTRIES {

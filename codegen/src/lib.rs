@@ -30,7 +30,7 @@ pub use straightline_evaluator::limits::Limits;
 pub use straightline_evaluator::policy::{Branches, Math, ReadOrder, Share, Transport, Unroll};
 pub use straightline_evaluator::{diagnostic, shorten};
 pub use straightline_files as files;
-// Internals of the evaluator, for this workspace's studies and tests. They change with any version.
+// Internals of the evaluator, for this workspace's studies and tests. They may change in any version.
 #[doc(hidden)]
 pub use straightline_evaluator::{interp, ir, passes, policy};
 pub use straightline_kernels as kernels;

@@ -1,4 +1,5 @@
-//! From a kernel's text to a scheduled graph: evaluation, then the list of [`STAGES`]. The graph is verified after each.
+//! From a kernel's source to a scheduled graph: evaluation, then the list of [`STAGES`]. The graph is verified after each
+//! stage.
 
 use crate::compiled::{Compiled, Places, internal_error};
 use crate::emit;
@@ -26,11 +27,11 @@ pub struct Source {
     pub files: Arc<Vec<File>>,
 }
 
-/// Compiles a kernel whose files define `library`. Which options are not at their defaults is left open.
+/// Compiles a kernel whose files define `library`. The list of changed options is left empty.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the kernel under these settings.
+/// All errors of the kernel under these settings.
 pub fn compile(
     kernel: &Source,
     library: &Library,
@@ -71,7 +72,7 @@ pub fn compile(
         ..
     } = pipeline.run_stages(graph)?;
     let schedule = passes::schedule_graph(&graph, settings.reads);
-    // Most of what is too long is known to be before it is written.
+    // Most oversized kernels are rejected here, before their text is generated.
     pipeline.check_budget(emit::statements_at_least(&graph, &schedule))?;
     let compiled = Compiled {
         kernel: kernel.name.clone(),
@@ -96,7 +97,7 @@ pub fn compile(
         time: meter.time(),
         places: Arc::new(Places {
             files: Arc::clone(&kernel.files),
-            // Of a built-in kernel a user's options are wrong, not its text.
+            // For a built-in kernel the user's options are wrong, not its source.
             kernel: kernel.builtin.is_none().then_some(evaluated.span),
             inputs: match kernel.builtin {
                 Some(_) => Vec::new(),
@@ -114,7 +115,7 @@ pub fn compile(
 struct Pipeline<'s, 'o> {
     kernel: &'s Source,
     settings: &'s Settings,
-    /// Loops and places; its graph is taken.
+    /// Loops and locations; the graph has been moved out.
     evaluated: &'s Evaluated,
     observer: &'s mut Observer<'o>,
 }
@@ -166,7 +167,7 @@ impl<'s> Pipeline<'s, '_> {
         Err(self.with_loops(error))
     }
 
-    /// An error about size, which names the loops with the most work.
+    /// Returns an error about size, with the loops that have the most work.
     fn with_loops(&self, error: Diagnostic) -> Errors {
         let error = eval::name_largest_loops(&self.evaluated.loops, error);
         Errors::new(vec![error], &self.kernel.files)

@@ -1,4 +1,5 @@
-//! The stages from an evaluated graph to the graph that is scheduled: a list of passes, each with the reason for its place.
+//! The stages from an evaluated graph to the graph that is scheduled: a list of passes, each with the reason for its
+//! position.
 
 mod lanes;
 mod sharing;
@@ -10,7 +11,7 @@ use straightline_evaluator::ir::{Graph, Invocation};
 use straightline_evaluator::passes::{self, Gathered, Sharing};
 use straightline_evaluator::policy::{Math, ReadOrder, Share, Transport};
 
-/// One pass from graph to graph.
+/// A pass from graph to graph.
 pub struct Stage {
     /// Name in messages and for observers.
     pub name: &'static str,
@@ -23,11 +24,11 @@ pub struct Stage {
     pub run: fn(&mut Work<'_>) -> Result<Made, Refusal>,
 }
 
-/// Graph that a stage has made.
+/// Result of a stage.
 pub enum Made {
-    /// The kernel, in place of the graph before.
+    /// The kernel, replacing the previous graph.
     Kernel(Graph),
-    /// The kernel with a whole quad computed by one invocation, beside the graph whose invocations are lanes.
+    /// The kernel with a whole quad per invocation, in addition to the graph whose invocations are lanes.
     Quad(Graph),
 }
 
@@ -38,7 +39,7 @@ pub struct Work<'s> {
     pub graph: Graph,
     /// Transport of quad swaps: the requested one, or the one that blocks of quads imply.
     pub transport: Option<Transport>,
-    /// Graph in which one invocation computes a whole quad, of a kernel whose invocations are lanes.
+    /// For a kernel whose invocations are lanes: the graph in which one invocation computes a whole quad.
     pub quad: Option<Arc<Graph>>,
     /// Outcome of texel sharing by workgroups.
     pub sharing: Option<Arc<Sharing>>,
@@ -63,7 +64,7 @@ impl<'s> Work<'s> {
         self.graph.invocation == Invocation::Lane
     }
 
-    /// Takes the cleaned graph of a stage.
+    /// Stores the cleaned graph of a stage.
     pub fn accept(&mut self, made: Made) {
         match made {
             Made::Kernel(graph) => self.graph = graph,
@@ -98,7 +99,7 @@ impl Refusal {
         Refusal { message, help }
     }
 
-    /// The error at the kernel's name.
+    /// Returns the error, located at the kernel's name.
     pub fn into_diagnostic(self, kernel: Span) -> Diagnostic {
         Diagnostic::error_at(Code::UnfitSetting, kernel, self.message)
             .label("this kernel")
@@ -106,7 +107,7 @@ impl Refusal {
     }
 }
 
-/// Every stage, in order. Each graph is cleaned of what it does not need, and verified.
+/// Every stage, in order. After each, unused nodes are removed and the graph is verified.
 pub const STAGES: &[Stage] = &[
     Stage {
         name: "clean",

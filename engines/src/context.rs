@@ -8,14 +8,14 @@ use straightline_codegen::emit::single_line_comment;
 use straightline_codegen::{OptionInfo, OptionKind};
 use straightline_manifest::{BindingKind, Extent, LanguageBinding, LanguageKind, Manifest, SamplerType};
 
-/// All that a template is given.
+/// Context of a template.
 #[derive(Clone, Debug, Serialize)]
 pub struct Context {
     /// Name of the files, without extension.
     pub name: String,
     /// The kernel's name.
     pub kernel: String,
-    /// The name as that of a type: `JointBilateral`.
+    /// The name in the form of a type name: `JointBilateral`.
     pub class: String,
     /// The name in words: `Joint bilateral`.
     pub title: String,
@@ -51,7 +51,7 @@ pub struct Context {
 pub struct TextureContext {
     /// Name in the kernel.
     pub name: String,
-    /// Name in the shaders: that of the kernel, unless a language or the engine has a use for that.
+    /// Name in the shaders: that of the kernel, unless it is reserved in a language or the engine.
     pub spelled: String,
     /// Group and number of WGSL.
     pub binding: u32,
@@ -90,7 +90,7 @@ pub struct UniformContext {
     pub name: String,
     /// Purpose in the kernel's words, harmless in a comment of any language; or nothing.
     pub docs: String,
-    /// Name in the shaders: that of the kernel, unless a language or the engine has a use for that.
+    /// Name in the shaders: that of the kernel, unless it is reserved in a language or the engine.
     pub spelled: String,
     /// Type in WGSL.
     pub wgsl: String,
@@ -183,14 +183,14 @@ pub struct ArgumentContext {
     pub of: String,
 }
 
-/// A function by which the shader reads a texture.
+/// A function that reads a texture for the shader.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReadContext {
     /// Name of the function.
     pub name: String,
     /// The texture, in the kernel.
     pub texture: String,
-    /// The texture beside the shader.
+    /// Name of the texture in the text beside the shader.
     pub spelled: String,
     /// `load`, `sample` or `size`.
     pub does: &'static str,
@@ -227,7 +227,7 @@ pub fn texture_contexts(manifest: &Manifest) -> Vec<TextureContext> {
     each.collect()
 }
 
-/// A texture's name in the shader, or beside it where functions of the host's read it.
+/// Returns a texture's name in the shader, or beside it if the host's functions read it.
 fn spelled_texture(manifest: &Manifest, name: &str) -> String {
     let stands_for = |b: &&LanguageBinding| match b.kind {
         LanguageKind::Texture | LanguageKind::Function => b.of.as_deref() == Some(name),
@@ -270,7 +270,7 @@ pub fn sampler_contexts(manifest: &Manifest) -> Vec<SamplerContext> {
     each.collect()
 }
 
-/// Uniforms of a manifest, with what the kernel's options say of them.
+/// Returns the uniforms of a manifest, with the information of the kernel's options.
 pub fn uniform_contexts(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformContext>, Option<BlockContext>) {
     let block = manifest.bindings.iter().find_map(|binding| match &binding.kind {
         BindingKind::Uniform { size, fields, .. } => Some((binding, *size, fields)),

@@ -49,7 +49,7 @@ pub enum Tried {
 pub struct ShaderDescription {
     /// `wgsl`, `glsl450`, `glsl430`, `glsl330`, `essl310`, `essl300` or `hlsl`.
     pub language: String,
-    /// Binding numbers that the engine gives.
+    /// Binding numbers that the engine assigns.
     #[serde(default)]
     pub numbers: Option<Numbers>,
     /// Options of the emitted text, by the names of the command line: `stage` (a fragment shader by default), `form`, `origin`,
@@ -58,7 +58,7 @@ pub struct ShaderDescription {
     pub knobs: Overrides,
 }
 
-/// Binding numbers that an engine gives: of the first of each, and one more for each that follows.
+/// First binding number of each kind; each further resource has the next number.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Numbers {
@@ -87,7 +87,7 @@ impl Numbers {
     }
 }
 
-/// Knobs that an engine decides, by their names: what a user says of them would be lost.
+/// Knobs that an engine determines, by name: a user's values for them would be ignored.
 pub const FIXED: [&str; 15] = [
     "stage",
     "target",
@@ -171,10 +171,10 @@ impl ShaderDescription {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// Resources that the engine gives a shader, for messages: `one picture`.
+    /// Resources that the engine provides to a shader, for messages: `one picture`.
     #[serde(default)]
     pub gives: Option<String>,
-    /// At most so many textures.
+    /// Maximum number of textures.
     #[serde(default)]
     pub textures: Option<u32>,
     /// Shapes of textures: `2d`, `2d-array`, `3d`, `cube`, `multisampled`.
@@ -186,22 +186,22 @@ pub struct Limits {
     /// Samplers: `filtering`, `non-filtering`, `comparison`.
     #[serde(default)]
     pub samplers: Option<Vec<String>>,
-    /// At most so many uniforms.
+    /// Maximum number of uniforms.
     #[serde(default)]
     pub uniforms: Option<u32>,
     /// Types of uniforms, as WGSL spells them; numbers and vectors by default.
     #[serde(default)]
     pub uniform_types: Option<Vec<String>>,
-    /// At most so many outputs; 1 by default.
+    /// Maximum number of outputs; 1 by default.
     #[serde(default)]
     pub outputs: Option<u32>,
     /// True if storage buffers can be bound.
     #[serde(default)]
     pub buffers: bool,
-    /// True if the host's vertex shader gives interpolated values.
+    /// `true` if the host's vertex shader outputs interpolated values.
     #[serde(default)]
     pub varyings: bool,
-    /// Optional device features that this engine asks for: `subgroup`, `shader-f16`.
+    /// Optional device features that the engine enables: `subgroup`, `shader-f16`.
     #[serde(default)]
     pub features: Vec<String>,
 }

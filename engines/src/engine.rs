@@ -17,7 +17,7 @@ use straightline_manifest::Manifest;
 pub struct Request<'a> {
     /// The kernel.
     pub compiled: &'a Compiled,
-    /// The kernel's options, which say of uniforms what they are for.
+    /// The kernel's options, which document its uniforms.
     pub options: &'a [OptionInfo],
     /// Name of the files, without extension.
     pub name: String,
@@ -86,21 +86,21 @@ impl Engine {
         &self.description
     }
 
-    /// The files of a kernel, by name.
+    /// Returns the files of a kernel, by name.
     ///
     /// # Errors
     ///
-    /// The kernel does not fit, with what would; a template fails.
+    /// If the kernel does not fit, with a suggestion; or if a template fails.
     pub fn render_files(&self, request: &Request<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
         let context = serde_json::to_value(self.context(request)?);
         self.render(context.map_err(|e| self.description_error(e.to_string()))?)
     }
 
-    /// Returns the context that the templates are given for a kernel.
+    /// Returns the context of the templates for a kernel.
     ///
     /// # Errors
     ///
-    /// The kernel does not fit, with what would.
+    /// If the kernel does not fit, with a suggestion.
     pub fn context(&self, request: &Request<'_>) -> Result<Context, EngineError> {
         let shaders = self
             .emit_shaders(request)
@@ -235,11 +235,11 @@ fn shader_text(emitted: &Emitted, target: Target) -> String {
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// Why a kernel does not fit.
+/// Reason why a kernel does not fit.
 enum Unfit {
-    /// The engine cannot bind what it binds.
+    /// The engine cannot bind a resource of the kernel.
     Engine(Misfit),
-    /// The generator cannot write it so.
+    /// The generator cannot emit the kernel in this form.
     Emit(Errors),
 }
 

@@ -1,11 +1,11 @@
-//! Why an engine does not get a kernel.
+//! Errors of engines.
 
 use std::io;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::files::WriteError;
 
-/// Why there are no files for an engine.
+/// Reason why there are no files for an engine.
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     /// Neither a built-in engine nor a folder with one.

@@ -1,4 +1,4 @@
-//! Filters that templates have beside those of tera: how a text becomes part of another language.
+//! Template filters in addition to tera's, which quote a text for another language.
 
 use crate::spelling::spelled_out;
 use crate::words;
@@ -54,7 +54,7 @@ fn python_string(text: &str) -> String {
     text.replace('\\', "\\\\").replace('"', "\\\"")
 }
 
-/// A name as a key of an object in JavaScript. All are, but one that sets what the object inherits from.
+/// Returns a name as a key of a JavaScript object. Every name is valid except the one that sets the prototype.
 fn js_key(name: &str) -> String {
     match name {
         "__proto__" => "[\"__proto__\"]".to_owned(),
@@ -84,7 +84,7 @@ fn identifier(name: &str) -> String {
     spelled_out(name).chars().map(letter).collect()
 }
 
-/// Every line behind a mark: `{{ text | comment(mark="//") }}`.
+/// Prefixes every line with a mark: `{{ text | comment(mark="//") }}`.
 fn comment(text: &str, arguments: Kwargs, _: &State) -> TeraResult<String> {
     let mark = arguments.get::<&str>("mark")?.unwrap_or("//");
     let lines = text.lines().map(|line| format!("{mark} {line}").trim_end().to_owned());

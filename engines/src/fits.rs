@@ -3,7 +3,7 @@
 use crate::description::Limits;
 use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
 
-/// Why a kernel does not fit an engine.
+/// Reason why a kernel does not fit an engine.
 pub struct Misfit {
     /// Statement of what the kernel does, and what the engine gives.
     pub why: String,
@@ -25,7 +25,7 @@ impl Misfit {
     }
 }
 
-/// Why a kernel that binds what its manifest says does not fit an engine.
+/// Returns the reason why a kernel with this manifest does not fit an engine.
 pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misfit> {
     let gives = |what: &str| match &limits.gives {
         Some(gives) => format!("{title} gives {gives}"),

@@ -1,7 +1,7 @@
 //! An engine of the user's own: a folder with an `engine.toml` and the templates that it names.
 //!
-//! A folder may come from anyone, so what it can make the generator do is bounded: it reads nothing outside of the folder, it has a
-//! limit of bytes to read and to write, and its templates a limit of time.
+//! A folder may come from anyone, so what it can make the generator do is bounded: it reads nothing outside of the folder,
+//! it has a limit of bytes to read and to write, and its templates a limit of time.
 
 use crate::description::Description;
 use crate::engine::Engine;

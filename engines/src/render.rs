@@ -17,8 +17,8 @@ impl Engine {
     ///
     /// # Errors
     ///
-    /// A template fails, makes more than 32 MiB or, of a user's folder, takes longer than 10 s; two templates make one file; a file
-    /// would lie outside of the folder that is written.
+    /// A template fails, makes more than 32 MiB or, of a user's folder, takes longer than 10 s; two templates make one
+    /// file; a file would lie outside of the folder that is written.
     pub fn render(&self, context: Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
         match self.templates {
             Some(_) => self.render_within_time(context),
@@ -97,7 +97,7 @@ pub(crate) fn is_plain(file: &str) -> bool {
     !file.is_empty() && portable && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
-/// An error of tera, with its place in the template, and what caused it.
+/// Formats an error of tera, with its place in the template and its cause.
 fn describe_error(error: &tera::Error) -> String {
     let said = error.to_string();
     let mut text = said.strip_prefix("error: ").unwrap_or(&said).trim_end().to_owned();

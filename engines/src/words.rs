@@ -15,7 +15,7 @@ pub fn shorten_text(text: &str, bytes: usize) -> String {
 
 /// Markdown in which no HTML is live: `<` that would open a tag outside of code is escaped.
 pub fn escape_markdown(text: &str) -> String {
-    // Of an odd number of backquotes one opens no code.
+    // In an odd number of backquotes, the last one opens no code.
     let has_code = text.matches('`').count().is_multiple_of(2);
     let mut in_code = false;
     let mut out = String::with_capacity(text.len());

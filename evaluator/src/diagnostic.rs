@@ -1,4 +1,4 @@
-//! Diagnostics of a kernel: message, place and help.
+//! Diagnostics of a kernel: message, location and help.
 
 mod code;
 mod view;
@@ -9,7 +9,7 @@ use std::fmt;
 use std::sync::Arc;
 use view::{Views, printable_message, written_out};
 
-/// A stretch of a source file.
+/// Range of bytes in a source file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
     /// Index of the file in [`Errors::files`].
@@ -25,11 +25,11 @@ pub struct Span {
 }
 
 impl Span {
-    /// The file of places in the library's own texts: no file of a kernel.
+    /// File index of locations inside the built-in library, which is no file of a kernel.
     pub const LIBRARY: u32 = u32::MAX;
 }
 
-/// A source file, for showing where an error is.
+/// A source file, kept to show the code around an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
     /// Path as given.
@@ -41,28 +41,28 @@ pub struct File {
 /// An error, or a remark on a kernel without errors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Kind of the error; a remark has none.
+    /// Code of the error; `None` for a remark.
     code: Option<Code>,
-    /// Statement of the problem, which names the item concerned.
+    /// Statement of the problem, naming the item concerned.
     pub message: String,
-    /// Place, if it is in a file.
+    /// Location in a source file, if there is one.
     pub span: Option<Span>,
-    /// A few words at the place.
+    /// Short label at the location.
     pub label: String,
-    /// Other places that matter, with a few words each.
+    /// Other relevant locations, each with a short label.
     pub others: Vec<(Span, String)>,
-    /// Why it is so, where that is not plain.
+    /// Reasons, where they are not obvious.
     pub notes: Vec<String>,
-    /// The help.
+    /// Suggested fix.
     pub help: Option<String>,
-    /// Error of the system that this one comes from.
+    /// Underlying system error.
     cause: Option<Cause>,
 }
 
 #[derive(Clone, Debug)]
 struct Cause(Arc<dyn std::error::Error + Send + Sync>);
 
-/// Equal if it is one and the same: errors of the system do not compare.
+/// Compares by identity, because system errors are not comparable.
 impl PartialEq for Cause {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
@@ -72,7 +72,7 @@ impl PartialEq for Cause {
 impl Eq for Cause {}
 
 impl Diagnostic {
-    /// An error at a place.
+    /// Returns an error at a location.
     pub fn error_at(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             span: Some(span),
@@ -80,12 +80,12 @@ impl Diagnostic {
         }
     }
 
-    /// An error that is in no file: an option, say.
+    /// Returns an error without a location, for example about an option.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Diagnostic::without_place(Some(code), message.into())
     }
 
-    /// A remark at a place, which is no error and is shown as a note.
+    /// Returns a remark at a location. A remark is not an error and is shown as a note.
     pub fn remark_at(span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             span: Some(span),
@@ -106,12 +106,12 @@ impl Diagnostic {
         }
     }
 
-    /// Kind of the error; `None` for a remark.
+    /// Code of the error; `None` for a remark.
     pub fn code(&self) -> Option<Code> {
         self.code
     }
 
-    /// Moves an error in a library function to the place of the call: users do not see the library's text.
+    /// Moves an error inside a library function to the call site, because users do not see the library's source.
     pub fn called_at(self, span: Span, function: &str) -> Self {
         if self.span.is_some_and(|at| at.file != Span::LIBRARY) {
             return self;
@@ -126,48 +126,48 @@ impl Diagnostic {
         }
     }
 
-    /// With a few words at the place.
+    /// Sets the label at the location.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    /// With another place that matters.
+    /// Adds another relevant location.
     pub fn label_at(mut self, span: Span, label: impl Into<String>) -> Self {
         self.others.push((span, label.into()));
         self
     }
 
-    /// With a reason.
+    /// Adds a reason.
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
     }
 
-    /// With help.
+    /// Sets the suggested fix.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// With the error of the system that it comes from.
+    /// Sets the underlying system error.
     pub fn caused_by(mut self, cause: impl std::error::Error + Send + Sync + 'static) -> Self {
         self.cause = Some(Cause(Arc::new(cause)));
         self
     }
 }
 
-/// Every error that was found, with the files that they are in.
+/// All errors found in a kernel, with its source files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Errors {
-    /// In order of place; at least one.
+    /// The errors in order of location; never empty.
     pub diagnostics: Vec<Diagnostic>,
     /// The kernel's files.
     pub files: Arc<Vec<File>>,
 }
 
 impl Errors {
-    /// Errors that are shown.
+    /// Maximum number of errors shown.
     pub const MOST: usize = 50;
 
     /// Code of the first error.
@@ -175,12 +175,12 @@ impl Errors {
         self.diagnostics.first().and_then(Diagnostic::code)
     }
 
-    /// Message of the first error, in a line.
+    /// Message of the first error.
     pub fn first_message(&self) -> &str {
         self.diagnostics.first().map_or("refused", |first| &first.message)
     }
 
-    /// A single error that is in no file.
+    /// Returns a single error without a location.
     pub fn from_diagnostic(diagnostic: Diagnostic) -> Self {
         Errors {
             diagnostics: vec![diagnostic],
@@ -188,7 +188,8 @@ impl Errors {
         }
     }
 
-    /// Errors in `files`, sorted by place: the first [`Errors::MOST`] of them, the last of which notes how many more there are.
+    /// Returns the errors in `files`, sorted by location. Only the first [`Errors::MOST`] are kept; the last of them notes
+    /// how many more there are.
     pub fn new(mut diagnostics: Vec<Diagnostic>, files: &Arc<Vec<File>>) -> Self {
         diagnostics.sort_by_key(|d| d.span);
         diagnostics.dedup();
@@ -209,7 +210,7 @@ impl Errors {
 }
 
 impl Errors {
-    /// The errors as rustc shows its own, with the source; in colour for a terminal.
+    /// Renders the errors with their source in the style of rustc; in colour for a terminal.
     pub fn render(&self, colour: bool) -> String {
         use codespan_reporting::term::{self, termcolor};
         let mut out = if colour {
@@ -226,7 +227,7 @@ impl Errors {
             let files = Views::new(&self.files, &places);
             let shown = to_codespan(diagnostic, &files);
             if term::emit_to_write_style(&mut out, &term::Config::default(), &files, &shown).is_err() {
-                // A place outside of its file: say what is wrong without it.
+                // The location lies outside its file: print the message without it.
                 return self
                     .diagnostics
                     .iter()
@@ -277,7 +278,7 @@ impl fmt::Display for Errors {
 }
 
 impl std::error::Error for Errors {
-    /// The system's error that the first of them with one comes from, such as that of a file that cannot be read.
+    /// The first underlying system error, such as that of a file that cannot be read.
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         let cause = self.diagnostics.iter().find_map(|diagnostic| diagnostic.cause.as_ref());
         cause.map(|cause| &*cause.0 as &(dyn std::error::Error + 'static))

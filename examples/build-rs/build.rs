@@ -1,4 +1,4 @@
-//! Turns the kernels of this crate, and a built-in one, into shaders and the Rust that binds them.
+//! Turns this crate's kernels, and a built-in one, into shaders and the Rust code that binds them.
 
 fn main() -> Result<(), straightline_codegen::config::Error> {
     straightline_codegen::Config::new()

@@ -1,14 +1,14 @@
-//! The filmic curve of the Academy's reference transforms as Stephen Hill fitted it (2015), from linear light to sRGB.
+//! Filmic curve of the ACES reference transforms as fitted by Stephen Hill (2015), from linear light to sRGB.
 
 use straightline_kernels::prelude::*;
 
-/// sRGB to the transform's primaries, with its desaturation: rows.
+/// sRGB to the transform's primaries, including its desaturation. By rows.
 const INPUT: [Vec3; 3] = [
     vec3(0.59719, 0.35458, 0.04823),
     vec3(0.07600, 0.90834, 0.01566),
     vec3(0.02840, 0.13383, 0.83777),
 ];
-/// And back: rows.
+/// The inverse, by rows.
 const OUTPUT: [Vec3; 3] = [
     vec3(1.60475, -0.53108, -0.07367),
     vec3(-0.10208, 1.10813, -0.00605),
@@ -25,7 +25,7 @@ fn curve(v: Vec3) -> Vec3 {
     a / b
 }
 
-/// The transfer function of sRGB.
+/// Transfer function of sRGB.
 fn encoded(linear: f32) -> f32 {
     if linear <= 0.0031308 {
         linear * 12.92

@@ -1,16 +1,16 @@
-//! A step of the edge-avoiding à-trous wavelet transform (Dammertz, Sewtz, Hanika and Lensch 2010), with the edge-stopping functions
-//! of SVGF (Schied et al. 2017).
+//! A step of the edge-avoiding à-trous wavelet transform (Dammertz, Sewtz, Hanika and Lensch 2010), with the edge-stopping
+//! functions of SVGF (Schied et al. 2017).
 
 use straightline_kernels::prelude::*;
 
-/// The B3 spline's.
+/// Weights of the B3 spline.
 const WEIGHTS: [f32; 3] = [3.0 / 8.0, 1.0 / 4.0, 1.0 / 16.0];
 
 fn luma(color: Vec4) -> f32 {
     color.truncate().dot(vec3(0.2126, 0.7152, 0.0722))
 }
 
-/// `color` filtered with holes `spacing` pixels wide, once for each of `spacing` 1, 2, 4, ...
+/// Filters `color` with holes `spacing` pixels wide. Run once for each `spacing` of 1, 2, 4, ...
 pub fn atrous(
     color: &Frame<Vec4>,
     normal: &Frame<Vec3>,

@@ -1,5 +1,5 @@
 //! The average luminance of a histogram, by one workgroup: the second pass of Alex Tardif, "Adaptive Exposure from Luminance
-//! Histograms" (2019). Dispatched over one pixel; the last frame's average goes over into this one's with time.
+//! Histograms" (2019). Dispatched over one pixel. The last frame's average blends into this one's over time.
 
 use straightline_kernels::prelude::*;
 
@@ -15,7 +15,7 @@ pub fn average_luminance(
 ) -> PerThread<f32> {
     let dark = group.each(|thread| {
         let count = bins.load(thread.index) as f32;
-        // The darkest pixels are left out: the first bin's weight is 0.
+        // The first bin's weight is 0, so the darkest pixels are ignored.
         sums.store(thread.index, count * thread.index as f32);
         bins.load(0) as f32
     });

@@ -1,14 +1,14 @@
-//! Depth of field in one pass (Gustafsson, Bokeh depth of field in a single pass, 2018): a spiral of samples, each as large as it is
-//! out of focus.
+//! Depth of field in one pass (Gustafsson, Bokeh depth of field in a single pass, 2018): a spiral of samples, each as large as
+//! its circle of confusion.
 
 use straightline_kernels::prelude::*;
 
 const GOLDEN_ANGLE: f32 = 2.399_963_2;
 const MOST: f32 = 10.0;
-/// Smaller is finer, and slower.
+/// Step of the spiral. Smaller is finer, and slower.
 const GROWTH: f32 = 1.0;
 
-/// How large a point at this depth is, in pixels.
+/// Size of a point at this depth, in pixels.
 fn blur(depth: f32, focus: f32, strength: f32) -> f32 {
     ((1.0 / focus - 1.0 / depth) * strength).clamp(-1.0, 1.0).abs() * MOST
 }

@@ -1,4 +1,4 @@
-//! The first three steps of Canny's edge detector (1986): smoothed gradients, of which only crests are left, in two strengths.
+//! The first three steps of Canny's edge detector (1986): smoothed gradients, thinned to their crests, in two strengths.
 
 use straightline_kernels::prelude::*;
 
@@ -6,7 +6,7 @@ fn luma(color: &Frame<Vec4>, at: IVec2) -> f32 {
     color.load(at).truncate().dot(vec3(0.2126, 0.7152, 0.0722))
 }
 
-/// Sobel's operator.
+/// Gradient by Sobel's operator.
 fn gradient(color: &Frame<Vec4>, at: IVec2) -> Vec2 {
     let mut sum = Vec2::ZERO;
     for k in -1i32..=1 {
@@ -17,7 +17,7 @@ fn gradient(color: &Frame<Vec4>, at: IVec2) -> Vec2 {
     sum
 }
 
-/// The neighbour across an edge, of the four directions that pixels have.
+/// Offset to the neighbour across an edge, in one of the four pixel directions.
 fn across(gradient: Vec2) -> IVec2 {
     const TAN_22_5: f32 = 0.414_213_56;
     let steep = gradient.abs();
@@ -32,7 +32,7 @@ fn across(gradient: Vec2) -> IVec2 {
     }
 }
 
-/// 1 for a strong edge, 0.5 for one that counts only if it touches a strong one.
+/// Edge strength: 1 for a strong edge, and 0.5 for one that counts only if it touches a strong one.
 pub fn canny(color: &Frame<Vec4>, low: f32, high: f32, pixel: IVec2) -> Vec4 {
     let here = gradient(color, pixel);
     let strength = here.length();

@@ -1,4 +1,4 @@
-//! A step down of the dual filter (Bjørge, Bandwidth-efficient rendering, 2015): a picture at half its size, blurred, by five reads.
+//! Downsampling by the dual filter (Bjørge, Bandwidth-efficient rendering, 2015): blurs a picture to half its size in five reads.
 
 use straightline_kernels::prelude::*;
 

@@ -1,21 +1,21 @@
-//! Edge adaptive spatial upsampling (Lottes, FidelityFX Super Resolution 1.0, 2021): twelve texels, weighed by a Lanczos-like
-//! kernel that is turned and stretched along edges.
+//! Edge adaptive spatial upsampling (Lottes, FidelityFX Super Resolution 1.0, 2021): twelve texels, weighted by a Lanczos-like
+//! kernel that is rotated and stretched along edges.
 
 use straightline_kernels::prelude::*;
 
-/// Luma times two.
+/// Twice the luma.
 fn luma(c: Vec3) -> f32 {
     c.z * 0.5 + (c.x * 0.5 + c.y)
 }
 
-/// Where an edge runs, and how much of one there is.
+/// Direction and strength of an edge.
 struct Edge {
     direction: Vec2,
     length: f32,
 }
 
 impl Edge {
-    /// Adds what is found around one of the four middle texels: `c` between `a` above, `b` left, `d` right and `e` below.
+    /// Adds the edge around one of the four middle texels: `c` between `a` above, `b` left, `d` right and `e` below.
     fn add(&mut self, weight: f32, a: f32, b: f32, c: f32, d: f32, e: f32) {
         let (x, share) = Edge::along(b, c, d);
         self.direction.x += x * weight;
@@ -25,11 +25,11 @@ impl Edge {
         self.length += share * weight;
     }
 
-    /// Gradient in one direction, and how much of the contrast goes one way.
+    /// Gradient in one direction, and the share of the contrast that is monotonic.
     fn along(before: f32, here: f32, after: f32) -> (f32, f32) {
         let contrast = (after - here).abs().max((here - before).abs());
         let gradient = after - before;
-        // Where it is flat nothing is divided by nothing.
+        // Avoids 0 / 0 in flat areas.
         let share = if contrast > 0.0 {
             saturate(gradient.abs() / contrast)
         } else {
@@ -39,7 +39,7 @@ impl Edge {
     }
 }
 
-/// What is summed up.
+/// Weighted sum of the taps.
 struct Sum {
     color: Vec3,
     weight: f32,
@@ -87,7 +87,7 @@ pub fn easu(image: &Texture<Vec4>, resolution: UVec2, pixel: IVec2) -> Vec4 {
     };
     let amount = 0.5 * edge.length;
     let amount = amount * amount;
-    // From a round kernel to one that is stretched along diagonals too.
+    // Stretches a round kernel along edges, diagonal ones included.
     let diagonal = direction.length_squared() / direction.x.abs().max(direction.y.abs());
     let stretch = vec2(1.0 + (diagonal - 1.0) * amount, 1.0 - 0.5 * amount);
     let lobe = 0.5 + ((1.0 / 4.0 - 0.04) - 0.5) * amount;
@@ -110,7 +110,7 @@ pub fn easu(image: &Texture<Vec4>, resolution: UVec2, pixel: IVec2) -> Vec4 {
     add(1.0, 0.0, g);
     add(1.0, 2.0, o);
     add(0.0, 2.0, n);
-    // No ringing.
+    // Clamped to the nearest texels, against ringing.
     let least = f.min(g).min(j).min(k);
     let most = f.max(g).max(j).max(k);
     (sum.color / sum.weight).max(least).min(most).extend(1.0)

@@ -1,12 +1,12 @@
-//! An environment blurred for a rough mirror (Karis, Real shading in Unreal Engine 4, 2013): importance sampling of GGX by the
-//! Hammersley sequence. The environment is a picture in longitude and latitude.
+//! An environment blurred for a rough mirror (Karis, Real shading in Unreal Engine 4, 2013), by importance sampling of GGX
+//! with the Hammersley sequence. The environment is a picture in longitude and latitude.
 
 use std::f32::consts::{PI, TAU};
 use straightline_kernels::prelude::*;
 
 const SAMPLES: u32 = 64;
 
-/// The bits of a number, mirrored at the point.
+/// Bits of a number, mirrored at the binary point.
 fn radical_inverse(bits: u32) -> f32 {
     let bits = bits.rotate_left(16);
     let bits = ((bits & 0x5555_5555) << 1) | ((bits & 0xAAAA_AAAA) >> 1);
@@ -16,7 +16,7 @@ fn radical_inverse(bits: u32) -> f32 {
     bits as f32 * 2.328_306_4e-10
 }
 
-/// A half vector around z, as likely as microfacets of this roughness face it.
+/// Half vector around z, distributed like the normals of microfacets of this roughness.
 fn half_vector(k: u32, roughness: f32) -> Vec3 {
     let a = roughness * roughness;
     let (x, y) = (k as f32 / SAMPLES as f32, radical_inverse(k));
@@ -56,7 +56,7 @@ pub fn environment_prefilter(
     let (mut sum, mut total) = (Vec3::ZERO, 0.0);
     for k in 0..SAMPLES {
         let half = basis * half_vector(k, roughness);
-        // The eye looks along the normal.
+        // The view direction is assumed to be the normal.
         let light = 2.0 * normal.dot(half) * half - normal;
         let weight = normal.dot(light);
         if weight > 0.0 {

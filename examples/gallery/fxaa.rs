@@ -1,20 +1,20 @@
-//! Fast approximate antialiasing, version 3.11 (Lottes 2009, 2011), quality preset 12 to 39 by its steps.
+//! Fast approximate antialiasing, version 3.11 (Lottes 2009, 2011), quality presets 12 to 39 depending on its steps.
 
 use straightline_kernels::prelude::*;
 
-/// Contrast that is left alone: relative to the brightest pixel around, and in the dark.
+/// Contrast below which a pixel is unchanged: relative to the brightest pixel around, and absolute for dark areas.
 const EDGE_THRESHOLD: f32 = 0.166;
 const EDGE_THRESHOLD_MIN: f32 = 0.0833;
-/// How much of a lone pixel is blurred away.
+/// Strength of the blur on isolated pixels.
 const SUBPIXEL: f32 = 0.75;
-/// How far each step along an edge goes, in pixels (preset 39).
+/// Length of each step along an edge, in pixels (preset 39).
 const STEPS: [f32; 12] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 2.0, 2.0, 4.0, 8.0];
 
 fn luma(color: Vec4) -> f32 {
     color.truncate().dot(vec3(0.299, 0.587, 0.114))
 }
 
-/// `color` as it is shown, not linear.
+/// Smooths the edges of `color`, which is in display encoding, not linear.
 pub fn fxaa(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
     let size = color.size().as_vec2();
     let sample = |at: Vec2| color.sample(linear, at / size);
@@ -30,7 +30,7 @@ pub fn fxaa(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
         return here;
     }
 
-    // Which way the edge runs.
+    // Direction of the edge.
     let (north_west, south_east, north_east, south_west) = (load(-1, -1), load(1, 1), load(1, -1), load(-1, 1));
     let across_rows = (north_west + south_west - 2.0 * west).abs()
         + 2.0 * (north + south - 2.0 * middle).abs()
@@ -40,7 +40,7 @@ pub fn fxaa(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
         + (south_west + south_east - 2.0 * south).abs();
     let horizontal = across_rows >= across_columns;
 
-    // How much the pixel stands out.
+    // Contrast of the pixel with its neighbours.
     let around = 2.0 * (north + south + east + west) + north_west + north_east + south_west + south_east;
     let lone = ((around / 12.0 - middle).abs() / range).clamp(0.0, 1.0);
     let lone = lone * lone * (3.0 - 2.0 * lone);
@@ -53,7 +53,7 @@ pub fn fxaa(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
     let border = 0.5 * (middle + if first { one } else { other });
     let darker = middle < border;
 
-    // To both ends of the edge, between two rows of pixels.
+    // Search for both ends of the edge, between two rows of pixels.
     let (along, beside) = if horizontal {
         (Vec2::X, Vec2::Y)
     } else {

@@ -2,7 +2,7 @@
 
 use straightline_kernels::prelude::*;
 
-/// Darker pixels are in the first bin.
+/// Luminance below which a pixel counts in the first bin.
 const EPSILON: f32 = 0.005;
 
 pub fn global_histogram(color: &Frame<Vec4>, least: f32, inverse_range: f32, bins: &AtomicBuffer<u32>, pixel: IVec2) {

@@ -1,5 +1,5 @@
 //! Ground-truth ambient occlusion (Jimenez, Wu, Pesce and Jarabo, Practical real-time strategies for accurate indirect occlusion,
-//! 2016): horizons to both sides of a few slices, and the integral of what light comes between them.
+//! 2016): horizons on both sides of a few slices, and the integral of the light between them.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 use straightline_kernels::prelude::*;
@@ -7,14 +7,14 @@ use straightline_kernels::prelude::*;
 const SLICES: i32 = 3;
 const STEPS: i32 = 6;
 
-/// Where a pixel lies in front of the eye: x to the right, y down, z away. One unit of depth is `focal` pixels wide.
+/// Position of a pixel in view space: x right, y down, z away. At distance 1, one unit is `focal` pixels wide.
 fn position(depth: &Frame<f32>, at: IVec2, focal: f32) -> Vec3 {
     let centre = at.as_vec2() + 0.5 - 0.5 * depth.size().as_vec2();
     let z = depth.load(at);
     (centre / focal * z).extend(z)
 }
 
-/// The integral of the cosine to a normal at angle `n`, from the horizon at `h`.
+/// Integral of the cosine to a normal at angle `n`, from the horizon at `h`.
 fn arc(h: f32, n: f32) -> f32 {
     0.25 * (-(2.0 * h - n).cos() + n.cos() + 2.0 * h * n.sin())
 }
@@ -23,7 +23,7 @@ pub fn gtao(depth: &Frame<f32>, normal: &Frame<Vec3>, radius: f32, focal: f32, p
     let here = position(depth, pixel, focal);
     let view = -here.normalize();
     let facing = normal.load(pixel);
-    // Pixels that the radius spans here.
+    // Radius in pixels at this depth.
     let reach = (radius * focal / here.z).clamp(1.0, 64.0);
     let turn = fract(52.982_918 * fract(0.06711056 * pixel.x as f32 + 0.00583715 * pixel.y as f32));
 
@@ -42,7 +42,7 @@ pub fn gtao(depth: &Frame<f32>, normal: &Frame<Vec3>, radius: f32, focal: f32, p
         let cos_n = (projected.dot(view) / length).clamp(-1.0, 1.0);
         let n = sign(projected.dot(tangent)) * cos_n.acos();
 
-        // How far the sky reaches down on both sides: at least to the surface itself.
+        // Cosine of the horizon on both sides, initially that of the surface itself.
         let mut horizons = [(-FRAC_PI_2 + n).cos(), (FRAC_PI_2 + n).cos()];
         for (side, horizon) in [-1.0, 1.0].into_iter().zip(horizons.iter_mut()) {
             for step in 1..=STEPS {

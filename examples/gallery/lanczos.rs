@@ -1,4 +1,4 @@
-//! Resampling by Lanczos's window of three lobes (Duchon 1979): any size to any larger size.
+//! Resampling by a three-lobed Lanczos window (Duchon 1979), from any size to any larger size.
 
 use std::f32::consts::PI;
 use straightline_kernels::prelude::*;

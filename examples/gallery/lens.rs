@@ -1,14 +1,14 @@
-//! A lens's distortion undone (Brown 1966): where a straight ray ends up is found by Newton's method.
+//! Correction of a lens's distortion (Brown 1966). Newton's method finds the image position of an undistorted ray.
 
 use straightline_kernels::prelude::*;
 
-/// Radial distortion: how far from the middle a ray at `radius` is seen.
+/// Radial distortion: the radius at which a ray at `radius` is seen.
 fn distorted(radius: f32, k1: f32, k2: f32) -> f32 {
     let square = radius * radius;
     radius * (1.0 + square * (k1 + square * k2))
 }
 
-/// The radius that is seen at `seen`.
+/// Inverse of the distortion: the radius of a ray that is seen at `seen`.
 fn undistorted(seen: f32, k1: f32, k2: f32) -> f32 {
     let mut radius = seen;
     for _ in 0..20 {
@@ -23,7 +23,7 @@ fn undistorted(seen: f32, k1: f32, k2: f32) -> f32 {
     radius
 }
 
-/// `image` as a lens without distortion would show it; `k1` and `k2` for radii in units of half the picture's height.
+/// The image as a lens without distortion would show it. `k1` and `k2` are for radii in units of half the picture's height.
 pub fn lens(image: &Texture<Vec4>, linear: &Sampler, k1: f32, k2: f32, resolution: UVec2, pixel: IVec2) -> Vec4 {
     let size = resolution.as_vec2();
     let from = (pixel.as_vec2() + 0.5 - 0.5 * size) / (0.5 * size.y);

@@ -1,4 +1,4 @@
-//! One generation of the Game of Life (Conway; Gardner, Scientific American, October 1970). Beyond the border all are dead.
+//! A generation of the Game of Life (Conway; Gardner, Scientific American, October 1970). All cells beyond the border are dead.
 
 use straightline_kernels::prelude::*;
 

@@ -1,12 +1,12 @@
-//! A histogram of the logarithm of luminance, counted in memory of workgroups first: the first pass of Alex Tardif, "Adaptive
+//! A histogram of the logarithm of luminance, counted in workgroup memory first: the first pass of Alex Tardif, "Adaptive
 //! Exposure from Luminance Histograms" (2019).
 
 use straightline_kernels::prelude::*;
 
-/// Darker pixels are in the first bin, and have no logarithm to speak of.
+/// Luminance below which a pixel counts in the first bin, because its logarithm is meaningless.
 const EPSILON: f32 = 0.005;
 
-/// The bin of a colour: 1 to 255 for logarithms from `least`, in a range whose inverse is `inverse_range`.
+/// Bin of a colour: 1 to 255 for logarithms from `least`, in a range whose inverse is `inverse_range`.
 fn bin(colour: Vec3, least: f32, inverse_range: f32) -> usize {
     let luminance = colour.dot(vec3(0.2127, 0.7152, 0.0722));
     if luminance < EPSILON {

@@ -1,10 +1,10 @@
-//! The Mandelbrot set by escape time (Peitgen and Richter, The Beauty of Fractals, 1986), with the fraction of an iteration that
-//! makes its colours smooth (Vepstas, Renormalizing the Mandelbrot escape, 1997).
+//! The Mandelbrot set by escape time (Peitgen and Richter, The Beauty of Fractals, 1986), with fractional iterations
+//! for smooth colours (Vepstas, Renormalizing the Mandelbrot escape, 1997).
 
 use std::ops::{Add, Mul};
 use straightline_kernels::prelude::*;
 
-/// Iterations after which a point counts as one of the set.
+/// Iterations after which a point counts as inside the set.
 const MOST: u32 = 200;
 
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ impl Mul for Complex {
     }
 }
 
-/// After how many iterations a point has left a circle of radius 16; none for a point that does not.
+/// Iterations until a point leaves a circle of radius 16; `None` if it does not.
 fn escape(c: Complex) -> Option<f32> {
     let mut z = c;
     for k in 0..MOST {
@@ -52,7 +52,7 @@ fn escape(c: Complex) -> Option<f32> {
     None
 }
 
-/// A picture `scale` units high around `centre`.
+/// Picture of the set, `scale` units high around `centre`.
 pub fn mandelbrot(resolution: UVec2, centre: Vec2, scale: f32, pixel: IVec2) -> Vec4 {
     let size = resolution.as_vec2();
     let at = centre + (pixel.as_vec2() + 0.5 - 0.5 * size) * scale / size.y;

@@ -1,38 +1,38 @@
-//! A reconstruction filter for plausible motion blur (McGuire, Hennessy, Bukowski and Osman 2012), its last pass.
+//! The last pass of a reconstruction filter for plausible motion blur (McGuire, Hennessy, Bukowski and Osman 2012).
 
 use straightline_kernels::prelude::*;
 
 const SAMPLES: i32 = 15;
-/// Depths that are less apart than this count as one.
+/// Difference in depth below which two depths count as equal.
 const SOFT: f32 = 0.1;
 
-/// Half the way of a pixel while the shutter is open, in pixels; `most` of the tile around it.
+/// Half the motion of a pixel while the shutter is open, in pixels.
 fn velocity(velocities: &Frame<Vec2>, at: IVec2) -> Vec2 {
     velocities.load(at) * 0.5
 }
 
-/// How much nearer `a` is than `b`, 0 to 1.
+/// Degree to which `a` is nearer than `b`, 0 to 1.
 fn nearer(a: f32, b: f32) -> f32 {
     (1.0 - (a - b) / SOFT).clamp(0.0, 1.0)
 }
 
-/// 1 beside a place, falling to 0 where its motion ends.
+/// 1 at a position, falling to 0 where its motion ends.
 fn cone(distance: f32, speed: f32) -> f32 {
     (1.0 - distance / speed).clamp(0.0, 1.0)
 }
 
-/// 1 as far as a place moves.
+/// 1 as far as a position moves, 0 beyond.
 fn cylinder(distance: f32, speed: f32) -> f32 {
     1.0 - smoothstep(0.95 * speed, 1.05 * speed, distance)
 }
 
-/// The same for the same pixel, -0.5 to 0.5.
+/// Pseudo-random offset of a pixel, -0.5 to 0.5.
 fn jitter(at: IVec2) -> f32 {
     let noise = (at.x as f32 * 0.06711056 + at.y as f32 * 0.00583715) * 1.0;
     fract(52.982_918 * fract(noise)) - 0.5
 }
 
-/// `most` has the fastest velocity around each pixel; depths grow with distance.
+/// Blurs `color` along the motion. `most` has the fastest velocity around each pixel; depths increase with distance.
 pub fn motion_blur(
     color: &Frame<Vec4>,
     velocities: &Frame<Vec2>,

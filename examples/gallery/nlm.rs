@@ -1,20 +1,20 @@
-//! Non-local means (Buades, Coll and Morel 2005): a pixel is the mean of those whose surroundings look like its own.
+//! Non-local means (Buades, Coll and Morel 2005): a pixel becomes the mean of those with similar surroundings.
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// How far and by what it looks.
+    /// Options of non-local means.
     pub struct Nlm {
-        /// Pixels that are looked at in each direction.
+        /// Radius of the search, in pixels.
         pub search: i32 [1..=7] = 3,
-        /// Pixels in each direction by which two surroundings are compared.
+        /// Radius of the compared surroundings, in pixels.
         pub patch: i32 [0..=3] = 1,
-        /// Difference of colours that counts as noise.
+        /// Difference in colour that counts as noise.
         pub noise: f32 [0.01..=1.0] = 0.1,
     }
 }
 
-/// Mean square difference of the surroundings of two pixels.
+/// Mean squared difference between the surroundings of two pixels.
 fn difference(cfg: &Nlm, color: &Frame<Vec4>, a: IVec2, b: IVec2) -> f32 {
     let mut sum = 0.0;
     for y in -cfg.patch..=cfg.patch {

@@ -1,8 +1,8 @@
-//! Hue, chroma and lightness changed in Oklab (Ottosson, A perceptual color space for image processing, 2020).
+//! Hue, chroma and lightness adjustments in Oklab (Ottosson, A perceptual color space for image processing, 2020).
 
 use straightline_kernels::prelude::*;
 
-/// Of linear sRGB.
+/// Converts from linear sRGB.
 fn oklab(rgb: Vec3) -> Vec3 {
     let cones = mat3(
         vec3(0.412_221_47, 0.211_903_5, 0.088_302_46),
@@ -31,7 +31,7 @@ fn linear_srgb(lab: Vec3) -> Vec3 {
     )
 }
 
-/// Hue turned by `turn` radians, chroma times `chroma`, lightness times `lightness`.
+/// Rotates hue by `turn` radians and multiplies chroma by `chroma` and lightness by `lightness`.
 pub fn oklab_grade(color: &Frame<Vec4>, turn: f32, chroma: f32, lightness: f32, pixel: IVec2) -> Vec4 {
     let here = color.load(pixel);
     let lab = oklab(here.truncate());

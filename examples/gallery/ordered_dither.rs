@@ -1,8 +1,8 @@
-//! Ordered dithering (Bayer 1973) to a few levels, the matrix made of the bits of the coordinates.
+//! Ordered dithering (Bayer 1973) to a few levels, with the matrix built from the bits of the coordinates.
 
 use straightline_kernels::prelude::*;
 
-/// The threshold of a pixel, 0 to 1 without 1, by a matrix of 2^`bits` rows.
+/// Threshold of a pixel, in 0..1, from a matrix of 2^`bits` rows.
 fn threshold(pixel: IVec2, bits: u32) -> f32 {
     let x = pixel.x as u32;
     let y = pixel.y as u32;

@@ -1,9 +1,9 @@
-//! Parallax occlusion mapping (Tatarchuk, Practical parallax occlusion mapping, 2006): a march through layers of a height map,
-//! and one step of the secant rule.
+//! Parallax occlusion mapping (Tatarchuk, Practical parallax occlusion mapping, 2006): a march through the layers of a height
+//! map, and one step of the secant method.
 
 use straightline_kernels::prelude::*;
 
-/// What a surface shows at each place, seen along `view` (tangent space, z towards the eye), `depth` deep at most.
+/// Colour of a surface up to `depth` deep, seen along `view` (tangent space, z towards the eye).
 pub fn parallax_occlusion(
     height: &Texture<f32>,
     albedo: &Texture<Vec4>,
@@ -14,7 +14,7 @@ pub fn parallax_occlusion(
     pixel: IVec2,
 ) -> Vec4 {
     let mut uv = (pixel.as_vec2() + 0.5) / resolution.as_vec2();
-    // The flatter the view, the more layers.
+    // More layers for a flatter view.
     let layers = mix(64.0, 16.0, view.z);
     let layer = 1.0 / layers;
     let shift = view.truncate() / view.z * depth * layer;

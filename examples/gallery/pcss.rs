@@ -1,15 +1,15 @@
-//! Percentage-closer soft shadows (Fernando 2005): how far away what casts the shadow is decides how soft it is.
+//! Percentage-closer soft shadows (Fernando 2005): the distance of the blockers determines the softness of the shadow.
 
 use straightline_kernels::prelude::*;
 
-/// Vogel's spiral: `k` of `count` places in a disc, turned.
+/// Vogel's spiral: position `k` of `count` in a disc, rotated by `turn`.
 fn vogel(k: i32, count: i32, turn: f32) -> Vec2 {
     let radius = ((k as f32 + 0.5) / count as f32).sqrt();
     let angle = k as f32 * 2.399_963_2 + turn;
     radius * Vec2::from_angle(angle)
 }
 
-/// The mean depth of what is nearer to the light than `receiver`, if anything is.
+/// Mean depth of the blockers nearer to the light than `receiver`; `None` if there are none.
 fn blocker(shadow: &DepthTexture, at: Vec2, receiver: f32, reach: f32) -> Option<f32> {
     let (mut sum, mut count) = (0.0, 0);
     for k in 0..16 {
@@ -22,7 +22,7 @@ fn blocker(shadow: &DepthTexture, at: Vec2, receiver: f32, reach: f32) -> Option
     if count == 0 { None } else { Some(sum / count as f32) }
 }
 
-/// How much of the light reaches a plane at depth `receiver`, which a pixel shows at `at` texels of the shadow map; the light is
+/// Share of the light that reaches a plane at depth `receiver`, seen by a pixel at `at` texels of the shadow map. The light is
 /// `light` texels wide.
 pub fn pcss(shadow: &DepthTexture, less: &ComparisonSampler, light: f32, resolution: UVec2, pixel: IVec2) -> Vec4 {
     let size = shadow.size().as_vec2();

@@ -1,8 +1,8 @@
-//! Improved noise (Perlin, Improving noise, 2002), several octaves of it; the permutation is that of a hash.
+//! Improved noise (Perlin, Improving noise, 2002) in several octaves. The permutation is a hash.
 
 use straightline_kernels::prelude::*;
 
-/// Eight bits for a corner of the lattice (PCG: Jarzynski and Olano, Hash functions for GPU rendering, 2020).
+/// Eight hash bits for a lattice corner (PCG: Jarzynski and Olano, Hash functions for GPU rendering, 2020).
 fn hash(corner: IVec3) -> u32 {
     let word = (corner.x as u32)
         .wrapping_mul(1_664_525)
@@ -13,7 +13,7 @@ fn hash(corner: IVec3) -> u32 {
     ((word >> 22) ^ word) & 255
 }
 
-/// The product with one of the twelve directions to the middles of a cube's edges.
+/// Dot product with one of the twelve directions from a cube's centre to its edges.
 fn gradient(hash: u32, at: Vec3) -> f32 {
     let (x, y, z) = (at.x, at.y, at.z);
     match hash & 15 {
@@ -36,7 +36,7 @@ fn fade(t: f32) -> f32 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
 }
 
-/// Between -1 and 1, and 0 on the lattice.
+/// Noise between -1 and 1, and 0 on the lattice.
 fn noise(at: Vec3) -> f32 {
     let floor = at.floor();
     let corner = floor.as_ivec3();
@@ -51,7 +51,7 @@ fn noise(at: Vec3) -> f32 {
     mix(mix(row(0), row(2), ease.y), mix(row(4), row(6), ease.y), ease.z)
 }
 
-/// Octaves of noise, each twice as fine and half as strong; `scale` is the size of the coarsest in pixels.
+/// Sums octaves of noise, each twice as fine and half as strong. `scale` is the size of the coarsest in pixels.
 pub fn perlin(scale: f32, depth: f32, octaves: i32, pixel: IVec2) -> Vec4 {
     let mut at = (pixel.as_vec2() / scale).extend(depth);
     let (mut sum, mut share) = (0.0, 0.5);

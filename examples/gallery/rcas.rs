@@ -1,11 +1,11 @@
-//! Robust contrast adaptive sharpening (Lottes, FidelityFX Super Resolution 1.0, 2021), with its suppression of noise.
+//! Robust contrast adaptive sharpening (Lottes, FidelityFX Super Resolution 1.0, 2021), with noise suppression.
 
 use straightline_kernels::prelude::*;
 
-/// The strongest negative lobe.
+/// Strongest negative lobe.
 const LIMIT: f32 = 0.25 - 1.0 / 16.0;
 
-/// Luma times two.
+/// Twice the luma.
 fn luma(c: Vec3) -> f32 {
     c.z * 0.5 + (c.x * 0.5 + c.y)
 }
@@ -14,7 +14,7 @@ fn max3(v: Vec3) -> f32 {
     v.x.max(v.y).max(v.z)
 }
 
-/// `color` sharpened, most at `stops` 0 and half as much with each stop more.
+/// Sharpens `color`, most at `stops` 0 and half as much with each further stop.
 pub fn rcas(color: &Frame<Vec4>, stops: f32, pixel: IVec2) -> Vec4 {
     let load = |x, y| color.load(pixel + ivec2(x, y)).truncate();
     let (b, d, e, f, h) = (load(0, -1), load(-1, 0), load(0, 0), load(1, 0), load(0, 1));
@@ -31,7 +31,7 @@ pub fn rcas(color: &Frame<Vec4>, stops: f32, pixel: IVec2) -> Vec4 {
     };
     let noise = -0.5 * noise + 1.0;
 
-    // Where a lobe would clip against white or black.
+    // Lobe at which the result would clip to white or black.
     let least = b.min(d).min(f).min(h);
     let most = b.max(d).max(f).max(h);
     let hit_least = least.min(e) / (4.0 * most);

@@ -1,4 +1,4 @@
-//! Scale2x (Mazzoleni 2001), which is EPX (Johnston 1992): pixel art at twice its size, without a new colour.
+//! Scale2x (Mazzoleni 2001), also known as EPX (Johnston 1992): pixel art at twice its size, without new colours.
 
 use straightline_kernels::prelude::*;
 
@@ -6,7 +6,7 @@ fn same(a: Vec4, b: Vec4) -> bool {
     a == b
 }
 
-/// A picture of twice the size of `image`.
+/// The image at twice its size.
 pub fn scale2x(image: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
     let at = pixel / 2;
     let load = |x, y| image.load(at + ivec2(x, y));

@@ -1,10 +1,10 @@
-//! Reflections in screen space (McGuire and Mara, Efficient GPU screen-space ray tracing, 2014): a digital differential analyser along
-//! the ray's projection, its depth interpolated as perspective has it.
+//! Screen-space reflections (McGuire and Mara, Efficient GPU screen-space ray tracing, 2014): a digital differential analyser
+//! along the ray's projection, with perspective-correct depth.
 
 use straightline_kernels::prelude::*;
 
 const STEPS: i32 = 48;
-/// How thick surfaces are taken to be.
+/// Assumed thickness of surfaces.
 const THICKNESS: f32 = 0.35;
 
 struct Camera {
@@ -13,7 +13,7 @@ struct Camera {
 }
 
 impl Camera {
-    /// Where a pixel's middle lies at some depth: x to the right, y down, z away.
+    /// Position of a pixel's centre at some depth: x right, y down, z away.
     fn position(&self, at: IVec2, depth: f32) -> Vec3 {
         ((at.as_vec2() + 0.5 - 0.5 * self.size) / self.focal * depth).extend(depth)
     }
@@ -23,9 +23,9 @@ impl Camera {
     }
 }
 
-/// The pixel that a ray meets.
+/// Returns the pixel that a ray hits.
 fn trace(camera: &Camera, depth: &Frame<f32>, from: Vec3, direction: Vec3) -> Option<IVec2> {
-    // Not behind the eye.
+    // Clipped in front of the eye.
     let length = if from.z + direction.z * 4.0 < 0.2 {
         (0.2 - from.z) / direction.z
     } else {
@@ -34,7 +34,7 @@ fn trace(camera: &Camera, depth: &Frame<f32>, from: Vec3, direction: Vec3) -> Op
     let to = from + direction * length;
     let (start, end) = (camera.project(from), camera.project(to));
     let span = (end - start).abs().max_element().max(1.0);
-    // One over z is linear on the screen.
+    // 1 / z is linear on the screen.
     let (near, far) = (1.0 / from.z, 1.0 / to.z);
     let stride = (span / STEPS as f32).max(1.0);
     for k in 1..=STEPS {

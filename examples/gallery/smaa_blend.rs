@@ -1,5 +1,5 @@
-//! Enhanced subpixel morphological antialiasing, third pass: each pixel mixed with its neighbours (Jimenez, Echevarria, Sousa and Gutierrez,
-//! SMAA, 2012; after the reference implementation, MIT licence, https://github.com/iryoku/smaa).
+//! Enhanced subpixel morphological antialiasing, third pass: blends each pixel with its neighbours (Jimenez, Echevarria, Sousa
+//! and Gutierrez, SMAA, 2012; after the reference implementation, MIT licence, https://github.com/iryoku/smaa).
 
 use straightline_kernels::prelude::*;
 
@@ -20,6 +20,6 @@ pub fn smaa_blend(color: &Frame<Vec4>, weights: &Frame<Vec4>, linear: &Sampler, 
         (vec2(0.0, below), vec2(0.0, above), vec2(below, above))
     };
     let by = by / (by.x + by.y);
-    // Reads between two pixels mix them.
+    // Reads between two pixels blend them.
     by.x * color.sample(linear, uv + one / size) + by.y * color.sample(linear, uv - other / size)
 }

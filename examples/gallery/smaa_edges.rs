@@ -1,13 +1,13 @@
-//! Enhanced subpixel morphological antialiasing, first pass: edges by luma (Jimenez, Echevarria, Sousa and Gutierrez, SMAA, 2012; after the
-//! reference implementation, MIT licence, https://github.com/iryoku/smaa), preset High.
+//! Enhanced subpixel morphological antialiasing, first pass: edges by luma (Jimenez, Echevarria, Sousa and Gutierrez, SMAA,
+//! 2012; after the reference implementation, MIT licence, https://github.com/iryoku/smaa), preset High.
 
 use straightline_kernels::prelude::*;
 
 const THRESHOLD: f32 = 0.1;
-/// Of an edge beside a stronger one only those that have this share of its contrast count.
+/// Factor against weak edges: one counts only if this times its contrast reaches the strongest contrast around.
 const CONTRAST_ADAPTATION: f32 = 2.0;
 
-/// An edge to the left in x, one above in y; `color` as it is shown, not linear.
+/// Edges of a pixel: to the left in x, above in y. `color` is in display encoding, not linear.
 pub fn smaa_edges(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let luma = |x, y| {
         color

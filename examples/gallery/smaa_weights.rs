@@ -1,4 +1,4 @@
-//! Enhanced subpixel morphological antialiasing, second pass: how much of which neighbour each pixel gets (Jimenez, Echevarria, Sousa and
+//! Enhanced subpixel morphological antialiasing, second pass: blending weights of each pixel (Jimenez, Echevarria, Sousa and
 //! Gutierrez, SMAA, 2012; after the reference implementation, MIT licence, https://github.com/iryoku/smaa), preset High.
 //!
 //! `area` and `search` are the reference's tables: `smaa_area.png`, 160×560, and `smaa_search.png`, 64×16.
@@ -11,7 +11,7 @@ const CORNER_ROUNDING: f32 = 0.25;
 const AREA_DISTANCE: f32 = 16.0;
 const AREA_DISTANCE_DIAGONAL: f32 = 20.0;
 
-/// What all steps read. Places are between 0 and 1, as those of samplers; `texel` is the size of a pixel.
+/// Inputs of all steps. Coordinates are from 0 to 1, like a sampler's; `texel` is the size of a pixel.
 struct Edges<'a> {
     edges: &'a Frame<Vec4>,
     area: &'a Texture<Vec4>,
@@ -29,14 +29,14 @@ impl Edges<'_> {
         self.area.sample(self.linear, (texel + 0.5) / vec2(160.0, 560.0)).xy()
     }
 
-    /// How far an edge goes on in the last two pixels that a search looked at, of 255.
+    /// Length of the edge within the last two pixels of a search, as a fraction of 255.
     fn last_length(&self, e: Vec2, side: f32) -> f32 {
         let scale = vec2(66.0, 33.0) * vec2(0.5, -1.0) + vec2(-1.0, 1.0);
         let bias = vec2(66.0, 33.0) * vec2(side, 1.0) + vec2(0.5, -0.5);
         self.search.sample(self.linear, (scale * e + bias) / vec2(64.0, 16.0)).x
     }
 
-    /// The end of a horizontal edge, `direction` -1 to the left or 1 to the right.
+    /// Returns the end of a horizontal edge. `direction` is -1 for left or 1 for right.
     fn search_x(&self, from: Vec2, direction: f32, end: f32) -> f32 {
         let mut at = from;
         let mut e = vec2(0.0, 1.0);
@@ -48,7 +48,7 @@ impl Edges<'_> {
         at.x - direction * self.texel.x * (3.25 - 255.0 / 127.0 * self.last_length(e, side))
     }
 
-    /// The end of a vertical edge, `direction` -1 up or 1 down.
+    /// Returns the end of a vertical edge. `direction` is -1 for up or 1 for down.
     fn search_y(&self, from: Vec2, direction: f32, end: f32) -> f32 {
         let mut at = from;
         let mut e = vec2(1.0, 0.0);
@@ -60,7 +60,7 @@ impl Edges<'_> {
         at.y - direction * self.texel.y * (3.25 - 255.0 / 127.0 * self.last_length(e.yx(), side))
     }
 
-    /// How long a diagonal is, whether it was lost (below 0.9), and the edges at its end.
+    /// Searches a diagonal. Returns its length, a value below 0.9 if it ended, and the edges at its end.
     fn search_diagonal(&self, from: Vec2, direction: Vec2) -> (f32, f32, Vec2) {
         let (mut length, mut found, mut e) = (-1.0, 1.0, Vec2::ZERO);
         let mut at = from;
@@ -73,7 +73,7 @@ impl Edges<'_> {
         (length, found, e)
     }
 
-    /// The same for the other diagonal, two edges by one read.
+    /// Searches the other diagonal, with two edges per read. Returns the same values.
     fn search_other_diagonal(&self, from: Vec2, direction: Vec2) -> (f32, f32, Vec2) {
         let (mut length, mut found, mut e) = (-1.0, 1.0, Vec2::ZERO);
         let mut at = from + vec2(0.25 * self.texel.x, 0.0);
@@ -90,7 +90,7 @@ impl Edges<'_> {
         self.area(AREA_DISTANCE_DIAGONAL * crossing + lengths + vec2(80.0, 0.0))
     }
 
-    /// Weights of a pixel on a diagonal; zero if it is on none.
+    /// Weights of a pixel on a diagonal; zero if there is none.
     fn diagonal(&self, at: Vec2, e: Vec2) -> Vec2 {
         let mut weights = Vec2::ZERO;
         let (mut back, mut lost_back) = (0.0, 0.0);
@@ -141,12 +141,12 @@ impl Edges<'_> {
     }
 }
 
-/// Two edges of one read between them: of x 0.25 or 1, of y 0.75 or 1.
+/// Decodes two edges from one read between them: 0.25 or 1 in x, 0.75 or 1 in y.
 fn decoded(e: Vec2) -> Vec2 {
     round(vec2(e.x * (5.0 * e.x - 3.75).abs(), e.y))
 }
 
-/// How much is left of the weights beside each end of a line, by its corners; the lengths to both ends tell which is nearer.
+/// Share of the weights left at each end of a line after corner rounding. The lengths to both ends decide which is nearer.
 fn rounding(lengths: Vec2) -> Vec2 {
     let nearer = vec2(step(lengths.x, lengths.y), step(lengths.y, lengths.x));
     (1.0 - CORNER_ROUNDING) * nearer / (nearer.x + nearer.y)
@@ -176,7 +176,7 @@ pub fn smaa_weights(
     if e.y > 0.0 {
         horizontal = this.diagonal(at, e);
         if horizontal.x == -horizontal.y {
-            // Between two rows, so that a read tells which of four edges there are.
+            // Between two rows, so that one read distinguishes four edges.
             let (from, to) = (at + texel * vec2(-0.25, -0.125), at + texel * vec2(1.25, -0.125));
             let left = this.search_x(from, -1.0, from.x - reach.x);
             let right = this.search_x(to, 1.0, to.x + reach.x);

@@ -1,18 +1,18 @@
-//! Sphere tracing of distance functions (Hart 1996), with the soft shadows of Quilez (2010) left hard: a ball on a plane.
+//! Sphere tracing of distance functions (Hart 1996), with hard instead of soft shadows (Quilez 2010): a ball on a plane.
 
 use straightline_kernels::prelude::*;
 
 const FAR: f32 = 30.0;
 const CLOSE: f32 = 2.0e-4;
 
-/// What a ray can meet.
+/// Materials that a ray can hit.
 #[derive(Clone, Copy, PartialEq)]
 enum Material {
     Ball,
     Ground,
 }
 
-/// Distance to the nearest surface, and what that is made of.
+/// Distance to the nearest surface, and its material.
 fn scene(at: Vec3) -> (f32, Material) {
     let ball = (at - vec3(0.0, 1.0, 0.0)).length() - 1.0;
     let ground = at.y;
@@ -44,7 +44,7 @@ fn trace(from: Vec3, direction: Vec3) -> Option<Hit> {
     None
 }
 
-/// The gradient of the distance, by the four corners of a tetrahedron.
+/// Gradient of the distance, from the four corners of a tetrahedron.
 fn normal(at: Vec3) -> Vec3 {
     let corners = [
         vec3(1.0, -1.0, -1.0),
@@ -59,7 +59,7 @@ fn normal(at: Vec3) -> Vec3 {
     sum.normalize()
 }
 
-/// What is seen from a camera that circles the ball, `angle` radians round.
+/// Renders the view from a camera on a circle around the ball, at `angle` radians.
 pub fn sphere_tracing(resolution: UVec2, angle: f32, pixel: IVec2) -> Vec4 {
     let size = resolution.as_vec2();
     let place = (pixel.as_vec2() + 0.5 - 0.5 * size) / size.y;

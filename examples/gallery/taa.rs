@@ -1,5 +1,5 @@
-//! Temporal antialiasing (Karis, High-quality temporal supersampling, 2014): the last picture, reprojected, clipped to what
-//! colours there are around the pixel now.
+//! Temporal antialiasing (Karis, High-quality temporal supersampling, 2014): the last picture, reprojected and clipped to
+//! the colours around the pixel in this one.
 
 use straightline_kernels::prelude::*;
 
@@ -16,7 +16,7 @@ fn rgb(ycocg: Vec3) -> Vec3 {
     vec3(rest + ycocg.y, ycocg.x + ycocg.z, rest - ycocg.y)
 }
 
-/// `color`, moved towards the middle of a box until it is inside.
+/// Moves `color` towards the centre of a box until it is inside.
 fn clipped(color: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     let middle = 0.5 * (low + high);
     let reach = 0.5 * (high - low) + 1.0e-4;
@@ -25,7 +25,7 @@ fn clipped(color: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     if beyond > 1.0 { middle + from / beyond } else { color }
 }
 
-/// Bright pixels count less, so that one that flickers does not outshine the others.
+/// Weight of a colour. Bright pixels weigh less, so that a flickering one does not dominate.
 fn tamed(color: Vec3) -> f32 {
     1.0 / (1.0 + color.x)
 }

@@ -1,9 +1,9 @@
-//! Cellular texture (Worley, A cellular texture basis function, 1996): distances to the nearest and to the second of random points, one
-//! in each cell.
+//! Cellular texture (Worley, A cellular texture basis function, 1996): distances to the nearest and second-nearest of random
+//! points, one in each cell.
 
 use straightline_kernels::prelude::*;
 
-/// A place in a cell, 0 to 1 (PCG: Jarzynski and Olano, Hash functions for GPU rendering, 2020).
+/// Position of a cell's point, 0 to 1 (PCG: Jarzynski and Olano, Hash functions for GPU rendering, 2020).
 fn point(cell: IVec2) -> Vec2 {
     let scrambled = |word: u32| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     let (mut x, mut y) = (scrambled(cell.x as u32), scrambled(cell.y as u32));
@@ -16,7 +16,7 @@ fn point(cell: IVec2) -> Vec2 {
     vec2((x >> 8) as f32, (y >> 8) as f32) / 16_777_216.0
 }
 
-/// Cells of `size` pixels.
+/// Cellular texture with cells of `size` pixels.
 pub fn worley(size: f32, pixel: IVec2) -> Vec4 {
     let at = pixel.as_vec2() / size;
     let cell = at.floor();

@@ -1,18 +1,18 @@
-//! A method of antialiasing to be compared by `study error`: a blur over edges of depth.
+//! An antialiasing method for comparison by `study error`: a blur over depth edges.
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// How a blur over edges is made.
+    /// Options of the blur.
     pub struct EdgeBlur {
-        /// Difference of depths, in parts of the nearer one, from which there is an edge.
+        /// Difference in depth, relative to the nearer one, from which there is an edge.
         pub step: f32 [1.0e-4..=10.0] = 0.05,
-        /// Weight of each of the four neighbours beyond an edge; the pixel itself has 1.
+        /// Weight of each of the four neighbours beyond an edge; the pixel itself has a weight of 1.
         pub weight: f32 [0.0..=1.0] = 0.25,
     }
 }
 
-/// The picture, a pixel at an edge mixed with those neighbours that lie beyond it.
+/// Mixes a pixel at an edge with the neighbours beyond the edge.
 pub fn edge_blur(cfg: &EdgeBlur, color: &Frame<Vec4>, depth: &Frame<f32>, pixel: IVec2) -> Vec4 {
     let here = depth.load(pixel);
     let mut sum = color.load(pixel);

@@ -1,61 +1,61 @@
-//! One bounce of light, gathered on the screen by pixel quads: global illumination is among what the chapter's §2.10 would
-//! share (Penner 2011).
+//! A single bounce of light, gathered on the screen by pixel quads. The chapter's §2.10 lists global illumination as an
+//! application (Penner 2011).
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// How light is gathered.
+    /// Options of the gathering.
     pub struct Bounce {
-        /// What comes out.
+        /// Output of the kernel.
         pub gives: Gives = Gives::Picture,
-        /// Taps that each lane takes; a pixel has the sum of four times as many.
+        /// Taps of each lane; a pixel uses the sum of four times as many.
         pub taps: i32 [1..=16] = 4,
-        /// How far light comes from, in the unit of depth.
+        /// Distance within which light is gathered, in the unit of depth.
         pub radius: f32 [1.0e-3..=1.0e4] = 1.0,
-        /// How much brighter than measured.
+        /// Factor on the gathered light.
         pub strength: f32 [0.0..=100.0] = 4.0,
         /// Width of a pixel at depth 1.
         pub pixel_angle: f32 [1.0e-6..=1.0] = 0.005,
-        /// Difference of depths, over the radius, at which another lane's light counts for exp(-1/2).
+        /// Difference in depth, relative to the radius, at which the weight of another lane's light has fallen to exp(-1/2).
         pub depth_sigma: f32 [1.0e-3..=1.0e3] = 0.2,
     }
 }
 
-/// What comes out.
+/// Output of the kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gives {
-    /// The light alone, to be multiplied by what the surface reflects.
+    /// Only the light, to be multiplied by the surface's reflectance.
     Light,
-    /// The picture, its own colours standing for what it reflects.
+    /// The picture, with its own colours as the reflectance.
     Picture,
 }
 
-/// The longest way of a tap on the screen, in pixels: keeps reads near each other.
+/// Longest distance of a tap on the screen, in pixels. Keeps reads close together.
 const LONGEST: f32 = 64.0;
 
-/// Depths of surfaces are larger, and no device takes them for 0.
+/// Lower bound on the depth of a surface. No device flushes it to 0.
 const NEAREST: f32 = 1.0e-30;
 
-/// Depths of surfaces are smaller, and stay finite in all that is computed of them.
+/// Upper bound on the depth of a surface. All values computed from it are finite.
 const DEEPEST: f32 = 1.0e30;
 
-/// Light is smaller.
+/// Upper bound on light.
 const BRIGHTEST: f32 = 1.0e30;
 
-/// Angle from tap to tap: the golden one, which spreads any number of them.
+/// Angle between consecutive taps: the golden angle, which spreads any number of them evenly.
 const TURN: f32 = 2.399_963_2;
 
-/// The light that comes to each pixel from surfaces around it that are seen, once reflected.
+/// Gathers the light that reaches each pixel, after one reflection, from visible surfaces around it.
 ///
-/// Tap `k` of all lies on a spiral; lane `l` takes those with `k % 4 == l`, and tells the others what it found. They take it at
-/// the weight of a Gaussian of their distance in depth.
+/// Tap `k` of all lies on a spiral; lane `l` takes those with `k % 4 == l`, and sends its result to the others. They weight it by
+/// a Gaussian of the difference in depth.
 ///
-/// `depth` is along the view; `normal` is of unit length as captures have it: x right, y up, z towards the eye; `color` is the light that
-/// surfaces send to the eye, and so everywhere.
+/// `depth` is along the view. `normal` is of unit length, in the axes of captures: x right, y up, z towards the eye. `color` is
+/// the light that surfaces send to the eye, and equally in all other directions.
 ///
-/// The result is finite whatever the inputs are. A depth that is not above 1e-30 and below 1e30 is of no surface, such as an infinite sky's: no light
-/// comes to it or from it. A tap whose normal or colour is not finite sends none, and light counts up to 1e30. A pixel's own colour that is
-/// not finite is black.
+/// The result is finite for every input. A depth that is not above 1e-30 and below 1e30, such as an infinite sky's, is no
+/// surface: it neither receives nor sends light. A tap whose normal or colour is not finite sends none, and light is limited to
+/// 1e30. A pixel's own colour that is not finite becomes black.
 pub fn bounce(
     cfg: &Bounce,
     depth: &Frame<f32>,
@@ -67,7 +67,7 @@ pub fn bounce(
     let middle = resolution.as_vec2() * 0.5;
     let seen = depth.load(pixel);
     let is_surface = seen.gt(NEAREST) & seen.lt(DEEPEST);
-    // What is no surface lies far away, and tells a depth of 0, which no transport rounds.
+    // A pixel without a surface is far away, and sends a depth of 0, which no transport rounds.
     let z = is_surface.select(seen, Quad::splat(DEEPEST));
     let told = is_surface.select(seen, Quad::splat(0.0));
     let here = position(cfg, pixel, middle, z);
@@ -85,12 +85,12 @@ pub fn bounce(
         let to = position(cfg, tap, middle, depth.load(tap)) - here;
         let squared = to.length_squared();
         let along = to * inverse_sqrt(squared.max(1.0e-12));
-        // By the cosines of leaving there and of arriving here; nothing from beyond the radius.
+        // Product of the cosines at the sender and at the receiver. Nothing arrives from beyond the radius.
         let arrives = along.dot(facing).max(0.0);
         let leaves = (along.dot(normal.load(tap)) * -1.0).max(0.0);
         let near = (1.0 - squared / (cfg.radius * cfg.radius)).max(0.0);
         let light = color.load(tap).truncate() * (arrives * leaves * near);
-        // A way that is infinite, a normal or a colour that is no number: nothing comes from there.
+        // An infinite distance, or a NaN normal or colour, sends no light.
         let sends = squared.lt(cfg.radius * cfg.radius) & is_finite(light);
         found += sends.select(light, Quad::splat(Vec3::ZERO));
     }
@@ -116,12 +116,12 @@ pub fn bounce(
     }
 }
 
-/// Whether light is finite, and small enough that sums of it are.
+/// Returns whether light is finite, and small enough for its sums to be finite.
 fn is_finite(light: Quad<Vec3>) -> Quad<bool> {
     light.x().abs().lt(BRIGHTEST) & light.y().abs().lt(BRIGHTEST) & light.z().abs().lt(BRIGHTEST)
 }
 
-/// Where in the view a pixel lies at a depth.
+/// Position of a pixel in view space at depth `z`.
 fn position(cfg: &Bounce, pixel: Quad<IVec2>, middle: Vec2, z: Quad<f32>) -> Quad<Vec3> {
     let across = (pixel.as_vec2() + 0.5 - middle) * vec2(cfg.pixel_angle, -cfg.pixel_angle);
     (across * z).extend(z * -1.0)

@@ -1,20 +1,20 @@
-//! Cascades of a sun's shadow, side by side in one map, filtered by pixel quads (Penner 2011, §2.9).
+//! Cascades of a sun shadow, side by side in one map, filtered by pixel quads (Penner 2011, §2.9).
 
 use straightline_kernels::prelude::*;
 
-/// Cascades in the map, from left to right; each covers twice as much across and down as the one before.
+/// Cascades in the map, from left to right. Each covers twice the width and height of the previous one.
 const CASCADES: usize = 3;
 
-/// Texels from the middle of a filter to where it ends, and one to spare for the sampler's own filter.
+/// Texels from the middle of the filter to its end, and one spare for the sampler's own filter.
 const REACH: f32 = 5.0;
 
-/// Light that comes to all pixels of a quad, 0 to 1: 8×8 texels around its mean place, 2×2 at a time, four reads a lane, of the
-/// finest cascade that has them all.
+/// Light on all pixels of a quad, 0 to 1, from 8×8 texels around its mean position. They are compared 2×2 at a time, four reads
+/// a lane, in the finest cascade that has them all.
 ///
-/// `coord` is interpolated: the place beside the viewer as the sun sees it, the first cascade from -1 to 1 on both axes, and the depth
-/// to compare, the same in all cascades. Farther out than the last cascade lies its border.
+/// `coord` is interpolated: the position relative to the viewer in the sun's view, the first cascade from -1 to 1 on both axes,
+/// and the depth to compare, the same in all cascades. Beyond the last cascade its border is used.
 ///
-/// The light is a number from 0 to 1 whatever `coord` is: a lane whose coordinates are not finite, or 1e4 and more, does not count.
+/// The light is a number from 0 to 1 for every `coord`. A lane whose coordinates are not finite, or are 1e4 or more, is ignored.
 pub fn cascades(shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
     let size = shadow.size().as_vec2();
     let own = size / vec2(CASCADES as f32, 1.0);
@@ -30,7 +30,7 @@ pub fn cascades(shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord
         first = holds.select(Quad::splat(own.x * k as f32), first);
     }
     let place = (centre.truncate() / half * 0.5 + 0.5) * own;
-    // No comparison reaches into the cascade beside.
+    // No comparison reaches into an adjacent cascade.
     let place = place.max(Vec2::splat(REACH)).min(own - REACH);
     let corner = (place - 0.5).floor() + 0.5;
     let mut lit = Quad::splat(0.0);
@@ -43,13 +43,13 @@ pub fn cascades(shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord
     Vec4::ONE * (lit.average() * 0.25)
 }
 
-/// Coordinates are numbers that count below this: hundreds of maps away lies the border alone.
+/// Upper bound on coordinates that count. Hundreds of maps away there is only the border.
 const FARTHEST: f32 = 1.0e4;
 
-/// Share of a lane that does not count in the quad's mean, 2⁻¹⁰⁰: nothing beside 1, and as good as 1 among its like.
+/// Weight of an excluded lane in the quad's mean, 2⁻¹⁰⁰: negligible beside 1, but the mean of excluded lanes is still defined.
 const NO_SHARE: f32 = 7.888_609e-31;
 
-/// Mean coordinates of the lanes whose own are finite and near: a bad lane, as of w = 0, spoils no other. Without any, all are 0.
+/// Mean coordinates of the lanes with finite and near ones: a bad lane, such as one with w = 0, affects no other. Without any, 0.
 fn mean(coord: Quad<Vec3>) -> Quad<Vec3> {
     let near = counts(coord);
     let finite = near.select(coord, Quad::splat(Vec3::ZERO));
@@ -58,7 +58,7 @@ fn mean(coord: Quad<Vec3>) -> Quad<Vec3> {
     sums.truncate() / sums.w()
 }
 
-/// Whether coordinates are numbers that count; a comparison with what is no number fails.
+/// Returns whether coordinates are finite and near. Comparisons with NaN are false.
 fn counts(coord: Quad<Vec3>) -> Quad<bool> {
     coord.x().abs().lt(FARTHEST) & coord.y().abs().lt(FARTHEST) & coord.z().abs().lt(FARTHEST)
 }

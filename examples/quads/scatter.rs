@@ -1,26 +1,26 @@
-//! Light that scatters below a surface, mimicked by part of a shadow's penumbra, which pixel quads make wide enough (Penner
+//! Subsurface scattering, imitated by part of a shadow's penumbra, which pixel quads make wide enough (Penner
 //! 2011, figure 2.8).
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// How a shadow falls on what light enters.
+    /// Options of the scattering.
     pub struct Scatter {
-        /// Distance between comparisons over that of a dense filter: how wide the penumbra is.
+        /// Distance between comparisons relative to that of a dense filter. Widens the penumbra.
         pub spread: f32 [1.0..=64.0] = 2.0,
-        /// Share of the penumbra in which there is red light alone, and green has yet to come.
+        /// Share of the penumbra, from its dark end, without green light.
         pub green: f32 [0.0..=0.9] = 0.3,
-        /// The same of blue, which goes least far.
+        /// Share of the penumbra, from its dark end, without blue light, which travels the shortest distance.
         pub blue: f32 [0.0..=0.9] = 0.45,
     }
 }
 
-/// Light that comes to each pixel of a quad, 0 to 1, red, green and blue.
+/// Red, green and blue light on each pixel of a quad, 0 to 1.
 ///
-/// `coord` is interpolated: a place in the shadow map, 0 to 1, and the depth to compare. The quad compares 8×8 texels, 2×2 at a
-/// time by the sampler's own filter: four reads a lane.
+/// `coord` is interpolated: a position in the shadow map, 0 to 1, and the depth to compare. The quad compares 8×8 texels, 2×2
+/// at a time by the sampler's own filter: four reads a lane.
 ///
-/// The light is a number from 0 to 1 whatever `coord` is: a lane whose coordinates are not finite, or 1e4 and more, does not count.
+/// The light is a number from 0 to 1 for every `coord`. A lane whose coordinates are not finite, or are 1e4 or more, is ignored.
 pub fn scatter(
     cfg: &Scatter,
     shadow: &DepthTexture,
@@ -41,13 +41,13 @@ pub fn scatter(
     light.max(Vec3::ZERO).extend(1.0)
 }
 
-/// Coordinates are numbers that count below this: hundreds of maps away lies the border alone.
+/// Upper bound on coordinates that count. Hundreds of maps away there is only the border.
 const FARTHEST: f32 = 1.0e4;
 
-/// Share of a lane that does not count in the quad's mean, 2⁻¹⁰⁰: nothing beside 1, and as good as 1 among its like.
+/// Weight of an excluded lane in the quad's mean, 2⁻¹⁰⁰: negligible beside 1, but the mean of excluded lanes is still defined.
 const NO_SHARE: f32 = 7.888_609e-31;
 
-/// Mean coordinates of the lanes whose own are finite and near: a bad lane, as of w = 0, spoils no other. Without any, all are 0.
+/// Mean coordinates of the lanes with finite and near ones: a bad lane, such as one with w = 0, affects no other. Without any, 0.
 fn mean(coord: Quad<Vec3>) -> Quad<Vec3> {
     let near = counts(coord);
     let finite = near.select(coord, Quad::splat(Vec3::ZERO));
@@ -56,7 +56,7 @@ fn mean(coord: Quad<Vec3>) -> Quad<Vec3> {
     sums.truncate() / sums.w()
 }
 
-/// Whether coordinates are numbers that count; a comparison with what is no number fails.
+/// Returns whether coordinates are finite and near. Comparisons with NaN are false.
 fn counts(coord: Quad<Vec3>) -> Quad<bool> {
     coord.x().abs().lt(FARTHEST) & coord.y().abs().lt(FARTHEST) & coord.z().abs().lt(FARTHEST)
 }

@@ -1,16 +1,16 @@
-//! A row of a separable blur, with its radius as an option: what `docs/study-of-your-own.md` sweeps.
+//! A pass of a separable blur with its radius as an option, for the sweep in `docs/study-of-your-own.md`.
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What a row of a blur is made of.
+    /// Options of the blur.
     pub struct Row {
-        /// How far it reaches to each side, in pixels.
+        /// Radius of the blur, in pixels.
         pub radius: i32 [1..=32] = 4,
     }
 }
 
-/// The mean of a row of pixels, weighed by a Gaussian of which two standard deviations are the radius.
+/// Mean of a row of pixels, weighted by a Gaussian whose radius is two standard deviations.
 pub fn convolution(cfg: &Row, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let sigma = 0.5 * cfg.radius as f32;
     let mut sum = Vec4::ZERO;

@@ -1,5 +1,6 @@
-//! The one crate that opens files to read and makes files to be written: a set of files is whole or not there, only what has
-//! changed is written, and only regular files are read. [`shorten()`] prepares a value from outside for a message.
+//! The only crate that opens files for reading and creates files for writing. A set of files is written completely or not
+//! at all, only changed files are written, and only regular files are read. [`shorten()`] prepares an external value for a
+//! message.
 
 mod read;
 mod shorten;
@@ -14,7 +15,7 @@ pub use read::{open_file, read_file, read_text};
 pub use shorten::shorten;
 pub use unfinished::{Folders, Scrap, remove_unfinished};
 
-/// Why files could not be written. None of them has been changed.
+/// Reason why files could not be written. None of them has been changed.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// The folder cannot be made or written to.
@@ -53,12 +54,12 @@ impl WriteError {
     }
 }
 
-/// Writes files by name into `folder`, which is made if it is not there; a name may lead into folders below it. A file that
-/// already has its contents is left untouched, so that nothing built from it is built again. Returns the paths of all files.
+/// Writes files by name into `folder`, which is created if missing; a name may lead into folders below it. A file that
+/// already has its contents is left untouched, so that nothing depending on it is rebuilt. Returns the paths of all files.
 ///
 /// # Errors
 ///
-/// [`WriteError`]. Then every file and folder is what it was before.
+/// [`WriteError`]. Then every file and folder is unchanged.
 pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, WriteError> {
     let mut folders = Folders::make(folder).map_err(WriteError::for_folder(folder))?;
     let mut staged = Vec::new();
@@ -83,7 +84,7 @@ pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec
     Ok(files.keys().map(|name| folder.join(name)).collect())
 }
 
-/// Writes one file, making the folders above it. After an error it is what it was before.
+/// Writes one file, creating the folders above it. After an error the file is unchanged.
 ///
 /// # Errors
 ///
@@ -95,12 +96,12 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Creates `path` with what `fill` writes into it, replacing a file of that name only when all is written. Its folder must be
-/// there. `refused` makes an error of what the system says.
+/// Creates `path` with the output of `fill`, replacing an existing file only when everything is written. Its folder must
+/// exist. `refused` converts errors of the system.
 ///
 /// # Errors
 ///
-/// Those of `fill`, and what the system says.
+/// Those of `fill`, and those of the system.
 pub fn fill_file<E>(
     path: &Path,
     fill: impl FnOnce(&mut io::BufWriter<File>) -> Result<(), E>,
@@ -109,7 +110,7 @@ pub fn fill_file<E>(
     let scrap = Scrap::beside(path, "partial").map_err(&refused)?;
     let mut writer = io::BufWriter::new(File::create_new(scrap.path()).map_err(&refused)?);
     fill(&mut writer)?;
-    // Only into_inner tells whether the last bytes found room.
+    // Only into_inner reports whether the last bytes were written.
     let file = writer.into_inner().map_err(io::IntoInnerError::into_error);
     drop(file.map_err(&refused)?);
     fs::rename(scrap.path(), path).map_err(&refused)
@@ -183,7 +184,7 @@ fn put_in_place(staged: &[(Scrap, PathBuf)]) -> Result<(), WriteError> {
             Ok(old) => moved.push((path, old)),
             Err(source) => {
                 for (path, old) in moved {
-                    // The first error is the one to tell.
+                    // The first error is the one to report.
                     let _ = match old {
                         Some(old) => fs::rename(old.path(), path),
                         None => fs::remove_file(path),

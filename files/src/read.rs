@@ -8,7 +8,7 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// What the system says; if it is no regular file, what it is; if it is longer, its length and the limit.
+/// Errors of the system; the kind of a file that is not regular; the length of a file beyond the limit.
 pub fn open_file(path: &Path, limit: u64) -> io::Result<File> {
     // Before it is opened: opening a pipe waits for its writer.
     check_metadata(&fs::metadata(path)?, limit)?;

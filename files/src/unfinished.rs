@@ -35,7 +35,7 @@ pub fn remove_unfinished() {
 
 /// Removes a scrap with all that is in it, or a folder that was made for files if it is empty.
 fn remove_path(path: &Path) {
-    // Nothing sensible can be done about what will not go away; the first error is the one to tell.
+    // A failed removal cannot be handled; the first error is the one to report.
     let _ = match fs::symlink_metadata(path) {
         Ok(metadata) if metadata.is_dir() && is_scrap(path) => fs::remove_dir_all(path),
         Ok(metadata) if metadata.is_dir() => fs::remove_dir(path),
@@ -55,17 +55,17 @@ fn forget_path(path: &Path) {
     }
 }
 
-/// A name beside a file or folder under which it is made, and which no other call uses. What is there is removed when this
-/// is dropped, unless it has moved on to its place.
+/// A unique name beside a file or folder, under which that is created. An existing file there is removed on drop, unless it
+/// was moved to its final place.
 #[derive(Debug)]
 pub struct Scrap(PathBuf);
 
 impl Scrap {
-    /// A name beside `path` that says what it is for, such as `partial`. Nothing is made yet.
+    /// Reserves a name beside `path` with a suffix for its purpose, such as `partial`. Nothing is created yet.
     ///
     /// # Errors
     ///
-    /// If the path ends in no name.
+    /// If the path does not end in a name.
     pub fn beside(path: &Path, purpose: &str) -> io::Result<Scrap> {
         static NEXT: AtomicU32 = AtomicU32::new(0);
         let name = path.file_name().ok_or_else(|| {

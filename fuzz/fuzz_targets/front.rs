@@ -9,7 +9,7 @@ use straightline_tests::random::forms::is_internal;
 fuzz_target!(|bytes: &[u8]| {
     let text = String::from_utf8_lossy(bytes);
     let outcome = Kernel::from_text("fuzz.rs", &text, "k").compile(&Settings::default());
-    // A panic is caught by the generator itself, and told as its own mistake.
+    // The generator catches a panic itself and reports it as a bug of its own.
     if let Err(errors) = outcome {
         assert!(!is_internal(&errors), "{errors}");
     }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use thiserror::Error;
 
-/// Why a compiler says nothing.
+/// Reason why a compiler returns nothing.
 #[derive(Debug, Error)]
 pub enum IsaError {
     /// Mesa's driver for AMD GPUs is not installed.
@@ -147,7 +147,7 @@ impl Compiler {
 
 impl Drop for Compiler {
     fn drop(&mut self) {
-        // Without requests it ends by itself; it is not waited for longer than that takes.
+        // Closing the requests ends the process; this waits only for that.
         self.requests.take();
         let _ = self.process.wait();
     }

@@ -70,7 +70,7 @@ impl Figures {
         ]
     }
 
-    /// Names the figures that fit beside each other on a line.
+    /// Returns the figures that fit on one line.
     pub fn in_short(&self) -> [(&'static str, u64); 8] {
         let all = self.named_figures();
         [0, 1, 3, 4, 5, 8, 11, 12].map(|k| all[k])

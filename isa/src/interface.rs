@@ -7,10 +7,10 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// Words before the first instruction.
 const HEADER: usize = 5;
 
-/// Groups and binding numbers, and what is bound there.
+/// Descriptor type by group and binding number.
 pub type Bindings = BTreeMap<u32, BTreeMap<u32, vk::DescriptorType>>;
 
-/// A module's entry point and what it binds.
+/// A module's entry point and its bindings.
 pub struct Interface {
     /// The stage of the entry point.
     pub stage: vk::ShaderStageFlags,
@@ -56,7 +56,7 @@ fn entry_point((op, operands): Instruction, name: &str) -> Option<ExecutionModel
     (found == name.as_bytes()).then(|| ExecutionModel::from_u32(*model))?
 }
 
-/// A type, as far as what is bound depends on it.
+/// A type, as far as its bindings depend on it.
 #[derive(Clone, Copy)]
 enum Type {
     Descriptor(vk::DescriptorType),

@@ -1,4 +1,4 @@
-//! Pipelines, and what the compiler says of them.
+//! Pipelines, and the compiler's statistics for them.
 #![expect(
     unsafe_code,
     reason = "Vulkan's functions are foreign; each handle is made, used and destroyed in one function"
@@ -11,11 +11,11 @@ use ash::vk;
 use std::ffi::{CStr, CString};
 
 impl Device {
-    /// Compiles an entry point of a module, and gives what the compiler makes of it.
+    /// Compiles an entry point of a module, and returns the compiler's report.
     ///
     /// # Errors
     ///
-    /// The words are no module with such an entry point, or the driver refuses it.
+    /// If the words are not a module with such an entry point, or the driver rejects it.
     pub fn compile(&self, words: &[u32], entry: &str) -> Result<Report, String> {
         let interface = Interface::from_words(words, entry).ok_or("no compute or fragment entry point of that name")?;
         let name = CString::new(entry).map_err(|_| "a name with a zero in it")?;
@@ -94,7 +94,7 @@ struct Made<'a> {
     pipeline: vk::Pipeline,
 }
 
-/// Bytes of push constants that any module may use: what Vulkan guarantees.
+/// Bytes of push constants that any module may use: Vulkan's guaranteed minimum.
 const PUSH_CONSTANTS: u32 = 128;
 
 impl<'a> Made<'a> {
@@ -208,7 +208,7 @@ impl<'a> Made<'a> {
     }
 }
 
-/// Colour targets of fragment shaders: no shader of ours has more, and what it does not write costs nothing.
+/// Colour targets of fragment shaders: no emitted shader has more, and unwritten ones cost nothing.
 const TARGETS: usize = 4;
 
 const REPORTED: vk::PipelineCreateFlags = vk::PipelineCreateFlags::from_raw(

@@ -19,17 +19,17 @@ pub(crate) struct Request {
 pub(crate) enum Answer {
     /// The GPU that is compiled for, and the driver's version.
     Device(String),
-    /// Of the shader that was asked about.
+    /// Report on the requested shader.
     Report(Report),
-    /// Why there is neither.
+    /// Reason why there is no result.
     Error(String),
 }
 
-/// Answers the requests of a [`Compiler`](super::Compiler) in the process that started this one, until it asks no more.
+/// Serves the requests of a [`Compiler`](super::Compiler) in the parent process, until there are no more.
 ///
 /// # Errors
 ///
-/// That process cannot be read from or written to.
+/// If the parent process cannot be read from or written to.
 pub fn serve() -> std::io::Result<()> {
     let mut out = std::io::stdout().lock();
     let mut say = |answer: Answer| {

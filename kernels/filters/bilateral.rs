@@ -1,11 +1,11 @@
-//! Bilateral filter: noise is averaged away, edges stay (Tomasi and Manduchi 1998).
+//! Bilateral filter: averages noise away and keeps edges (Tomasi and Manduchi 1998).
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What a bilateral filter is made of.
+    /// Options of the bilateral filter.
     pub struct Bilateral {
-        /// How far it reaches, in pixels.
+        /// Radius of the filter, in pixels.
         pub radius: i32 [1..=6] = 3,
         /// Standard deviation on the screen, in pixels.
         pub sigma: f32 [0.3..=6.0] = 1.8,
@@ -14,7 +14,7 @@ options! {
     }
 }
 
-/// The mean of the neighbours that look like the pixel, near ones counting most.
+/// Mean of the neighbours that look like the pixel, weighted towards the near ones.
 pub fn bilateral(cfg: &Bilateral, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let centre = color.load(pixel);
     let mut sum = Vec3::ZERO;

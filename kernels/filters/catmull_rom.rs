@@ -2,7 +2,7 @@
 
 use straightline_kernels::prelude::*;
 
-/// Weights of the texels at -1, 0, 1 and 2 for a place `t` after the one at 0.
+/// Weights of the texels at -1, 0, 1 and 2 for a position `t` past the texel at 0.
 fn weights(t: f32) -> [f32; 4] {
     let (t2, t3) = (t * t, t * t * t);
     [
@@ -13,7 +13,7 @@ fn weights(t: f32) -> [f32; 4] {
     ]
 }
 
-/// `image` at the output's resolution: through its texels, without the blur of a linear filter.
+/// Resamples `image` at the output's resolution. The curve passes through the texels, without the blur of a linear filter.
 pub fn catmull_rom(image: &Texture<Vec4>, resolution: UVec2, pixel: IVec2) -> Vec4 {
     let place = (pixel.as_vec2() + 0.5) / resolution.as_vec2() * image.size().as_vec2() - 0.5;
     let corner = place.floor();

@@ -1,11 +1,11 @@
-//! Any 5×5 convolution, its weights given when the shader is made.
+//! Any 5×5 convolution with weights fixed when the shader is generated.
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What a convolution is made of.
+    /// Options of the convolution.
     pub struct Convolution {
-        /// Weights, row by row from the top; by default they sharpen.
+        /// Weights, row by row from the top. The default sharpens.
         pub weights: [f32; 25] = [
             0.0, 0.0, -0.125, 0.0, 0.0,
             0.0, -0.125, -0.25, -0.125, 0.0,
@@ -13,12 +13,12 @@ options! {
             0.0, -0.125, -0.25, -0.125, 0.0,
             0.0, 0.0, -0.125, 0.0, 0.0,
         ],
-        /// Added to every colour.
+        /// Offset added to every colour.
         pub offset: f32 [-1.0..=1.0] = 0.0,
     }
 }
 
-/// The weighted sum of the 5×5 pixels around. A weight of zero costs nothing: its pixel is not read.
+/// Weighted sum of the 5×5 pixels around. A weight of zero costs nothing: its pixel is not read.
 pub fn convolution(cfg: &Convolution, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = Vec3::splat(cfg.offset);
     for k in 0..25 {

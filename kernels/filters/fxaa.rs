@@ -3,15 +3,15 @@
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What FXAA is made of.
+    /// Options of FXAA.
     pub struct Fxaa {
-        /// Contrast, relative to the brightest neighbour, from which a pixel is filtered.
+        /// Contrast, relative to the brightest neighbour, above which a pixel is filtered.
         pub threshold: f32 [0.03..=0.5] = 0.125,
         /// Contrast below which nothing is filtered.
         pub threshold_min: f32 [0.0..=0.1] = 0.0312,
-        /// How much of a pixel that stands alone is blurred away.
+        /// Strength of the blur on isolated pixels.
         pub subpixel: f32 [0.0..=1.0] = 0.75,
-        /// Steps along an edge to each of its ends.
+        /// Number of steps along an edge towards each end.
         pub steps: i32 [1..=12] = 8,
     }
 }
@@ -20,7 +20,7 @@ fn luma(color: Vec4) -> f32 {
     color.truncate().dot(vec3(0.299, 0.587, 0.114))
 }
 
-/// How far step `k` goes on, in pixels: the first ones are short.
+/// Length of step `k`, in pixels. The first steps are short.
 fn stride(k: i32) -> f32 {
     match k {
         0..=2 => 1.0,
@@ -30,7 +30,7 @@ fn stride(k: i32) -> f32 {
     }
 }
 
-/// `color` with its edges smoothed, by colours alone.
+/// Smooths the edges of `color`, found from the colours alone.
 pub fn fxaa(cfg: &Fxaa, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
     let texel = Vec2::ONE / color.size().as_vec2();
     let at = (pixel.as_vec2() + 0.5) * texel;
@@ -42,7 +42,7 @@ pub fn fxaa(cfg: &Fxaa, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> 
     let brightest = m.max(n).max(s).max(w).max(e);
     let contrast = brightest - m.min(n).min(s).min(w).min(e);
 
-    // Which way the edge runs, and on which side of the pixel it is.
+    // Direction of the edge, and the side of the pixel it is on.
     let across_rows = (nw + sw - 2.0 * w).abs() + 2.0 * (n + s - 2.0 * m).abs() + (ne + se - 2.0 * e).abs();
     let across_columns = (nw + ne - 2.0 * n).abs() + 2.0 * (w + e - 2.0 * m).abs() + (sw + se - 2.0 * s).abs();
     let horizontal = across_rows >= across_columns;
@@ -62,7 +62,7 @@ pub fn fxaa(cfg: &Fxaa, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> 
         vec2(0.0, texel.y)
     };
 
-    // To both ends of the edge. A search that has ended stands still.
+    // Search for both ends of the edge. A search that has ended stops moving.
     let start = at + 0.5 * side * normal;
     let mut ends = [0.0; 2];
     let mut lumas = [0.0; 2];

@@ -2,7 +2,7 @@
 
 use straightline_kernels::prelude::*;
 
-/// The direction of one of the two passes.
+/// Direction of one of the two passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// Along rows.
@@ -12,18 +12,18 @@ pub enum Axis {
 }
 
 options! {
-    /// What a blur is made of.
+    /// Options of the blur.
     pub struct Gaussian {
-        /// The direction of this pass.
+        /// Direction of this pass.
         pub axis: Axis = Axis::Horizontal,
-        /// How far the blur reaches, in pixels.
+        /// Radius of the blur, in pixels.
         pub radius: i32 [1..=16] = 6,
         /// Standard deviation in pixels.
         pub sigma: f32 [0.3..=16.0] = 2.5,
     }
 }
 
-/// The picture blurred along one axis. Weights are computed when the shader is made.
+/// Blurs the picture along one axis. The weights are computed when the shader is generated.
 pub fn gaussian(cfg: &Gaussian, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let along = match cfg.axis {
         Axis::Horizontal => ivec2(1, 0),

@@ -3,14 +3,14 @@
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What the upsampling is made of.
+    /// Options of the upsampling.
     pub struct Upsampling {
-        /// How fast a texel's weight falls with its relative difference in depth.
+        /// Falloff of a texel's weight with its relative difference in depth.
         pub sharpness: f32 [0.0..=1000.0] = 60.0,
     }
 }
 
-/// `low` at the resolution of `depth`: the four texels around, those at the pixel's own depth counting most.
+/// Resamples `low` at the resolution of `depth` from the nearest four texels, weighted towards those at the pixel's own depth.
 pub fn joint_bilateral_upsampling(
     cfg: &Upsampling,
     low: &Texture<Vec4>,
@@ -29,7 +29,7 @@ pub fn joint_bilateral_upsampling(
             let at = corner.as_ivec2() + ivec2(x, y);
             let tent = (if x == 0 { 1.0 - t.x } else { t.x }) * (if y == 0 { 1.0 - t.y } else { t.y });
             let difference = (low_depth.load(at) - here).abs() / here.max(1.0e-6);
-            // Never 0 altogether: where nothing fits, the nearest texels have to do.
+            // Never quite 0: where no texel fits, the nearest ones are used.
             let weight = tent * (-cfg.sharpness * difference).exp() + 1.0e-6;
             sum += weight * low.load(at);
             total += weight;

@@ -1,16 +1,16 @@
-//! Kuwahara filter: the picture as if painted (Kuwahara et al. 1976).
+//! Kuwahara filter: painterly smoothing (Kuwahara et al. 1976).
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What a Kuwahara filter is made of.
+    /// Options of the Kuwahara filter.
     pub struct Kuwahara {
-        /// Side of each of the four quarters, less one, in pixels.
+        /// Side of each of the four quadrants, minus one, in pixels.
         pub radius: i32 [1..=5] = 3,
     }
 }
 
-/// The mean of that quarter of the neighbourhood which varies least.
+/// Mean of the quadrant with the least variance.
 pub fn kuwahara(cfg: &Kuwahara, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let count = ((cfg.radius + 1) * (cfg.radius + 1)) as f32;
     let mut best = Vec3::ZERO;

@@ -2,7 +2,7 @@
 
 use straightline_kernels::prelude::*;
 
-/// Pairs to be put in order; after them the median is in the middle.
+/// Pairs to sort, in this order. Afterwards the median is in the middle.
 const EXCHANGES: [(usize, usize); 19] = [
     (1, 2),
     (4, 5),
@@ -25,7 +25,7 @@ const EXCHANGES: [(usize, usize); 19] = [
     (4, 2),
 ];
 
-/// Each component's median over the 3×3 pixels around.
+/// Median of each component over the 3×3 pixels around.
 pub fn median(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut values = [Vec4::ZERO; 9];
     for k in 0..9 {

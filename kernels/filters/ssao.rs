@@ -2,7 +2,7 @@
 
 use straightline_kernels::prelude::*;
 
-/// Points in the unit hemisphere around +z, most of them near the centre.
+/// Points in the unit hemisphere around +z, denser near the centre.
 const POINTS: [Vec3; 12] = [
     vec3(0.05, 0.02, 0.06),
     vec3(-0.09, 0.07, 0.08),
@@ -19,22 +19,22 @@ const POINTS: [Vec3; 12] = [
 ];
 
 options! {
-    /// What occlusion is made of.
+    /// Options of the occlusion.
     pub struct Ssao {
-        /// How far from a surface others may occlude it, in units of the scene.
+        /// Distance within which a surface can be occluded by others, in scene units.
         pub radius: f32 [0.01..=10.0] = 0.6,
-        /// Depth that a surface may lie behind another without being occluded, against its own roughness.
+        /// Depth by which a surface may lie behind another without being occluded; hides its own roughness.
         pub bias: f32 [0.0..=0.5] = 0.02,
-        /// Pixels that one unit at distance one covers.
+        /// Pixels covered by one unit at distance one.
         pub focal: f32 [1.0..=10000.0] = 300.0,
     }
 }
 
-/// How open each surface lies, in grey: `depth` is the distance along the view, `normal` in view space.
+/// Openness of each surface in grey. `depth` is the distance along the view; `normal` is in view space.
 pub fn ssao(cfg: &Ssao, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel: IVec2) -> Vec4 {
     let here = depth.load(pixel);
     let up = normal.load(pixel).normalize();
-    // Any two directions in the surface.
+    // Any two perpendicular directions in the surface.
     let tangent = if up.z.abs() < 0.9 {
         Vec3::Z.cross(up).normalize()
     } else {
@@ -47,7 +47,7 @@ pub fn ssao(cfg: &Ssao, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel: IVec2) 
         let reach = cfg.focal / here;
         let offset = round(away.truncate() * reach).as_ivec2();
         let behind = here - away.z - depth.load(pixel + offset);
-        // What is much nearer belongs to something else.
+        // A surface that is much nearer belongs to another object.
         let near = 1.0 - smoothstep(cfg.radius, 2.0 * cfg.radius, behind.abs());
         occluded += if behind > cfg.bias { near } else { 0.0 };
     }

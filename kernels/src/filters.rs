@@ -1,14 +1,14 @@
-//! Ten filters that are not ours, each in a file of its own as a graphics programmer would write it: text for the generator, to
-//! begin from and to measure. They are no built-in kernels; `straightline run kernels/filters/NAME.rs` runs one.
+//! Ten well-known filters, each in a file of its own as a graphics programmer would write it: text for the generator, as a
+//! starting point and for measurements. They are not built-in kernels; `straightline run kernels/filters/NAME.rs` runs one.
 
 /// A file of `kernels/filters/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
-    /// Its name, and that of its function.
+    /// Name of the filter and of its function.
     pub name: &'static str,
-    /// Its path in the repository.
+    /// Path in the repository.
     pub path: &'static str,
-    /// Its text.
+    /// Source text.
     pub text: &'static str,
 }
 
@@ -25,7 +25,7 @@ macro_rules! filter {
 /// FXAA 3.11 (Lottes 2011).
 pub const FXAA: Filter = filter!("fxaa");
 
-/// All of them.
+/// All ten filters.
 pub const FILTERS: [Filter; 10] = [
     filter!("gaussian"),
     filter!("bilateral"),

@@ -1,11 +1,11 @@
-//! Normals as textures hold them.
+//! Decoding of normals from textures.
 
 use crate::prelude::*;
 
-/// Less than the square of any normal's length, and still a number in 16 bits.
+/// Smaller than the square of any normal's length, and not 0 in 16 bits.
 const NO_NORMAL: f32 = 1.0e-4;
 
-/// The unit vector that was unfolded to a square from -1 to 1 (Cigolle et al. 2014, "A Survey of Efficient
+/// Decodes a unit vector from its octahedral map, a square from -1 to 1 (Cigolle et al. 2014, "A Survey of Efficient
 /// Representations for Independent Unit Vectors").
 pub fn folded(square: Vec2) -> Vec3 {
     let z = 1.0 - square.x.abs() - square.y.abs();
@@ -23,7 +23,7 @@ pub fn folded(square: Vec2) -> Vec3 {
     unit(vec3(x, y, z))
 }
 
-/// The vector at length 1. One that is shorter than 1/100, which no surface has, becomes 100 times as long: zero stays zero.
+/// Scales a vector to length 1. One shorter than 1/100, which no surface has, is multiplied by 100: zero stays zero.
 pub fn unit(v: Vec3) -> Vec3 {
     v * inverse_sqrt(v.dot(v).max(NO_NORMAL))
 }

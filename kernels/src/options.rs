@@ -1,21 +1,21 @@
-//! `options!`: the choices of a kernel, declared once for rustc and for the generator.
+//! `options!`: the options of a kernel, declared once for rustc and for the generator.
 
 use crate::{OptionText, kebab};
 use std::fmt::Debug;
 
-/// A kernel's structure of options, declared by [`options!`](crate::options): what a `build.rs` may set options by.
+/// A kernel's options struct, declared by [`options!`](crate::options). A `build.rs` sets options from it.
 pub trait KernelOptions: Default {
-    /// Names and values of the options that differ from their defaults, in the spelling of the generator.
+    /// Names and values of the options that differ from their defaults, in the generator's spelling.
     fn changed(&self) -> Vec<OptionText>;
 }
 
-/// Name of a field as an option is called: `search_threshold` as `search-threshold`.
+/// Option name of a field: `search_threshold` becomes `search-threshold`.
 #[doc(hidden)]
 pub fn option_name(field: &str) -> String {
     field.trim_start_matches("r#").replace('_', "-")
 }
 
-/// Value of a field as the generator reads it: of enums the variant in kebab case, of arrays numbers with commas between.
+/// Value of a field in the generator's spelling: an enum's variant in kebab case, an array's numbers separated by commas.
 #[doc(hidden)]
 pub fn option_text(value: &impl Debug) -> String {
     let text = format!("{value:?}");
@@ -25,23 +25,23 @@ pub fn option_text(value: &impl Debug) -> String {
     }
 }
 
-/// Declares a kernel's options: a struct whose fields each have a default, and numbers a range.
+/// Declares a kernel's options: a struct whose fields each have a default, and, if numeric, a range.
 ///
-/// Natively this is the struct and its `Default`. The generator reads the same text to learn each option's
-/// name, meaning, values, range and default, so that a new option is one new line. A number whose default is
-/// `uniform(x)` is left to run time, where it is x until it is set, unless a setting makes it known.
+/// Natively this is the struct and its `Default`. The generator reads the same text for each option's
+/// name, description, values, range and default, so that a new option is one new line. A number whose default is
+/// `uniform(x)` is set at run time, x unless the host changes it; a setting turns it into a compile-time constant.
 ///
 /// ```
 /// # use straightline_kernels::prelude::uniform;
 /// # #[derive(Clone, Copy, Debug, PartialEq, Eq)] pub enum Shape { Round, Square }
 /// straightline_kernels::options! {
-///     /// What a glow is made of.
+///     /// Options of a glow.
 ///     pub struct Glow {
-///         /// The shape of the halo.
+///         /// Shape of the halo.
 ///         pub shape: Shape = Shape::Round,
-///         /// How far light spreads, in pixels.
+///         /// Radius of the halo, in pixels.
 ///         pub radius: f32 [0.5..=32.0] = 4.0,
-///         /// How much of it there is.
+///         /// Brightness of the halo.
 ///         pub amount: f32 [0.0..=1.0] = uniform(0.5),
 ///     }
 /// }

@@ -1,5 +1,5 @@
-//! Values of a kernel's options. Text is parsed once, by the generator, against the option's declaration; everything downstream
-//! compares these values, and spells them only in what it writes.
+//! Values of a kernel's options. The generator parses text once, against the option's declaration. All later code
+//! compares these values, and spells them only in its output.
 
 use std::collections::{BTreeMap, btree_map};
 use std::fmt;
@@ -12,8 +12,8 @@ pub enum OptionValue {
     Flag(bool),
     /// Variant of an enum, in kebab case: `depth-normals`.
     Choice(String),
-    /// Finite number, never -0. Of an `f32` the shortest decimal that rounds to it, or all digits of a whole number, so that equal
-    /// floats are equal here.
+    /// Finite number, never -0. For an `f32`: the shortest decimal that rounds to it, or all digits of a whole number, so that
+    /// equal floats have equal values.
     Number(f64),
     /// List of such numbers.
     Numbers(Vec<f64>),
@@ -38,7 +38,7 @@ impl OptionValue {
         }
     }
 
-    /// Number known at compile time; `None` of every other kind, and of a uniform.
+    /// Number, if it is a compile-time constant; `None` of every other kind, and of a uniform.
     pub fn number(&self) -> Option<f64> {
         match self {
             OptionValue::Number(number) => Some(*number),
@@ -85,8 +85,8 @@ pub fn kebab(name: &str) -> String {
     text
 }
 
-/// Name and value of an option as a user typed them or a file holds them. An edge: the generator parses the value by the option's
-/// declaration, and only [`OptionValue`]s are compared.
+/// Name and value of an option as a user typed them or a file contains them. The generator parses the value against the option's
+/// declaration; only [`OptionValue`]s are compared.
 pub type OptionText = (String, String);
 
 /// Values of all options of one kernel, by name.
@@ -104,7 +104,7 @@ impl OptionValues {
         self.get(name)?.flag()
     }
 
-    /// Chosen variant of the option `name`; `None` if the kernel has no such option, or it is no choice.
+    /// Chosen variant of the option `name`; `None` if the kernel has no such option, or it is not a choice.
     pub fn choice(&self, name: &str) -> Option<&str> {
         self.get(name)?.choice()
     }

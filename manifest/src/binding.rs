@@ -3,8 +3,8 @@
 use crate::{BufferType, Dimension, Element, Extent, REGION, SampleType, SamplerType, Scalar, ValueType};
 use serde::{Deserialize, Serialize};
 
-/// An input resource. Of a function ([`Form::Function`](crate::Form::Function)) nothing is bound: group and number are those
-/// that the entry point would have.
+/// An input resource. A function ([`Form::Function`](crate::Form::Function)) binds nothing: group and number are those that
+/// an entry point would have.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Binding {
     /// Bind group.
@@ -45,10 +45,10 @@ pub enum BindingKind {
         dimension: Dimension,
         /// Sample type, in which texels are read.
         sample_type: SampleType,
-        /// Components that the kernel uses, 1 to 4. Any format of the sample type with at least as many will do.
+        /// Components that the kernel uses, 1 to 4. Any format of the sample type with at least as many is accepted.
         components: u8,
-        /// Layers that the shader can address; 1 unless it is an array of the output's size: of other arrays the shader asks how
-        /// many there are.
+        /// Layers that the shader can address; 1 unless it is an array of the output's size. The shader queries the size of
+        /// other arrays.
         layers: u32,
         /// Samples of a texel that the shader can address; 1 unless it is multisampled.
         samples: u32,
@@ -114,7 +114,7 @@ pub struct UniformField {
     /// Value to use unless the caller sets one, where the kernel states it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub default: Option<f64>,
-    /// Of a matrix or an array that the kernel takes: which part of it this field is. Parts that are not read have no field.
+    /// For a matrix or an array of the kernel: the part of it that this field holds. Unread parts have no field.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Part>,
 }
@@ -158,18 +158,18 @@ pub struct LanguageBinding {
     /// Location of a value that is interpolated, where the language numbers it; of `hlsl` the index of `TEXCOORD`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub location: Option<u32>,
-    /// Name of what it stands for: of a [`Binding`], of [`Output`](crate::Output), of a [`Varying`](crate::Varying), or of a
-    /// field of a uniform struct. Not of what this language alone needs.
+    /// Name of the corresponding [`Binding`], [`Output`](crate::Output), [`Varying`](crate::Varying), or field of a uniform
+    /// struct; `None` for items that only this language needs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
-    /// Of a combined sampler, the texture; of a function, the name that the texture can have beside it in the text.
+    /// For a combined sampler, the texture; for a function, the name that the texture can have beside it in the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<String>,
-    /// Of a combined sampler, the sampler; without one it is read texel by texel: give it a sampler for the nearest texel, and
-    /// no smaller levels.
+    /// For a combined sampler, the sampler. Without one, texels are loaded directly: bind a nearest-texel sampler, and no
+    /// smaller levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sampler: Option<String>,
-    /// Value to give, in words, where `of` does not name it.
+    /// Description of the value to bind, if `of` does not name it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub what: Option<String>,
 }

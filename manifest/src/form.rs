@@ -11,7 +11,7 @@ pub enum Form {
     /// A whole shader with an entry point.
     #[default]
     Entry,
-    /// A function that gives the colour of a position and is put into a fragment shader of the host's. What it reads are its
+    /// A function that returns the colour of a position, for use in a fragment shader of the host's. Its inputs are its
     /// parameters.
     Function,
 }

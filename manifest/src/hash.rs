@@ -3,9 +3,9 @@
 const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 const PRIME: u64 = 0x100_0000_01b3;
 
-/// FNV-1a of 64 bits, in 16 hexadecimal digits. It finds files that were mixed up or edited, not ones that were forged.
+/// Returns the 64-bit FNV-1a hash, in 16 hexadecimal digits. Detects mixed-up or edited files, not forged ones.
 ///
-/// Of a text, a line that ends in `\r\n` counts as one that ends in `\n`, so that a checkout on Windows changes nothing.
+/// In a text, `\r\n` counts as `\n`, so that a checkout on Windows has the same hash.
 pub fn hash_of_text(text: &str) -> String {
     format!("{:016x}", text_hash(text))
 }

@@ -38,15 +38,15 @@ pub struct Manifest {
     /// Invocations in a workgroup; compute only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub workgroup_size: Option<[u32; 3]>,
-    /// Pixels that one invocation computes, across and down. Compute dispatches one invocation for each block, and blocks
-    /// that stick out of the target store what lies inside.
+    /// Width and height of the block of pixels that one invocation computes. Compute dispatches one invocation for each
+    /// block; a block that extends beyond the target stores only the pixels inside.
     #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
     pub block: [u32; 2],
     /// Further abilities that the device needs: `subgroup`, quad operations in the shader's stage; `shader-f16`, arithmetic in
     /// half precision.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<String>,
-    /// Values that the host's vertex shader gives for interpolation; fragment only. A shader that has some is drawn in a
+    /// Interpolated values that the host's vertex shader must output; fragment only. A shader with varyings is drawn in a
     /// pipeline of the host's own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub varyings: Vec<Varying>,
@@ -58,8 +58,8 @@ pub struct Manifest {
     /// in WGSL too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub language_bindings: Vec<LanguageBinding>,
-    /// Targets of the results: in JSON an object where there is one, else a list. A kernel that gives a structure or a tuple
-    /// has an output for each of its fields.
+    /// Targets of the results: in JSON an object for a single one, else a list. A kernel that returns a structure or a
+    /// tuple has an output for each of its fields.
     #[serde(rename = "output", with = "output")]
     pub outputs: Vec<Output>,
     /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
@@ -70,15 +70,16 @@ pub struct Manifest {
     /// `essl310`, `essl300`, `spirv`, `hlsl`, `msl`).
     #[serde(default)]
     pub files: BTreeMap<String, String>,
-    /// Hash of each of those files, by target name: [`hash_of_text`](crate::hash_of_text) of all of the text, comments included, and
-    /// [`hash_of_bytes`](crate::hash_of_bytes) of `spirv`. A manifest without one, written by hand say, claims nothing of that file.
+    /// Hash of each of those files, by target name: [`hash_of_text`](crate::hash_of_text) of all of the text, comments
+    /// included, and [`hash_of_bytes`](crate::hash_of_bytes) of `spirv`. A manifest without one, written by hand say,
+    /// claims nothing of that file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub hashes: BTreeMap<String, String>,
     /// Languages of `files` whose texts naga has validated: WGSL as it is written, SPIR-V and MSL as translations of that, and
     /// GLSL 4.50 where naga's reader knows all that is in it.
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     pub validated: BTreeSet<String>,
-    /// Of a shader that `straightline tune` chose: what was left out, and what that cost.
+    /// For a shader that `straightline tune` chose: the omitted terms, and their cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tuned: Option<Tuned>,
 }
@@ -101,8 +102,8 @@ pub struct Varying {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
-    /// Basic blocks of the shader's text. 1 means straight-line code; a compute shader has two more, for pixels outside of the target.
-    /// What a loop's test parts counts, and what a compiler adds to it does not.
+    /// Basic blocks of the shader's text. 1 means straight-line code; a compute shader has two more, for pixels outside of
+    /// the target. Blocks of a loop's test count; blocks that a compiler adds do not.
     pub basic_blocks: u32,
     /// Loops that are left in the shader.
     pub loops: u32,
@@ -122,7 +123,7 @@ pub struct Counts {
     /// Atomic operations on buffers, and stores into them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub writes: u32,
-    /// Reads of what a workgroup shares.
+    /// Reads of memory shared by a workgroup.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub shared_reads: u32,
     /// Barriers at which the invocations of a workgroup wait for each other.
@@ -138,8 +139,8 @@ pub struct Counts {
     pub alu: u32,
     /// Statements of the emitted body.
     pub statements: u32,
-    /// Scalars alive at once at most, in the order of the text: components of vectors, each element of an array; no booleans, no
-    /// constants, no uniforms. Compilers need about as many registers.
+    /// Maximum number of live scalars, in the order of the text: components of vectors, and each element of an array;
+    /// without booleans, constants and uniforms. Compilers need about as many registers.
     pub max_live: u32,
     /// Place of that maximum in the source, with the counters of unrolled loops: `kernel.rs:12, tap 3`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -158,7 +159,7 @@ fn is_zero(n: &u32) -> bool {
     *n == 0
 }
 
-/// Why a text is not a manifest.
+/// Reason why a text is not a manifest.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// Not JSON, or not of this shape.

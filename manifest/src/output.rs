@@ -10,7 +10,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Name in the shader: `destination`, or that of a field of the structure that the kernel gives.
+    /// Name in the shader: `destination`, or that of a field of the structure that the kernel returns.
     pub name: String,
     /// Bind group; compute only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -49,7 +49,7 @@ pub(crate) fn serialize<S: Serializer>(outputs: &[Output], to: S) -> Result<S::O
     }
 }
 
-/// Reads what [`serialize`] writes.
+/// Deserializes the output of [`serialize`].
 pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Output>, D::Error> {
     struct OneOrSeveral;
     impl<'de> Visitor<'de> for OneOrSeveral {

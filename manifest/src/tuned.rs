@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A shader that was chosen for what one scene needs: the cheapest one within a budget of error.
+/// A shader tuned to one scene: the cheapest one within a budget of error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tuned {

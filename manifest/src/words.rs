@@ -43,8 +43,9 @@ impl FromStr for Stage {
     }
 }
 
-/// Name of the uniform buffer of a shader that filters a rectangle of the image: its fields are `first`, `size` and `place`, each `vec2i`. Where the kernel has a
-/// use for the name it is followed by an underscore or a number: `region_`, `region_2`.
+/// Name of the uniform buffer of a shader that filters a rectangle of the image: its fields are `first`, `size` and
+/// `place`, each `vec2i`. Where the kernel has a use for the name it is followed by an underscore or a number: `region_`,
+/// `region_2`.
 pub const REGION: &str = "region";
 
 /// Size in bytes of the uniform buffer [`REGION`].

@@ -1,15 +1,15 @@
 //! The web page in which kernels are chosen, edited and seen: its files, as they are hosted.
 //!
-//! The generator in it, `straightline.wasm`, is `page/module` compiled to WebAssembly, and `templates.wasm`, which renders folders for
-//! engines and is loaded when one is asked for, is `page/templates`. They are made apart, since a library cannot hold what is compiled for
-//! another machine. `page/build` makes all in one go.
+//! The generator in it, `straightline.wasm`, is `page/module` compiled to WebAssembly, and `templates.wasm`, which renders
+//! folders for engines and is loaded when one is asked for, is `page/templates`. They are made apart, since a library
+//! cannot hold what is compiled for another machine. `page/build` makes all in one go.
 
 use std::collections::BTreeMap;
 
 /// Name of the generator among the page's files.
 pub const GENERATOR: &str = "straightline.wasm";
 
-/// Name of what renders folders for engines.
+/// Name of the module that renders folders for engines.
 pub const TEMPLATES: &str = "templates.wasm";
 
 macro_rules! files {
@@ -42,13 +42,13 @@ pub const FILES: &[(&str, &[u8])] = files![
     "worker.js",
 ];
 
-/// Why bytes are no module of the page.
+/// Reason why bytes are not a module of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ModuleError {
     /// They are not WebAssembly.
     #[error("it is no WebAssembly module")]
     NotWasm,
-    /// They are, and lack what the page calls.
+    /// A module without a function that the page calls.
     #[error("it does not export `{0}`, which the page calls")]
     NotThePages(&'static str),
 }
@@ -56,16 +56,16 @@ pub enum ModuleError {
 /// Exports of a module that the page uses.
 const EXPORTS: [&str; 4] = ["memory", "request", "call", "answered"];
 
-/// A WebAssembly module that has what the page calls.
+/// A WebAssembly module with all functions that the page calls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Module(Vec<u8>);
 
 impl Module {
-    /// Takes the bytes of one.
+    /// Wraps the bytes of a module.
     ///
     /// # Errors
     ///
-    /// They are none, or lack what the page calls.
+    /// If they are not a module, or lack a function that the page calls.
     pub fn new(bytes: Vec<u8>) -> Result<Module, ModuleError> {
         let exported = exported_names(&bytes).ok_or(ModuleError::NotWasm)?;
         match EXPORTS.into_iter().find(|name| !exported.contains(&name.as_bytes())) {
@@ -109,7 +109,7 @@ fn exported_names(module: &[u8]) -> Option<Vec<&[u8]>> {
     Some(Vec::new())
 }
 
-/// An unsigned number of seven bits a byte, and what follows it.
+/// Reads an unsigned number with seven bits a byte; returns it and the remaining bytes.
 fn read_number(bytes: &[u8]) -> Option<(usize, &[u8])> {
     let mut value = 0_usize;
     for (k, byte) in bytes.iter().enumerate().take(5) {

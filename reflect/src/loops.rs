@@ -133,7 +133,7 @@ fn collect_writes(function: &Function, block: &Block, written: &mut Vec<Option<H
     for statement in block {
         match statement {
             Statement::Store { pointer, .. } => written.push(root_variable(function, *pointer)),
-            // A function may write what it is given a pointer to.
+            // A function may write through its pointer arguments.
             Statement::Call { arguments, .. } => written.extend(
                 arguments
                     .iter()

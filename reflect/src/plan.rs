@@ -58,7 +58,7 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
     }
 }
 
-/// Returns the members with a location of a value that an entry point takes or gives, or the value itself if it has one.
+/// Returns the members with a location in a parameter or result of an entry point, or the value itself if it has one.
 pub fn located_members(
     module: &Module,
     binding: &Option<naga::Binding>,

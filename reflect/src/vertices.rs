@@ -5,7 +5,7 @@ use crate::plan::{is_type, located_members};
 use naga::{Binding, Interpolation, Sampling, ShaderStage};
 use straightline_manifest::plan::{Plan, VaryingPlan};
 
-/// A vertex shader that a kernel cannot be drawn behind.
+/// Reason why a vertex shader cannot be combined with a kernel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VertexProblem {
     /// The text does not parse.

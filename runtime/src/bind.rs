@@ -12,46 +12,46 @@ use std::sync::Arc;
 use wgpu::TextureView;
 
 impl Pass {
-    /// The pass with what it reads, `inputs`, given by name in any order, and what it writes every pixel of, `targets`: `&view`,
-    /// or `&[("albedo", &albedo), ("depth", &depth)]` for a kernel that gives a structure of these fields. Uniforms start from the
-    /// manifest's defaults.
+    /// Binds the pass to its inputs and targets. `inputs` are given by name in any order. `targets`, whose every pixel is
+    /// written, is `&view`, or `&[("albedo", &albedo), ("depth", &depth)]` for a kernel that returns a structure of these
+    /// fields. Uniforms start from the manifest's defaults.
     ///
-    /// All checks are made here, bind groups and uniform buffers too; [`Bound::encode`] then only records. Bind again when an
-    /// input or a target is another one.
+    /// All checks are made here, and bind groups and uniform buffers are created; [`Bound::encode`] then only records. Bind
+    /// again when an input or a target is replaced.
     ///
-    /// Where all inputs are textures, `inputs` can be a slice of views, `&[("color", &view)]`; otherwise each is made
-    /// a [`Resource`]: `&[("color", Resource::from(&view)), ("linear", (&sampler).into())]`. A kernel without inputs
-    /// is given `&[] as &[(&str, Resource)]`.
+    /// If all inputs are textures, `inputs` can be a slice of views, `&[("color", &view)]`; otherwise convert each to a
+    /// [`Resource`]: `&[("color", Resource::from(&view)), ("linear", (&sampler).into())]`. For a kernel without inputs,
+    /// pass `&[] as &[(&str, Resource)]`.
     ///
-    /// - A texture is a 2-D view, or 2-D array view with at least as many layers as the manifest says, of a texture
-    ///   with [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) usage, the target's size unless the manifest
-    ///   says that any will do, and a format with at least the components that the kernel reads: float, normalised or
-    ///   depth where texels are read one by one, float or normalised where they are filtered, depth where depths are
-    ///   compared. (Of a combined depth-stencil texture, give a view of the depth aspect.) It has one sample a texel,
-    ///   or, where the kernel reads samples, at least as many as the manifest says.
-    /// - A sampler has a comparison function exactly if the kernel compares with it. One that gathers texels takes the nearest and
-    ///   clamps to the edge, as wgpu's default does.
-    /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for one element at least. All of it is
-    ///   bound, so that its size says how many elements there are. One that the kernel writes keeps what is not written, and is
-    ///   none that it reads. A kernel that only writes buffers is given no targets, `&[]`, and runs over its inputs.
+    /// - A texture is a 2-D view, or a 2-D array view with at least as many layers as the manifest states. Its usage
+    ///   includes [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING), and it has the target's size unless the
+    ///   manifest permits any. Its format has at least the components that the kernel reads: float, normalised or depth for
+    ///   texel loads, float or normalised for filtering, depth for depth comparison. (For a combined depth-stencil texture,
+    ///   pass a view of the depth aspect.) It has one sample a texel, or, if the kernel reads samples, at least as many as
+    ///   the manifest states.
+    /// - A sampler has a comparison function exactly if the kernel compares with it. One that gathers texels takes the
+    ///   nearest and clamps to the edge, as wgpu's default does.
+    /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for at least one element. It is bound whole,
+    ///   so its size determines the number of elements. A buffer that the kernel writes keeps its unwritten elements, and
+    ///   must not be one that it reads. For a kernel that only writes buffers, pass no targets, `&[]`; it runs over its
+    ///   inputs.
     ///
-    /// Targets have one size. Each has the format that [`targets`](Self::targets) says, and
+    /// All targets have the same size. Each has the format that [`targets`](Self::targets) returns, and
     /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
     /// [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
     ///
-    /// All resources are of the pass's device. Of those of another device wgpu tells; of those of another *instance* it cannot, and may
-    /// take some other resource for them: make one instance.
+    /// All resources must belong to the pass's device. wgpu reports resources of another device. It cannot detect resources
+    /// of another *instance*, and may confuse them with others: create only one instance.
     ///
-    /// wgpu does not tell which mip level and layers a view shows. Give views of level 0 that begin at the layer that
+    /// wgpu does not expose the mip level and layers that a view shows. Pass views of level 0 that begin at the layer that
     /// the kernel calls 0: sizes and layers are checked on the texture.
     ///
     /// # Errors
     ///
     /// [`Error::MissingInput`], [`Error::UnknownInput`], [`Error::DuplicateInput`] and [`Error::InputKind`];
     /// [`Error::TargetNames`], [`Error::MissingTarget`], [`Error::UnknownTarget`] and [`Error::DuplicateTarget`];
-    /// [`Error::Input`], [`Error::InputSampler`], [`Error::InputBuffer`], [`Error::Target`] and
-    /// [`Error::Combination`] for unfit resources; [`Error::UniformUnset`]; [`Error::DeviceLost`] and
-    /// [`Error::OutOfMemory`].
+    /// [`Error::Input`], [`Error::InputSampler`], [`Error::InputBuffer`], [`Error::Target`] and [`Error::Combination`] for
+    /// unsuitable resources; [`Error::UniformUnset`]; [`Error::DeviceLost`] and [`Error::OutOfMemory`].
     pub fn bind<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         inputs: &[(&str, R)],
@@ -60,16 +60,17 @@ impl Pass {
         self.bind_with(inputs, targets, &BindOptions::default())
     }
 
-    /// [`bind`](Self::bind) with other uniforms than the manifest's, or for a rectangle.
+    /// Binds as [`bind`](Self::bind), with other uniforms than the manifest's defaults, or for a rectangle.
     ///
-    /// For a rectangle it reads what lies at and around `region.first` of the inputs, and writes the pixels at `region.place` of the
-    /// targets; all others stay as they are. The inputs need not have the target's size, only one size.
+    /// For a rectangle the pass reads at and around `region.first` of the inputs, and writes the pixels at `region.place`
+    /// of the targets; all other pixels are unchanged. The inputs must have the same size, but not necessarily the
+    /// target's.
     ///
     /// # Errors
     ///
     /// Those of [`bind`](Self::bind); [`Error::UnknownUniform`], [`Error::UniformType`], [`Error::NoUniforms`] and
-    /// [`Error::UniformSize`]; and [`Error::Region`] if the shader filters whole images only, or the rectangle leaves the inputs or the
-    /// target.
+    /// [`Error::UniformSize`]; and [`Error::Region`] if the shader filters whole images only, or the rectangle leaves the
+    /// inputs or the target.
     pub fn bind_with<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         inputs: &[(&str, R)],
@@ -134,7 +135,7 @@ impl Pass {
         })
     }
 
-    /// The size of what is computed: that of the targets, or of a kernel that has none, of its inputs.
+    /// Returns the size of the computation: that of the targets, or of the inputs for a kernel without targets.
     fn computed_size(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
         let of_inputs = || frame_size(&self.plan, resources);
         let whole = targets

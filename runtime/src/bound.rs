@@ -9,17 +9,17 @@ use crate::{Error, Region};
 use std::sync::Arc;
 use wgpu::{CommandEncoder, Queue, TextureView};
 
-/// Targets of a fragment shader, at most: as many as wgpu allows on any device.
+/// Maximum number of targets of a fragment shader: wgpu's limit on any device.
 pub(crate) const MAX_TARGETS: usize = 8;
 
-/// A [`Pass`](crate::Pass) with its inputs, targets and uniforms: made by [`Pass::bind`](crate::Pass::bind), and recorded as often as
-/// wanted.
+/// A [`Pass`](crate::Pass) with its inputs, targets and uniforms: made by [`Pass::bind`](crate::Pass::bind), and recorded
+/// any number of times.
 ///
-/// It keeps what it binds alive and has no lifetime: keep it until an input or a target is another one, as after the window was
-/// resized. It can be shared between threads, and outlives the pass.
+/// It keeps its resources alive and has no lifetime: keep it until an input or a target is replaced, for example after a
+/// resize. It can be shared between threads, and outlives the pass.
 ///
-/// What was seen of the device and its resources was seen when it was bound. A device that is lost later, or a texture
-/// that was destroyed, shows when the commands are submitted, as with any wgpu pass.
+/// The device and the resources were checked when it was bound. A device that is lost later, or a texture that was
+/// destroyed, causes an error at submission, as with any wgpu pass.
 #[derive(Debug)]
 pub struct Bound {
     pub(crate) plan: Arc<Plan>,
@@ -97,13 +97,14 @@ impl Bound {
         Ok(())
     }
 
-    /// Sets the uniform `name` for what `queue`, the device's own, submits next. A matrix or an array that the kernel takes is one
-    /// value: `[[1.0, 0.0], [0.0, 1.0]]`, columns first.
+    /// Sets the uniform `name` for the next submission to `queue`, which must be the device's own. A matrix or an array of
+    /// the kernel is one value: `[[1.0, 0.0], [0.0, 1.0]]`, columns first.
     ///
-    /// Nothing is written by a queue of another device: wgpu reports that to the error handler of that device, as of any `write_buffer`.
+    /// A queue of another device writes nothing: wgpu reports that to the error handler of that device, as for any
+    /// `write_buffer`.
     ///
-    /// As with any `write_buffer`, all encoders of one submission see the value that was written last before it. Other
-    /// [`Bound`]s of the same pass keep theirs. Of numbers, vectors and matrices nothing is allocated here.
+    /// As with any `write_buffer`, all encoders of one submission see the last value written before it. Other [`Bound`]s of
+    /// the same pass keep their values. Numbers, vectors and matrices cause no allocation here.
     ///
     /// # Errors
     ///
@@ -112,11 +113,11 @@ impl Bound {
         self.uniforms.write_value(&self.plan, queue, name, &value.into())
     }
 
-    /// Sets all uniforms at once, from `bytes` that are the uniform struct as it lies in the buffer: little-endian,
-    /// each field at the offset that the manifest gives, and as long as the manifest's size, padding included. (Of
-    /// several structs, one after the other in binding order.)
+    /// Sets all uniforms at once. `bytes` is the uniform struct in the buffer's layout: little-endian, each field at the
+    /// manifest's offset, and as long as the manifest's size, padding included. (Several structs follow each other in
+    /// binding order.)
     ///
-    /// When the values are seen, see [`write_uniform`](Self::write_uniform). Nothing is allocated here.
+    /// For the time at which values take effect, see [`write_uniform`](Self::write_uniform). No allocation happens here.
     ///
     /// # Errors
     ///

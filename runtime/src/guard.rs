@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-/// Runs `work` and returns what wgpu complained about meanwhile, if it did.
+/// Runs `work` and returns wgpu's error during it, if any.
 ///
-/// Without a scope, wgpu hands errors to the device's handler, which by default panics; and the handler is the
-/// caller's. Scopes are kept for each thread, so other threads' errors do not end up here.
+/// Without a scope, wgpu passes errors to the device's handler, which by default panics; and the handler is the caller's.
+/// Scopes are kept per thread, so other threads' errors do not end up here.
 pub(crate) fn run_scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);

@@ -12,8 +12,8 @@ pub struct PassOptions {
     pub target_format: Option<TextureFormat>,
     /// Formats of single targets, by name, of a kernel that writes several.
     pub formats: Vec<(String, TextureFormat)>,
-    /// True if loops run without the bound that wgpu otherwise puts on the iterations of each, by a counter that costs time.
-    /// Only for shaders whose text shows that every loop ends, as that of emitted shaders does; all others are refused.
+    /// `true` if loops run without wgpu's bound on their iterations, whose counter costs time. Only for shaders whose text
+    /// shows that every loop ends, as emitted shaders do; all others are rejected.
     pub unbounded_loops: bool,
 }
 
@@ -24,7 +24,7 @@ impl PassOptions {
         self
     }
 
-    /// Draws what the kernel calls `name` to targets of `format`.
+    /// Sets the format of the target that the kernel calls `name`.
     pub fn format_of(mut self, name: &str, format: TextureFormat) -> Self {
         self.formats.push((name.to_owned(), format));
         self

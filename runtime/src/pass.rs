@@ -112,7 +112,7 @@ pub(crate) fn check_varyings(plan: &Plan) -> Result<(), Error> {
     }
 }
 
-/// Refuses what a shader needs and the device, or this crate, does not have.
+/// Rejects shaders that need a feature which the device or this crate lacks.
 pub(crate) fn check_features(device: &Device, plan: &Plan) -> Result<(), Error> {
     let refused = |description: String| Error::Pipeline {
         kernel: plan.kernel.to_string(),

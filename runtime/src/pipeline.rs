@@ -196,7 +196,7 @@ fn check_bytes(device: &Device, plan: &Plan, formats: &[TextureFormat]) -> Resul
     }
 }
 
-/// Why a format cannot be written.
+/// Reason why a format cannot be written.
 enum Refused {
     As(TextureFormat, String),
     Memory,

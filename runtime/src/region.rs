@@ -28,7 +28,7 @@ impl Region {
         }
     }
 
-    /// Refuses what leaves the inputs or the target, and no pixels at all.
+    /// Rejects an empty rectangle, and one that leaves the inputs or the target.
     pub(crate) fn check(self, kernel: &str, inputs: Option<[u32; 2]>, target: [u32; 2]) -> Result<(), Error> {
         let refuse = |problem: String| {
             Err(Error::Region {

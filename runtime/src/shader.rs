@@ -72,7 +72,7 @@ impl LoopsEnd {
 #[macro_export]
 macro_rules! loops_end {
     () => {
-        // SAFETY: the generator writes it only beside a text of which it has proved this.
+        // SAFETY: the generator only writes this beside a text for which it has proved it.
         $crate::plan::Loops::End(unsafe { $crate::plan::LoopsEnd::new() })
     };
 }

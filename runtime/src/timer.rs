@@ -31,7 +31,7 @@ pub struct Timer {
 /// Timestamps on their way back.
 #[derive(Debug)]
 struct Batch {
-    /// A buffer of its own, so that what was never submitted still reads as zeros. None if there are no spans.
+    /// A separate buffer, so that spans never submitted still read as zeros. `None` without spans.
     readback: Option<wgpu::Buffer>,
     /// The device's answer to the request to map the buffer, still empty while the device works; `None` before the request.
     mapping: Option<Answer>,
@@ -199,8 +199,9 @@ impl Timer {
         }
     }
 
-    /// [`read`](Self::read) without waiting: `None` as long as the device has not run the spans. Call it once a frame, say, after the
-    /// encoder that was given to [`resolve`](Self::resolve) is submitted, not before: from the first call on, wgpu refuses to submit it.
+    /// [`read`](Self::read) without waiting: `None` as long as the device has not run the spans. Call it once a frame, say,
+    /// after the encoder that was given to [`resolve`](Self::resolve) is submitted, not before: from the first call on,
+    /// wgpu refuses to submit it.
     ///
     /// # Errors
     ///

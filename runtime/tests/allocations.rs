@@ -1,4 +1,4 @@
-//! Recording what is bound allocates what wgpu allocates, and nothing besides.
+//! Recording a bound pass allocates only what wgpu allocates.
 
 mod common;
 
@@ -13,7 +13,7 @@ const COVER: &str = "@vertex fn cover(@builtin(vertex_index) k: u32) -> @builtin
     return vec4f(f32(k & 1u) * 4.0 - 1.0, f32(k >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }";
 
-/// As much of what a pass does as one would write without it.
+/// The equivalent of a pass in direct wgpu calls.
 enum Handwritten {
     Compute(wgpu::ComputePipeline, wgpu::BindGroup),
     Render(wgpu::RenderPipeline, wgpu::BindGroup, TextureView),

@@ -1,13 +1,13 @@
-//! The bilateral filter with its default options, its loops left in the shader: what stays the same in a row is computed once, and divisions
-//! by what is constant are products.
+//! The bilateral filter with its default options, its loops left in the shader: invariants of a row are computed once, and
+//! divisions by constants are products.
 
 use straightline_kernels::prelude::*;
 
-/// Exponents of 2 for each squared pixel of distance, and for each squared unit of colour.
+/// Exponents of 2 per squared pixel of distance, and per squared unit of colour.
 const SPACE: f32 = -std::f32::consts::LOG2_E / (2.0 * 1.8 * 1.8);
 const RANGE: f32 = -std::f32::consts::LOG2_E / (2.0 * 0.15 * 0.15);
 
-/// As `bilateral`, but for roundings.
+/// Equals `bilateral`, except for rounding.
 pub fn bilateral(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let centre = color.load(pixel);
     let mut sum = Vec3::ZERO;

@@ -1,8 +1,8 @@
-//! The 5×5 convolution with its default weights, its loops left in the shader: over a list of the neighbours that have a weight.
+//! The 5×5 convolution with its default weights, its loops left in the shader: over a list of the neighbours with a weight.
 
 use straightline_kernels::prelude::*;
 
-/// The neighbours that have a weight, but for the pixel itself, which stands in the middle of them.
+/// Neighbours with a weight, without the pixel itself, which comes in the middle of them.
 const PLACES: [IVec2; 12] = [
     ivec2(0, -2),
     ivec2(-1, -1),
@@ -22,7 +22,7 @@ const WEIGHTS: [f32; 12] = [
     -0.125, -0.125, -0.25, -0.125, -0.125, -0.25, -0.25, -0.125, -0.125, -0.25, -0.125, -0.125,
 ];
 
-/// As `convolution`, bit for bit.
+/// Equals `convolution`, bit for bit.
 pub fn convolution(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let centre = color.load(pixel);
     let mut sum = Vec3::ZERO;

@@ -1,5 +1,5 @@
-//! FXAA with its default options, its loops left in the shader: a pixel without contrast is left at once, a search that has ended reads
-//! no more, and strides come from a table.
+//! FXAA with its default options, its loops left in the shader: a pixel without contrast returns early, a search that has ended
+//! reads no more, and strides come from a table.
 
 use straightline_kernels::prelude::*;
 
@@ -12,7 +12,7 @@ fn luma(color: Vec4) -> f32 {
     color.truncate().dot(vec3(0.299, 0.587, 0.114))
 }
 
-/// As `fxaa`, bit for bit.
+/// Equals `fxaa`, bit for bit.
 pub fn fxaa(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
     let here = color.load(pixel);
     let mut around = [0.0; 9];
@@ -30,12 +30,12 @@ pub fn fxaa(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
     }
 }
 
-/// The colour of a pixel with an edge.
+/// Colour of a pixel with an edge.
 fn smoothed(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2, around: [f32; 9], contrast: f32) -> Vec4 {
     let texel = Vec2::ONE / color.size().as_vec2();
     let at = (pixel.as_vec2() + 0.5) * texel;
     let [nw, n, ne, w, m, e, sw, s, se] = around;
-    // Which way the edge runs, and on which side of the pixel it is.
+    // Direction of the edge, and the side of the pixel it is on.
     let across_rows = (nw + sw - 2.0 * w).abs() + 2.0 * (n + s - 2.0 * m).abs() + (ne + se - 2.0 * e).abs();
     let across_columns = (nw + ne - 2.0 * n).abs() + 2.0 * (w + e - 2.0 * m).abs() + (sw + se - 2.0 * s).abs();
     let horizontal = across_rows >= across_columns;
@@ -55,7 +55,7 @@ fn smoothed(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2, around: [f32; 9
         vec2(0.0, texel.y)
     };
 
-    // To both ends of the edge.
+    // Search for both ends of the edge.
     let start = at + 0.5 * side * normal;
     let mut ends = [0.0; 2];
     let mut lumas = [0.0; 2];

@@ -1,8 +1,8 @@
-//! The Gaussian blur with its default options, its loops left in the shader: weights come from a table.
+//! The Gaussian blur with its default options, its loops left in the shader: the weights come from a table.
 
 use straightline_kernels::prelude::*;
 
-/// As `gaussian`, bit for bit.
+/// Equals `gaussian`, bit for bit.
 pub fn gaussian(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut weights = [0.0; 13];
     let mut total = 0.0;

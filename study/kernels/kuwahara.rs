@@ -1,9 +1,9 @@
-//! The Kuwahara filter with its default options, its loops left in the shader: each of the 7×7 pixels is read once, and half a row is added
-//! up once for the two quarters that share it. An array of all pixels was slower than reading them anew.
+//! The Kuwahara filter with its default options, its loops left in the shader: each of the 7×7 pixels is read once, and half a
+//! row is summed once for the two quadrants that share it. An array of all pixels was slower than reading them again.
 
 use straightline_kernels::prelude::*;
 
-/// As `kuwahara`, but for roundings: where two quarters vary alike, they may choose the other.
+/// Equals `kuwahara`, except for rounding: between two quadrants of similar variance, they may choose differently.
 pub fn kuwahara(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     // Upper left, upper right, lower left, lower right.
     let mut sums = [Vec3::ZERO; 4];

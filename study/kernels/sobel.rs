@@ -1,4 +1,4 @@
-//! The Sobel operator, its loops left in the shader: over a list of the eight neighbours that count.
+//! The Sobel operator, its loops left in the shader: over a list of the eight neighbours with a weight.
 
 use straightline_kernels::prelude::*;
 
@@ -24,7 +24,7 @@ const WEIGHTS: [Vec2; 8] = [
     vec2(1.0, 1.0),
 ];
 
-/// As `sobel`, bit for bit.
+/// Equals `sobel`, bit for bit.
 pub fn sobel(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut gradient = Vec2::ZERO;
     for k in 0..8 {

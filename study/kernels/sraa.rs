@@ -1,40 +1,40 @@
 //! SRAA with its default options, its loops left in the shader, hand-optimised: the surfaces at the taps are read once, into
-//! arrays, and of nine taps only the four that a sample's tent reaches are visited.
+//! arrays, and of nine taps only the four within a sample's tent are visited.
 
 use straightline_kernels::prelude::*;
 
-/// Where in a pixel geometry is sampled.
+/// Positions of the geometry samples in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// Direct3D's standard pattern of 4.
     Latin4,
-    /// Direct3D's standard pattern of 16, moved so that its mean is the pixel's centre.
+    /// Direct3D's standard pattern of 16, shifted so that its mean is the pixel's centre.
     Latin16,
 }
 
-/// What tells two surfaces apart.
+/// Metric of the difference between two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
     /// The larger of the differences in depth and in normal.
     DepthNormals,
-    /// The difference in depth alone: no normals are read.
+    /// Only the difference in depth: no normals are read.
     Depth,
 }
 
 options! {
-    /// Which filter it is.
+    /// Options of the filter.
     pub struct Sraa {
-        /// Where in a pixel geometry is sampled.
+        /// Positions of the geometry samples in a pixel.
         pub pattern: Pattern = Pattern::Latin4,
-        /// What tells two surfaces apart.
+        /// Metric of the difference between two surfaces.
         pub metric: Metric = Metric::DepthNormals,
     }
 }
 
-/// In thirty-seconds of a pixel.
+/// Offsets in thirty-seconds of a pixel.
 const LATIN4: [IVec2; 4] = [ivec2(-4, -12), ivec2(12, -4), ivec2(-12, 4), ivec2(4, 12)];
 
-/// In thirty-seconds of a pixel.
+/// Offsets in thirty-seconds of a pixel.
 const LATIN16: [IVec2; 16] = [
     ivec2(3, 3),
     ivec2(5, 11),
@@ -59,7 +59,7 @@ const FAR: f32 = 16.0;
 const STEEPNESS: f32 = 500.0 * std::f32::consts::LOG2_E;
 const EPSILON: f32 = 1.0e-30;
 
-/// Antialiased colour of `pixel`, as `sraa` gives it but for roundings: it multiplies with the falloff.
+/// Antialiased colour of `pixel`. Equals `sraa` except for rounding: this version multiplies by the falloff.
 pub fn sraa(
     cfg: &Sraa,
     depth: &FrameLayers<f32>,
@@ -73,7 +73,7 @@ pub fn sraa(
     }
 }
 
-/// The pixel's colour from the 3×3 shading samples around it.
+/// Colour of the pixel from the 3×3 shading samples around it.
 fn filtered<const SAMPLES: usize>(
     cfg: &Sraa,
     places: [IVec2; SAMPLES],
@@ -82,7 +82,7 @@ fn filtered<const SAMPLES: usize>(
     color: &Frame<Vec4>,
     pixel: IVec2,
 ) -> Vec4 {
-    // What is seen at the taps, each read once.
+    // Surfaces at the taps, each read once.
     let mut depths = [0.0; 9];
     let mut normals = [Vec3::ZERO; 9];
     for tap in 0..9 {
@@ -100,7 +100,7 @@ fn filtered<const SAMPLES: usize>(
             Metric::DepthNormals => normal.load(pixel, sample).truncate(),
             Metric::Depth => Vec3::ZERO,
         };
-        // The upper left of the four taps that its tent reaches.
+        // The upper left of the four taps within the sample's tent.
         let place = places[sample].as_vec2() / 32.0;
         let left = if place.x < 0.0 { 0 } else { 1 };
         let top = if place.y < 0.0 { 0 } else { 1 };

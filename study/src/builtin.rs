@@ -1,4 +1,4 @@
-//! Built-in kernels, each parsed once a process.
+//! Built-in kernels, each parsed once per process.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -6,7 +6,7 @@ use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::{CATALOGUE, OptionText, OptionValue};
 
-/// The built-in kernel `name`. Its text is parsed on the first call: options are read of many forms of one kernel.
+/// Returns the built-in kernel `name`, parsed on the first call, because many forms of one kernel read its options.
 ///
 /// # Errors
 ///
@@ -30,7 +30,7 @@ pub fn load_builtin(name: &str) -> Result<Kernel, Errors> {
 /// An option and its value.
 pub type Setting = (String, OptionValue);
 
-/// Values of the options that `settings` name, in their order.
+/// Parses the options of `settings`, in their order.
 ///
 /// # Errors
 ///

@@ -1,26 +1,26 @@
-//! Time of a whole frame against its error: geometry, shading at a given cost, and the filter, put together of two records of one
-//! scene.
+//! Time of a whole frame against its error: geometry, shading at a given cost, and the filter, combined from two records of
+//! one scene.
 //!
-//! `budget` times the passes of a frame, and `study error` filters and errors. What shading costs is a game's own, and is a parameter:
-//! a method that shades n samples of a pixel pays it n times.
+//! `budget` times the passes of a frame, and `study error` the filters and their errors. The cost of shading depends on the
+//! game, so it is a parameter: a method that shades n samples of a pixel pays it n times.
 
 use crate::record::{Circumstances, Family, Frame, FrameMethod, FrameRecord, MethodErrors, PassTimes, QualityRecord};
 
-/// Costs of shading one sample of every pixel, in milliseconds, unless others are asked for.
+/// Default costs of shading one sample of every pixel, in milliseconds.
 pub const SHADING_MS: [f64; 3] = [1.0, 5.0, 20.0];
 
-/// Why two records make no frames.
+/// Reason why two records cannot be combined.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// They are of different things.
+    /// The records differ in a property that must be equal.
     #[error("the records differ in their {what}: {passes} and {errors}; take both with the same")]
     Differ {
         /// Property that differs.
         what: &'static str,
-        /// Of the passes.
+        /// Value in the record of passes.
         passes: String,
-        /// Of filters and errors.
+        /// Value in the record of filters and errors.
         errors: String,
     },
     /// The scene of the passes is not in the record of errors.
@@ -47,12 +47,12 @@ pub enum FrameError {
     },
 }
 
-/// The frames that are asked for.
+/// The requested frames.
 #[derive(Clone, Debug)]
 pub struct FrameRequest {
     /// Costs of shading one sample of every pixel, in milliseconds.
     pub shading_ms: Vec<f64>,
-    /// Names of the methods; of all, if there are none.
+    /// Names of the methods; empty for all.
     pub only: Vec<String>,
 }
 
@@ -63,7 +63,7 @@ struct Parts {
     filter_ms: f64,
 }
 
-/// Puts the frames of every method of a scene together, at each cost of shading.
+/// Combines the frames of every method of a scene, at each cost of shading.
 ///
 /// # Errors
 ///
@@ -137,7 +137,7 @@ fn pass_time(passes: &PassTimes, name: &'static str, samples: u32) -> Result<f64
     found.map(|p| p.ms.median).ok_or(FrameError::Pass { name, samples })
 }
 
-/// Parts of a method's frame, or why they are not known.
+/// Returns the parts of a method's frame, or the reason why they are unknown.
 fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'static str>, FrameError> {
     let main = |samples| pass_time(passes, "main G-buffer", samples);
     let filter_ms = method.time.map(|time| time.median_ms);
@@ -183,7 +183,7 @@ fn find_option<'m>(method: &'m MethodErrors, name: &str) -> Option<&'m str> {
     found.map(|(_, value)| value.as_str())
 }
 
-/// Samples that SRAA has drawn beside the main G-buffer.
+/// Returns the number of SRAA's samples beyond the main G-buffer.
 fn samples_beside(method: &MethodErrors) -> Result<u32, &'static str> {
     if find_option(method, "shading") == Some("placed") || find_option(method, "extra") == Some("true") {
         return Err("the passes that shade where it asks for are not timed");
@@ -194,14 +194,14 @@ fn samples_beside(method: &MethodErrors) -> Result<u32, &'static str> {
         _ => return Err("a pass with its number of samples is not timed"),
     };
     match (find_option(method, "shading"), samples) {
-        // The main G-buffer has the first of them.
+        // The main G-buffer contains the first of them.
         (Some("sample0"), 4) => Ok(3),
         _ => Ok(samples),
     }
 }
 
-/// Time of drawing samples beside the main G-buffer: in a pass for each, or in one multisampled pass where hardware has the pattern and
-/// that is faster.
+/// Returns the time to draw samples beyond the main G-buffer: one pass each, or one multisampled pass where the hardware
+/// has the pattern and that is faster.
 fn further_samples(method: &MethodErrors, samples: u32, passes: &PassTimes) -> Result<f64, FrameError> {
     let one_by_one = pass_time(passes, "depth and normals", samples)?;
     let is_hardwares = matches!(find_option(method, "pattern"), None | Some("latin4"));

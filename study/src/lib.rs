@@ -1,6 +1,6 @@
-//! Studies of kernels: unroll against loop, methods of antialiasing against references, hard cases with their bounds, what GPU
-//! compilers say, the search for the cheapest variant, filters of pixel quads by every transport, and any kernel in every combination
-//! of options and forms. Each gives a [`record`]; [`report`] makes a page of records.
+//! Studies of kernels: unrolled against looped forms, antialiasing methods against references, hard cases with their
+//! bounds, statistics of GPU compilers, the search for the cheapest variant, quad filters with every transport, and sweeps
+//! over options and forms. Each study returns a [`record`]; [`report`] renders a page of records.
 //!
 //! `straightline-bench` runs kernels, `straightline-oracle` judges them.
 

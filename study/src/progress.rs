@@ -2,15 +2,15 @@
 
 /// Receives the progress of a study, and can ask it to stop.
 pub trait Progress {
-    /// `steps` steps of `what` come next.
+    /// Announces the next `steps` steps of `what`.
     fn begin(&mut self, what: &str, steps: usize);
     /// Reports that a step is done.
     fn step(&mut self);
-    /// Returns whether to stop at once, and keep what was measured.
+    /// Returns whether to stop at once, keeping the results so far.
     fn is_stopped(&self) -> bool;
 }
 
-/// Shows nothing and never stops a study.
+/// Progress that shows nothing and never stops a study.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

@@ -1,6 +1,6 @@
-//! Compute shaders on a driver without wgpu: GLSL as glslang compiles it, HLSL as DXC does, SPIR-V as it is.
+//! Compute shaders on a driver without wgpu: GLSL compiled by glslang, HLSL compiled by DXC, SPIR-V unchanged.
 //!
-//! What wgpu puts around a shader is not there: no texture is zeroed, no access is made robust, no text is checked.
+//! Without wgpu's additions: no texture is zeroed, no access is made robust, no text is validated.
 
 use crate::compilers;
 use glam::{UVec2, Vec4};
@@ -13,10 +13,10 @@ use straightline_runtime::manifest::{
     BindingKind, Dimension, Element, LanguageKind, Manifest, SampleType, SamplerType, Scalar, UniformField, ValueType,
 };
 
-/// Languages that a driver runs here.
+/// Languages that can run without wgpu.
 pub const LANGUAGES: [Target; 3] = [Target::Glsl450, Target::Spirv, Target::Hlsl];
 
-/// Bits of each component of a target before a shader runs: a small number that nothing gives by chance.
+/// Initial bits of each component of a target: a small number that no shader computes by chance.
 pub const SENTINEL: u32 = 0x9a5a_5a5a;
 
 /// A compute shader's text in one language, as SPIR-V.
@@ -60,14 +60,14 @@ impl Shader {
         })
     }
 
-    /// The targets of the shader, one after the other. Their texels must be four floats, which `Bench::options` asks for. What the
-    /// shader leaves unwritten is [`SENTINEL`].
+    /// Runs the shader and returns its targets in order. Their texels must be four floats, as `Bench::options` requests.
+    /// Unwritten texels keep [`SENTINEL`].
     ///
     /// Inputs may be single pictures of floats or integers, uniforms and buffers of numbers and vectors, and samplers.
     ///
     /// # Errors
     ///
-    /// The driver refuses the shader, or something is bound that is not known here.
+    /// If the driver refuses the shader, or an input is not supported here.
     pub fn run(&self, device: &Device, inputs: &Inputs) -> Result<Vec<Frame<Vec4>>, String> {
         let manifest = &self.manifest;
         let mut bindings = bindings(manifest, inputs)?;
@@ -181,7 +181,7 @@ fn resource(name: &str, kind: &BindingKind, inputs: &Inputs) -> Result<Resource,
     })
 }
 
-/// The bytes of a uniform buffer. A uniform that is not given has its default.
+/// Returns the bytes of a uniform buffer. A uniform without a value has its default.
 fn uniform(size: u32, fields: &[UniformField], inputs: &Inputs) -> Result<Vec<u8>, String> {
     let mut bytes = vec![0; size as usize];
     for field in fields.iter().filter(|field| field.ty.is_single()) {
@@ -201,7 +201,7 @@ fn uniform(size: u32, fields: &[UniformField], inputs: &Inputs) -> Result<Vec<u8
     }
 }
 
-/// A number or a vector as its bytes; one number is for every component.
+/// Returns the bytes of a number or a vector; a single number applies to every component.
 fn number_bytes(ty: ValueType, numbers: &[f64]) -> Vec<u8> {
     let number = |k: usize| numbers.get(k).or(numbers.first()).copied().unwrap_or(0.0);
     let word = |k: usize| match ty.scalar() {

@@ -1,5 +1,5 @@
-//! Compilers that share nothing with naga read what is emitted: Tint the WGSL, where it is on the path; glslang the GLSL; glslang and
-//! DXC the HLSL; spirv-val the SPIR-V. Nothing here reads MSL.
+//! Compilation of emitted text by compilers independent of naga: Tint for WGSL, if it is on the path; glslang for GLSL;
+//! glslang and DXC for HLSL; spirv-val for SPIR-V. MSL is not checked.
 
 #![allow(dead_code)] // each test uses a part
 
@@ -9,14 +9,14 @@ use std::sync::LazyLock;
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 
-/// Languages that a compiler reads here, and that every shader can be written in.
+/// Languages that are checked by a compiler, and that every shader can be written in.
 pub const READ: [Target; 4] = [Target::Wgsl, Target::Glsl450, Target::Spirv, Target::Hlsl];
 
-/// Has every text of a shader read by the compiler of its language.
+/// Compiles every text of a shader by the compiler of its language.
 ///
 /// # Errors
 ///
-/// What the first compiler that refuses one says of it.
+/// The message of the first compiler that rejects one.
 pub fn read(emitted: &Emitted) -> Result<(), String> {
     let folder = Folder::new()?;
     let manifest = &emitted.manifest;
@@ -29,7 +29,7 @@ pub fn read(emitted: &Emitted) -> Result<(), String> {
         let mut bytes = bytes.clone();
         let already = bytes.starts_with(b"enable subgroups;");
         if *target == Target::Wgsl && quads && !already {
-            // Tint asks for the line that naga refuses.
+            // Tint requires the directive that naga rejects.
             bytes = [b"enable subgroups;\n".as_slice(), &bytes].concat();
         }
         std::fs::write(&path, bytes).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -51,11 +51,11 @@ pub fn read(emitted: &Emitted) -> Result<(), String> {
     Ok(())
 }
 
-/// Tint, if it is there.
+/// Runs Tint, if it is installed.
 ///
 /// # Errors
 ///
-/// What it says of a text that it refuses.
+/// Its message if it rejects the text.
 pub fn tint(path: &Path) -> Result<(), String> {
     if has_tint() {
         run("tint", "", &["--format", "wgsl", "-o", "/dev/null"], path)
@@ -70,11 +70,11 @@ pub fn has_tint() -> bool {
     *HAS
 }
 
-/// glslang on GLSL, by the file's ending.
+/// Runs glslang on GLSL, by the file's extension.
 ///
 /// # Errors
 ///
-/// What it says of a text that it refuses.
+/// Its message if it rejects the text.
 pub fn glsl(path: &Path) -> Result<(), String> {
     let arguments = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
     run("glslangValidator", "glslang-tools", &arguments, path)
@@ -297,10 +297,11 @@ pub fn compiled_glsl(text: &str, stage: &str) -> Result<Vec<u32>, String> {
     compiled(text, &format!("shader.{stage}"), &[])
 }
 
-/// The SPIR-V that glslang makes of HLSL, as words. Register `n` of any class, and of space 0, is binding `n` of set 0, and the
-/// entry point keeps its name.
+/// The SPIR-V that glslang makes of HLSL, as words. Register `n` of any class, and of space 0, is binding `n` of set 0, and
+/// the entry point keeps its name.
 ///
-/// glslang knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one. DXC reads the text as it is.
+/// glslang knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one. DXC reads the
+/// text as it is.
 ///
 /// # Errors
 ///

@@ -1,7 +1,7 @@
 //! Floats at which functions change their ways: what tables and random kernels try.
 
-/// Zeros, ones and their neighbours, halves, where exponentials end, where integers end, the largest and the smallest numbers, and
-/// what is no number.
+/// Zeros, ones and their neighbours, halves, where exponentials end, where integers end, the largest and the smallest
+/// numbers, and what is no number.
 #[rustfmt::skip]
 #[expect(clippy::approx_constant, reason = "the floats as they are written")]
 pub const FLOATS: [f32; 48] = [
@@ -22,9 +22,9 @@ pub const FLOATS: [f32; 48] = [
     f32::INFINITY, f32::NEG_INFINITY, f32::NAN,
 ];
 
-/// Halves up to 1000, of which sums and products of a few are the same in any order, as a driver may choose it. A driver may also assume
-/// that there is no infinity (WGSL, "Floating Point Evaluation"): lavapipe has x - x for 0. What a function gives on drivers for the
-/// other floats, a table says that calls it alone.
+/// Halves up to 1000, of which sums and products of a few are the same in any order, as a driver may choose it. A driver
+/// may also assume that there is no infinity (WGSL, "Floating Point Evaluation"): lavapipe has x - x for 0. What a function
+/// gives on drivers for the other floats, a table says that calls it alone.
 pub fn of_drivers() -> Vec<f32> {
     let is_half = |x: &f32| x.abs() <= 1000.0 && (x * 2.0).fract() == 0.0;
     FLOATS.into_iter().filter(is_half).collect()

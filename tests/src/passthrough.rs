@@ -127,7 +127,7 @@ fn with_language_bindings(manifest: &mut Manifest, target: Target, inputs: &Inpu
         .cloned()
         .collect();
     for extra in extras {
-        // The same under another name, or what is no binding there.
+        // Items with another name in this language are in the manifest already.
         if extra.of.is_some() {
             continue;
         }

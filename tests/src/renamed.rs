@@ -1,4 +1,5 @@
-//! Kernels under other names: what a host knows by name is called by words of shading languages and of hosts' languages.
+//! Kernels under other names: host-facing names are replaced by reserved words of shading languages and of hosts'
+//! languages.
 
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_bench::execute::Inputs;
@@ -347,7 +348,8 @@ pub const WORDS: &[&str] = &[
     "a_very_long_name_of_a_parameter_that_goes_on_and_on_for_longer_than_anyone_would_ever_want_to_type_or_to_read_again",
 ];
 
-/// Names of all that hosts know of a kernel by name: what it binds, what it gives, structures with their fields, and the kernel's.
+/// Names of all that hosts know of a kernel by name: what it binds, what it gives, structures with their fields, and the
+/// kernel's.
 pub fn host_names(compiled: &Compiled, options: &[String]) -> Vec<String> {
     let graph = &compiled.graph;
     let mut names: Vec<String> = vec![compiled.kernel.clone()];
@@ -376,8 +378,8 @@ pub fn host_names(compiled: &Compiled, options: &[String]) -> Vec<String> {
     names
 }
 
-/// A text with other names, that of a keyword as a raw identifier. Comments, texts in quotes, and functions, methods and modules of
-/// these names stay, but for the `kernel`.
+/// A text with other names, that of a keyword as a raw identifier. Comments, texts in quotes, and functions, methods and
+/// modules of these names stay, but for the `kernel`.
 pub fn renamed(text: &str, names: &BTreeMap<String, String>, kernel: &str) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -499,7 +501,8 @@ impl Source {
         self.kernel().compile(&self.settings)
     }
 
-    /// The kernel with everything that hosts know by name called by the next of some words. Words that its files have are left out.
+    /// The kernel with everything that hosts know by name called by the next of some words. Words that its files have are
+    /// left out.
     ///
     /// # Errors
     ///

@@ -48,7 +48,8 @@ impl Bench {
         self.forward_by(&emitted.manifest, &text.unwrap_or_default(), inputs, corners)
     }
 
-    /// [`prepare_forward`](Self::prepare_forward) with any fragment shader that `manifest` describes: to ask what another one would do.
+    /// [`prepare_forward`](Self::prepare_forward) with any fragment shader that `manifest` describes: to ask what another
+    /// one would do.
     ///
     /// # Errors
     ///

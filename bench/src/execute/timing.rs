@@ -208,9 +208,10 @@ impl Bench {
         self.timed_for(jobs, rounds, Duration::ZERO, tick)
     }
 
-    /// As [`time_jobs`](Self::time_jobs), but a job that is done sooner than `least` is run several times in a row, in one submission:
-    /// as often as it takes, up to 64 times. A time is that of one of them. What else the machine does, and what a submission
-    /// costs by itself, then matters less. Every other round runs the jobs in reverse, so that none always follows the same.
+    /// As [`time_jobs`](Self::time_jobs), but a job that is done sooner than `least` is run several times in a row, in one
+    /// submission: as often as it takes, up to 64 times. A time is that of one of them. What else the machine does, and
+    /// what a submission costs by itself, then matters less. Every other round runs the jobs in reverse, so that none
+    /// always follows the same.
     ///
     /// # Errors
     ///

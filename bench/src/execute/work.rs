@@ -104,8 +104,8 @@ impl Bench {
         }))
     }
 
-    /// As [`time_jobs`](Self::time_jobs), of any work. Each must take its time as this bench does: by [`clock`](Self::clock). Every other
-    /// round runs them in reverse.
+    /// As [`time_jobs`](Self::time_jobs), of any work. Each must take its time as this bench does: by
+    /// [`clock`](Self::clock). Every other round runs them in reverse.
     ///
     /// # Errors
     ///

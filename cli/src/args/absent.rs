@@ -1,4 +1,4 @@
-//! What stands for commands that are not built in: they are known, and say how to get them.
+//! Placeholders for commands that are not built in: they parse, and explain how to get the command.
 #![cfg_attr(feature = "study", allow(dead_code, reason = "its tests run where all is built in"))]
 
 use crate::commands::lacking_feature;
@@ -7,10 +7,10 @@ use clap::Args;
 use std::ffi::OsString;
 use std::str::FromStr;
 
-/// What the help says below the commands.
+/// Note below the list of commands in the help.
 pub const ABOUT: &str = "This build lacks budget, quads, figures, study and tune: they need `--features study`.";
 
-// Whatever the command is given, `--help` too: all of it is answered alike.
+// All arguments of the command, `--help` included: every call gets the same answer.
 #[derive(Debug, Args)]
 #[command(disable_help_flag = true)]
 pub struct AbsentArgs {
@@ -19,13 +19,13 @@ pub struct AbsentArgs {
 }
 
 impl AbsentArgs {
-    /// Why the command does nothing, and what helps.
+    /// Returns the reason why the command does nothing, and the remedy.
     pub fn refusal(&self) -> Failure {
         lacking_feature("study")
     }
 }
 
-/// A GPU whose compiler is asked: none, for that too needs the feature.
+/// A GPU family to compile for. Empty: compiling for another GPU needs the feature too.
 #[derive(Clone, Copy, Debug)]
 pub enum Family {}
 

@@ -1,4 +1,4 @@
-//! The arguments that say which kernel, with which options.
+//! Arguments that select a kernel and its options.
 
 use super::SettingsArgs;
 use clap::{Args, ValueHint};
@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
 
-/// Which kernel, with which options.
+/// Selection of a kernel and its options.
 #[derive(Debug, Clone, Args)]
 pub struct KernelArgs {
-    /// A built-in kernel (see `list`), FILE.rs, or FILE.rs::FUNCTION
+    /// Kernel: a built-in one (see `list`), FILE.rs, or FILE.rs::FUNCTION
     #[arg(value_hint = ValueHint::FilePath)]
     pub kernel: String,
-    /// A further file that the kernel calls functions of; may be given several times
+    /// Additional file with functions that the kernel calls; may be given several times
     #[arg(long, value_name = "FILE")]
     pub source: Vec<PathBuf>,
     #[command(flatten)]
@@ -20,7 +20,7 @@ pub struct KernelArgs {
 }
 
 impl KernelArgs {
-    /// The kernel with all its files.
+    /// Returns the kernel with all its files.
     pub fn locate_kernel(&self) -> Result<Kernel, Errors> {
         let kernel = Kernel::from_argument(&self.kernel);
         self.source.iter().fold(kernel, |kernel, path| kernel?.with_file(path))

@@ -1,4 +1,4 @@
-//! The knobs of a shader as arguments: one for each that the generator declares.
+//! The knobs of a shader as command-line arguments: one for each knob that the generator declares.
 
 use clap::builder::TypedValueParser;
 use clap::error::ErrorKind;
@@ -8,10 +8,10 @@ use std::ffi::OsStr;
 use straightline_codegen::spec::{Arity, KNOBS, Knob, Overrides, Part};
 use straightline_codegen::{Settings, ShaderSpec};
 
-/// Arguments that say what a shader computes.
+/// Arguments for the knobs of a shader's computation.
 pub type SettingsArgs = KnobArgs<false>;
 
-/// Arguments that say how a shader is written.
+/// Arguments for the knobs of a shader's text.
 pub type WritingArgs = KnobArgs<true>;
 
 /// An argument for each knob of one half of a shader's description.
@@ -30,7 +30,7 @@ impl SettingsArgs {
         self.0.apply(ShaderSpec::new()).settings
     }
 
-    /// The description of a shader that is written as `writing` says.
+    /// Returns the description of the shader whose text `writing` configures.
     pub fn shader_spec(&self, writing: &WritingArgs) -> ShaderSpec {
         writing.0.apply(self.0.apply(ShaderSpec::new()))
     }
@@ -68,14 +68,14 @@ impl<const WRITING: bool> FromArgMatches for KnobArgs<WRITING> {
                     .collect(),
             };
             let set = self.0.set(knob.name, texts);
-            // Each text was read by itself before.
+            // Each value was already checked on its own.
             set.map_err(|why| Error::raw(ErrorKind::ValueValidation, format!("--{}: {why}\n", knob.name)))?;
         }
         Ok(())
     }
 }
 
-/// The argument of a knob.
+/// Builds the argument of a knob.
 fn knob_argument(knob: &'static Knob) -> Arg {
     let argument = Arg::new(knob.name).long(knob.name).help(knob.help());
     let argument = match knob.part {
@@ -94,7 +94,7 @@ fn knob_argument(knob: &'static Knob) -> Arg {
         .value_name(knob.value)
         .action(action)
         .value_parser(Checked(knob));
-    // clap would guess from names such as `--entry`.
+    // Prevents clap from guessing a hint from names such as `--entry`.
     let argument = argument.value_hint(ValueHint::Other);
     match default.is_empty() {
         true => argument,
@@ -102,7 +102,7 @@ fn knob_argument(knob: &'static Knob) -> Arg {
     }
 }
 
-/// Reads one text of a knob, so that an error names the argument and its value.
+/// Parser for one value of a knob, so that an error names the argument and its value.
 #[derive(Clone)]
 struct Checked(&'static Knob);
 

@@ -57,7 +57,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Show what it does: emit shaders, antialias a scene, and print what each method costs
+    /// Emit shaders, antialias a scene, and print the cost of each method
     Demo(DemoArgs),
     /// List the built-in kernels and engines, or the options of one kernel
     List(ListArgs),
@@ -65,17 +65,17 @@ pub enum Command {
     Emit(EmitArgs),
     /// Print the errors of kernels, for people or for editors, and write nothing
     Check(CheckArgs),
-    /// Count what a kernel does for each pixel, or say what the code of an error means
+    /// Count the operations of a kernel per pixel, or explain an error code
     Explain(ExplainArgs),
     /// Run a kernel on pictures
     Run(RunArgs),
-    /// Emit a kernel again whenever its file is saved, and show its picture
+    /// Emit a kernel again whenever its file is saved, and update its picture
     Watch(WatchArgs),
-    /// Measure what a frame costs with SRAA and without: time, memory and reads
+    /// Measure the cost of a frame with and without SRAA: time, memory and reads
     Budget(BudgetArgs),
-    /// Compare filters that share work over pixel quads with those that do not
+    /// Compare filters with and without work sharing over pixel quads
     Quads(QuadsArgs),
-    /// Make the pictures of the publications again
+    /// Reproduce the pictures of the publications
     Figures(FiguresArgs),
     /// Measure unrolling, speed, error and hard cases; write records and a page
     Study(StudyArgs),
@@ -93,11 +93,11 @@ pub enum Command {
     Scenes(ScenesArgs),
     /// List the GPUs and drivers that wgpu sees
     Adapters(AdaptersArgs),
-    /// Print what a shell needs to complete commands and options
+    /// Print the completion script for a shell
     Completions(CompletionsArgs),
     /// Write manual pages
     Man(ManArgs),
-    /// Compile for a GPU that is not there, as the process that asks says
+    /// Serve compilations for a GPU that is not present, on request of the parent process
     #[cfg(feature = "study")]
     #[command(hide = true)]
     ServeIsa,
@@ -105,7 +105,7 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
-    /// A kernel whose options are listed: built in, FILE.rs or FILE.rs::FUNCTION; or an engine
+    /// Kernel to list the options of (a built-in one, FILE.rs or FILE.rs::FUNCTION), or an engine
     #[arg(value_name = "NAME", value_hint = ValueHint::FilePath)]
     pub name: Option<String>,
     /// Print JSON
@@ -119,20 +119,20 @@ pub struct EmitArgs {
     pub kernel: KernelArgs,
     #[command(flatten)]
     pub writing: WritingArgs,
-    /// Write what a user of an engine drops in: NAME (see `list`), or a folder with an `engine.toml`, which says the language,
-    /// the form and the origin
+    /// Write the files for an engine: NAME (see `list`), or a folder with an `engine.toml`, which sets language, form and
+    /// origin
     #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = straightline_engines::FIXED)]
     pub engine: Option<String>,
-    /// Folder to write to; made if it is not there
+    /// Output folder; created if missing
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Name of the files, without extension; by default the kernel's
+    /// Name of the files, without extension; by default the kernel's name
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
 }
 
 impl EmitArgs {
-    /// The description of the shader.
+    /// Returns the description of the shader.
     pub fn shader_spec(&self) -> ShaderSpec {
         self.kernel.options.shader_spec(&self.writing)
     }
@@ -142,7 +142,7 @@ impl EmitArgs {
 pub struct ExplainArgs {
     #[command(flatten)]
     pub kernel: KernelArgs,
-    /// What the shader computes in: f32 or f16
+    /// Precision of the shader's arithmetic: f32 or f16
     #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
     pub precision: Precision,
     /// Print JSON
@@ -151,20 +151,22 @@ pub struct ExplainArgs {
     /// Also print the graph after each stage of the pipeline, and with --isa the machine code
     #[arg(long)]
     pub dump: bool,
-    /// Also what Mesa's compiler makes of it for an AMD GPU, which need not be there: polaris10, vega10, navi10, navi21 or navi31
+    /// Also print the figures of Mesa's compiler for an AMD GPU, which need not be present: polaris10, vega10, navi10,
+    /// navi21 or navi31
     #[arg(long, value_name = "FAMILY")]
     pub isa: Option<Family>,
 }
 
 #[derive(Debug, Args)]
 pub struct PageArgs {
-    /// Folder to write to; made if it is not there. A static host serves it as it is
+    /// Output folder, ready for any static host; created if missing
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// The generator as WebAssembly, as page/build makes it; without one, both modules are built from the source checkout around
+    /// WebAssembly file of the generator, as built by page/build; by default both modules are built from the surrounding
+    /// source checkout
     #[arg(long, value_name = "FILE.wasm", requires = "templates")]
     pub module: Option<PathBuf>,
-    /// The templates of engines as WebAssembly, which are made along with the generator
+    /// WebAssembly file of the engine templates, built together with the generator
     #[arg(long, value_name = "FILE.wasm", requires = "module")]
     pub templates: Option<PathBuf>,
 }
@@ -180,10 +182,10 @@ pub struct BudgetArgs {
     /// Repetitions of the timing; each runs every pass and filter once, in turn
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(3..=1000))]
     pub rounds: u32,
-    /// Evaluations of the shading for each sample, each at a place of its own in the pixel: how dear shading is
+    /// Shading evaluations per sample, each at its own position in the pixel; sets how expensive shading is
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub shading_cost: u32,
-    /// Also write the figures and their circumstances to this JSON file
+    /// Also write the measurements and their circumstances to this JSON file
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Print JSON
@@ -205,10 +207,10 @@ pub struct QuadsArgs {
     /// Repetitions of the timing; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
-    /// Also write the table and its circumstances to this file, as JSON
+    /// Also write the table and its circumstances to this JSON file
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Texels of the shadow map, across and down
+    /// Width and height of the shadow map, in texels
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub texels: u32,
     /// Also write pictures of shadows and occlusion to this folder
@@ -224,13 +226,13 @@ pub struct QuadsArgs {
 #[cfg(feature = "study")]
 #[derive(Debug, Args)]
 pub struct FiguresArgs {
-    /// One of the figures, by its file's name without extension; may be given several times. By default all of them
+    /// Figure to write, by its file name without extension; may be given several times; by default all of them
     #[arg(long = "figure", value_name = "NAME")]
     pub figures: Vec<String>,
-    /// Width and height of what is drawn, of which a detail is shown
+    /// Width and height of the rendered picture, in pixels; the figure shows a detail of it
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size)]
     pub size: UVec2,
-    /// Folder to write to; made if it is not there
+    /// Output folder; created if missing
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     #[command(flatten)]
@@ -239,20 +241,20 @@ pub struct FiguresArgs {
 
 #[derive(Debug, Clone, Default, Args)]
 pub struct AdapterArgs {
-    /// Use the first adapter whose name or driver contains this (see `adapters`)
+    /// Adapter to use: the first whose name or driver contains this text (see `adapters`)
     #[arg(long, value_name = "TEXT", global = true)]
     pub adapter: Option<String>,
 }
 
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
-    /// The shell
+    /// Shell to complete for
     pub shell: Shell,
 }
 
 #[derive(Debug, Args)]
 pub struct ManArgs {
-    /// Folder to write to, a page for each command; made if it is not there
+    /// Output folder, with one page for each command; created if missing
     #[arg(value_name = "DIR")]
     pub out: PathBuf,
 }
@@ -276,10 +278,10 @@ pub struct DemoArgs {
     /// Folder for shaders and pictures
     #[arg(long, value_name = "DIR", default_value = "demo")]
     pub out: PathBuf,
-    /// Built-in scene to render; `scenes` lists them
+    /// Built-in scene to render (see `scenes`)
     #[arg(long, value_name = "NAME", default_value = "roof")]
     pub scene: String,
-    /// Width and height in pixels; by default 1280x720, or 320x180 where no GPU is
+    /// Width and height in pixels; by default 1280x720, or 320x180 without a GPU
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
     /// Model to render instead of a built-in scene: .gltf, .glb or .obj
@@ -288,7 +290,7 @@ pub struct DemoArgs {
     /// Repetitions of the timing; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
-    /// Print the table, adapter and driver as JSON, and nothing else
+    /// Print only the table, adapter and driver, as JSON
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]

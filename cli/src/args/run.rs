@@ -7,35 +7,35 @@ use straightline_codegen::Stage;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Executor {
-    /// The emitted shader, by wgpu
+    /// wgpu runs the emitted shader
     Gpu,
-    /// The same graph, interpreted
+    /// The interpreter runs the shader's graph
     Cpu,
 }
 
-/// What a kernel is given to compute a picture.
+/// Inputs for a kernel and the size of its output.
 #[derive(Debug, Clone, Args)]
 pub struct GivenArgs {
-    /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
-    /// times
+    /// Picture for a texture of the kernel, NAME=FILE; NAME may be omitted for a kernel with one texture; may be given
+    /// several times
     ///
-    /// PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture. Files given for a texture with
-    /// layers, in order, are its layers; those of a cube its six faces +X, -X, +Y, -Y, +Z, -Z; those of a volume its slices. A
-    /// volume may also be a .cube table, or one picture of its slices side by side. Texels of integers are the numbers of a PNG
-    /// as they are stored. For a texture of one or two components a PNG is data, its numbers from 0 to 1 as they are, else a colour in
-    /// sRGB; FILE,linear and FILE,srgb say otherwise, and normals in a PNG need FILE,linear.
+    /// The file is a PNG or an EXR. FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture. Several
+    /// files for one texture are its layers, in order. For a cube they are its faces +X, -X, +Y, -Y, +Z, -Z; for a volume
+    /// its slices. A volume may also be a .cube table, or one picture with its slices side by side. An integer texture
+    /// takes the numbers of a PNG as stored. For a texture of one or two components a PNG holds data from 0 to 1, otherwise
+    /// a colour in sRGB. FILE,linear and FILE,srgb override that; normals in a PNG need FILE,linear.
     #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
     pub input: Vec<String>,
-    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
+    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub uniform: Vec<(String, String)>,
-    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for so many alike. May be given several times
+    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for 256 equal elements; may be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub buffer: Vec<(String, String)>,
     /// Width and height of the output; by default those of the first input that has the output's size
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
-    /// What computes the pixels
+    /// Executor that computes the pixels
     #[arg(long, value_enum, default_value = "gpu")]
     pub executor: Executor,
     #[command(flatten)]
@@ -48,19 +48,19 @@ pub struct RunArgs {
     pub kernel: KernelArgs,
     #[command(flatten)]
     pub given: GivenArgs,
-    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats). May be given several times
+    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats); may be given several times
     ///
-    /// Of a kernel that gives several values, the first one is written without a NAME. A buffer that the kernel writes goes to a
-    /// .csv or .txt, an element a line.
+    /// Without NAME the first value of a kernel with several outputs is written. A buffer that the kernel writes goes to a
+    /// .csv or .txt file, one element a line.
     #[arg(long, value_name = "[NAME=]FILE", required = true)]
     pub out: Vec<String>,
-    /// The precision of floats: f16 or f32, on the CPU also f64
+    /// Precision of floats: f16 or f32, on the CPU also f64
     #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = ["f16", "f32", "f64"])]
     pub precision: String,
-    /// On the CPU, say where a NaN or an infinity first came from, and fail if there is one
+    /// On the CPU, report the operation that produced the first NaN or infinity, and fail if there is one
     #[arg(long)]
     pub check_finite: bool,
-    /// Pipeline stage, on the GPU
+    /// Pipeline stage on the GPU
     #[arg(long, value_name = "STAGE", default_value = "compute", value_parser = |s: &str| s.parse::<Stage>())]
     pub stage: Stage,
 }
@@ -69,7 +69,7 @@ pub struct RunArgs {
 pub struct WatchArgs {
     #[command(flatten)]
     pub emit: EmitArgs,
-    /// Also run the kernel and write its picture, .png or .exr: an image viewer that looks again shows it
+    /// Also run the kernel and write its picture, .png or .exr, for an image viewer that reloads it
     #[arg(long, value_name = "FILE", help_heading = "Options of the picture")]
     pub picture: Option<String>,
     #[command(flatten, next_help_heading = "Options of the picture")]
@@ -77,7 +77,7 @@ pub struct WatchArgs {
 }
 
 impl WatchArgs {
-    /// The arguments of `run` that make the picture, if there is to be one.
+    /// Returns the arguments of `run` that make the picture; `None` if no picture was requested.
     pub fn to_run_args(&self) -> Option<RunArgs> {
         let picture = self.picture.clone()?;
         let spec = self.emit.shader_spec();

@@ -1,4 +1,4 @@
-//! Arguments of `study sweep` and of what reads its records.
+//! Arguments of `study sweep` and of the commands that read its records.
 
 use super::{pair, size};
 use clap::{Args, ValueHint};
@@ -10,24 +10,27 @@ use straightline_study::sweep::{Loops, parse_values, varied_knob};
 
 #[derive(Clone, Debug, Args)]
 pub struct SweepArgs {
-    /// A built-in kernel (see `list`), FILE.rs, or FILE.rs::FUNCTION
+    /// Kernel to sweep: a built-in one (see `list`), FILE.rs, or FILE.rs::FUNCTION
     #[arg(value_hint = ValueHint::FilePath)]
     pub kernel: String,
-    /// A further file that the kernel calls functions of; may be given several times
+    /// Additional file with functions that the kernel calls; may be given several times
     #[arg(long, value_name = "FILE")]
     pub source: Vec<PathBuf>,
-    /// Values of an option, separated by commas, or numbers as 1..9 or 1..=8, which are the same; may be given several times.
-    /// Where values have commas of their own, semicolons separate them
+    /// Values of an option, separated by commas, or a range of numbers, 1..9 or 1..=8; may be given several times
+    ///
+    /// The two ranges are equal. Values that contain commas are separated by semicolons.
     #[arg(help_heading = "What is varied", long = "set", value_name = "OPTION=VALUES", value_parser = options)]
     pub set: Vec<(String, Vec<String>)>,
-    /// Values of a further setting of `emit`: branches, reads, repeat-loads, share, math, transport or precision, such as
-    /// math=exact,fast; may be given several times
+    /// Values of another setting of `emit`, such as math=exact,fast; may be given several times
+    ///
+    /// The settings are branches, reads, repeat-loads, share, math, transport and precision.
     #[arg(help_heading = "What is varied", long, value_name = "SETTING=VALUES", value_parser = varied)]
     pub vary: Vec<(&'static str, Vec<String>)>,
-    /// How far loops are unrolled: `none`, `full`, or factors such as `2`
+    /// Unroll policies: `none`, `full`, or factors such as `2`
     #[arg(help_heading = "What is varied", long, value_name = "POLICIES", value_delimiter = ',', default_value = "none,full", value_parser = |s: &str| s.parse::<Unroll>())]
     pub unroll: Vec<Unroll>,
-    /// What becomes of loops that stay: `bounded`, wgpu counts their iterations, or `unbounded`, so that a driver may unroll them
+    /// Bound on loops left in the shader: `bounded`, wgpu counts their iterations, or `unbounded`, so that a driver may
+    /// unroll them
     #[arg(help_heading = "What is varied", long, value_name = "KINDS", value_delimiter = ',', default_value = "bounded", value_parser = loops)]
     pub loops: Vec<Loops>,
     /// Pipeline stages
@@ -40,53 +43,55 @@ pub struct SweepArgs {
         default_value = "compute"
     )]
     pub stage: Vec<Stage>,
-    /// Invocations of a compute workgroup, across and down
+    /// Width and height of a compute workgroup, in invocations
     #[arg(help_heading = "What is varied", long, value_name = "SIZES", value_delimiter = ',', default_value = "256x1", value_parser = size)]
     pub workgroup: Vec<UVec2>,
-    /// Pixels that one compute invocation computes, across and down
+    /// Width and height of the pixel block that one compute invocation computes
     #[arg(help_heading = "What is varied", long, value_name = "SIZES", value_delimiter = ',', default_value = "1x1", value_parser = size)]
     pub block: Vec<UVec2>,
-    /// What distinguishes the variants with which others of the same settings are compared; by default the first value of
-    /// --unroll. May be given several times
+    /// Setting of the baseline that variants are compared with; by default the first value of --unroll; may be given
+    /// several times
     #[arg(long, value_name = "AXIS=VALUE", value_parser = pair)]
     pub baseline: Vec<(String, String)>,
-    /// A hand-written WGSL file to measure along, with the bindings and the entry point of the emitted shader; {AXIS} in its
-    /// name is the value of an axis: blur-{radius}.wgsl. May be given several times
+    /// Hand-written WGSL file to measure as well, with the bindings and entry point of the emitted shader; may be given
+    /// several times
+    ///
+    /// {AXIS} in its name stands for the value of an axis: blur-{radius}.wgsl.
     #[arg(long, value_name = "FILE.wgsl")]
     pub against: Vec<String>,
-    /// Picture for a texture, as for `run`; textures without one show a test card. May be given several times
+    /// Picture for a texture, as for `run`; other textures show a test card; may be given several times
     #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
     pub input: Vec<String>,
-    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
+    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub uniform: Vec<(String, String)>,
-    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for so many alike. May be given several times
+    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for 256 equal elements; may be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub buffer: Vec<(String, String)>,
-    /// Go on, for at most --rounds, until the 95 % interval of every ratio is within so much of its median: 2%
+    /// Stop before --rounds once the 95 % interval of every ratio is within this share of its median: 2%
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub until: Option<f64>,
-    /// Measure one of N parts, from 1/N to N/N; `study merge` joins them
+    /// Part to measure, from 1/N to N/N; `study merge` joins the parts
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub shard: Option<Shard>,
 }
 
 #[derive(Clone, Debug, Args)]
 pub struct MergeArgs {
-    /// `sweep.json` of every shard
+    /// `sweep.json` of each shard
     #[arg(value_name = "RECORD", required = true)]
     pub records: Vec<PathBuf>,
 }
 
 #[derive(Clone, Debug, Args)]
 pub struct RecordsArgs {
-    /// `sweep.json` of a run
+    /// `sweep.json` of the first run
     #[arg(value_name = "RECORD")]
     pub first: PathBuf,
-    /// That of another
+    /// `sweep.json` of the second run
     #[arg(value_name = "RECORD")]
     pub second: PathBuf,
-    /// Ratios that are nearer to each other than this are the same
+    /// Largest difference at which two ratios still count as equal
     #[arg(long, value_name = "PERCENT", default_value = "5%", value_parser = percent)]
     pub tolerance: f64,
 }
@@ -112,7 +117,7 @@ fn loops(text: &str) -> Result<Loops, String> {
     found.ok_or_else(|| format!("`{}` is neither `bounded` nor `unbounded`", shorten(text)))
 }
 
-/// A part of one.
+/// Parses a percentage, as a share of 1.
 fn percent(text: &str) -> Result<f64, String> {
     let number = text
         .strip_suffix('%')

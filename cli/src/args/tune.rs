@@ -12,23 +12,24 @@ use straightline_study::tune::{Cost, ErrorMetric};
 pub struct TuneArgs {
     #[command(flatten)]
     pub subject: SubjectArgs,
-    /// How much error may be given up against the best variant: dB of PSNR, or mean FLIP
+    /// Error to trade for speed, relative to the best variant: dB of PSNR, or mean FLIP
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = budget)]
     pub max_error: f64,
-    /// What errors are measured by: psnr or flip
+    /// Metric of the error: psnr or flip
     #[arg(long, value_name = "METRIC", default_value = "psnr", value_parser = |s: &str| s.parse::<ErrorMetric>())]
     pub metric: ErrorMetric,
-    /// What variants cost: time on the adapter, or isa:navi21, the cycles that Mesa's compiler gives for a GPU that need not be
-    /// there (polaris10, vega10, navi10, navi21, navi31)
+    /// Measure of cost: time on the adapter, or isa:navi21 for cycles by Mesa's compiler
+    ///
+    /// The GPU need not be present: polaris10, vega10, navi10, navi21 or navi31.
     #[arg(long, value_name = "COST", default_value_t = Cost::Time, value_parser = |s: &str| s.parse::<Cost>())]
     pub cost: Cost,
-    /// Width and height of a scene or model in pixels; by default 640x360. A capture has its own
+    /// Width and height of a scene or model in pixels; by default 640x360; a capture has its own size
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "capture")]
     pub size: Option<UVec2>,
-    /// Repetitions of the timing that decides; each runs every shader once, in turn
+    /// Repetitions of the final timing; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
-    /// Give all variants an option; may be given several times. One that is searched is then not
+    /// Value of an option for all variants, which takes the option out of the search; may be given several times
     #[arg(long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
     /// Languages of the shader, separated by commas: wgsl, glsl450, glsl430, glsl330, essl310, essl300, spirv, hlsl, msl
@@ -37,8 +38,10 @@ pub struct TuneArgs {
     /// Texel format of the shader's output: rgba8unorm, rgba16float or rgba32float
     #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
     pub format: Format,
-    /// Folder for the shader (sraa-SCENE.wgsl, .json), for the one that says where pixels are shaded, if they are placed
-    /// (sraa-place-SCENE.wgsl, .json), and for the record (tune-SCENE.json, .csv); made if it is not there
+    /// Output folder for the shader and its record; created if missing
+    ///
+    /// The shader is sraa-SCENE.wgsl and .json, the record tune-SCENE.json and .csv. If shading positions are placed, the
+    /// placing shader is sraa-place-SCENE.wgsl and .json.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Print the record as JSON
@@ -49,7 +52,7 @@ pub struct TuneArgs {
 }
 
 impl TuneArgs {
-    /// A built-in scene as `study` tunes for it: within a decibel of the best.
+    /// Returns the arguments with which `study` tunes for a built-in scene: within a decibel of the best.
     pub fn of_study(scene: &str, common: &CommonArgs) -> TuneArgs {
         TuneArgs {
             subject: SubjectArgs {
@@ -72,14 +75,14 @@ impl TuneArgs {
     }
 }
 
-/// What to tune for.
+/// Scene, model or capture to tune for.
 #[derive(Debug, Args)]
 #[group(required = true, multiple = false)]
 pub struct SubjectArgs {
-    /// Folder of a captured frame (see docs/captures.md)
+    /// Folder of a captured frame (docs/captures.md)
     #[arg(long, value_name = "DIR")]
     pub capture: Option<PathBuf>,
-    /// Built-in scene; `scenes` lists them
+    /// Built-in scene (see `scenes`)
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
     /// Model: .gltf, .glb or .obj

@@ -1,4 +1,4 @@
-//! `adapters`: what wgpu sees.
+//! `adapters`: the GPUs and drivers that wgpu finds.
 
 use crate::args::AdaptersArgs;
 use crate::failure::Failure;
@@ -6,7 +6,7 @@ use crate::gpu;
 use serde_json::json;
 use wgpu::{DownlevelFlags, Features, TextureFormat, TextureUsages};
 
-/// Prints every adapter and what it can do.
+/// Prints every adapter and its capabilities.
 pub fn print_adapters(args: &AdaptersArgs) -> Result<(), Failure> {
     let adapters = gpu::list_adapters();
     let described: Vec<_> = adapters.iter().map(adapter_json).collect();

@@ -1,4 +1,4 @@
-//! `compare`: how far two pictures are apart.
+//! `compare`: difference between two pictures.
 
 use crate::args::CompareArgs;
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use straightline_scene::picture;
 
 /// Reads two pictures of one size and prints PSNR, SSIM and FLIP.
 ///
-/// If either is a PNG, both are taken at its 8 bits, as `study error` takes all pictures: then the figures are the same.
+/// If either is a PNG, both are compared at 8 bits, as in `study error`, so that the results match.
 pub fn compare_pictures(args: &CompareArgs) -> Result<(), Failure> {
     let read = |path: &Path| picture::read_picture(path).map_err(Failure::from_error);
     let (mut test, mut reference) = (read(&args.picture)?, read(&args.reference)?);

@@ -1,4 +1,4 @@
-//! `demo`: what Straightline does, in one run.
+//! `demo`: a tour of Straightline in one run.
 
 use super::command_line;
 use crate::args::DemoArgs;
@@ -30,11 +30,11 @@ struct Method {
     inputs: Inputs,
 }
 
-/// Side of the detail, and how much it is enlarged.
+/// Side of the detail in pixels, and its magnification.
 const SIDE: u32 = 80;
 const ZOOM: u32 = 5;
 
-/// A line of the table.
+/// A row of the table.
 #[derive(Clone, Debug, Serialize)]
 struct Row {
     method: String,
@@ -60,7 +60,7 @@ struct Record {
     rows: Vec<Row>,
 }
 
-/// Emits, renders, antialiases, compares, writes and prints.
+/// Emits shaders, renders a scene, antialiases it, compares, writes and prints.
 pub fn run_demo(args: &DemoArgs) -> Result<(), Failure> {
     files::try_folder(&args.out).map_err(Failure::from_error)?;
     let gpu = Gpu::open(&args.adapter)?;
@@ -105,7 +105,7 @@ pub fn run_demo(args: &DemoArgs) -> Result<(), Failure> {
     rows.push(plain_row("16x supersampling", &x16, &x256));
     pictures.push(("16x supersampled", x16));
     add_pictures(&mut set, &pictures, &x256)?;
-    // Shaders and pictures are one set: whole, or not there.
+    // Shaders and pictures are written as one set, all or none.
     files::write_all(&args.out, &set).map_err(Failure::from_error)?;
 
     let executor = gpu.as_ref().map_or("CPU interpreter".to_owned(), Gpu::describe);
@@ -150,7 +150,7 @@ fn render_supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -
     Ok(frame)
 }
 
-/// The picture, times looped and unrolled, and what they were taken with.
+/// The picture, the times of the looped and unrolled forms, and the clock.
 type Measured = (Frame<Vec4>, [Times; 2], Clock);
 
 fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
@@ -178,7 +178,7 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     Ok((resolved, [times[0], times[1]], clock))
 }
 
-/// Runs one round: the interpreter is there to show the result, not to be raced.
+/// Runs one round in the interpreter, which is there to show the result, not to be timed.
 fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     let inputs = &method.inputs;
     let mut times = [Vec::new(), Vec::new()];

@@ -1,4 +1,4 @@
-//! `emit`: shaders for other engines.
+//! `emit`: writes shaders for other engines.
 
 use super::notes::find_notes;
 use crate::args::EmitArgs;
@@ -9,8 +9,8 @@ use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, files};
 use straightline_engines::{Engine, EngineError, Request};
 use straightline_kernels::HalfPrecision;
 
-/// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing; prints the
-/// paths.
+/// Writes the shader in every requested language with its manifest, or the files for an engine, or nothing on an error;
+/// prints the paths.
 pub fn emit_kernel(args: &EmitArgs) -> Result<(), Failure> {
     let ready = compile_kernel(args)?;
     for file in write_shaders(args, &ready)? {
@@ -23,7 +23,7 @@ pub fn emit_kernel(args: &EmitArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A kernel that is ready to be emitted.
+/// A compiled kernel, ready for emission.
 pub struct Ready {
     kernel: Kernel,
     pub compiled: Compiled,
@@ -36,7 +36,7 @@ pub fn compile_kernel(args: &EmitArgs) -> Result<Ready, Failure> {
     Ok(Ready { kernel, compiled })
 }
 
-/// Writes all files or none; gives their paths.
+/// Writes all files or none; returns their paths.
 pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<PathBuf>, Failure> {
     let options = args.shader_spec().emit;
     if options.accept_loss && options.precision != Precision::F16 {
@@ -57,7 +57,7 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
     write_all(args, compiled, &emitted.named_files(name))
 }
 
-/// The files for an engine.
+/// Returns the files for an engine.
 fn for_engine(
     emit: EmitOptions,
     kernel: &Kernel,

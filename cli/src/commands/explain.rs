@@ -1,4 +1,4 @@
-//! `explain`: what a kernel does for each pixel.
+//! `explain`: operation counts of a kernel, per pixel.
 
 use super::machine;
 use super::notes::find_notes;
@@ -13,7 +13,7 @@ use straightline_codegen::{Compiled, EmitOptions, ReadOrder, Unroll};
 use straightline_kernels::{OptionValue, PaperCounts};
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
-/// Prints the counts of one kernel and option set.
+/// Prints the counts of one kernel with one set of options.
 pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     if let Some(code) = Code::from_number(&args.kernel.kernel) {
         explain_code(code, args.json);
@@ -25,7 +25,7 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
             outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
         }
     })?;
-    // Statements and live values are those of the text.
+    // Statements and live values are counted in the emitted text.
     let options = EmitOptions::new()
         .stage(super::natural_stage(&compiled))
         .precision(args.precision)
@@ -66,7 +66,7 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Prints what an error's code means.
+/// Prints the explanation of an error code.
 fn explain_code(code: Code, as_json: bool) {
     let (number, title, explanation) = (code.number(), code.title(), code.explanation());
     match as_json {
@@ -78,10 +78,10 @@ fn explain_code(code: Code, as_json: bool) {
     }
 }
 
-/// Columns of a screen.
+/// Width of the output, in columns.
 const WIDTH: usize = 80;
 
-/// Columns of a section's head, before its text.
+/// Width of a section's heading, in columns.
 const HEAD: usize = 10;
 
 fn print_section(head: &str, text: &str) {
@@ -92,7 +92,7 @@ fn print_section(head: &str, text: &str) {
     );
 }
 
-/// Names of the inputs and of the uniforms that the shader has: what a scene must give it, and no more.
+/// Names of the shader's inputs and uniforms: exactly what a host must bind.
 struct Bound {
     inputs: Vec<String>,
     uniforms: Vec<String>,
@@ -118,7 +118,7 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
     out.insert("uniforms".into(), json!(bound.uniforms));
     if let Value::Object(figures) = json!(counts) {
         for (name, figure) in figures {
-            // Tallies stand among the other figures under their own names.
+            // Tallies appear among the other counts under their own names.
             match figure {
                 Value::Object(tallies) if name == "tallies" => out.extend(tallies),
                 other => {
@@ -163,7 +163,7 @@ fn gathered_json(gathered: &Gathered) -> Value {
     })
 }
 
-/// Describes the memory shared by a workgroup, and the reads that stay as they are, with the reason.
+/// Describes the memory shared by a workgroup, and the reads that are not shared, with the reason.
 fn sharing_json(sharing: &Sharing) -> Value {
     let tiles = sharing.tiles.iter().map(|tile| {
         json!({
@@ -260,7 +260,7 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     print_loops(compiled);
 }
 
-/// Prints the memory shared by a workgroup, and the reads that stay as they are, with the reason.
+/// Prints the memory shared by a workgroup, and the reads that are not shared, with the reason.
 fn print_sharing(sharing: &Sharing) {
     let rows = sharing.tiles.iter().map(|tile| {
         let ([left, upper], [width, height]) = (tile.first, tile.size);
@@ -304,7 +304,7 @@ fn print_gathered(gathered: &[Gathered]) {
     out!("{}", table::render_table(&["Gathered", "reads", "gathers"], &rows));
 }
 
-/// Prints the treatment of each loop, and the reason why it was unrolled where it was asked to be left in the shader.
+/// Prints the outcome for each loop. A loop that was unrolled against the request has its reason.
 fn print_loops(compiled: &Compiled) {
     let loops = compiled.loops.iter().map(|report| {
         let cells = [

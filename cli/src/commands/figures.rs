@@ -1,4 +1,4 @@
-//! `figures`: the pictures of the publications, made again.
+//! `figures`: reproduces the pictures of the publications.
 
 use super::quads::pictures;
 use super::study::ProgressBars;
@@ -14,7 +14,7 @@ use straightline_scene::picture;
 use straightline_study::quads;
 use straightline_study::quality::{FIGURES, Figure};
 
-/// Figures of the chapter: their names, and their subjects.
+/// Figures of the chapter: names and subjects.
 const OF_THE_CHAPTER: [(&str, &str); 2] = [
     ("pqa-03", "half resolution brought up by one read a pixel"),
     (
@@ -23,7 +23,7 @@ const OF_THE_CHAPTER: [(&str, &str); 2] = [
     ),
 ];
 
-/// Makes all that are asked for, and writes them together.
+/// Makes all requested figures, and writes them together.
 pub fn write_figures(args: &FiguresArgs) -> Result<(), Failure> {
     let known: Vec<&str> = FIGURES
         .iter()
@@ -57,7 +57,7 @@ pub fn write_figures(args: &FiguresArgs) -> Result<(), Failure> {
         rows.push(vec![figure.name.to_owned(), figure.shows.to_owned(), psnr.join("; ")]);
     }
     if OF_THE_CHAPTER.iter().any(|(name, _)| wanted(name)) {
-        // For its pictures: nothing is timed for long.
+        // Minimal timing: only the pictures are needed.
         let setup = quads::Setup {
             size: args.size,
             texels: 512,

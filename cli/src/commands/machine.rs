@@ -1,4 +1,4 @@
-//! Figures of a GPU's compiler for a shader, for `explain --isa`.
+//! Statistics of a GPU's compiler for a shader, for `explain --isa`.
 
 use super::study::isa::SERVE;
 use crate::args::Family;
@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_isa::{Compiler, Report};
 
-/// The machine code, and what the compiler calls its GPU.
+/// Machine code, and the compiler's name for its GPU.
 pub struct Machine {
     device: String,
     report: Report,
 }
 
-/// Asks the compiler for a family.
+/// Compiles the shader for a GPU family.
 pub fn ask(emitted: &Emitted, family: Family) -> Result<Machine, Failure> {
     let program = std::env::current_exe().map_err(Failure::from_error)?;
     let mut compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::from_error)?;
@@ -30,7 +30,7 @@ impl Machine {
         json!({ "device": self.device, "figures": self.report.figures })
     }
 
-    /// Prints the figures, and the code itself if it is asked for.
+    /// Prints the statistics, and with `code` the machine code.
     pub fn print(&self, code: bool) {
         let rows = self
             .report

@@ -1,4 +1,4 @@
-//! Commands, one module for each. Those that measure kernels and scenes need the feature `study`.
+//! Commands, one module for each. Commands that measure kernels and scenes need the feature `study`.
 
 pub mod adapters;
 #[cfg(feature = "study")]
@@ -32,7 +32,7 @@ use crate::failure::Failure;
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, Stage};
 
-/// The stage in which a kernel's graph is as it stands: quads swap values in fragment shaders.
+/// Returns the stage for which a kernel's graph needs no change: fragment, if quads swap values.
 fn natural_stage(compiled: &Compiled) -> Stage {
     match compiled.graph.invocation {
         Invocation::Lane => Stage::Fragment,
@@ -40,7 +40,7 @@ fn natural_stage(compiled: &Compiled) -> Stage {
     }
 }
 
-/// The command as it was given, with the program's name for its path.
+/// Returns the command line as given, with the program's name instead of its path.
 pub fn command_line() -> String {
     let arguments = std::env::args_os().skip(1);
     std::iter::once("straightline".to_owned())
@@ -49,7 +49,7 @@ pub fn command_line() -> String {
         .join(" ")
 }
 
-/// Why a command does nothing in a build that lacks a feature, and what helps.
+/// Returns the failure of a command in a build that lacks its feature, with the remedy.
 pub fn lacking_feature(feature: &str) -> Failure {
     Failure::Usage(refusal_text(&command_line(), feature))
 }

@@ -1,20 +1,20 @@
-//! Remarks on settings that cost more than they seem to: blocks of pixels that keep many values alive, and factors that multiply.
+//! Remarks on settings with hidden costs: blocks of pixels that keep many values alive, and unroll factors that multiply.
 
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 
-/// Scalars alive at once from which GPUs run fewer threads or spill (docs/study.md, "Live values").
+/// Number of live scalars above which GPUs run fewer threads or spill (docs/study.md, "Live values").
 const MANY_ALIVE: u32 = 64;
 
-/// Copies of a loop's body after which a factor was meant for fewer loops.
+/// Copies of a loop's body above which an unroll factor was probably meant for fewer loops.
 const MANY_COPIES: u64 = 64;
 
-/// Remarks on a compiled kernel, a line each.
+/// Returns the remarks on a compiled kernel, one line each.
 pub fn find_notes(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Vec<String> {
     let notes = [crowded_block(kernel, settings, compiled), multiplied_factors(compiled)];
     notes.into_iter().flatten().collect()
 }
 
-/// A block of pixels in which many values are alive, with what single pixels have.
+/// Remarks on a block of pixels with many live values, compared with single pixels.
 fn crowded_block(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Option<String> {
     let [width, height] = settings.block;
     if settings.block == [1, 1] {
@@ -31,7 +31,7 @@ fn crowded_block(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> O
     ))
 }
 
-/// A loop that is written many times, because the factors of loops in loops multiply.
+/// Remarks on a loop with many copies, because the factors of nested loops multiply.
 fn multiplied_factors(compiled: &Compiled) -> Option<String> {
     let most = compiled.loops.iter().max_by_key(|report| report.copies)?;
     if most.copies < MANY_COPIES || !matches!(most.unroll, Unroll::Partial(_)) {

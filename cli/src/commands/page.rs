@@ -8,10 +8,10 @@ use std::process::{Command, Stdio};
 use straightline_codegen::files;
 use straightline_page::Module;
 
-/// Most bytes of a module.
+/// Maximum size of a module, in bytes.
 const LARGEST: u64 = 1 << 28;
 
-/// Writes the page's files, or none of them.
+/// Writes the page's files, all or none.
 pub fn write_page(args: &PageArgs) -> Result<(), Failure> {
     files::try_folder(&args.out).map_err(Failure::from_error)?;
     let [generator, templates] = match (&args.module, &args.templates) {
@@ -28,7 +28,7 @@ pub fn write_page(args: &PageArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A module, read and found to be one of the page's.
+/// Reads a module and checks that it belongs to the page.
 fn read_module(path: &Path) -> Result<Module, Failure> {
     let bytes = files::read_file(path, LARGEST)
         .map_err(|why| Failure::Failed(format!("cannot read the module `{}`: {why}", path.display())))?;
@@ -40,10 +40,10 @@ fn read_module(path: &Path) -> Result<Module, Failure> {
     })
 }
 
-/// The crates of the generator and of the templates.
+/// Crates of the generator and of the templates.
 const CRATES: [&str; 2] = ["straightline-page-module", "straightline-page-templates"];
 
-/// Both modules, built by cargo from the source checkout that the command runs in.
+/// Builds both modules with cargo, from the surrounding source checkout; returns their paths.
 fn build_modules() -> Result<[PathBuf; 2], Failure> {
     let root = find_checkout().ok_or_else(|| {
         Failure::Failed(
@@ -56,13 +56,13 @@ fn build_modules() -> Result<[PathBuf; 2], Failure> {
     for name in CRATES {
         build(&root, name)?;
     }
-    // A relative one is taken from the root, where cargo runs.
+    // Cargo runs in the root, so a relative path is resolved from there.
     let target = root.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()));
     let folder = target.join(TARGET).join("page");
     Ok(CRATES.map(|name| folder.join(format!("{}.wasm", name.replace('-', "_")))))
 }
 
-/// Has cargo make the module of a crate.
+/// Builds the module of one crate with cargo.
 fn build(root: &Path, name: &str) -> Result<(), Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
@@ -84,8 +84,8 @@ fn build(root: &Path, name: &str) -> Result<(), Failure> {
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Flags of the compiler, as in page/build. The linker puts the stack first, so that what overflows it stops; its size is in bytes.
-/// What is hosted tells nothing of the folders that it was built in.
+/// Returns the compiler flags of page/build. The linker puts the stack first, so that a stack overflow traps; the stack
+/// size is in bytes. Paths are remapped: a hosted module must not reveal the build folders.
 fn compiler_flags(root: &Path) -> OsString {
     let home = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let cargo = home("CARGO_HOME").or_else(|| {
@@ -105,7 +105,7 @@ fn compiler_flags(root: &Path) -> OsString {
     flags
 }
 
-/// The folder of the source checkout around the working directory.
+/// Returns the root of the source checkout around the working directory.
 fn find_checkout() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
     let is_root = |folder: &&Path| folder.join("page/module/Cargo.toml").is_file();

@@ -13,7 +13,7 @@ use straightline_scene::capture::Capture;
 use straightline_scene::gbuffer;
 use straightline_scene::picture;
 
-/// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
+/// Reads a capture, resolves it with SRAA, writes the picture, and prints errors on request.
 pub fn resolve_capture(args: &ResolveArgs) -> Result<(), Failure> {
     if !cfg!(feature = "exr") {
         return Err(super::lacking_feature("exr"));
@@ -48,7 +48,7 @@ pub fn resolve_capture(args: &ResolveArgs) -> Result<(), Failure> {
     print_report(args, &compiled, &by, &resolved, errors, &warnings)
 }
 
-/// Warns of flaws that make a picture worse than it need be, and show in the capture.
+/// Returns warnings about flaws of the capture that degrade the picture.
 fn capture_warnings(capture: &Capture, options: &OptionValues) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(misplaced) = gbuffer::find_misplaced(capture) {
@@ -109,7 +109,7 @@ fn print_report(
     Ok(())
 }
 
-/// PSNR of the capture's own colour, and of the resolved picture.
+/// Returns the PSNR of the capture's own colour, and of the resolved picture.
 fn measure_errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failure> {
     let Some(reference) = &capture.reference else {
         return Err(Failure::Failed(
@@ -123,7 +123,7 @@ fn measure_errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64
     ))
 }
 
-/// The options asked for, with those that the capture decides: where it was sampled.
+/// Returns the requested options, completed by those that the capture determines: its sample positions.
 fn with_capture(kernel: &Kernel, options: &SettingsArgs, capture: &Capture) -> Result<Settings, Failure> {
     let mut settings = options.settings();
     let sampled = gbuffer::sampled_at(capture);
@@ -151,7 +151,7 @@ fn with_capture(kernel: &Kernel, options: &SettingsArgs, capture: &Capture) -> R
     Ok(settings)
 }
 
-/// Refuses a picture that could not be written before any work is done.
+/// Rejects a picture with an unsupported extension before any work is done.
 fn check_extension(args: &ResolveArgs) -> Result<(), Failure> {
     let extension = args.out.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
     match extension {

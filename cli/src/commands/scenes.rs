@@ -1,4 +1,4 @@
-//! `scenes`: the built-in scenes, and what each is for.
+//! `scenes`: the built-in scenes and their purpose.
 
 use crate::args::ScenesArgs;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! `completions` and `man`: what shells and `man` know of the command line.
+//! `completions` and `man`: descriptions of the command line for shells and `man`.
 
 use crate::args::{Arguments, CompletionsArgs, ManArgs};
 use crate::failure::Failure;
@@ -27,7 +27,7 @@ pub fn write_manual(args: &ManArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Adds the pages of a command and of those below it.
+/// Adds the pages of a command and of its subcommands.
 fn add(command: &Command, pages: &mut BTreeMap<String, Vec<u8>>) -> Result<(), Failure> {
     let page = Man::new(command.clone());
     let mut text = Vec::new();

@@ -8,20 +8,20 @@ use crate::output;
 use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Time between two looks at the files. Looking asks for the times of a few files, on any file system.
+/// Time between two checks of the files. Each check only reads the times of a few files, on any file system.
 const INTERVAL: Duration = Duration::from_millis(100);
 
-/// When a file was written last and how long it is; nothing where it cannot be told.
+/// Time of the last write to a file, and its length; `None` if they cannot be determined.
 type Stamp = Option<(SystemTime, u64)>;
 
-/// Emits, and again after every change, until it is interrupted or its output is closed.
+/// Emits the kernel, and again after every change, until interrupted or until its output is closed.
 pub fn watch_kernel(args: &WatchArgs) -> Result<(), Failure> {
     let paths = kernel_files(args)?;
     refuse_inputs_without_picture(args)?;
     let mut gpu = None;
     let mut seen = file_stamps(&paths);
     loop {
-        // Of a file that was saved while it was compiled, the older stamp has been taken.
+        // The stamps are taken before compiling, so that a file saved meanwhile counts as changed.
         emit_once(args, &mut gpu);
         seen = wait_for_change(&paths, &seen);
         if output::is_refused() {
@@ -30,7 +30,7 @@ pub fn watch_kernel(args: &WatchArgs) -> Result<(), Failure> {
     }
 }
 
-/// The kernel's files.
+/// Returns the kernel's files.
 fn kernel_files(args: &WatchArgs) -> Result<Vec<PathBuf>, Failure> {
     let kernel = &args.emit.kernel.kernel;
     let file = match kernel.split_once(".rs::") {
@@ -46,7 +46,7 @@ fn kernel_files(args: &WatchArgs) -> Result<Vec<PathBuf>, Failure> {
         .into_iter()
         .chain(args.emit.kernel.source.iter().cloned())
         .collect();
-    // Later a file may be missing while it is saved; now its name is wrong.
+    // Later, a file may be missing while it is being saved; at the start, its name is wrong.
     args.emit.kernel.locate_kernel()?;
     Ok(paths)
 }
@@ -62,7 +62,7 @@ fn refuse_inputs_without_picture(args: &WatchArgs) -> Result<(), Failure> {
     }
 }
 
-/// Emits, and prints one line of what was written, or the errors.
+/// Emits once, and prints one line about the written files, or the errors.
 fn emit_once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
     let start = Instant::now();
     match write_outputs(args, gpu) {
@@ -70,7 +70,7 @@ fn emit_once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
             let time = start.elapsed().as_millis();
             outln!("{name}: wrote {} in {time} ms", written.join(", "));
         }
-        // The status that the program would end with is of no use here: it goes on.
+        // The exit status is ignored: watching goes on.
         Err(failure) => drop(failure.report()),
     }
 }
@@ -85,7 +85,7 @@ fn write_outputs(args: &WatchArgs, gpu: &mut Option<Gpu>) -> Result<(String, Vec
     Ok((ready.compiled.kernel, written.collect()))
 }
 
-/// Waits until the files are others than they were seen, and have stayed so for a while: an editor may write in several steps.
+/// Waits until the files differ from `seen`, and have not changed for a while: an editor may save in several steps.
 fn wait_for_change(paths: &[PathBuf], seen: &[Stamp]) -> Vec<Stamp> {
     let mut last = seen.to_vec();
     loop {

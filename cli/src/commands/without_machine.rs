@@ -1,14 +1,15 @@
-//! Replacement for asking a GPU's compiler in a build that asks none: there is no family to ask for.
+//! Replacement for compiling with a GPU's compiler in a build without it. Both types are empty, since there is no family to
+//! compile for.
 
 use crate::args::Family;
 use crate::failure::Failure;
 use serde_json::Value;
 use straightline_codegen::emit::Emitted;
 
-/// There is none.
+/// Machine code of a GPU. Empty in this build.
 pub enum Machine {}
 
-/// Not called: there is no family.
+/// Never called, since `Family` is empty.
 pub fn ask(_: &Emitted, family: Family) -> Result<Machine, Failure> {
     match family {}
 }

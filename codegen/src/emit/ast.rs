@@ -1,7 +1,7 @@
-//! The tree of a shader: statements and expressions, each with its type, between the graph and a language's text.
+//! The tree of a shader: typed statements and expressions, between the graph and a language's text.
 //!
-//! [`super::lower`] makes it, [`super::legalise`] rewrites what a language says in another way, [`super::names`] gives its
-//! variables names, and [`super::print`] writes it. No stage asks a text what it means.
+//! [`super::lower`] builds the tree, [`super::legalise`] rewrites what a language expresses differently, [`super::names`]
+//! names its variables, and [`super::print`] prints it. No stage parses text.
 
 use std::ops::Deref;
 use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Bits, Memory, Origin, Scalar, Type};
@@ -50,7 +50,7 @@ impl Ty {
         Type::scalar(self.scalar_kind().unwrap_or(Scalar::F32))
     }
 
-    /// An element of an array; a value is its own.
+    /// Returns the type of an array's elements; any other type is returned unchanged.
     pub fn element_ty(self) -> Ty {
         Ty {
             shape: self.shape.element_type(),
@@ -83,28 +83,28 @@ impl Deref for Ty {
 pub struct VarId(pub u32);
 
 impl VarId {
-    /// The pixel, and of a block its upper left one.
+    /// The pixel; for a block, its upper left pixel.
     pub const PIXEL: VarId = VarId(0);
     /// Width and height of the frame.
     pub const FRAME: VarId = VarId(1);
-    /// The pixel, counted from the region's upper left one.
+    /// The pixel, relative to the region's upper left pixel.
     pub const WITHIN: VarId = VarId(2);
     /// The pixel in the target of a region.
     pub const PLACE: VarId = VarId(3);
     /// The pixel of the workgroup's first invocation.
     pub const ORIGIN: VarId = VarId(4);
-    /// Boolean that holds if the invocation's pixel is one to compute.
+    /// Boolean that is `true` if the invocation's pixel is to be computed.
     pub const INSIDE: VarId = VarId(5);
     /// Position of the invocation in its workgroup.
     pub const LOCAL: VarId = VarId(6);
-    /// Stands for the memory of a workgroup in queries of the variables that a statement changes.
+    /// Stand-in for workgroup memory, in queries for the variables that a statement changes.
     pub const MEMORY: VarId = VarId(u32::MAX);
 }
 
 /// A variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Preferred name; [`super::names`] makes names differ.
+    /// Preferred name; [`super::names`] makes names unique.
     pub name: String,
     /// Type of the value.
     pub ty: Ty,
@@ -112,7 +112,7 @@ pub struct Variable {
     pub precise: bool,
 }
 
-/// A built-in value that the host or the driver provides to the entry point.
+/// A built-in value of the entry point, provided by the host or the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
     /// Position of the invocation in the dispatch, `vec2<i32>`.
@@ -125,7 +125,7 @@ pub enum Builtin {
     Group,
     /// Position of the fragment, `vec2<f32>`, at a pixel's centre.
     Position,
-    /// Width and height of the storage texture that is written, `vec2<i32>`.
+    /// Width and height of the written storage texture, `vec2<i32>`.
     OutputSize,
     /// Upper left pixel of the region in the inputs, `vec2<i32>`.
     RegionFirst,
@@ -144,28 +144,28 @@ pub struct Division {
     pub positive: bool,
 }
 
-/// Facts about the arguments of a function of floats whose edge cases a shader may have to handle itself.
+/// Facts about the arguments of a float function whose edge cases the shader may have to handle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Domain {
     /// No component of the first argument is a NaN or below 0; it may be -0.
     pub not_negative: bool,
     /// Every component of the first argument is greater than 0, and normal.
     pub positive: bool,
-    /// Of a remainder, the quotient is less than 2048.
+    /// For a remainder: the quotient is less than 2048.
     pub bounded: bool,
 }
 
 /// Operation of an expression on its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Op {
-    /// An operation of the graph that is none of the others here.
+    /// An operation of the graph without a variant of its own here.
     Ir(ir::Op),
     /// A division or remainder of integers.
     Division(BinaryOp, Division),
-    /// A function of floats whose arguments may lie where drivers depart from it.
+    /// A float function with arguments in the range where drivers deviate from the specification.
     Guarded(ir::Op, Domain),
-    /// A conversion. `fits` says of integers that every precision has finite numbers as large, of floats that the target type has
-    /// an integer for each of them.
+    /// A conversion. For integers, `fits` states that every precision has finite numbers as large. For floats, it states
+    /// that the target type can represent each truncated value.
     Convert {
         /// `true` if every value can be converted.
         fits: bool,
@@ -174,32 +174,32 @@ pub enum Op {
     Construct,
     /// Components of a vector.
     Swizzle(Vec<u8>),
-    /// The argument, as the operation that computes it rounds it. The value of a `let`, a `var` or an assignment, never part of
-    /// another expression.
+    /// The argument, rounded exactly as its operation specifies. Occurs only as the value of a `let`, a `var` or an
+    /// assignment, never inside another expression.
     Exact {
-        /// `true` if further arithmetic uses the result, which a compiler could merge with it.
+        /// `true` if further arithmetic uses the result and a compiler could contract the two.
         goes_on: bool,
     },
-    /// An element of an array: array, index. An index outside is that of the last element.
+    /// An element of an array: array, index. An index out of bounds is clamped to the last element.
     Index {
-        /// `true` if the index cannot lie outside.
+        /// `true` if the index is always in bounds.
         inside: bool,
     },
     /// A variable.
     Var(VarId),
     /// A built-in value of the entry point.
     Builtin(Builtin),
-    /// True if any component is.
+    /// `true` if any component is.
     Any,
-    /// True if all components are.
+    /// `true` if all components are.
     All,
-    /// By component: condition, value if it holds, value if not.
+    /// Component-wise selection: condition, value if true, value if false.
     Choose,
-    /// An unsigned constant that says something by its bits, the same in all components.
+    /// An unsigned constant printed in hexadecimal, the same in all components.
     Hex(u32),
     /// A built-in function of the language, by its name there.
     Call(&'static str),
-    /// A function of the module's.
+    /// A function of the module.
     Function(String),
 }
 
@@ -215,28 +215,28 @@ pub struct Expr {
 }
 
 impl Expr {
-    /// An operation of arguments.
+    /// Creates an operation on arguments.
     pub fn new(op: Op, args: Vec<Expr>, ty: impl Into<Ty>) -> Expr {
         let ty = ty.into();
         Expr { op, args, ty }
     }
 
-    /// A constant from its bits.
+    /// Creates a constant from its bits.
     pub fn constant(ty: impl Into<Ty>, bits: Bits) -> Expr {
         Expr::new(Op::Ir(ir::Op::Const(bits)), Vec::new(), ty)
     }
 
-    /// A constant with the same bits in every component.
+    /// Creates a constant with the same bits in every component.
     pub fn splat(ty: impl Into<Ty>, bits: u32) -> Expr {
         Expr::constant(ty, [bits; 4])
     }
 
-    /// A vector of two constant integers.
+    /// Creates a vector of two constant integers.
     pub fn ivec2(x: i32, y: i32) -> Expr {
         Expr::constant(Type::value(Scalar::I32, 2), [x as u32, y as u32, 0, 0])
     }
 
-    /// A variable.
+    /// Creates a read of a variable.
     pub fn var(var: VarId, ty: impl Into<Ty>) -> Expr {
         Expr::new(Op::Var(var), Vec::new(), ty)
     }
@@ -251,7 +251,7 @@ impl Expr {
         Expr::new(Op::Ir(ir::Op::Binary(op)), vec![self, other], ty)
     }
 
-    /// The value as another type, cut off or rounded; every value fits.
+    /// Converts the value to another type, by truncation or rounding. Every value must fit.
     pub fn convert_to(self, ty: impl Into<Ty>) -> Expr {
         Expr::new(Op::Convert { fits: true }, vec![self], ty)
     }
@@ -261,12 +261,12 @@ impl Expr {
         Expr::new(Op::Ir(ir::Op::Bitcast), vec![self], ty)
     }
 
-    /// A built-in function of the language.
+    /// Creates a call of a built-in function of the language.
     pub fn call(name: &'static str, args: Vec<Expr>, ty: impl Into<Ty>) -> Expr {
         Expr::new(Op::Call(name), args, ty)
     }
 
-    /// The bits of a constant.
+    /// Returns the bits of a constant.
     pub fn as_constant(&self) -> Option<&Bits> {
         match &self.op {
             Op::Ir(ir::Op::Const(bits)) => Some(bits),
@@ -274,25 +274,25 @@ impl Expr {
         }
     }
 
-    /// Rewrites every expression in this one, arguments first.
+    /// Rewrites every subexpression and then the expression, arguments first.
     pub fn rewrite(self, rule: &mut dyn FnMut(Expr) -> Expr) -> Expr {
         let args = self.args.into_iter().map(|arg| arg.rewrite(rule)).collect();
         rule(Expr { args, ..self })
     }
 
-    /// As [`Expr::rewrite`], where the expression stands.
+    /// Rewrites the expression in place, as [`Expr::rewrite`].
     pub fn rewrite_in_place(&mut self, rule: &mut dyn FnMut(Expr) -> Expr) {
         let taken = std::mem::replace(self, Expr::new(Op::Construct, Vec::new(), self.ty));
         *self = taken.rewrite(rule);
     }
 
-    /// Shows every expression in this one, arguments first.
+    /// Visits every subexpression and then the expression, arguments first.
     pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
         self.args.iter().for_each(|arg| arg.visit(see));
         see(self);
     }
 
-    /// Number of operators and calls in it.
+    /// Returns the number of operators and calls in the expression.
     pub fn operation_count(&self) -> usize {
         let mut count = 0;
         self.visit(&mut |expr| {
@@ -306,7 +306,7 @@ impl Expr {
     }
 }
 
-/// A statement, and where its value comes from.
+/// A statement with the source location of its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stmt<'g> {
     /// Kind of statement, with its operands.
@@ -325,9 +325,9 @@ pub enum StmtKind<'g> {
     Let(VarId, Expr),
     /// A mutable variable; without a value it is undefined until it is assigned.
     Var(VarId, Option<Expr>),
-    /// Another value for a variable or an element: `place = value`, or `place op= value`.
+    /// An assignment to a variable or an element: `place = value`, or `place op= value`.
     Assign(Expr, Option<BinaryOp>, Expr),
-    /// Counts from a start up to an end that is not reached.
+    /// A counted loop from a start to an exclusive end.
     For {
         /// The counter.
         counter: VarId,
@@ -335,10 +335,10 @@ pub enum StmtKind<'g> {
         start: Expr,
         /// Exclusive upper bound.
         end: Expr,
-        /// Statements of an iteration.
+        /// Body of the loop.
         body: Block<'g>,
     },
-    /// Repeats until a [`StmtKind::Break`].
+    /// An endless loop, left by a [`StmtKind::Break`].
     Loop(Block<'g>),
     /// Leaves the innermost loop.
     Break,
@@ -346,29 +346,29 @@ pub enum StmtKind<'g> {
     If {
         /// A scalar boolean.
         condition: Expr,
-        /// If it holds.
+        /// Statements if the condition is `true`.
         then: Block<'g>,
-        /// If not.
+        /// Statements if the condition is `false`.
         otherwise: Block<'g>,
     },
-    /// Writes a texel of an output: which one, place, value.
+    /// Writes a texel of an output: output index, place, value.
     Store(usize, Expr, Expr),
-    /// Values of a pixel, one for each output.
+    /// Values of a pixel, one per output.
     Output(Vec<Expr>),
     /// Writes to memory.
     Effect(Effect),
-    /// Waits for the other invocations of the workgroup, whose writes are seen behind it.
+    /// A barrier of the workgroup, after which the writes of the other invocations are visible.
     Barrier {
         /// `true` if the barrier also orders writes to buffers.
         buffers: bool,
     },
-    /// Leaves the function, with its value if it has one.
+    /// Returns from the function, with its value if it has one.
     Return(Option<Expr>),
-    /// A line for the reader.
+    /// A comment line.
     Comment(String),
 }
 
-/// A write to memory, whose index is inside of it.
+/// A write to memory at an index within bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
     /// The memory written.
@@ -377,7 +377,7 @@ pub struct Effect {
     pub op: Option<AtomicOp>,
     /// Index and value; a load has no value.
     pub args: Vec<Expr>,
-    /// The variable that takes what was there before.
+    /// Variable that receives the old value.
     pub before: Option<VarId>,
 }
 
@@ -395,7 +395,7 @@ impl<'g> From<StmtKind<'g>> for Stmt<'g> {
 }
 
 impl<'g> Stmt<'g> {
-    /// Rewrites every expression of the statement, those of its blocks too.
+    /// Rewrites every expression of the statement and of its blocks.
     pub fn rewrite(&mut self, rule: &mut dyn FnMut(Expr) -> Expr) {
         for expr in self.own_mut() {
             expr.rewrite_in_place(rule);
@@ -405,7 +405,7 @@ impl<'g> Stmt<'g> {
         }
     }
 
-    /// Expressions of the statement itself, without those of its blocks.
+    /// Returns the expressions of the statement itself, without those of its blocks.
     pub fn own_exprs(&self) -> impl Iterator<Item = &Expr> {
         let (few, many): (_, &[Expr]) = match &self.kind {
             StmtKind::Let(_, value) => ([Some(value), None], &[]),
@@ -420,7 +420,7 @@ impl<'g> Stmt<'g> {
         few.into_iter().flatten().chain(many)
     }
 
-    /// Shows every expression of the statement, those of its blocks too.
+    /// Visits every expression of the statement and of its blocks.
     pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
         self.own_exprs().for_each(|expr| expr.visit(see));
         for block in self.blocks() {
@@ -428,7 +428,7 @@ impl<'g> Stmt<'g> {
         }
     }
 
-    /// As [`Stmt::own_exprs`], to change them.
+    /// Returns mutable references to the expressions of [`Stmt::own_exprs`].
     pub fn own_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
         let (few, many): (_, &mut [Expr]) = match &mut self.kind {
             StmtKind::Let(_, value) => ([Some(value), None], &mut []),
@@ -447,7 +447,7 @@ impl<'g> Stmt<'g> {
         few.into_iter().flatten().chain(many)
     }
 
-    /// As [`Stmt::blocks`], to change them.
+    /// Returns mutable references to the blocks of [`Stmt::blocks`].
     pub fn blocks_mut(&mut self) -> Vec<&mut Block<'g>> {
         match &mut self.kind {
             StmtKind::For { body, .. } | StmtKind::Loop(body) => vec![body],
@@ -456,7 +456,7 @@ impl<'g> Stmt<'g> {
         }
     }
 
-    /// Blocks of the statement.
+    /// Returns the blocks of the statement.
     pub fn blocks(&self) -> Vec<&Block<'g>> {
         match &self.kind {
             StmtKind::For { body, .. } | StmtKind::Loop(body) => vec![body],
@@ -466,7 +466,7 @@ impl<'g> Stmt<'g> {
     }
 }
 
-/// Statements of a block and of the blocks in it; comments are none.
+/// Counts the statements of a block and its nested blocks, without comments.
 pub fn count_statements(block: &[Stmt<'_>]) -> u32 {
     let own = |stmt: &Stmt<'_>| u32::from(!matches!(stmt.kind, StmtKind::Comment(_)));
     block
@@ -497,21 +497,21 @@ pub struct Function<'g> {
     pub body: Block<'g>,
 }
 
-/// A shader: what stands at module scope beside the bindings, and the entry point's body.
+/// A shader: the items at module scope other than bindings, and the entry point's body.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Module<'g> {
     /// All variables.
     pub variables: Vec<Variable>,
     /// Constant arrays.
     pub tables: Vec<(VarId, Expr)>,
-    /// Functions, by name and type of their results.
+    /// Functions, sorted by name and result type.
     pub functions: Vec<Function<'g>>,
     /// The entry point's statements.
     pub body: Block<'g>,
 }
 
 impl<'g> Module<'g> {
-    /// A new variable.
+    /// Creates a variable.
     pub fn new_variable(&mut self, name: impl Into<String>, ty: impl Into<Ty>) -> VarId {
         let (name, ty) = (name.into(), ty.into());
         self.variables.push(Variable {
@@ -530,17 +530,17 @@ impl<'g> Module<'g> {
         found
     }
 
-    /// A variable's type.
+    /// Returns a variable's type.
     pub fn variable_type(&self, var: VarId) -> Ty {
         self.variables[var.0 as usize].ty
     }
 
-    /// A variable as an expression.
+    /// Returns a read of a variable.
     pub fn read_variable(&self, var: VarId) -> Expr {
         Expr::var(var, self.variable_type(var))
     }
 
-    /// Rewrites every expression, arguments first. What the rule adds to the module is not rewritten.
+    /// Rewrites every expression, arguments first. Items that the rule adds to the module are not rewritten.
     pub fn rewrite(&mut self, rule: &mut dyn FnMut(&mut Module<'g>, Expr) -> Expr) {
         let (mut body, tables) = (std::mem::take(&mut self.body), std::mem::take(&mut self.tables));
         for stmt in &mut body {
@@ -554,7 +554,7 @@ impl<'g> Module<'g> {
         self.body = body;
     }
 
-    /// Adds a function unless it is there; gives its name.
+    /// Adds a function unless it exists; returns its name.
     pub fn add_function(&mut self, name: &str, result: Ty, make: impl FnOnce(&mut Self) -> Function<'g>) -> Op {
         if !self.functions.iter().any(|f| f.name == name && f.result == result) {
             let function = make(self);

@@ -1,11 +1,11 @@
-//! Comments that say where statements come from: one for each group of statements of a place.
+//! Comments with the source locations of statements: one for each group of statements from the same place.
 
 use super::ast::{Block, Stmt, StmtKind};
 use super::prose::single_line_comment;
 use std::collections::{HashMap, HashSet};
 use straightline_evaluator::ir::{Counter, Graph, Origin};
 
-/// The statements with a comment before each group.
+/// Returns the statements with a comment before each group.
 pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
     let mut depth: HashMap<&str, usize> = HashMap::new();
     for origin in graph.origins.iter().flatten() {
@@ -24,27 +24,27 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
     groups.group_block(block)
 }
 
-/// Takes the comments away, those of blocks in the block too.
+/// Removes all comments, including those of nested blocks.
 pub fn strip_comments(block: &mut Block<'_>) {
     block.retain(|stmt| !matches!(stmt.kind, StmtKind::Comment(_)));
     block.iter_mut().flat_map(Stmt::blocks_mut).for_each(strip_comments);
 }
 
-/// Counters that a comment of nothing else has.
+/// Number of counters in a comment that has no other text.
 const OUTERMOST: usize = 2;
 
 struct Groups<'g> {
     graph: &'g Graph,
-    /// By name of a counter, how deep its loop is nested: outer counters come first in comments.
+    /// Nesting depth of the loop of each counter: comments list outer counters first.
     depth: HashMap<&'g str, usize>,
     group: Group<'g>,
-    /// File and outer counters of the last comment.
+    /// File and outer counters of the previous comment.
     commented: Option<(u32, Vec<Counter>)>,
-    /// Files and lines that comments have named.
+    /// Files and lines that earlier comments have named.
     places: HashSet<(u32, u32)>,
 }
 
-/// Statements of one place in the source, under one comment.
+/// Statements from one source location, under one comment.
 #[derive(Default)]
 struct Group<'g> {
     counters: Vec<Counter>,
@@ -102,7 +102,7 @@ impl<'g> Groups<'g> {
         self.group.statements.push(stmt);
     }
 
-    /// Ends a group: its comment, then its statements.
+    /// Ends a group: prints its comment, then its statements.
     fn flush(&mut self, out: &mut Block<'g>) {
         let group = std::mem::take(&mut self.group);
         if group.statements.is_empty() {
@@ -110,7 +110,7 @@ impl<'g> Groups<'g> {
         }
         let mut counters = group.counters;
         counters.sort_by_key(|c| self.depth.get(&*c.name).copied().unwrap_or(0));
-        // The next value of the innermost counter speaks for itself, and so do those of many: names carry them.
+        // The innermost counter, or many counters, need no comment: the names contain them.
         let outer = counters[..counters.len().saturating_sub(1).min(OUTERMOST)].to_vec();
         if let Some((file, line)) = group.place
             && self.commented.as_ref() != Some(&(file, outer.clone()))
@@ -143,10 +143,10 @@ impl<'g> Groups<'g> {
     }
 }
 
-/// `file:line` of the source, as readers of a shader are told it.
+/// Returns `file:line` of the source, as printed in a shader.
 pub fn source_place(graph: &Graph, file: u32, line: u32) -> String {
     let path = graph.files.get(file as usize).map_or("", String::as_str);
-    // An absolute path says more about the author's machine than the shader should.
+    // An absolute path would reveal the author's file system.
     let shown = match std::path::Path::new(path).is_absolute() {
         true => path.rsplit(['/', '\\']).next().unwrap_or(path),
         false => path,

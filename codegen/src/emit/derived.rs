@@ -1,8 +1,8 @@
-//! Names that a text needs beside the kernel's.
+//! Names in a text beyond the kernel's own.
 
 use straightline_evaluator::ir::Op;
 
-/// A texture and the sampler that it is read by, which are one in OpenGL; no sampler for texels and sizes.
+/// A texture with the sampler that reads it, combined in OpenGL. Texel loads and size queries have no sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Combined {
     /// The texture's index in the graph.
@@ -11,28 +11,28 @@ pub struct Combined {
     pub sampler: Option<u32>,
 }
 
-/// A name that a text needs beside the kernel's. Numbers are indices in the graph.
+/// A derived name in a text. Numbers are indices in the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Derived {
-    /// HLSL's function that asks for a texture's size.
+    /// HLSL's function for a texture's size.
     Size(u32),
-    /// HLSL's function that asks for the number of a texture's levels.
+    /// HLSL's function for the number of a texture's levels.
     Levels(u32),
-    /// HLSL's function that asks for the number of a texture's layers.
+    /// HLSL's function for the number of a texture's layers.
     Layers(u32),
-    /// HLSL's function that asks for a buffer's length.
+    /// HLSL's function for a buffer's length.
     Length(u32),
-    /// HLSL's function that asks for the output's size.
+    /// HLSL's function for the output's size.
     OutputSize,
     /// GLSL's block of a buffer.
     Block(u32),
-    /// OpenGL's texture with one of several samplers.
+    /// OpenGL's combination of a texture and one of several samplers.
     Combined(Combined),
-    /// A function of the host's.
+    /// A function of the host.
     Host(HostFunction),
 }
 
-/// Read that a host's function stands for.
+/// Kind of read that a host function implements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum What {
     Load,
@@ -60,7 +60,7 @@ impl What {
     }
 }
 
-/// A function of the host's.
+/// A function of the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct HostFunction {
     /// Index of the texture in the graph.
@@ -69,7 +69,7 @@ pub struct HostFunction {
 }
 
 impl HostFunction {
-    /// The name that it has unless something else does.
+    /// Returns the function's default name.
     pub fn default_name(self, texture: &str) -> String {
         format!("{}{texture}", self.what.name_prefix())
     }
@@ -88,7 +88,7 @@ impl HostFunction {
         self.what.result_description()
     }
 
-    /// The function that stands for a read, if there can be one.
+    /// Returns the host function that implements a read, if there is one.
     pub fn of_read(op: &Op) -> Option<HostFunction> {
         let (texture, what) = match op {
             Op::Load { texture, .. } => (*texture, What::Load),
@@ -100,7 +100,7 @@ impl HostFunction {
     }
 }
 
-/// All functions of the host's that a kernel calls, in one order.
+/// Returns all host functions that a kernel calls, in a fixed order.
 pub fn host_functions(ops: &[&Op], sized: Option<u32>) -> Vec<HostFunction> {
     let mut all: Vec<HostFunction> = ops.iter().filter_map(|op| HostFunction::of_read(op)).collect();
     all.extend(sized.map(|texture| HostFunction {

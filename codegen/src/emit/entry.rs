@@ -6,12 +6,12 @@ use super::words::{LONGEST, Words, is_among, to_identifier};
 use crate::spec::{EmitOptions, Target};
 use straightline_evaluator::shorten;
 
-/// The name of a kernel's entry point or function: the one that is asked for, or else the kernel's, changed where shading
-/// languages would not take it.
+/// Returns the name of a kernel's entry point or function: the requested one, or else the kernel's, adjusted for shading
+/// languages.
 ///
 /// # Errors
 ///
-/// The name that is asked for is none in a language that is written.
+/// If the requested name is invalid in a requested language.
 pub fn resolve_entry_name(kernel: &str, options: &EmitOptions) -> Result<String, Refusal> {
     let Some(name) = &options.entry else {
         return Ok(entry_point(kernel, options));
@@ -22,7 +22,7 @@ pub fn resolve_entry_name(kernel: &str, options: &EmitOptions) -> Result<String,
     }
 }
 
-/// The entry point of a kernel: its name, changed where a shading language or an engine would not take it.
+/// Returns the entry point of a kernel: its name, adjusted if a shading language or an engine would reject it.
 fn entry_point(kernel: &str, options: &EmitOptions) -> String {
     let name = to_identifier(kernel);
     let is_word = |name: &str| {
@@ -49,7 +49,7 @@ fn why_not(name: &str, options: &EmitOptions) -> Option<String> {
         ));
     }
     let whole = !options.is_function();
-    // Every text is checked as WGSL. A whole GLSL has `main`, and no other name; of MSL naga tells.
+    // Every text is validated as WGSL. A whole GLSL shader always has `main`; naga checks names for MSL.
     let is_written = |target: Target| options.targets.contains(&target);
     let languages = [
         (true, Words::Wgsl.is_reserved(name), "WGSL"),
@@ -63,7 +63,7 @@ fn why_not(name: &str, options: &EmitOptions) -> Option<String> {
     if let Some((.., language)) = languages.into_iter().find(|(written, is_word, _)| *written && *is_word) {
         return Some(format!("is a word of {language}"));
     }
-    // GLSL alone has a use for `main`, and names it there.
+    // Only GLSL uses `main`, as the name of its entry point.
     if is_own(name) && !(name == "main" && whole) {
         return Some("is a name that the shader itself has a use for".to_owned());
     }

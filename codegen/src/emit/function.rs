@@ -1,4 +1,4 @@
-//! Limits of shaders that are emitted as functions for a shader of the host's.
+//! Limits of shaders emitted as functions for a host's shader.
 
 use super::refusal::Refusal;
 use super::resources::Resources;

@@ -3,14 +3,15 @@
 use super::text::Text;
 use half::f16;
 
-/// The `f16` nearest to an `f32`, with the fewest digits that give it back. What becomes of numbers that it cannot
-/// hold, `ir::Real::made` says.
+/// Returns the `f16` nearest to an `f32`, with the fewest digits that read back as the same number. For numbers out of
+/// range see `ir::Real::made`.
 pub fn half_literal(bits: u32) -> Text {
     let x = straightline_evaluator::ir::F16::nearest_finite(f32::from_bits(bits).into());
     Text::literal(format!("{}h", shortest_decimal(x)), x.is_sign_negative())
 }
 
-/// All digits of an integer; of others so many that they give the number back, whether they are read at once or by way of `f32`, as naga does.
+/// Returns all digits of an integer. For others, enough digits to read back as the same number, both directly and by way of
+/// `f32`, as naga does.
 fn shortest_decimal(x: f16) -> String {
     let exact = x.to_f64();
     if exact.fract() == 0.0 {

@@ -1,4 +1,4 @@
-//! Functions of the host's, by which a function reads textures that it is not given ([`Texels::Functions`]).
+//! Functions of the host that read textures for an emitted function ([`Texels::Functions`]).
 //!
 //! [`Texels::Functions`]: crate::spec::Texels::Functions
 
@@ -10,8 +10,7 @@ use crate::compiled::Compiled;
 use crate::spec::Target;
 use straightline_evaluator::ir::{Op, Scalar, TextureKind};
 
-/// Functions of the host as WGSL declares them, with bodies that only have their types: for readers of a text that calls them
-/// before the host's are there.
+/// Declares the host functions in WGSL, with placeholder bodies, so that the text can be validated without the host.
 pub fn host_stubs(resources: &Resources) -> String {
     let stub = |function: &HostFunction| {
         let (takes, gives) = function.signature();
@@ -21,7 +20,7 @@ pub fn host_stubs(resources: &Resources) -> String {
     resources.host.iter().map(stub).collect()
 }
 
-/// The call of a host's function that stands for a read.
+/// Returns the call of the host function that implements a read.
 pub fn host_call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
     if !resources.options.calls_host() {
         return None;
@@ -30,11 +29,11 @@ pub fn host_call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> 
     Some(Text::call(name, &args.iter().collect::<Vec<_>>()))
 }
 
-/// Checks that functions of the host can give all that a kernel reads.
+/// Checks that host functions can implement all reads of a kernel.
 ///
 /// # Errors
 ///
-/// The first read or language that they do not have.
+/// The first read or language without such a function.
 pub fn check_host_reads(compiled: &Compiled, resources: &Resources) -> Result<(), Refusal> {
     let refused = |why: &str, help: &str| Refusal::no_function_form(&compiled.kernel, why, help);
     let options = &resources.options;

@@ -1,4 +1,4 @@
-//! Bindings of each language, by its own numbers, registers and names; for functions, their parameters.
+//! Bindings of each language, with its numbers, registers and names; for functions, their parameters.
 
 use super::Target;
 use super::derived::Derived;
@@ -9,8 +9,8 @@ use super::resources::Resources;
 use straightline_manifest::{LanguageBinding, LanguageKind as Kind, REGION, Stage};
 
 impl Resources {
-    /// All that the languages that are written bind. WGSL and SPIR-V bind what the manifest's `bindings` and `outputs` say, and
-    /// list what has another name in the text.
+    /// Returns the bindings of all requested languages. WGSL and SPIR-V bind exactly the manifest's `bindings` and
+    /// `outputs`, so they list only renamed items.
     ///
     /// # Errors
     ///
@@ -36,8 +36,8 @@ impl Resources {
         Ok(all)
     }
 
-    /// WGSL and SPIR-V: the bindings with another name in the text. As below, `self` has the names there, and `original` those
-    /// of the manifest.
+    /// WGSL and SPIR-V: lists the bindings with another name in the text. Here and below, `self` holds the names in the
+    /// text, and `original` those of the manifest.
     fn list_renamed(&self, original: &Resources, list: &mut List) {
         self.for_each_binding(original, |kind, _, name, of, binding| {
             if name != of {
@@ -106,7 +106,7 @@ impl Resources {
         self.list_members(original, list);
     }
 
-    /// The languages of OpenGL: units, where the version numbers them, and names.
+    /// The languages of OpenGL: texture units, if the version numbers them, and names.
     fn list_texture_units(&self, original: &Resources, target: Target, list: &mut List) {
         let numbered = matches!(target, Target::Glsl430 | Target::Essl310);
         self.combined_samplers(original, numbered, list);
@@ -134,7 +134,7 @@ impl Resources {
         for one in &self.combined {
             let alone = self.combined.iter().filter(|c| c.texture == one.texture).count() == 1;
             let bound = list.add(Kind::CombinedSampler, self.combined_name(*one), None);
-            // Two samplers of one texture have two units, which the host numbers.
+            // Two samplers of one texture have two units, numbered by the host.
             bound.binding = self.texture_binding(one.texture).filter(|_| numbered && alone);
             bound.texture = Some(original.texture(one.texture).name.clone());
             bound.sampler = one.sampler.map(|sampler| original.sampler(sampler).name.clone());
@@ -178,8 +178,7 @@ impl Resources {
         }
     }
 
-    /// Everything that is bound at a number: what it is, the class of its registers, its name here and in the manifest, the
-    /// number.
+    /// Visits everything bound at a number: kind, register class, name in the text, name in the manifest, number.
     fn for_each_binding(&self, original: &Resources, mut see: impl FnMut(Kind, char, &str, &str, u32)) {
         for bound in &self.read {
             let [name, of] = [self, original].map(|r| &r.texture(bound.index).name);

@@ -3,7 +3,7 @@
 use straightline_evaluator::ir::{self, Type, Uniform};
 use straightline_manifest::{Part, Scalar, UniformField, ValueType};
 
-/// Members at their offsets, in order of declaration, and the buffer's size in bytes, a multiple of 16.
+/// Returns the members at their offsets, in order of declaration, and the buffer's size in bytes, a multiple of 16.
 pub fn layout_uniforms(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
     let mut at = 0u32;
     let mut fields = Vec::new();
@@ -27,7 +27,7 @@ pub fn layout_uniforms(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
     (fields, at.max(1).next_multiple_of(16))
 }
 
-/// The type of what a uniform of type `ty` is a part of.
+/// Returns the type of the whole value that a uniform of type `ty` is a part of.
 fn whole_type(ty: Type, part: &ir::UniformPart) -> ValueType {
     let ty = value_type(ty);
     match part.columns {
@@ -43,7 +43,7 @@ fn whole_type(ty: Type, part: &ir::UniformPart) -> ValueType {
     }
 }
 
-/// A type as hosts see it. No host sees a boolean: where one is stored it is a `u32`.
+/// Returns a type as seen by hosts, which have no booleans: a stored boolean is a `u32`.
 pub fn value_type(ty: Type) -> ValueType {
     let of = match ty.scalar_kind() {
         Some(ir::Scalar::I32) => Scalar::I32,

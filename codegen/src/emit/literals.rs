@@ -1,14 +1,14 @@
-//! Decimal digits of constants, which printers write and `tidy` measures.
+//! Decimal digits of constants, used by the printers and measured by `tidy`.
 
 use super::ast::Ty;
 use straightline_evaluator::ir::Scalar;
 
 /// Returns the shortest decimal that reads back as the same float, both as an `f32` and as an `f64` that is then rounded.
 ///
-/// Tint and glslang read literals as `f64`, and Tint refuses a number that exceeds the largest `f32` by less than a rounding:
-/// such numbers, and those that would be rounded twice, have the digits of the `f64` that equals them.
+/// Tint and glslang read literals as `f64`. Tint rejects a number that exceeds the largest `f32` by less than a rounding.
+/// Such numbers, and those that would be rounded twice, get the digits of the equal `f64`.
 pub fn decimal_digits(x: f32) -> String {
-    // All digits of whole numbers that have few.
+    // Whole numbers with few digits are printed in full.
     if x.fract() == 0.0 && x.abs() < 1e15 {
         return format!("{:.1}", f64::from(x));
     }
@@ -21,7 +21,7 @@ pub fn decimal_digits(x: f32) -> String {
     }
 }
 
-/// Approximate columns of a scalar constant, in any language.
+/// Returns the approximate width of a scalar constant, in any language.
 pub fn number_columns(ty: Ty, bits: u32) -> usize {
     match ty.scalar_kind() {
         Some(Scalar::F32) => float_columns(f32::from_bits(bits)) + usize::from(ty.half),

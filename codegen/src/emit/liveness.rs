@@ -1,20 +1,20 @@
-//! Register pressure: scalars alive at each statement of a tree.
+//! Register pressure: live scalars at each statement of a tree.
 //!
-//! Compilers of GPUs split vectors into scalars, and so does this analysis. A component that only renames another
-//! (`vec2(left, pixel.y)`, `a.yx`) is that one, and constants and uniforms are held elsewhere. Booleans are bits of masks.
+//! GPU compilers split vectors into scalars, and so does this analysis. A component that only renames another (`vec2(left,
+//! pixel.y)`, `a.yx`) shares its register. Constants and uniforms take none. Booleans are bits of masks.
 
 use super::ast::{Expr, Module, Op, Stmt, StmtKind, VarId};
 use std::collections::HashSet;
 use straightline_evaluator::ir::{self, Origin, Scalar};
 
-/// Scalars alive at once at most in a kernel, and the first place where they are.
+/// Returns the maximum number of live scalars of a kernel, and the first place where it occurs.
 pub fn most_alive<'g>(module: &Module<'g>) -> (u32, Option<&'g Origin>) {
     let mut walk = Walk::new(module);
     walk.walk_block(&module.body);
     walk.most
 }
 
-/// Registers that a variable of a type takes; an array takes one for each number.
+/// Returns the number of registers for a variable of a type; an array takes one for each number.
 pub fn register_count(ty: ir::Type) -> u32 {
     match ty {
         ir::Type::Array { components, len, .. } => u32::from(components).saturating_mul(len),
@@ -27,20 +27,20 @@ pub fn register_count(ty: ir::Type) -> u32 {
 type Slot = u32;
 
 struct Walk<'g> {
-    /// By variable: its first scalar, and how many it has.
+    /// First slot and number of slots of each variable.
     slots: Vec<(Slot, u32)>,
-    /// By scalar: registers, and whether it is alive at the statement that is looked at.
+    /// Register width of each slot, and its liveness at the current statement.
     width: Vec<u32>,
     alive: Vec<bool>,
-    /// By scalar: the one that it renames.
+    /// Slot that each slot renames.
     renames: Vec<Option<Renamed>>,
-    /// Registers of all that is alive.
+    /// Registers of all live slots.
     sum: u32,
-    /// The most of them, and where. Statements are looked at from the last to the first.
+    /// Maximum number of registers, and its place. Statements are visited from last to first.
     most: (u32, Option<&'g Origin>),
 }
 
-/// Value of a component that no operation computes.
+/// A component that needs no operation.
 #[derive(Clone, Copy)]
 enum Renamed {
     Constant,
@@ -72,7 +72,7 @@ impl<'g> Walk<'g> {
             };
             walk.width.extend((0..scalars).map(|_| each));
         }
-        // A table is memory.
+        // A table is in memory, not in registers.
         for (var, _) in &module.tables {
             let (first, count) = walk.slots[var.0 as usize];
             (first..first + count).for_each(|slot| walk.width[slot as usize] = 0);
@@ -100,7 +100,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Returns the component that component `k` of an expression renames, if nothing has to be computed for it.
+    /// Returns the component that component `k` of an expression renames, if it needs no operation.
     fn renamed_component(&self, value: &Expr, k: u32, changes: &[bool]) -> Option<Renamed> {
         match &value.op {
             Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_)) => Some(Renamed::Constant),
@@ -122,7 +122,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Looks at statements from the last to the first, with what is alive behind them.
+    /// Visits statements from last to first, updating the live slots.
     fn walk_block(&mut self, block: &[Stmt<'g>]) {
         for stmt in block.iter().rev() {
             self.walk_statement(stmt);
@@ -133,7 +133,7 @@ impl<'g> Walk<'g> {
         self.record_pressure(self.sum, stmt.origin);
         match &stmt.kind {
             StmtKind::Let(var, value) => {
-                // An unread value needs a register when it is written, too.
+                // A value that is never read still needs a register when it is written.
                 self.record_pressure(self.registers_after_write(*var), stmt.origin);
                 self.kill(*var);
                 if self.is_computed(*var) {
@@ -166,7 +166,7 @@ impl<'g> Walk<'g> {
                 self.read_expr(condition);
             }
             StmtKind::For { body, .. } | StmtKind::Loop(body) => {
-                // Values that the next iteration may read are alive throughout.
+                // Values that the next iteration may read are live throughout the loop.
                 let outside = mentioned_of_outside(stmt);
                 outside.iter().for_each(|var| self.wake_all(*var));
                 self.walk_block(body);
@@ -191,7 +191,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Returns whether some component of a variable is more than another name.
+    /// Returns whether some component of a variable needs an operation.
     fn is_computed(&self, var: VarId) -> bool {
         let (first, count) = self.slots[var.0 as usize];
         (first..first + count).any(|slot| self.renames[slot as usize].is_none())
@@ -236,7 +236,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Marks the variables that an expression reads as alive before it.
+    /// Marks the variables of an expression as live before it.
     fn read_expr(&mut self, value: &Expr) {
         match &value.op {
             Op::Var(var) => self.wake_all(*var),
@@ -251,7 +251,7 @@ impl<'g> Walk<'g> {
     }
 }
 
-/// Notes the variables that are assigned after their declaration.
+/// Records the variables that are assigned after their declaration.
 fn find_changes(block: &[Stmt<'_>], changes: &mut [bool]) {
     for stmt in block {
         match &stmt.kind {
@@ -263,7 +263,7 @@ fn find_changes(block: &[Stmt<'_>], changes: &mut [bool]) {
     }
 }
 
-/// Variables that a loop's body mentions and does not declare.
+/// Returns the variables of a loop's body that are declared outside of it.
 fn mentioned_of_outside(stmt: &Stmt<'_>) -> Vec<VarId> {
     let mut declared = HashSet::new();
     collect_declared(stmt, &mut declared);

@@ -20,7 +20,7 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
-    /// The manifest of the shader, without what is only known of its texts.
+    /// Returns the manifest of the shader, without the facts that only its texts provide.
     ///
     /// # Errors
     ///
@@ -132,7 +132,7 @@ impl Resources {
     }
 }
 
-/// A field of a structure, as the manifest describes it.
+/// Converts a field of a structure to the manifest's description.
 fn uniform_field(field: &Field) -> UniformField {
     UniformField {
         name: field.name.clone(),

@@ -1,4 +1,4 @@
-//! Features that a version of GLSL lacks, found before anything is written.
+//! Checks for features that a version of GLSL lacks, before anything is written.
 
 use super::refusal::Refusal;
 use super::resources::Resources;

@@ -1,8 +1,7 @@
 //! From a scheduled graph to text that reads as if written by a careful person.
 //!
-//! No decision about the computation is taken here: every step of the schedule becomes a statement or part of one.
-//! WGSL, GLSL and HLSL come from the printers of this module; SPIR-V and MSL are translated from the WGSL by naga, which
-//! validates that before anything is given out.
+//! Emission makes no decisions about the computation: every step of the schedule becomes a statement or part of one. The
+//! printers of this module write WGSL, GLSL and HLSL. naga validates the WGSL, and translates it to SPIR-V and MSL.
 
 mod ast;
 mod bindings;
@@ -71,7 +70,7 @@ pub struct Emitted {
 }
 
 impl Emitted {
-    /// Files by name, with the manifest that names them: `stem.wgsl`, `stem.json`, ...
+    /// Returns the files by name, and the manifest with these names: `stem.wgsl`, `stem.json`, ...
     pub fn named_files(&self, stem: &str) -> BTreeMap<String, Vec<u8>> {
         let mut manifest = self.manifest.clone();
         let mut files = BTreeMap::new();
@@ -85,7 +84,7 @@ impl Emitted {
     }
 }
 
-/// The kernel as invocations of the stage compute it.
+/// Returns the kernel in the form that invocations of the stage compute.
 fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Refusal> {
     let kernel = &compiled.kernel;
     let refused = |why: String, help: &str| {
@@ -117,15 +116,15 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Ref
 }
 
 impl Compiled {
-    /// The counts, with those of the text of the kernel's body, which is the same in every language and stage.
+    /// Returns the counts, including those of the kernel body's text, which are the same in every language and stage.
     pub fn text_counts(&self) -> Counts {
         let mut counts = self.counts.clone();
         count_text(&kernel_tree(self, Precision::F32), &self.graph, &mut counts);
         counts
     }
 
-    /// The manifest of the shader that [`Compiled::emit`] would write, without texts, files and hashes. It takes a small part of
-    /// the time, since nothing is validated.
+    /// Returns the manifest of the shader that [`Compiled::emit`] would write, without texts, files and hashes. Much faster
+    /// than emission, since nothing is validated.
     ///
     /// # Errors
     ///
@@ -141,17 +140,17 @@ impl Compiled {
         described().map_err(|refusal: Refusal| refusal.into_errors(self))
     }
 
-    /// The kernel as a shader, in every language asked for.
+    /// Emits the kernel as a shader, in every requested language.
     ///
     /// # Errors
     ///
-    /// Codes E07xx: what the stage or the language does not have, at the input that needs it or at the kernel.
+    /// Codes E07xx: a feature that the stage or the language lacks, at the input that needs it or at the kernel.
     pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, Errors> {
         emit_compiled(self, options).map_err(|refusal| refusal.into_errors(self))
     }
 }
 
-/// The error that a limit is exceeded, if one is.
+/// Fails if a limit is exceeded.
 fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Excess>) -> Result<(), Refusal> {
     let Some(excess) = excess else { return Ok(()) };
     let largest = compiled.loops.iter().max_by_key(|report| report.operations);
@@ -170,7 +169,7 @@ fn within_limits(compiled: &Compiled, statements: u32, excess: Option<limits::Ex
     Err(Refusal::new(Code::Limit, what).help(excess.help()))
 }
 
-/// The kernel as it is to be written, and what the shader binds.
+/// Returns the kernel in the form to be written, and the shader's bindings.
 fn plan_emission<'c>(
     compiled: &'c Compiled,
     options: &EmitOptions,
@@ -230,7 +229,7 @@ fn plan_emission<'c>(
     Ok((compiled, resources))
 }
 
-/// Emits a kernel. Nothing is given out that naga does not validate.
+/// Emits a kernel. Only text validated by naga is returned.
 fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, Refusal> {
     let _meter = Meter::resume(compiled.limits, compiled.time);
     let (compiled, resources) = plan_emission(compiled, options)?;
@@ -298,7 +297,7 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
             Ok(text) if *target != Target::Spirv => hash_of_text(text),
             _ => hash_of_bytes(&bytes),
         };
-        // SPIR-V and MSL are translations of the module that was validated.
+        // SPIR-V and MSL are translations of the validated module.
         if matches!(target, Target::Wgsl | Target::Spirv | Target::Msl) {
             manifest.validated.insert(target.to_string());
         }

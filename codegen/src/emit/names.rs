@@ -1,4 +1,4 @@
-//! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
+//! Names of values, derived from the kernel's variables and the counters of the surrounding loops.
 
 use super::ast::{Expr, Module, Stmt, StmtKind, VarId, Variable};
 use super::own_words::is_own;
@@ -9,14 +9,14 @@ use crate::spec::Target;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 
-/// Preferred names of values: from the variables of the kernel's source and the counters of the loops that they were made in.
+/// Preferred names of values, derived from the variables of the kernel's source and the counters of the surrounding loops.
 pub struct Wanted {
-    /// Short forms of counters' names.
+    /// Short forms of the counters' names.
     short: HashMap<String, String>,
 }
 
 impl Wanted {
-    /// For the values of a graph.
+    /// Collects the names for the values of a graph.
     pub fn new(graph: &Graph) -> Wanted {
         let origins = graph.origins.iter().flatten();
         let counters: BTreeSet<&str> = origins.flat_map(|o| &*o.counters).map(|c| &*c.name).collect();
@@ -39,7 +39,7 @@ impl Wanted {
             Some(origin) if !origin.name.is_empty() => {
                 let mut name = origin.name.to_string();
                 for (k, counter) in origin.counters.iter().enumerate() {
-                    // Many counters stand close together.
+                    // Several counters are written without separators.
                     if k == 0 || origin.counters.len() <= 2 {
                         name.push('_');
                     }
@@ -51,7 +51,7 @@ impl Wanted {
         }
     }
 
-    /// Adds `s2`, or `jn1` for -1.
+    /// Appends a counter, such as `s2`, or `jn1` for -1.
     fn push_counter(&self, counter: &Counter, name: &mut String) {
         name.push_str(self.short.get(&*counter.name).map_or(&*counter.name, String::as_str));
         if counter.value < 0 {
@@ -61,12 +61,12 @@ impl Wanted {
     }
 }
 
-/// Gives the variables of a module names that differ from each other and from all others in their scope, and are no words of
-/// the language. `resources` are spelled for the target.
+/// Gives each variable of a module a name that is unique in its scope and not reserved in the language. `resources` are
+/// spelled for the target.
 ///
 /// # Errors
 ///
-/// There are a million names like one of them.
+/// If a million variants of a name are taken.
 pub fn assign_names(module: &mut Module<'_>, resources: &Resources, target: Target) -> Result<(), Refusal> {
     let mut taken: HashSet<String> = resources.taken_names(target).into_iter().collect();
     rename_functions(module, &resources.kernel, &taken)?;
@@ -79,7 +79,7 @@ pub fn assign_names(module: &mut Module<'_>, resources: &Resources, target: Targ
         taken,
         numbers: HashMap::new(),
     };
-    // Tables are seen by all; what a function declares is its own.
+    // Tables are visible everywhere; the declarations of a function only inside it.
     for (var, _) in &module.tables {
         scopes.name_variable(*var)?;
     }
@@ -95,7 +95,7 @@ pub fn assign_names(module: &mut Module<'_>, resources: &Resources, target: Targ
     scopes.name_block(&module.body)
 }
 
-/// Gives functions beside the entry point other names where the kernel has a use for theirs.
+/// Renames functions other than the entry point if the kernel uses their names.
 fn rename_functions(module: &mut Module<'_>, kernel: &str, taken: &HashSet<String>) -> Result<(), Refusal> {
     let mut renamed: HashMap<String, String> = HashMap::new();
     for function in &module.functions {
@@ -132,14 +132,14 @@ fn rename_functions(module: &mut Module<'_>, kernel: &str, taken: &HashSet<Strin
     Ok(())
 }
 
-/// Names in scopes: what is declared in a block is free again after it.
+/// Names by scope: a name declared in a block is free again after it.
 struct Scopes<'m> {
     kernel: &'m str,
     variables: &'m mut [Variable],
     language: Words,
     reserved: Reserved,
     taken: HashSet<String>,
-    /// By name, the number below which all are taken.
+    /// By name, the number below which all suffixes are taken.
     numbers: HashMap<String, u32>,
 }
 
@@ -155,7 +155,7 @@ impl Scopes<'_> {
                         self.name_block(inner)?;
                     }
                     match self.language {
-                        // A counter of HLSL lives until the end of the block around its loop.
+                        // In HLSL a loop's counter lives until the end of the block around the loop.
                         Words::Hlsl => declared.push(name),
                         Words::Wgsl | Words::Glsl => self.leave_scope(vec![name]),
                     }
@@ -171,13 +171,13 @@ impl Scopes<'_> {
         Ok(())
     }
 
-    /// Gives a variable its name. The entry point's own are named as they are.
+    /// Names a variable. The entry point's own variables keep their names.
     fn name_variable(&mut self, var: VarId) -> Result<String, Refusal> {
         let variable = &mut self.variables[var.0 as usize];
         if var <= VarId::PLACE {
             return Ok(variable.name.clone());
         }
-        // naga keeps a digit at the end of a name for its own suffixes.
+        // naga reserves digits at the end of a name for its own suffixes.
         let base = to_identifier(&variable.name);
         let mut name = match self.reserved.has(&base) {
             true => format!("{base}_value"),
@@ -223,7 +223,7 @@ fn value_name(graph: &Graph, id: NodeId) -> String {
                 .get(*field as usize)
                 .map_or_else(String::new, |f| f.name.clone()),
         },
-        // A texel is called as if it had been read from the texture.
+        // A shared texel is named as if it had been read from the texture.
         Op::SharedLoad(shared) if graph.shared[*shared as usize].filled => {
             graph.shared[*shared as usize].name.trim_end_matches("_tile").to_owned()
         }

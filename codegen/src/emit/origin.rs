@@ -1,4 +1,4 @@
-//! Kernels on pictures whose rows count from below.
+//! Kernels on pictures with row 0 at the bottom.
 
 use super::refusal::Refusal;
 use crate::compiled::Compiled;
@@ -9,11 +9,11 @@ use straightline_evaluator::ir::{Invocation, Op, verify};
 use straightline_evaluator::passes;
 use straightline_manifest::Precision;
 
-/// The kernel as it is to be written for the origin that is asked for.
+/// Returns the kernel in the form for the requested origin.
 ///
 /// # Errors
 ///
-/// It has something that cannot be turned exactly.
+/// If the kernel uses something that cannot be flipped exactly.
 pub fn apply_origin<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, Refusal> {
     if !options.counts_from_below() {
         return Ok(Cow::Borrowed(compiled));

@@ -4,7 +4,7 @@ use super::ast::{Expr, Op, Ty};
 use straightline_evaluator::ir::{Scalar, Target, Type};
 use straightline_manifest::{Component, Format};
 
-/// A value that a shader gives for each pixel.
+/// A value that the shader outputs for each pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoundOutput {
     /// Name of the target.
@@ -13,12 +13,12 @@ pub struct BoundOutput {
     pub ty: Type,
     /// Texel format of the storage texture, or of the colour target.
     pub format: Format,
-    /// Binding number, where it is a storage texture.
+    /// Binding number of a storage texture.
     pub binding: Option<u32>,
 }
 
 impl BoundOutput {
-    /// A target of a kernel, with the format that colours have.
+    /// Describes a target of a kernel; `colour` is the format of colours.
     pub fn new(target: &Target, colour: Format) -> BoundOutput {
         BoundOutput {
             name: target.name.clone(),
@@ -28,13 +28,13 @@ impl BoundOutput {
         }
     }
 
-    /// Type of the entry point's result: with all components of the texel.
+    /// Returns the type of the entry point's result, with all components of the texel.
     pub fn texel_type(&self) -> Type {
         widen_texel(self.ty)
     }
 }
 
-/// The texel format of a value: of 3 or 4 floats that of colours.
+/// Returns the texel format of a value: the format of colours for 3 or 4 floats.
 fn texel_format(ty: Type, colour: Format) -> Format {
     let component = match ty.scalar_kind() {
         Some(Scalar::I32) => Component::Sint,
@@ -61,7 +61,7 @@ fn widen_texel(ty: Type) -> Type {
     }
 }
 
-/// A value with all components of its texel: the fourth is 1.
+/// Returns a value with all components of its texel; a missing fourth component is 1.
 pub fn whole_texel(value: Expr) -> Expr {
     let shape = widen_texel(value.ty.shape);
     if shape == value.ty.shape {

@@ -1,19 +1,19 @@
-//! Words of the text around a kernel: what is bound beside the kernel's own inputs, and what the entry point declares.
+//! Names in the text around a kernel: bindings beyond the kernel's own inputs, and the entry point's variables.
 
 use straightline_manifest::REGION;
 
 /// Name of the uniform buffer.
 pub const UNIFORMS: &str = "parameters";
-/// Name of the sampler that GLSL needs to name a texture; no filtering is ever asked of it.
+/// Name of the sampler that GLSL needs to refer to a texture; never used for filtering.
 pub const SAMPLER: &str = "unfiltered";
-/// Name of what is written by a kernel that gives one value.
+/// Name of the output of a kernel with a single value.
 pub const OUTPUT: &str = straightline_evaluator::ir::Target::DEFAULT_NAME;
-/// Mark before the name of an output that has the name of an input, where one list has both: `output.depth`.
+/// Prefix for an output with the name of an input, in lists of both: `output.depth`.
 pub const OF_OUTPUT: &str = "output.";
 /// Name of the structure of several outputs.
 pub const OUTPUTS: &str = "Outputs";
 
-/// Names that the text around a kernel's body has uses for.
+/// Names used by the text around a kernel's body.
 pub const OWN: [&str; 11] = [
     UNIFORMS,
     SAMPLER,
@@ -28,16 +28,16 @@ pub const OWN: [&str; 11] = [
     "position",
 ];
 
-/// Names that it has uses for where the shader filters a rectangle, or writes another row than that of its pixel.
+/// Additional names in shaders that filter a rectangle, or write to another row than their pixel's.
 pub const OF_REGIONS: [&str; 2] = ["within", "place"];
 
-/// Names that it has uses for where invocations are those of a workgroup.
+/// Additional names in shaders with explicit workgroups.
 pub const OF_GROUPS: [&str; 3] = ["local_id", "group_id", "local_index"];
 
 /// The variable that holds several outputs in HLSL.
 pub const VARIABLE: &str = "outputs";
 
-/// True if the text around a kernel has a use for a name.
+/// Returns whether the text around a kernel uses a name.
 pub fn is_own(name: &str) -> bool {
     name == OUTPUT || OWN.contains(&name) || OF_REGIONS.contains(&name) || OF_GROUPS.contains(&name)
 }

@@ -1,4 +1,4 @@
-//! Binding numbers and registers: those that the user sets, and the lowest free ones for the rest.
+//! Binding numbers and registers: the user's choices, and the lowest free ones for the rest.
 
 use super::refusal::Refusal;
 use crate::spec::EmitOptions;
@@ -9,12 +9,12 @@ use straightline_evaluator::shorten;
 use straightline_evaluator::suggest_name;
 use straightline_manifest::Stage;
 
-/// Something that a shader binds.
+/// An item that a shader binds.
 #[derive(Clone, Debug)]
 pub struct Named {
     /// Name in the shader.
     pub name: String,
-    /// The class of its registers in HLSL.
+    /// Register class in HLSL.
     pub class: char,
 }
 
@@ -22,19 +22,20 @@ pub struct Named {
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     group: u32,
-    /// By name.
+    /// Binding number of each name.
     numbers: BTreeMap<String, u32>,
-    /// Given registers by binding number, which no change of a name changes.
+    /// The user's registers, by binding number, so that renaming does not affect them.
     registers: BTreeMap<u32, Register>,
 }
 
 impl Places {
-    /// Numbers for what is `bound`, in order; the last of them may be the sampler that one language has. `outputs` is what the
-    /// shader gives, which a fragment shader does not bind, and `sampler` the name of the sampler that GLSL 4.50 alone has.
+    /// Assigns numbers to the `bound` items, in order; the last may be the sampler that only one language has. `outputs`
+    /// are the shader's outputs, which a fragment shader does not bind. `sampler` is the name of the sampler that only GLSL
+    /// 4.50 has.
     ///
     /// # Errors
     ///
-    /// What is wrong with the numbers and registers that were asked for.
+    /// If a requested number or register is invalid.
     pub fn new(
         kernel: &str,
         options: &EmitOptions,
@@ -105,7 +106,7 @@ impl Places {
         places
     }
 
-    /// Gives the lowest free numbers to all that have none.
+    /// Assigns the lowest free numbers to all items without one.
     fn fill_numbers(&mut self, bound: &[Named]) {
         let mut next = 0;
         for Named { name, .. } in bound {
@@ -119,7 +120,7 @@ impl Places {
         }
     }
 
-    /// The registers that are given.
+    /// Assigns the user's registers.
     fn assign_registers(
         &self,
         options: &EmitOptions,
@@ -196,24 +197,24 @@ impl Places {
         Register { class, number, space }
     }
 
-    /// The bind group.
+    /// Returns the bind group.
     pub fn bind_group(&self) -> u32 {
         self.group
     }
 
-    /// The binding number of a name that is bound.
+    /// Returns the binding number of a name.
     pub fn binding_number(&self, name: &str) -> u32 {
         self.numbers.get(name).copied().unwrap_or_default()
     }
 
-    /// The register of what is bound at a number.
+    /// Returns the register at a binding number.
     pub fn register_at(&self, class: char, number: u32) -> Register {
         let default = self.default_register(class, number);
         self.registers.get(&number).copied().unwrap_or(default)
     }
 }
 
-/// The first option that says where something is bound.
+/// Returns the first option that sets a place of a binding.
 fn no_places(options: &EmitOptions) -> Option<String> {
     let binding = options
         .bindings
@@ -227,7 +228,7 @@ fn no_places(options: &EmitOptions) -> Option<String> {
     binding.or(register).or(group)
 }
 
-/// Why a name is that of nothing bound, and what helps.
+/// Returns the error about a name that is not bound, and the remedy.
 fn unknown_name(
     options: &EmitOptions,
     bound: &[Named],

@@ -1,4 +1,4 @@
-//! Words of a kernel's author in comments: the one place where documentation is made harmless.
+//! Documentation of kernels in comments. Only this module makes it safe to print.
 
 /// A text as one line that ends no comment and starts none, in any language that templates write.
 ///
@@ -32,7 +32,7 @@ pub fn single_line_comment(text: &str) -> String {
     line
 }
 
-/// Marks of writing direction and byte order, which show nothing.
+/// Returns whether a character is an invisible mark of writing direction or byte order.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{61c}' | '\u{feff}')
 }

@@ -1,22 +1,22 @@
-//! Why a kernel cannot be emitted: an error before it has a place.
+//! Reasons why a kernel cannot be emitted: errors without a source location yet.
 
 use crate::compiled::Compiled;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors};
 
-/// An error of emission, made where the kernel's source is out of sight. [`Compiled::locate_error`] gives it a place.
+/// An error of emission, created without access to the kernel's source. [`Compiled::locate_error`] adds the location.
 #[derive(Debug)]
 pub struct Refusal(Box<Parts>);
 
 #[derive(Debug)]
 struct Parts {
     diagnostic: Diagnostic,
-    /// Name of the input that the error is about.
+    /// Name of the input that the error concerns.
     input: Option<String>,
 }
 
 impl Refusal {
-    /// An error about the kernel.
+    /// Creates an error about the kernel.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Refusal(Box::new(Parts {
             diagnostic: Diagnostic::new(code, message),
@@ -24,7 +24,7 @@ impl Refusal {
         }))
     }
 
-    /// An emitted text that a validator refuses: a mistake of the emitter's.
+    /// Creates the error for an emitted text that a validator rejects: a bug of the emitter.
     pub fn invalid_text(kernel: &str, target: &str, message: &str) -> Self {
         Refusal::new(
             Code::InvalidText,
@@ -34,7 +34,7 @@ impl Refusal {
         .help("this is a mistake in Straightline, not in the kernel: please report it with the kernel's source")
     }
 
-    /// An entry point or function that cannot have its name, and why.
+    /// Creates the error for an entry point or function with an invalid name, with the reason.
     pub fn entry_name(kernel: &str, name: &str, why: &str) -> Self {
         Refusal::new(
             Code::EntryName,
@@ -43,17 +43,17 @@ impl Refusal {
         .help("give it another name")
     }
 
-    /// A binding number, register or group that the shader cannot have.
+    /// Creates the error for an invalid binding number, register or group.
     pub fn invalid_binding(kernel: &str, what: &str, help: impl Into<String>) -> Self {
         Refusal::new(Code::Binding, format!("`{kernel}` cannot be bound so: {what}")).help(help)
     }
 
-    /// A kernel that cannot be a function, and why.
+    /// Creates the error for a kernel that cannot be a function, with the reason.
     pub fn no_function_form(kernel: &str, why: &str, help: impl Into<String>) -> Self {
         Refusal::new(Code::FunctionForm, format!("`{kernel}` cannot be a function: {why}")).help(help)
     }
 
-    /// Names the input that the error is about.
+    /// Names the input that the error concerns.
     pub fn about_input(mut self, input: &str) -> Self {
         self.0.input = Some(input.to_owned());
         self
@@ -75,20 +75,20 @@ impl Refusal {
         Refusal(Box::new(Parts { diagnostic, input }))
     }
 
-    /// The error at its place.
+    /// Returns the error with its source location.
     pub fn into_errors(self, compiled: &Compiled) -> Errors {
         compiled.locate_error(self.0.diagnostic, self.0.input.as_deref())
     }
 }
 
 impl Compiled {
-    /// An error about the compiled kernel at the place of `input`, or else of the kernel's name.
+    /// Returns an error about the compiled kernel, located at `input`, or else at the kernel's name.
     ///
-    /// `input` is a parameter's name, or that of a part of a structure or array, such as `light_color`. A kernel that comes
-    /// from no text has no places.
+    /// `input` is the name of a parameter, or of a part of a structure or array, such as `light_color`. A kernel without
+    /// source has no locations.
     pub fn locate_error(&self, mut error: Diagnostic, input: Option<&str>) -> Errors {
         let named = input.and_then(|input| {
-            // Parts of structures and arrays are called by both names.
+            // Parts of structures and arrays have the names of the parameter and the part.
             let is_part = |name: &str| {
                 input
                     .strip_prefix(name)

@@ -1,4 +1,4 @@
-//! Bindings of a shader: only resources that it reads or writes.
+//! Bindings of a shader: only resources that are read or written.
 
 use super::EmitOptions;
 use super::derived::{self, Combined, Derived, HostFunction};
@@ -19,14 +19,14 @@ use straightline_evaluator::ir::{
 use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{REGION, Stage, UniformField};
 
-/// A texture that is read.
+/// A texture that the shader reads.
 #[derive(Clone, Debug)]
 pub struct BoundTexture {
     /// Index in the graph.
     pub index: u32,
     /// Binding number.
     pub binding: u32,
-    /// Layers, or samples of a texel, that reads can reach.
+    /// Number of layers, or samples of a texel, that reads can reach.
     pub layers: u32,
     /// `true` if a sampler filters it.
     pub filtered: bool,
@@ -34,7 +34,7 @@ pub struct BoundTexture {
     pub compared: bool,
 }
 
-/// Host-facing names of what no kernel names: the usual ones, unless the kernel has a use for them.
+/// Host-facing names of resources that the kernel does not name: the defaults, unless the kernel uses them.
 #[derive(Clone, Debug)]
 pub struct OwnNames {
     /// The uniform buffer: [`UNIFORMS`].
@@ -45,7 +45,7 @@ pub struct OwnNames {
     pub sampler: String,
 }
 
-/// A shader's bindings.
+/// Bindings of a shader.
 #[derive(Clone, Debug)]
 pub struct Resources {
     /// Name of the kernel.
@@ -54,7 +54,7 @@ pub struct Resources {
     pub entry: String,
     /// Host-facing names of resources that the kernel does not name.
     pub own_names: OwnNames,
-    /// In one language: names that are made of others.
+    /// Derived names in one language.
     pub(super) derived: BTreeMap<Derived, String>,
     /// Values of each pixel.
     pub outputs: Vec<BoundOutput>,
@@ -62,24 +62,24 @@ pub struct Resources {
     pub places: Places,
     /// Options of the emission.
     pub options: EmitOptions,
-    /// Every texture of the kernel, read or not, by index.
+    /// Every texture of the kernel, used or not, by index.
     pub(super) textures: Vec<Texture>,
     pub(super) buffers: Vec<Buffer>,
     pub(super) samplers: Vec<Sampler>,
-    /// Names of every uniform and every varying of the kernel, by index.
+    /// Names of every uniform and varying of the kernel, by index.
     pub(super) uniform_names: Vec<String>,
     pub(super) varying_names: Vec<String>,
-    /// Textures that are read.
+    /// Textures in use.
     pub read: Vec<BoundTexture>,
-    /// The host's functions that read them, where these are no parameters.
+    /// Host functions that read the textures, if the textures are not parameters.
     pub host: Vec<HostFunction>,
-    /// The ways in which they are read.
+    /// Combinations of texture and sampler in use.
     pub combined: Vec<Combined>,
-    /// Index and binding number of each buffer that is read or written.
+    /// Index and binding number of each buffer in use.
     pub read_buffers: Vec<(u32, u32)>,
-    /// Index and binding number of each sampler that is used.
+    /// Index and binding number of each sampler in use.
     pub used_samplers: Vec<(u32, u32)>,
-    /// Uniforms that are used.
+    /// Uniforms in use.
     pub uniforms: Vec<Uniform>,
     /// Fields of the uniform buffer, and its size.
     pub fields: Vec<UniformField>,
@@ -87,13 +87,13 @@ pub struct Resources {
     pub uniform_size: u32,
     /// `true` if the shader needs the frame's size.
     pub needs_frame: bool,
-    /// `true` if lanes of quads swap values by quad operations.
+    /// `true` if lanes of quads communicate by quad operations.
     pub subgroups: bool,
-    /// Interpolated values that are used, by their locations.
+    /// Interpolated values in use, by their locations.
     pub varyings: Vec<Varying>,
-    /// Pixels that one invocation computes, across and down.
+    /// Width and height of the block of pixels that one invocation computes.
     pub block: [u32; 2],
-    /// Invocations of a workgroup, across and down, where the kernel says it.
+    /// Width and height of a workgroup, if the kernel specifies it.
     pub group: Option<[u32; 2]>,
     /// `true` if the shader reads the invocation's position in its workgroup.
     pub asks_local: bool,
@@ -101,11 +101,11 @@ pub struct Resources {
     pub asks_group: bool,
     /// Workgroup memory, used or not, by index.
     pub(super) shared: Vec<SharedArray>,
-    /// Pictures that are written at any place, by index: the last of `outputs`.
+    /// Storage images with writes at arbitrary places, by index: the last of `outputs`.
     pub(super) images: Vec<Picture>,
-    /// Index of each that is used.
+    /// Index of each workgroup array in use.
     pub used_shared: Vec<u32>,
-    /// `true` if only tiles of texels are indexed by runtime values, and no pixel reads outside of them.
+    /// `true` if runtime values only index tiles of texels, and no read leaves them.
     pub indexes_tiles_alone: bool,
 }
 
@@ -157,11 +157,11 @@ impl Resources {
         }
         let mut read = Vec::new();
         let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
-        // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
+        // A fragment shader takes the output's size from a texture of that size: preferably one in use.
         let framed = |index: &u32| graph.textures[*index as usize].framed;
         let all = || 0..graph.textures.len() as u32;
         let sized_by_output = options.stage == Stage::Compute && graph.written_targets().next().is_some();
-        // A shader without outputs that could tell needs it anyway: pixels outside of the frame do nothing.
+        // A shader without outputs still needs the size: pixels outside the frame do nothing.
         let needs_size =
             !sized_by_output && (ops.contains(&&Op::FrameSize) || (options.stage == Stage::Compute && !options.region));
         let sized = match needs_size && !all().any(|index| framed(&index) && reads(index)) {
@@ -197,7 +197,7 @@ impl Resources {
                 }),
             });
         }
-        // Texels and sizes are to be had of a texture whatever sampler it is read by, unless that compares.
+        // Texel loads and sizes can use any combined sampler of the texture, except a comparing one.
         let mut combined = Vec::new();
         for bound in &read {
             let texture = bound.index;
@@ -362,17 +362,17 @@ impl Resources {
         Ok(resources)
     }
 
-    /// A texture by its index in the graph.
+    /// Returns a texture by its index in the graph.
     pub fn texture(&self, index: u32) -> &Texture {
         &self.textures[index as usize]
     }
 
-    /// A buffer by its index in the graph.
+    /// Returns a buffer by its index in the graph.
     pub fn buffer(&self, index: u32) -> &Buffer {
         &self.buffers[index as usize]
     }
 
-    /// The structures of buffers that are read, each once.
+    /// Returns the structures of buffers in use, each once.
     pub fn read_structures(&self) -> Vec<&Structure> {
         let mut all: Vec<&Structure> = Vec::new();
         for (k, _) in &self.read_buffers {
@@ -385,7 +385,7 @@ impl Resources {
         all
     }
 
-    /// The class of a buffer's registers in HLSL, by its index in the graph.
+    /// Returns the HLSL register class of a buffer, by its index in the graph.
     pub fn buffer_class(&self, index: u32) -> char {
         register_class(self.buffer(index))
     }
@@ -395,7 +395,7 @@ impl Resources {
         self.buffer(index).access != Access::Read
     }
 
-    /// The type of the elements of memory, and its name.
+    /// Returns the element type of a memory, and its name.
     pub fn element_and_name(&self, memory: Memory) -> (Type, &str) {
         match memory {
             Memory::Buffer(k) => (self.buffer(k).value_type(), &self.buffer(k).name),
@@ -404,17 +404,17 @@ impl Resources {
         }
     }
 
-    /// Workgroup memory that is used.
+    /// Returns the workgroup memory in use.
     pub fn shared_memory(&self) -> impl Iterator<Item = &SharedArray> {
         self.used_shared.iter().map(|k| &self.shared[*k as usize])
     }
 
-    /// Returns whether some workgroup memory has to be 0 at first: not all of it is written before it is read.
+    /// Returns whether some workgroup memory must be 0 initially, because it may be read before it is written.
     pub fn is_zeroed(&self) -> bool {
         self.shared_memory().any(|shared| !shared.filled)
     }
 
-    /// Invocations of a compute workgroup.
+    /// Returns the invocations of a compute workgroup.
     pub fn workgroup_size(&self) -> [u32; 3] {
         match self.group {
             Some([x, y]) => [x, y, 1],
@@ -422,27 +422,27 @@ impl Resources {
         }
     }
 
-    /// A sampler by its index in the graph.
+    /// Returns a sampler by its index in the graph.
     pub fn sampler(&self, index: u32) -> &Sampler {
         &self.samplers[index as usize]
     }
 
-    /// Name of a uniform by its index in the graph.
+    /// Returns the name of a uniform by its index in the graph.
     pub fn uniform_name(&self, index: u32) -> &str {
         &self.uniform_names[index as usize]
     }
 
-    /// Name of a varying by its index in the graph.
+    /// Returns the name of a varying by its index in the graph.
     pub fn varying_name(&self, index: u32) -> &str {
         &self.varying_names[index as usize]
     }
 
-    /// A texture that is read and has the output's size.
+    /// Returns a texture in use that has the output's size.
     pub fn frame_texture(&self) -> Option<u32> {
         self.read.iter().map(|t| t.index).find(|t| self.texture(*t).framed)
     }
 
-    /// Names of everything that is bound but the uniforms.
+    /// Returns the names of all bindings except the uniforms.
     pub fn bound_names(&self) -> impl Iterator<Item = &str> {
         let textures = self.read.iter().map(|t| self.texture(t.index).name.as_str());
         let buffers = self.read_buffers.iter().map(|(k, _)| self.buffer(*k).name.as_str());
@@ -458,12 +458,12 @@ impl Resources {
             .chain(outputs)
     }
 
-    /// Name of the output whose size is that of the frame.
+    /// Returns the name of the output whose size is the frame's.
     pub fn sized_output(&self) -> &str {
         self.outputs.first().map_or(OUTPUT, |output| output.name.as_str())
     }
 
-    /// The type that holds all outputs, where there are several and the language gives them as one.
+    /// Returns the type that holds all outputs, if there are several and the language returns them as one.
     pub fn outputs_type(&self) -> String {
         match self.options.is_function() {
             true => format!("{}_{OUTPUTS}", self.entry),
@@ -471,7 +471,7 @@ impl Resources {
         }
     }
 
-    /// Interpolated values that are used, as the manifest describes them.
+    /// Returns the interpolated values in use, as the manifest describes them.
     pub fn manifest_varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
         self.varyings
             .iter()
@@ -483,24 +483,24 @@ impl Resources {
             })
     }
 
-    /// Binding number of the uniform buffer, if there is one.
+    /// Returns the binding number of the uniform buffer, if there is one.
     pub fn uniform_binding(&self) -> Option<u32> {
         (!self.fields.is_empty()).then(|| self.places.binding_number(&self.own_names.uniforms))
     }
 
-    /// Binding number of the rectangle's uniform buffer, if there is one.
+    /// Returns the binding number of the region's uniform buffer, if there is one.
     pub fn region_binding(&self) -> Option<u32> {
         self.options
             .region
             .then(|| self.places.binding_number(&self.own_names.region))
     }
 
-    /// Binding number of the sampler that only GLSL 4.50 has.
+    /// Returns the binding number of the sampler that only GLSL 4.50 has.
     pub fn sampler_binding(&self) -> u32 {
         self.places.binding_number(&self.own_names.sampler)
     }
 
-    /// Comment that explains the fields of a region.
+    /// Returns the comment that explains the fields of a region.
     pub fn region_comment(&self) -> String {
         let corner = match self.options.counts_from_below() {
             true => "lower left",
@@ -509,7 +509,7 @@ impl Resources {
         format!("// The {corner} pixel in the inputs, the size, and the {corner} pixel in the target.")
     }
 
-    /// Every binding number but that of the sampler that only GLSL 4.50 has.
+    /// Returns every binding number except that of the sampler that only GLSL 4.50 has.
     pub fn binding_numbers(&self) -> Vec<u32> {
         let read = self.read.iter().map(|bound| bound.binding);
         let others = self
@@ -525,13 +525,13 @@ impl Resources {
             .collect()
     }
 
-    /// Index of the buffer with which MSL receives the lengths of other buffers: the lowest free number.
+    /// Returns the index of the buffer with which MSL receives the lengths of other buffers: the lowest free number.
     pub fn sizes_binding(&self) -> u32 {
         let taken = self.binding_numbers();
         (0..).find(|n| !taken.contains(n)).unwrap_or_default()
     }
 
-    /// The name of a combined sampler: that of the texture, unless that is read in several ways.
+    /// Returns the name of a combined sampler: the texture's name, unless several samplers read it.
     pub fn combined_name(&self, one: Combined) -> &str {
         match self.derived.get(&Derived::Combined(one)) {
             Some(name) => name,
@@ -539,7 +539,7 @@ impl Resources {
         }
     }
 
-    /// Binding number of a texture that is read.
+    /// Returns the binding number of a texture in use.
     pub fn texture_binding(&self, texture: u32) -> Option<u32> {
         self.read
             .iter()
@@ -548,7 +548,7 @@ impl Resources {
     }
 }
 
-/// The class of a buffer's registers in HLSL.
+/// Returns the HLSL register class of a buffer.
 fn register_class(buffer: &Buffer) -> char {
     match buffer.access {
         Access::Read => 't',

@@ -1,4 +1,4 @@
-//! A shader between its tree and its texts: the tree is cloned, legalised, named and printed once a language.
+//! A shader between its tree and its texts: the tree is cloned, legalised, named and printed once per language.
 
 use super::refusal::Refusal;
 use super::resources::Resources;
@@ -8,7 +8,7 @@ use crate::compiled::Compiled;
 use crate::spec::Target;
 use straightline_manifest::{Counts, Form, Precision};
 
-/// The tree of a kernel's statements, with its outputs at the end.
+/// Returns the tree of a kernel's statements, with its outputs at the end.
 pub fn kernel_tree(compiled: &Compiled, precision: Precision) -> ast::Module<'_> {
     let half = precision == Precision::F16;
     let mut module = lower::lower_kernel(compiled, half);
@@ -19,8 +19,8 @@ pub fn kernel_tree(compiled: &Compiled, precision: Precision) -> ast::Module<'_>
     module
 }
 
-/// The tree of a shader, with comments, before a language's own rules, and what is counted in it: of a kernel in half precision, what
-/// is counted in full.
+/// Returns the tree of a shader with comments, before a language's own rules, and its counts. A kernel in half precision is
+/// counted in full precision.
 pub fn shader_tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::Module<'g>, Counts) {
     let mut module = kernel_tree(compiled, resources.options.precision);
     let mut counts = compiled.counts.clone();
@@ -35,7 +35,7 @@ pub fn shader_tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::M
     (module, counts)
 }
 
-/// A shader before it is written.
+/// A shader before printing.
 pub struct Shader<'s, 'g> {
     pub compiled: &'s Compiled,
     pub resources: &'s Resources,
@@ -60,7 +60,7 @@ impl Wgsl {
         Ok(Wgsl { resources, text })
     }
 
-    /// The whole text.
+    /// Returns the whole text.
     fn with_header(&self, header: &[String]) -> String {
         let resources = &self.resources;
         self.text.with_header(&print::Wgsl { resources }, header)
@@ -68,8 +68,8 @@ impl Wgsl {
 }
 
 impl Shader<'_, '_> {
-    /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else. With `marks`
-    /// every exact value is marked ([`legalise::legalise_wgsl`]).
+    /// Returns the whole shader, parsed and validated by naga; a function with an entry point that only calls it. With
+    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]).
     pub fn validated_module(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() && !marks {
@@ -77,7 +77,7 @@ impl Shader<'_, '_> {
         }
         let whole = self.resources.options.clone().form(Form::Entry);
         let whole = Resources::from_compiled(self.compiled, &whole)?;
-        // Entry points give whole texels, and functions what the kernel gives.
+        // Entry points return whole texels, and functions the kernel's values.
         let (tree, _) = shader_tree(self.compiled, &whole);
         let wgsl = Wgsl::new(&tree, &whole, marks)?.with_header(&print::header_lines(self.compiled, counts, &whole));
         translate::Module::parse_wgsl(kernel, &wgsl)
@@ -105,18 +105,18 @@ impl Shader<'_, '_> {
         })
     }
 
-    /// The GLSL of a target, and whether naga has validated it.
+    /// Returns the GLSL of a target, and whether naga has validated it.
     pub fn print_glsl(&self, target: Target, counts: &Counts) -> Result<(String, bool), Refusal> {
         let resources = &self.resources.spelled_for(target)?;
         let mut tree = self.tree.clone();
-        // Hosts compile functions with what stands around them, in a version of theirs.
+        // Hosts compile functions together with their own text, in a version of their choice.
         let precise = matches!(target, Target::Glsl450 | Target::Glsl430) && !resources.options.is_function();
         legalise::legalise_glsl(&mut tree, resources, target == Target::Glsl450, precise);
         finish_tree(&mut tree, resources, target)?;
         let header = print::header_lines(self.compiled, counts, self.resources);
         let printer = print::Glsl::new(resources, target);
         let glsl = print::print_module(&printer, &tree, &header);
-        // naga reads no other GLSL.
+        // naga parses no other version of GLSL.
         let is_read = target == Target::Glsl450 && printer.unread_constructs(&tree).is_empty();
         if is_read {
             translate::validate_glsl(&self.compiled.kernel, resources.options.stage, &glsl)?;
@@ -138,7 +138,7 @@ impl Shader<'_, '_> {
     }
 }
 
-/// Names the variables of a tree, and strips its comments where that is asked for: the last step before printing.
+/// Names the variables of a tree, and strips its comments on request: the last step before printing.
 fn finish_tree(tree: &mut ast::Module<'_>, resources: &Resources, target: Target) -> Result<(), Refusal> {
     if resources.options.strip_comments {
         comments::strip_comments(&mut tree.body);

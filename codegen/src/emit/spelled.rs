@@ -1,7 +1,7 @@
-//! Names in one language's text: those of the kernel, where the language takes them, and those that are made of them.
+//! Names in one language's text: the kernel's names where the language allows them, and derived names.
 //!
-//! Hosts know everything by the kernel's names. A name that a text cannot have is spelled otherwise there, and
-//! [`language_bindings`](super::language_bindings) says how.
+//! Hosts refer to everything by the kernel's names. A name that is invalid in a text is spelled differently there, and
+//! [`language_bindings`](super::language_bindings) lists the difference.
 
 use super::derived::Derived;
 use super::own_words::{OF_GROUPS, OF_REGIONS, OUTPUT, OWN, UNIFORMS, VARIABLE};
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::ir::{Element, Structure};
 
 impl Resources {
-    /// The names that are made of others, each with what it would be.
+    /// Returns the derived names of a text, with their preferred spellings.
     fn derived_names(&self, target: Target) -> Vec<(Derived, String)> {
         let mut all = Vec::new();
         let calls_host = self.options.calls_host();
@@ -51,12 +51,12 @@ impl Resources {
         all
     }
 
-    /// A name that is made of others.
+    /// Returns a derived name.
     pub fn derived_name(&self, which: Derived) -> &str {
         self.derived.get(&which).map_or("", String::as_str)
     }
 
-    /// Names of a text that are neither the kernel's nor made of them.
+    /// Returns the names of a text that are neither the kernel's nor derived from them.
     fn own_names(&self, target: Target) -> BTreeSet<String> {
         let mut all: BTreeSet<String> = OWN.map(str::to_owned).into();
         all.extend([self.entry.clone(), self.outputs_type()]);
@@ -75,7 +75,8 @@ impl Resources {
         all
     }
 
-    /// Every name at module scope of a text in a language, and of every parameter: of bindings that are spelled for it.
+    /// Returns every name at module scope of a text, and of every parameter, for bindings that are spelled for the
+    /// language.
     pub fn taken_names(&self, target: Target) -> BTreeSet<String> {
         let mut all = self.own_names(target);
         all.extend(self.bound_names().map(str::to_owned));
@@ -93,11 +94,11 @@ impl Resources {
         self.options.is_function() || Target::OPENGL.contains(&target)
     }
 
-    /// The bindings by the names that they have in the text of a language: words of no one, and no two of which are one.
+    /// Returns the bindings with their names in a language's text: none is reserved, and all are distinct.
     ///
     /// # Errors
     ///
-    /// There are a million names like one of them.
+    /// If a million variants of a name are taken.
     pub fn spelled_for(&self, target: Target) -> Result<Resources, Refusal> {
         let mut spelled = self.clone();
         let reserved = Reserved::new(target, &self.options);
@@ -108,7 +109,7 @@ impl Resources {
         };
         let loose = self.has_loose_uniforms(target);
         let structures = self.read_structures();
-        // Names that the text can have are kept, whatever stands before them.
+        // Valid names are kept, even if they come after invalid ones.
         let mut all: Vec<Given> = Vec::new();
         all.extend(self.read.iter().map(|bound| Given::Texture(bound.index)));
         all.extend(self.read_buffers.iter().map(|(k, _)| Given::Buffer(*k)));
@@ -155,7 +156,7 @@ impl Resources {
             }
         }
         if !loose {
-            // naga's reader of GLSL sees the members of a block beside what else is bound.
+            // naga's GLSL parser puts the members of a block into the scope of the other bindings.
             let seen: &[String] = if target == Target::Glsl450 { &names } else { &[] };
             let names = scope.member_names(target, self.uniforms.iter().map(|uniform| uniform.name.as_str()), seen)?;
             uniforms.extend(self.uniforms.iter().map(|uniform| uniform.name.as_str()).zip(names));
@@ -168,7 +169,7 @@ impl Resources {
         Ok(spelled)
     }
 
-    /// Gives what is listed twice the names that it has in the other list.
+    /// Copies the new names to items that occur in a second list.
     fn follow_names(&mut self, original: &Resources, uniforms: &BTreeMap<&str, String>) {
         let renamed = |name: &mut String| {
             if let Some(other) = uniforms.get(name.as_str()) {
@@ -187,12 +188,12 @@ impl Resources {
                 *name = (*other).to_owned();
             }
         }
-        // The pictures that are written at any place are the last of the outputs.
+        // Images with writes at arbitrary places are the last of the outputs.
         let images = self.images.iter_mut().rev().zip(self.outputs.iter().rev());
         images.for_each(|(image, output)| image.name.clone_from(&output.name));
     }
 
-    /// The name of something in the kernel.
+    /// Returns the name of an item in the kernel.
     fn given_name<'r>(&'r self, which: Given, structures: &[&'r Structure]) -> &'r str {
         match which {
             Given::Texture(k) => &self.textures[k as usize].name,
@@ -207,7 +208,7 @@ impl Resources {
     }
 }
 
-/// Something that the kernel names: an index in the graph, or in a list of [`Resources`].
+/// An item with a name in the kernel: an index in the graph, or in a list of [`Resources`].
 #[derive(Clone, Copy)]
 enum Given {
     Texture(u32),
@@ -220,7 +221,7 @@ enum Given {
     Structure(usize),
 }
 
-/// Gives a structure and its fields other names.
+/// Renames a structure and its fields.
 fn rename_structure(structure: &mut Structure, name: &str, fields: &[String]) {
     name.clone_into(&mut structure.name);
     for (field, name) in structure.fields.iter_mut().zip(fields) {
@@ -228,7 +229,7 @@ fn rename_structure(structure: &mut Structure, name: &str, fields: &[String]) {
     }
 }
 
-/// The names at module scope of a text, as they are given.
+/// Names at module scope of a text that are already taken.
 struct Scope<'r> {
     kernel: &'r str,
     reserved: &'r Reserved,
@@ -236,7 +237,7 @@ struct Scope<'r> {
 }
 
 impl Scope<'_> {
-    /// A name for something.
+    /// Returns a free name for an item.
     fn free_name(&mut self, name: &str) -> Result<String, Refusal> {
         let name = free_name(self.kernel, name, |name| {
             self.taken.contains(name) || self.reserved.has(name)
@@ -245,7 +246,7 @@ impl Scope<'_> {
         Ok(name)
     }
 
-    /// Names for many: first for those that can keep theirs.
+    /// Returns names for several items; those that can keep their names come first.
     fn give_names<'n>(&mut self, names: impl Iterator<Item = &'n str>) -> Result<Vec<String>, Refusal> {
         let names: Vec<&str> = names.collect();
         let mut given: Vec<Option<String>> = Vec::new();
@@ -258,7 +259,7 @@ impl Scope<'_> {
             .collect()
     }
 
-    /// Names for the members of a structure, which have a scope of their own, and others than those `seen` beside them.
+    /// Returns names for the members of a structure, which have their own scope, apart from the names `seen` beside them.
     fn member_names<'n>(
         &self,
         target: Target,
@@ -266,7 +267,7 @@ impl Scope<'_> {
         seen: &[String],
     ) -> Result<Vec<String>, Refusal> {
         let names: Vec<&str> = names.collect();
-        // HLSL's padding is numbered by its place. naga reads no GLSL whose block has a member of the block's name.
+        // HLSL's padding is numbered by its position. naga rejects GLSL whose block has a member with the block's name.
         let is_own = |name: &&&str| match name.strip_prefix("padding_") {
             Some(at) => target == Target::Hlsl && at.bytes().all(|b| b.is_ascii_digit()),
             None => **name == UNIFORMS,

@@ -1,4 +1,4 @@
-//! Counts of a kernel's text: statements, basic blocks and live values; and bounds that are known before lowering.
+//! Counts of a kernel's text: statements, basic blocks and live values; and bounds available before lowering.
 
 use super::ast::{self, Stmt, StmtKind};
 use super::comments;
@@ -7,7 +7,7 @@ use straightline_evaluator::ir::{Graph, Op, Origin};
 use straightline_evaluator::passes::Schedule;
 use straightline_manifest::Counts;
 
-/// Adds to a kernel's counts what its text says: statements, and the scalars that are alive at once.
+/// Adds the counts of a kernel's text: statements, and the maximum of live scalars.
 pub fn count_text(kernel: &ast::Module<'_>, graph: &Graph, counts: &mut Counts) {
     counts.statements = count_kernel_statements(kernel);
     let (most, place) = most_alive(kernel);
@@ -15,7 +15,7 @@ pub fn count_text(kernel: &ast::Module<'_>, graph: &Graph, counts: &mut Counts) 
     counts.max_live_at = place.map(|origin| place_of(origin, graph)).unwrap_or_default();
 }
 
-/// A place in the source, with the counters of unrolled loops around it: `kernel.rs:12, sample 3, tap 5`.
+/// Formats a source location with the counters of surrounding unrolled loops: `kernel.rs:12, sample 3, tap 5`.
 fn place_of(origin: &Origin, graph: &Graph) -> String {
     let place = match origin.line {
         Origin::NOWHERE => origin.name.to_string(),
@@ -27,7 +27,7 @@ fn place_of(origin: &Origin, graph: &Graph) -> String {
     }
 }
 
-/// Basic blocks of statements: what a branch or a loop parts, and what follows it. A loop's test is a block of its own.
+/// Counts the basic blocks of statements, which branches and loops delimit. A loop's test is a separate block.
 pub fn basic_blocks(block: &[Stmt<'_>]) -> u32 {
     let inner = block.iter().map(|stmt| match &stmt.kind {
         StmtKind::If { then, otherwise, .. } => {
@@ -41,7 +41,7 @@ pub fn basic_blocks(block: &[Stmt<'_>]) -> u32 {
     1 + inner.sum::<u32>()
 }
 
-/// Statements of a kernel's tree. Results are none: how they are written is the entry point's affair.
+/// Counts the statements of a kernel's tree, without its results, whose form depends on the entry point.
 pub fn count_kernel_statements(kernel: &ast::Module<'_>) -> u32 {
     let results = kernel
         .body
@@ -67,8 +67,9 @@ pub fn statements_at_most(graph: &Graph) -> u32 {
     (graph.nodes.len() as u32).saturating_mul(STATEMENTS)
 }
 
-/// Nodes of the graph that a line of text may stand for.
+/// Number of nodes that one line of text may represent.
 const OPERATIONS: u32 = 32;
 
-/// Statements that a node may become: a parameter of a loop is declared, set before it, in it, and read behind it.
+/// Number of statements that one node may need: a parameter of a loop is declared, set before the loop and in it, and read
+/// after it.
 const STATEMENTS: u32 = 4;

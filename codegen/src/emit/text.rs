@@ -1,9 +1,9 @@
-//! Expressions as text, with what is needed to put them into larger ones.
+//! Expressions as text, with the information for nesting them in larger ones.
 
 /// Precedence of an expression's outermost operator; larger binds tighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binds {
-    /// `&&`, `||`, `&`, `|`, `^`, `<<`, `>>`: WGSL and readers want parentheses around and inside.
+    /// `&&`, `||`, `&`, `|`, `^`, `<<`, `>>`: WGSL requires and readers expect parentheses around and inside.
     Mixed,
     /// `==`, `<`, ...
     Comparison,
@@ -17,7 +17,7 @@ pub enum Binds {
     Primary,
 }
 
-/// Columns that a line may have.
+/// Maximum width of a line, in columns.
 pub const WIDEST: usize = 100;
 
 /// Positions at which an expression may be broken into lines.
@@ -25,7 +25,7 @@ pub const WIDEST: usize = 100;
 enum Breaks {
     /// Nowhere.
     Nowhere,
-    /// Between the arguments: what stands before, the arguments, what stands behind.
+    /// Between the arguments: text before, arguments, text after.
     Arguments(String, Vec<Text>, String),
     /// Before the operator: left side, operator, right side.
     Operator(Box<Text>, String, Box<Text>),
@@ -64,7 +64,7 @@ impl Text {
         Text::list(format!("{function}("), args, ")")
     }
 
-    /// Arguments between what stands before and behind them.
+    /// Creates a list of arguments between `open` and `close`.
     pub fn list(open: String, args: &[&Text], close: &str) -> Text {
         let list: Vec<&str> = args.iter().map(|a| a.code.as_str()).collect();
         Text {
@@ -76,7 +76,8 @@ impl Text {
 
     /// `left op right`.
     pub fn infix(left: &Text, op: &str, right: &Text, binds: Binds) -> Text {
-        // Left to right as evaluated: a right side of the same strength keeps its parentheses, so that no rounding moves.
+        // Evaluation is from left to right: a right side of equal precedence keeps its parentheses, so that no rounding
+        // changes.
         let [left, right] = [left.as_operand(binds, false), right.as_operand(binds, true)];
         Text {
             code: format!("{} {op} {}", left.code, right.code),
@@ -126,7 +127,7 @@ impl Text {
         Text::name(format!("{}[{}]", base.code, index.code))
     }
 
-    /// In parentheses if an operator is outermost.
+    /// Adds parentheses if the outermost part is an operator.
     pub fn in_parentheses(&self) -> Text {
         match self.binds >= Binds::Prefix {
             true => self.clone(),
@@ -141,7 +142,7 @@ impl Text {
         }
     }
 
-    /// The text as an operand of an operator that binds so.
+    /// Returns the text as an operand of an operator with this precedence.
     fn as_operand(&self, outer: Binds, right: bool) -> Text {
         let loose = self.binds < outer || (right && self.binds == outer);
         let mixed = (outer == Binds::Mixed || self.binds == Binds::Mixed) && self.binds < Binds::Prefix;
@@ -152,8 +153,8 @@ impl Text {
         }
     }
 
-    /// The text in lines of at most [`WIDEST`] columns where it can be broken: the first begins at column `at`, and leaves room
-    /// for `rest` columns behind the last; the others are indented by `indent`.
+    /// Wraps the text to lines of at most [`WIDEST`] columns where breaks are possible. The first line begins at column
+    /// `at`; the last leaves room for `rest` columns; the others are indented by `indent`.
     pub fn wrap_lines(&self, at: usize, rest: usize, indent: usize) -> String {
         if at + self.code.len() + rest <= WIDEST {
             return self.code.clone();
@@ -194,7 +195,7 @@ impl Text {
     }
 }
 
-/// A comment of one line, in lines of at most [`WIDEST`] columns.
+/// Returns a comment, wrapped to lines of at most [`WIDEST`] columns.
 pub fn wrapped_comment(text: &str, indent: usize) -> String {
     let margin = " ".repeat(indent);
     let mut lines = Vec::new();

@@ -1,4 +1,4 @@
-//! Validation by naga, and the languages that naga writes.
+//! Validation by naga, and its output languages.
 
 use super::refusal::Refusal;
 use super::resources::Resources;
@@ -9,7 +9,7 @@ use std::time::Duration;
 use straightline_evaluator::diagnostic::Code;
 use straightline_manifest::Stage;
 
-/// Time that naga may take to read so many statements: the square of their number, 5 s for 10 000 on a slow machine.
+/// Returns the time limit for naga to parse a number of statements: quadratic, 5 s for 10 000 on a slow machine.
 pub fn time_to_parse(statements: u32) -> Duration {
     Duration::from_secs_f64((f64::from(statements) / 10_000.0).powi(2) * 5.0)
 }
@@ -70,8 +70,8 @@ impl Module {
         Ok(super::spirv::inline_functions(&words))
     }
 
-    /// Metal, and what the entry point is called there: textures, buffers and samplers by their binding numbers, each kind by
-    /// itself.
+    /// Translates to Metal; returns the text and the name of the entry point. Textures, buffers and samplers are numbered
+    /// by their bindings, each kind separately.
     pub fn to_msl(&self, resources: &Resources) -> Result<(String, String), Refusal> {
         let mut slots = msl::EntryPointResources::default();
         let group = resources.places.bind_group();
@@ -120,7 +120,7 @@ impl Module {
             );
         }
         if !resources.read_buffers.is_empty() {
-            // Metal does not tell a shader how long a buffer is: the host writes the lengths here.
+            // A Metal shader cannot query a buffer's length: the host writes the lengths to this buffer.
             slots.sizes_buffer = Some(self.msl_slot("buffer", resources.sizes_binding(), LAST_BUFFER)?);
         }
         let entry = resources.entry.clone();
@@ -141,7 +141,7 @@ impl Module {
             Some(Err(error)) => return Err(self.translation_error("msl", error)),
             None => return Err(self.translation_error("msl", "it has no entry point")),
         };
-        // naga puts an underscore behind digits, and behind words of the language.
+        // naga appends an underscore to names that end in digits or are reserved.
         let is_word = name != resources.entry && !resources.entry.ends_with(|c: char| c.is_ascii_digit());
         if is_word && resources.options.entry.is_some() {
             return Err(Refusal::entry_name(&self.kernel, &resources.entry, "is a word of MSL"));
@@ -149,7 +149,7 @@ impl Module {
         Ok((text, name))
     }
 
-    /// A number that Metal has a place for.
+    /// Returns the Metal slot of a binding number. Fails if there is none.
     fn msl_slot(&self, kind: &str, binding: u32, last: u32) -> Result<u8, Refusal> {
         match u8::try_from(binding) {
             Ok(slot) if binding <= last => Ok(slot),
@@ -162,13 +162,13 @@ impl Module {
     }
 }
 
-/// The largest indices that Metal has on Macs.
+/// The largest indices of Metal on Macs.
 const LAST_TEXTURE: u32 = 127;
 const LAST_SAMPLER: u32 = 15;
 const LAST_BUFFER: u32 = 30;
 
-/// An index outside of an array is that of its last element, as it is to who reads the WGSL; none is where a shader has only tiles of
-/// texels. Coordinates of texels and indices of buffers are clamped in the text.
+/// Clamps an array index out of bounds to the last element, as in WGSL. Not needed if a shader only has tiles of texels.
+/// Coordinates of texels and indices of buffers are clamped in the text.
 fn bounds_checks(resources: &Resources) -> BoundsCheckPolicies {
     BoundsCheckPolicies {
         index: match resources.indexes_tiles_alone {

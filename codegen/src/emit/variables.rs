@@ -3,7 +3,7 @@
 use super::ast::{Expr, Op, Stmt, StmtKind, VarId};
 
 impl Expr {
-    /// The variable, if the expression is one.
+    /// Returns the variable, if the expression is one.
     pub fn as_var(&self) -> Option<VarId> {
         match self.op {
             Op::Var(var) => Some(var),
@@ -11,7 +11,7 @@ impl Expr {
         }
     }
 
-    /// The variable that a place is a part of.
+    /// Returns the variable that a place is a part of.
     pub fn root_variable(&self) -> Option<VarId> {
         match self.op {
             Op::Index { .. } | Op::Swizzle(_) => self.args[0].root_variable(),

@@ -1,9 +1,9 @@
 //! The macro that turns the declaration of the knobs into types, builders and [`KNOBS`](super::KNOBS).
 
-/// Declares the knobs of a shader, by the half of the description that they belong to.
+/// Declares the knobs of a shader, grouped by the half of the description that they belong to.
 ///
-/// A declaration has documentation, field, type, default, name as text with the placeholder of its value in messages, the
-/// method that sets it, and an example of that method's arguments.
+/// A declaration consists of the documentation, field, type, default, name as text with a placeholder for its value in
+/// messages, the method that sets it, and an example of that method's arguments.
 macro_rules! knobs {
     ($(
         $(#[$meta:meta])*

@@ -1,26 +1,26 @@
-//! A kernel with the description of its shader, as a `build.rs` asks for it.
+//! A kernel with the description of its shader, for a `build.rs`.
 
 use super::{ShaderSpec, Target};
 use std::path::{Path, PathBuf};
 use straightline_kernels::KernelOptions;
 
-/// A shader: a kernel and the settings by which it is computed and written. WGSL is always written, which the bindings include. Made by
-/// [`Config::kernel`](crate::Config::kernel) and [`Config::file_with`](crate::Config::file_with).
+/// A shader: a kernel and the settings of its computation and text. WGSL is always written, because the bindings include
+/// it. Made by [`Config::kernel`](crate::Config::kernel) and [`Config::file_with`](crate::Config::file_with).
 #[derive(Clone, Debug)]
 pub struct KernelConfig {
     pub(crate) source: Source,
-    /// Function that is the kernel of a file.
+    /// Name of the function that is the kernel of the file.
     pub(crate) function: Option<String>,
     pub(crate) name: Option<String>,
     pub(crate) spec: ShaderSpec,
-    /// Further files that the kernel calls functions of.
+    /// Additional files with functions that the kernel calls.
     pub(crate) sources: Vec<PathBuf>,
 }
 
 /// Origin of a kernel's text.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
-    /// Among the built-in kernels, by this name.
+    /// A built-in kernel, by name.
     Builtin(String),
     File(PathBuf),
 }

@@ -1,5 +1,5 @@
-//! The declaration of every knob: the one place that names it, for `build.rs`, the command line, the page, `engine.toml` and
-//! the studies. Its documentation is the help of the command line too, and so has no links.
+//! Declaration of all knobs: the only place that names them, for `build.rs`, the command line, the page, `engine.toml` and
+//! the studies. The doc comments are also the help of the command line, so they contain no links.
 
 use super::declare::knobs;
 use super::value::KnobValue;
@@ -15,66 +15,68 @@ use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 knobs! {
     /// Settings of a shader's computation: options of the kernel, and policies of its evaluation.
     Settings in settings {
-        /// Value of an option of the kernel, in any spelling that its declaration takes; other options stay at their defaults.
-        /// A number may be `uniform`: the host sets it at run time.
+        /// Value of an option of the kernel, in any spelling that its declaration accepts; other options keep their
+        /// defaults. For a number, `uniform` lets the host set the value at run time.
         options: Vec<OptionText> = Vec::new(), "set" ["OPTION=VALUE"],
             set(option: &str, value: impl Display) |options| options.push((option.to_owned(), value.to_string())),
             example ("pattern", "latin16");
-        /// Unroll policy of all loops: `full`, `none`, or a factor such as `4`, which leaves loops with four iterations in a
-        /// row.
+        /// Unroll policy of all loops: `full` unrolls them, `none` leaves them in the shader, and a factor such as `4`
+        /// leaves loops with four iterations in a row.
         unroll: Unroll = Unroll::Full, "unroll" ["POLICY"],
             unroll(unroll: Unroll) |all| *all = unroll,
             example (Unroll::Partial(4));
-        /// Unroll policy of one loop, in place of that of all: LOOP is `function.counter` as `explain` prints it, or the counter
-        /// alone.
+        /// Unroll policy of one loop, overriding `unroll`. LOOP is `function.counter` as `explain` prints it, or just the
+        /// counter.
         loops: Vec<LoopPolicy> = Vec::new(), "unroll-loop" ["LOOP=POLICY"],
             unroll_loop(path: &str, unroll: Unroll) |loops| loops.push((path.to_owned(), unroll)),
             example ("tap", Unroll::None);
-        /// Form of an `if` on runtime values: `keep` leaves a branch, `select` computes both sides, `as-loops` leaves a branch
-        /// where loops are left.
+        /// Code for an `if` on runtime values: `keep` emits a branch, `select` computes both sides. With `as-loops` a
+        /// branch remains where loops remain.
         branches: Branches = Branches::AsLoops, "branches" ["POLICY"],
             branches(branches: Branches) |policy| *policy = branches,
             example (Branches::Keep);
-        /// Order in which texels are read: `source` as in the kernel's text, `rows` all at first, row by row, `gather` four at
-        /// once, of one component, where several of them are wanted. The picture is the same, bit for bit.
+        /// Order of texel reads: `source` keeps the order of the kernel's source, `rows` reads everything first, row by
+        /// row. With `gather`, one read fetches the same component of four texels where several of them are needed. The
+        /// picture is identical, bit for bit.
         reads: ReadOrder = ReadOrder::Source, "reads" ["ORDER"],
             reads(reads: ReadOrder) |order| *order = reads,
             example (ReadOrder::Rows);
-        /// Read a texel as often as the kernel's text asks for it instead of once, for studies of what sharing reads is worth.
-        /// The picture is the same, bit for bit.
+        /// Repeat texel reads as often as the kernel's source does, instead of reading each texel once. Meant for studies
+        /// of the benefit of sharing reads. The picture is identical, bit for bit.
         repeat_loads: bool = false, "repeat-loads",
             repeat_loads(repeat: bool) |repeats| *repeats = repeat,
             example (true);
-        /// Most statements that the shader may have.
+        /// Maximum number of statements in the shader.
         budget: u32 = Settings::BUDGET, "budget" ["STATEMENTS"],
             budget(statements: u32) |budget| *budget = statements,
             example (500_000);
-        /// Longest time that compiling and emitting may take; as text in seconds. Beyond it an error names the loops with the
-        /// most work.
+        /// Time limit for compiling and emitting, given as text in seconds. When it is exceeded, the error names the loops
+        /// with the most work.
         time_limit: Duration = Limits::DEFAULT.time, "time-limit" ["SECONDS"],
             time_limit(time: Duration) |limit| *limit = time,
             example (Duration::from_secs(5));
-        /// Most memory, in bytes, that values and operations may take during compilation; as text in millions of bytes.
+        /// Memory limit, in bytes, for values and operations during compilation; given as text in millions of bytes.
         memory_limit: u64 = Limits::DEFAULT.memory, "memory-limit" ["MEGABYTES"],
             memory_limit(bytes: u64) |limit| *limit = bytes,
             example (500_000_000);
-        /// Transport of values between the lanes of a pixel quad: `subgroup`, `derivatives` or `block`; by default subgroup operations
-        /// in fragment shaders and blocks in compute. Of kernels of quads.
+        /// Transport of values between the lanes of a pixel quad: `subgroup`, `derivatives` or `block`. By default,
+        /// fragment shaders use subgroup operations and compute shaders use blocks. Applies only to quad kernels.
         transport: Option<Transport> = None, "transport" ["TRANSPORT"],
             transport(transport: impl Into<Option<Transport>>) |chosen| *chosen = transport.into(),
             example (Transport::Block);
-        /// Texels that pixels share: with `invocation` none; with `workgroup` a workgroup of 16x16 threads, or of
-        /// `workgroup(WxH)`, reads each texel once into its memory. The picture is the same, bit for bit.
+        /// Sharing of texels between pixels: `invocation` shares none. With `workgroup`, a workgroup of 16x16 threads reads
+        /// each texel once into its memory; `workgroup(WxH)` sets its width and height. The picture is identical, bit for
+        /// bit.
         share: Share = Share::Invocation, "share" ["HOW"],
             share(share: Share) |how| *how = share,
             example (Share::WORKGROUP);
-        /// Algebra with floats: `exact` changes no bit of the result, `fast` may change roundings, for fewer and cheaper
-        /// operations; `strict` is `exact` and keeps drivers from changing any rounding, at a cost.
+        /// Algebraic rules for floats: `exact` changes no bit of the result; `fast` may change roundings to use fewer and
+        /// cheaper operations. `strict` is `exact`, and also keeps drivers from changing any rounding, at a cost.
         math: Math = Math::Exact, "math" ["HOW"],
             math(math: Math) |algebra| *algebra = math,
             example (Math::Fast);
-        /// Pixels that one compute invocation computes, across and down, 1 to 64 together: neighbours share reads. Of kernels
-        /// of quads whole quads.
+        /// Width and height of the pixel block that one compute invocation computes, 1 to 64 pixels in total; neighbours
+        /// share reads. Quad kernels need whole quads.
         block: [u32; 2] = [1, 1], "block" ["WxH"],
             block(width: u32, height: u32) |size| *size = [width, height],
             example (2, 2);
@@ -82,11 +84,11 @@ knobs! {
 
     /// Settings of a shader's text: stage, languages, bindings and names.
     EmitOptions in emit {
-        /// Pipeline stage: `compute` or `fragment`. A function (see `form`) is called by a fragment shader in any case.
+        /// Pipeline stage: `compute` or `fragment`. With `form=function` the caller is always a fragment shader.
         stage: Stage = Stage::Compute, "stage" ["STAGE"],
             stage(stage: Stage) |chosen| *chosen = stage,
             example (Stage::Fragment);
-        /// Languages to write, separated by commas: wgsl, glsl450, glsl430, glsl330, essl310, essl300, spirv, hlsl, msl.
+        /// Languages to emit, separated by commas: wgsl, glsl450, glsl430, glsl330, essl310, essl300, spirv, hlsl, msl.
         targets: BTreeSet<Target> = BTreeSet::from([Target::Wgsl]), "target" ["LANGUAGES"],
             targets(targets: impl IntoIterator<Item = Target>) |all| *all = targets.into_iter().collect(),
             example ([Target::Wgsl, Target::Hlsl]);
@@ -94,85 +96,87 @@ knobs! {
         format: Format = Format::Rgba16Float, "format" ["FORMAT"],
             format(format: Format) |chosen| *chosen = format,
             example (Format::Rgba8Unorm);
-        /// Precision of every float of the kernel: `f32`, or `f16` where the device has half precision. What is read is rounded
-        /// once, the result is stored as an `f32`. Not in GLSL.
+        /// Precision of all floats in the kernel: `f32`, or `f16` on devices with half precision. With `f16`, inputs are
+        /// rounded once, and the result is stored as `f32`. Not available in GLSL.
         precision: Precision = Precision::F32, "precision" ["PRECISION"],
             precision(precision: Precision) |chosen| *chosen = precision,
             example (Precision::F16);
-        /// Write a built-in kernel in f16 even where hard cases show errors that can be seen.
+        /// Emit a built-in kernel in f16 even if hard cases show visible errors.
         accept_loss: bool = false, "accept-loss",
             accept_loss(accept: bool) |accepted| *accepted = accept,
             example (true);
-        /// Filter only a rectangle that the host gives, for tiles: one more uniform buffer says where it lies in the inputs and
-        /// in the target.
+        /// Filter only a rectangle that the host sets, for tiled rendering. An additional uniform buffer holds its position
+        /// in the inputs and in the target.
         region: bool = false, "region",
             region(region: bool) |given| *given = region,
             example (true);
-        /// Invocations of a compute workgroup, across and down, by default 256x1; with `share` those that share, by default
-        /// 16x16.
+        /// Width and height of a compute workgroup, in invocations; by default 256x1. With `share`, the invocations that
+        /// share texels; by default 16x16.
         workgroup: Option<[u32; 2]> = None, "workgroup" ["WxH"],
             workgroup(width: u32, height: u32) |size| *size = Some([width, height]),
             example (8, 8);
-        /// A whole shader (`entry`), or a function to call from a fragment shader of yours (`function`), whose inputs are its
-        /// parameters.
+        /// Form of the output: `entry` for a whole shader, or `function` for a function that your fragment shader calls.
+        /// The inputs of a function are its parameters.
         form: Form = Form::Entry, "form" ["FORM"],
             form(form: Form) |chosen| *chosen = form,
             example (Form::Function);
-        /// Corner where row 0 of textures, target and positions is: `upper-left`, or `lower-left` as in engines on OpenGL. The kernel
-        /// computes on the upright picture in both.
+        /// Corner of row 0 of textures, target and positions: `upper-left`, or `lower-left` as in engines on OpenGL. The
+        /// kernel computes on the upright picture in both cases.
         origin: Origin = Origin::UpperLeft, "origin" ["ORIGIN"],
             origin(origin: Origin) |chosen| *chosen = origin,
             example (Origin::LowerLeft);
-        /// Name of the entry point or function; by default the kernel's. That of a whole GLSL is `main`.
+        /// Name of the entry point or function; by default the kernel's name. The entry point of a whole GLSL shader is
+        /// always `main`.
         entry: Option<String> = None, "entry" ["NAME"],
             entry(name: &str) |entry| *entry = Some(name.to_owned()),
             example ("antialias");
-        /// Bind group, descriptor set or register space of everything, 0 to 31; devices promise four of them.
+        /// Bind group, descriptor set or register space of all resources, 0 to 31. Devices guarantee only four groups.
         group: u32 = 0, "group" ["N"],
             group(group: u32) |number| *number = group,
             example (1);
-        /// Binding number, 0 to 999, of a texture, sampler or buffer, of `parameters` (the uniforms), `destination` (the
-        /// output), `region`, or the sampler `unfiltered` of GLSL 4.50; all else takes the lowest free numbers, in order. An
-        /// output that has the name of an input is `output.NAME`.
+        /// Binding number, 0 to 999, of a texture, sampler or buffer. NAME may also be `parameters` (the uniforms),
+        /// `destination` (the output), `region`, or the sampler `unfiltered` of GLSL 4.50. All other resources take the
+        /// lowest free numbers, in order. For an output with the name of an input, use `output.NAME`.
         bindings: Vec<(String, u32)> = Vec::new(), "binding" ["NAME=N"],
             binding(name: &str, number: u32) |bindings| bindings.push((name.to_owned(), number)),
             example ("color", 3);
-        /// Register in HLSL, NAME=t3 or NAME=t3,space1; by default that of the binding number, in the space of the group.
+        /// Register in HLSL, NAME=t3 or NAME=t3,space1; by default derived from the binding number, in the space of the
+        /// group.
         registers: Vec<(String, Register)> = Vec::new(), "register" ["NAME=REGISTER"],
             register(name: &str, register: Register) |registers| registers.push((name.to_owned(), register)),
             example ("color", "t3".parse().expect("a register"));
-        /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not.
+        /// Begin WGSL with quad operations with `enable subgroups;`, which browsers require and wgpu rejects.
         enable_subgroups: bool = false, "enable-subgroups",
             enable_subgroups(enable: bool) |enabled| *enabled = enable,
             example (true);
-        /// Leave out the bound that naga puts on the iterations of every loop of SPIR-V, HLSL and MSL. Loops that count end
-        /// without one; a `while` on a runtime value ends as the kernel sees to it.
+        /// Omit the bound on loop iterations that naga adds to every loop in SPIR-V, HLSL and MSL. Counted loops end
+        /// without it. For a `while` on a runtime value, the kernel must ensure that the loop ends.
         unbounded_loops: bool = false, "unbounded-loops",
             unbounded_loops(unbounded: bool) |bounds| *bounds = unbounded,
             example (true);
-        /// Source of the texels that a function reads: `textures`, its parameters, or `functions` of the host, defined before
-        /// it: `load_NAME` returns the texel at a pixel, `sample_NAME` the filtered colour at a place from 0 to 1,
-        /// `size_of_NAME` width and height. The latter in GLSL of OpenGL and HLSL, of 2D textures of floats, at their finest
-        /// level.
+        /// Source of a function's texels: `textures` passes textures as parameters, `functions` calls functions of the host
+        /// that are defined before it. `load_NAME` returns the texel at a pixel, `sample_NAME` the filtered colour at
+        /// coordinates from 0 to 1, `size_of_NAME` width and height. Host functions are available in GLSL for OpenGL and in
+        /// HLSL, for the finest level of 2D float textures.
         texels: Texels = Texels::Textures, "texels" ["HOW"],
             texels(texels: Texels) |how| *how = texels,
             example (Texels::Functions);
-        /// Let a function in GLSL of OpenGL or HLSL read uniforms by their names, which the host declares before it, instead of
-        /// taking them as parameters.
+        /// Read uniforms by name in a function in GLSL for OpenGL or HLSL, instead of taking them as parameters. The host
+        /// declares them before the function.
         global_uniforms: bool = false, "global-uniforms",
             global_uniforms(global: bool) |chosen| *chosen = global,
             example (true);
-        /// Words that no name in the shader may be, beside those of its language, separated by commas: `gl_*` is every word
-        /// that begins so, `*Sampler` every one that ends so.
+        /// Words that are not allowed as names in the shader, in addition to those of its language, separated by commas.
+        /// `gl_*` reserves every word with that prefix, `*Sampler` every word with that suffix.
         reserved: BTreeSet<String> = BTreeSet::new(), "reserve" ["WORDS"],
             reserve(words: impl IntoIterator<Item = String>) |reserved| reserved.extend(words),
             example (["light".to_owned()]);
-        /// Leave out comments but for the first two lines of the header: what the shader is, and what it was generated by.
+        /// Omit comments, except for the first two lines of the header: the shader's description and its generator.
         strip_comments: bool = false, "strip-comments",
             strip_comments(strip: bool) |stripped| *stripped = strip,
             example (true);
-        /// Languages whose words names stay clear of too, separated by commas, so that a host can have one name for several
-        /// texts.
+        /// Languages whose reserved words are avoided as well, separated by commas, so that a host can use the same name in
+        /// several languages.
         clear_of: BTreeSet<Target> = BTreeSet::new(), "clear-of" ["LANGUAGES"],
             clear_of(targets: impl IntoIterator<Item = Target>) |languages| languages.extend(targets),
             example ([Target::Hlsl]);

@@ -1,9 +1,9 @@
-//! The description of a shader: what it computes and how it is written.
+//! Description of a shader: its computation and its text.
 //!
 //! [`ShaderSpec`] has two halves, [`Settings`] for [`Kernel::compile`](crate::Kernel::compile) and [`EmitOptions`] for
 //! [`Compiled::emit`](crate::Compiled::emit). Each of their fields is a *knob*, declared once in `knobs.rs`: type, default,
-//! name as text, builder method and documentation. The command line, the page and `engine.toml` read [`KNOBS`], and so have
-//! every knob that `build.rs` has.
+//! name as text, builder method and documentation. The command line, the page and `engine.toml` read [`KNOBS`], so they
+//! have every knob that `build.rs` has.
 //!
 //! ```
 //! use straightline_codegen::{Kernel, ShaderSpec, Stage};
@@ -40,17 +40,17 @@ use straightline_evaluator::policy::Policy;
 use straightline_kernels::{KernelOptions, OptionText};
 use straightline_manifest::{Form, Origin};
 
-/// The description of a shader: what it computes and how it is written.
+/// Description of a shader: its computation and its text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShaderSpec {
-    /// Settings of its computation.
+    /// Settings of the computation.
     pub settings: Settings,
-    /// Settings of its text.
+    /// Settings of the text.
     pub emit: EmitOptions,
 }
 
-/// The half of a [`ShaderSpec`] that a knob belongs to.
+/// The half of a [`ShaderSpec`] that contains a knob.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// Settings of the computation.
@@ -59,18 +59,18 @@ pub enum Part {
     EmitOptions,
 }
 
-/// A field of a [`ShaderSpec`], as text.
+/// A field of a [`ShaderSpec`], with a textual interface.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Knob {
     /// Name: `--NAME` of the command line, a key of `engine.toml` and of the page's messages.
     pub name: &'static str,
-    /// Placeholder of its value in messages; empty of a flag.
+    /// Placeholder of the value in messages; empty for a flag.
     pub value: &'static str,
     doc: &'static str,
-    /// The half that it belongs to.
+    /// The half that contains the knob.
     pub part: Part,
-    /// Number of texts that it takes.
+    /// Number of texts that the value consists of.
     pub arity: Arity,
     read: fn(&ShaderSpec) -> Vec<String>,
     write: fn(&mut ShaderSpec, &[&str]) -> Result<(), String>,
@@ -80,11 +80,11 @@ pub struct Knob {
 }
 
 impl Knob {
-    /// The knob of this name, with `-` or `_` between words.
+    /// Returns the knob of this name, with `-` or `_` between words.
     ///
     /// # Errors
     ///
-    /// There is none; with the name that is meant, if one is close.
+    /// If there is none; with the name that was meant, if one is close.
     pub fn find(name: &str) -> Result<&'static Knob, String> {
         let spelled = name.replace('_', "-");
         KNOBS.iter().find(|knob| knob.name == spelled).ok_or_else(|| {
@@ -96,27 +96,27 @@ impl Knob {
         })
     }
 
-    /// Documentation in one line, without a full stop at its end.
+    /// Returns the documentation in one line, without the final full stop.
     pub fn help(&self) -> String {
         let words: Vec<&str> = self.doc.split_whitespace().collect();
         words.join(" ").trim_end_matches('.').to_owned()
     }
 
-    /// Texts of its value; none of a value that is not set.
+    /// Returns the texts of the value; empty if it is not set.
     pub fn value_texts(&self, spec: &ShaderSpec) -> Vec<String> {
         (self.read)(spec)
     }
 
-    /// Sets its value, in place of the one before.
+    /// Sets the value, replacing the previous one.
     ///
     /// # Errors
     ///
-    /// A text that is no value of the knob, with what would be one.
+    /// If a text is not a valid value, with an example of one.
     pub fn set(&self, spec: &mut ShaderSpec, texts: &[&str]) -> Result<(), String> {
         (self.write)(spec, texts)
     }
 
-    /// The description with this knob at a value that is not its default, as in its documentation: for tests that go over all.
+    /// Sets this knob to the non-default value of its documentation, for tests that cover all knobs.
     #[doc(hidden)]
     pub fn example(&self, spec: ShaderSpec) -> ShaderSpec {
         (self.example)(spec)
@@ -124,12 +124,12 @@ impl Knob {
 }
 
 impl ShaderSpec {
-    /// A compute shader in WGSL, fully unrolled, with the kernel's options at their defaults.
+    /// Describes a compute shader in WGSL, fully unrolled, with the kernel's options at their defaults.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets options of a built-in kernel by its own structure of them: those that differ from its `Default`.
+    /// Sets options of a kernel from its typed structure: those that differ from its `Default`.
     pub fn options(mut self, options: &impl KernelOptions) -> Self {
         self.settings = self.settings.options(options);
         self
@@ -143,22 +143,22 @@ impl ShaderSpec {
 }
 
 impl Settings {
-    /// Statements that a kernel may have unless more are allowed.
+    /// Default maximum number of statements.
     pub const BUDGET: u32 = 20_000;
 
-    /// Sets options of a kernel by its own structure of them: those that differ from its `Default`.
+    /// Sets options of a kernel from its typed structure: those that differ from its `Default`.
     pub fn options(mut self, options: &impl KernelOptions) -> Self {
         self.options.extend(options.changed());
         self
     }
 
-    /// Sets several options, as [`Settings::set`] does one.
+    /// Sets several options, as [`Settings::set`] does for one.
     pub fn set_all(mut self, options: impl IntoIterator<Item = OptionText>) -> Self {
         self.options.extend(options);
         self
     }
 
-    /// Time and memory that compiling and emitting may take.
+    /// Returns the limits on time and memory for compiling and emitting.
     pub fn limits(&self) -> Limits {
         Limits {
             time: self.time_limit,
@@ -193,7 +193,7 @@ impl EmitOptions {
         self.form == Form::Function
     }
 
-    /// True of a function whose texels come from functions of the host.
+    /// Returns whether this is a function whose texels come from host functions.
     pub(crate) fn calls_host(&self) -> bool {
         self.is_function() && self.texels == Texels::Functions
     }
@@ -202,7 +202,7 @@ impl EmitOptions {
         self.origin == Origin::LowerLeft
     }
 
-    /// True if the entry point has a variable for the place that it writes, which is not the pixel then.
+    /// Returns whether the entry point has a separate variable for the written place, because it differs from the pixel.
     pub(crate) fn has_place(&self) -> bool {
         self.region || self.counts_from_below()
     }

@@ -1,4 +1,4 @@
-//! Knobs by name, as texts: what an engine, a message or a command line says of a shader.
+//! Knobs by name, with values as texts: settings from an engine, a message or a command line.
 
 use super::{Arity, Knob, ShaderSpec};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
@@ -6,14 +6,15 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// Values for some knobs of a shader, by their names. Each is known to be one.
+/// Values for some knobs of a shader, by their names. Each value has been validated.
 ///
-/// As JSON or TOML an object: `{ "unroll": "none", "region": true, "set": { "pattern": "latin16" }, "target": ["wgsl", "hlsl"] }`.
+/// As JSON or TOML an object: `{ "unroll": "none", "region": true, "set": { "pattern": "latin16" }, "target": ["wgsl",
+/// "hlsl"] }`.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides(Vec<(&'static Knob, Vec<String>)>);
 
 impl Overrides {
-    /// The knobs of a description that are not at their defaults.
+    /// Returns the knobs of a description that differ from their defaults.
     pub fn of_changed(spec: &ShaderSpec) -> Overrides {
         let unset = ShaderSpec::new();
         let changed = super::KNOBS.iter().filter_map(|knob| {
@@ -23,11 +24,11 @@ impl Overrides {
         Overrides(changed.collect())
     }
 
-    /// Sets a knob, in place of what was said of it before.
+    /// Sets a knob, replacing any previous value.
     ///
     /// # Errors
     ///
-    /// There is no such knob, or the texts are no value of it.
+    /// If there is no such knob, or the texts are not a valid value.
     pub fn set(&mut self, name: &str, texts: Vec<String>) -> Result<(), String> {
         let knob = Knob::find(name)?;
         let borrowed: Vec<&str> = texts.iter().map(String::as_str).collect();
@@ -37,21 +38,21 @@ impl Overrides {
         Ok(())
     }
 
-    /// True if a knob is set.
+    /// Returns whether a knob is set.
     pub fn has(&self, name: &str) -> bool {
         self.0.iter().any(|(knob, _)| knob.name == name)
     }
 
-    /// Names of the knobs that it sets, in order.
+    /// Returns the names of the set knobs, in order.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.0.iter().map(|(knob, _)| knob.name)
     }
 
-    /// A description with these values.
+    /// Returns the description with these values applied.
     pub fn apply(&self, mut spec: ShaderSpec) -> ShaderSpec {
         for (knob, texts) in &self.0 {
             let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-            // `set` has read the same texts.
+            // `set` has parsed the same texts before.
             let read = knob.set(&mut spec, &texts);
             debug_assert_eq!(read, Ok(()), "{}", knob.name);
         }
@@ -110,7 +111,7 @@ impl<'de> Deserialize<'de> for ShaderSpec {
     }
 }
 
-/// Texts of a value: of a text, number or boolean itself, of a list its elements, of an object `NAME=VALUE`.
+/// Texts of a value: the text, number or boolean itself, the elements of a list, or `NAME=VALUE` for an object.
 struct Texts(Vec<String>);
 
 impl<'de> Deserialize<'de> for Texts {

@@ -6,11 +6,11 @@ use std::str::FromStr;
 /// A register of HLSL: `t3`, or `t3,space1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// `t` of textures and read-only buffers, `s` of samplers, `b` of uniform buffers, `u` of what is written.
+    /// `t` for textures and read-only buffers, `s` for samplers, `b` for uniform buffers, `u` for written resources.
     pub class: char,
     /// Number, 0 to 999.
     pub number: u32,
-    /// Register space, 0 to 31; without one, that of the bind group.
+    /// Register space, 0 to 31; without one, the bind group.
     pub space: Option<u32>,
 }
 
@@ -45,14 +45,14 @@ impl FromStr for Register {
     }
 }
 
-/// A number of digits alone, up to a largest one.
+/// Parses a number that consists only of digits, up to `last`.
 fn parse_number(text: &str, last: u32) -> Option<u32> {
     let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let number = digits.then(|| text.parse().ok()).flatten();
     number.filter(|number| *number <= last)
 }
 
-/// As a `register()` holds it: `t3`, or `t3, space1`.
+/// Formats the register as the argument of `register()`: `t3`, or `t3, space1`.
 impl fmt::Display for Register {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}", self.class, self.number)?;

@@ -8,7 +8,7 @@ use straightline_manifest::{Form, Stage};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Target {
-    /// WebGPU's own.
+    /// WebGPU's shading language.
     Wgsl,
     /// Vulkan GLSL 4.50 with separate textures.
     Glsl450,
@@ -42,16 +42,16 @@ impl Target {
         Target::Msl,
     ];
 
-    /// Languages that every shader can be written in, but for half precision and fine derivatives.
+    /// Languages that support every shader, except for half precision and fine derivatives.
     pub const MODERN: [Target; 5] = [Target::Wgsl, Target::Glsl450, Target::Spirv, Target::Hlsl, Target::Msl];
 
-    /// Languages of OpenGL and OpenGL ES: a texture and its sampler are one there, and uniforms lie in no block.
+    /// Languages of OpenGL and OpenGL ES, in which a texture and its sampler are combined, and uniforms are not in a block.
     pub const OPENGL: [Target; 4] = [Target::Glsl430, Target::Glsl330, Target::Essl310, Target::Essl300];
 
     /// Extension of the language's files.
     pub fn extension(self, stage: Stage, form: Form) -> &'static str {
         if form == Form::Function {
-            // Not to be taken for whole shaders.
+            // The extension marks a function, which is not a whole shader.
             return match self {
                 Target::Glsl450 => "glsl",
                 Target::Glsl430 => "430.glsl",

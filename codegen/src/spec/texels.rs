@@ -1,4 +1,4 @@
-//! Ways of a function to read texels.
+//! Sources of a function's texels.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,10 +7,11 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Texels {
-    /// Textures and samplers, which are its parameters.
+    /// Textures and samplers, as parameters.
     #[default]
     Textures,
-    /// Functions of the host, defined before it. For hosts that give no texture, only a way to read one.
+    /// Functions of the host, defined before the shader's function. For hosts that provide no texture, only a way to read
+    /// one.
     Functions,
 }
 

@@ -11,31 +11,31 @@ use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 /// Number of texts that a knob takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arity {
-    /// No value: the knob is set or not. As text `true` or `false`.
+    /// No value: the knob is either set or not. As text, `true` or `false`.
     Flag,
     /// A single value.
     One,
-    /// Any number of values, each a text of its own.
+    /// Any number of values, each in a separate text.
     Many,
 }
 
 /// Type of a knob.
 pub(super) trait KnobValue: Sized {
-    /// Number of texts that make a value.
+    /// Number of texts of a value.
     const ARITY: Arity = Arity::One;
 
-    /// Reads a value.
+    /// Parses a value.
     ///
     /// # Errors
     ///
-    /// A text that is no such value, with what would be one.
+    /// If a text is not a valid value, with an example of one.
     fn from_texts(texts: &[&str]) -> Result<Self, String>;
 
-    /// Texts that [`KnobValue::from_texts`] reads as this value; none of a value that is not set.
+    /// Returns texts that [`KnobValue::from_texts`] parses as this value; empty if it is not set.
     fn texts(&self) -> Vec<String>;
 }
 
-/// The only text of a knob that takes one.
+/// Returns the single text of a knob that takes one.
 fn only<'a>(texts: &[&'a str]) -> Result<&'a str, String> {
     match texts {
         [text] => Ok(text),
@@ -43,7 +43,7 @@ fn only<'a>(texts: &[&'a str]) -> Result<&'a str, String> {
     }
 }
 
-/// Types that are spelled by `Display` and read by `FromStr`.
+/// Implements the trait for types that `Display` formats and `FromStr` parses.
 macro_rules! spelled {
     ($($ty:ty),*) => {
         $(
@@ -64,7 +64,7 @@ spelled!(
     Unroll, Branches, ReadOrder, Share, Math, Transport, Stage, Form, Format, Origin, Precision, Texels
 );
 
-/// A value that need not be set.
+/// An optional value.
 impl<T: KnobValue> KnobValue for Option<T> {
     fn from_texts(texts: &[&str]) -> Result<Self, String> {
         match texts {
@@ -107,13 +107,13 @@ impl KnobValue for u32 {
     }
 }
 
-/// Bytes of a unit of the memory limit.
+/// Bytes in a unit of the memory limit.
 const MEGABYTE: u64 = 1_000_000;
 
-/// Most millions of bytes that can be allowed.
+/// Largest memory limit, in millions of bytes.
 const MOST_MEGABYTES: u64 = 1_000_000;
 
-/// The memory limit, in bytes; as text in millions of them.
+/// The memory limit, in bytes; as text in millions of bytes.
 impl KnobValue for u64 {
     fn from_texts(texts: &[&str]) -> Result<Self, String> {
         let text = only(texts)?;
@@ -159,7 +159,7 @@ impl KnobValue for String {
     }
 }
 
-/// Largest side of a block or workgroup that is read; what a device takes is less, and checked later.
+/// Largest side of a block or workgroup that is parsed. Devices permit less, which is checked later.
 const MOST_ACROSS: u32 = 8192;
 
 /// Width and height: `8x4`.
@@ -181,7 +181,7 @@ impl KnobValue for [u32; 2] {
     }
 }
 
-/// Words, each text one of them or several with commas between.
+/// Splits texts into words, separated by commas.
 fn split_words<'a>(texts: &[&'a str]) -> impl Iterator<Item = &'a str> {
     texts.iter().flat_map(|text| text.split(','))
 }
@@ -214,7 +214,7 @@ impl KnobValue for BTreeSet<String> {
     }
 }
 
-/// Lists of names with values, each text `NAME=VALUE`.
+/// Implements the trait for lists of names with values, each text `NAME=VALUE`.
 macro_rules! named {
     ($($ty:ty, $form:literal, $such:literal, |$text:ident| $parse:expr;)*) => {
         $(

@@ -1,17 +1,17 @@
-//! Stages that decide which pixels one invocation computes: one, a block, a lane of a quad, or whole quads.
+//! Stages that determine the pixels of one invocation: one, a block, a lane of a quad, or whole quads.
 
 use super::{Made, Refusal, Work};
 use straightline_evaluator::passes;
 use straightline_evaluator::policy::Transport;
 
-/// Most pixels that one invocation may compute.
+/// Maximum number of pixels of one invocation.
 const MAX_BLOCK: u32 = 64;
 
 fn is_block([width, height]: [u32; 2]) -> bool {
     (1..=MAX_BLOCK).contains(&width.saturating_mul(height))
 }
 
-/// Puts the pixels of a block into one invocation, for a kernel of single pixels.
+/// Expands a kernel of single pixels to a block of pixels per invocation.
 pub fn expand_block(work: &mut Work<'_>) -> Result<Made, Refusal> {
     let name = work.kernel;
     if work.settings.transport.is_some() {
@@ -49,8 +49,8 @@ pub fn lower_to_derivatives(work: &mut Work<'_>) -> Result<Made, Refusal> {
     Ok(Made::Kernel(lowered))
 }
 
-/// Puts the lanes of a quad, or of several, into one invocation: in place of the lanes where the transport is `block`, else
-/// beside them.
+/// Expands the lanes of one or more quads into one invocation: replacing the lanes if the transport is `block`, else in
+/// addition to them.
 pub fn expand_quad(work: &mut Work<'_>) -> Result<Made, Refusal> {
     let size = quad_size(work)?;
     if work.settings.block != [1, 1] {
@@ -68,7 +68,8 @@ pub fn expand_quad(work: &mut Work<'_>) -> Result<Made, Refusal> {
     })
 }
 
-/// Returns the pixels that one invocation computes of a kernel of quads, whose block must consist of quads.
+/// Returns the width and height of the pixels that one invocation of a quad kernel computes. Fails if the block does not
+/// consist of quads.
 fn quad_size(work: &Work<'_>) -> Result<[u32; 2], Refusal> {
     let (name, block) = (work.kernel, work.settings.block);
     let [width, height] = block;

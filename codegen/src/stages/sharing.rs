@@ -1,14 +1,14 @@
-//! Stages that make fewer reads of the same texels.
+//! Stages that reduce repeated reads of the same texels.
 
 use super::{Made, Refusal, Work};
 use std::sync::Arc;
 use straightline_evaluator::passes;
 use straightline_evaluator::policy::Share;
 
-/// Most threads in a workgroup that every device takes.
+/// Maximum number of threads in a workgroup on every device.
 const MAX_THREADS: u32 = 256;
 
-/// Lets a workgroup read each texel once, into its memory.
+/// Makes a workgroup read each texel once, into its memory.
 pub fn share_by_workgroup(work: &mut Work<'_>) -> Result<Made, Refusal> {
     let Share::Workgroup(threads) = work.settings.share else {
         return Ok(Made::Kernel(std::mem::take(&mut work.graph)));
@@ -39,7 +39,7 @@ pub fn share_by_workgroup(work: &mut Work<'_>) -> Result<Made, Refusal> {
     Ok(Made::Kernel(graph))
 }
 
-/// Reads four texels at once where several of them are needed.
+/// Combines reads into gathers of four texels where several of them are needed.
 pub fn gather_reads(work: &mut Work<'_>) -> Result<Made, Refusal> {
     let (graph, found) = passes::form_gathers(&work.graph).map_err(|why| {
         Refusal::new(

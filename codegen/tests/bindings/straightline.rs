@@ -13,13 +13,13 @@ pub mod all {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("all.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("all.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
     /// Invocations in a workgroup.
     pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
-    /// Layout of bind group 0, for a pipeline of one's own.
+    /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("all"),
         entries: &[
@@ -127,7 +127,7 @@ pub mod all {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A 2-D texture of the target's size, of a float format with at least 4 components.
@@ -161,7 +161,7 @@ pub mod all {
         assert!(core::mem::size_of:: < Parameters > () == 16);
     };
     impl Parameters {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             tau: 0.0,
             padding_0: [0; 3],
@@ -175,7 +175,7 @@ pub mod all {
         }
     }
     impl Parameters {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 16] {
             let mut bytes = [0; 16];
@@ -191,7 +191,7 @@ pub mod all {
             self
         }
     }
-    /// The shader on a device: make it once, and bind it to what it reads and writes.
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
     #[derive(Debug)]
     pub struct Pass(straightline_runtime::Pass);
     impl Pass {
@@ -203,7 +203,7 @@ pub mod all {
         pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
             Self::with_options(device, &straightline_runtime::PassOptions::default())
         }
-        /// Compiles the shader with options: for a target of another format, say.
+        /// Compiles the shader with options, for example for a target of another format.
         ///
         /// # Errors
         ///
@@ -244,13 +244,13 @@ pub mod all {
                 )
                 .map(Bound)
         }
-        /// The pass itself, to ask what it binds.
+        /// The underlying pass, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Pass {
             &self.0
         }
     }
-    /// The shader with what it reads and writes: encode it every frame.
+    /// The shader with its inputs and outputs: encode it every frame.
     #[derive(Debug)]
     pub struct Bound(straightline_runtime::Bound);
     impl Bound {
@@ -258,7 +258,7 @@ pub mod all {
         pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
             self.0.encode(encoder);
         }
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -266,13 +266,13 @@ pub mod all {
         pub fn set_tau(&self, queue: &wgpu::Queue, value: f32) {
             self.0.write_at(queue, 0, &value.to_le_bytes());
         }
-        /// What is bound itself, for timing it.
+        /// The underlying binding, for timing.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Bound {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -432,13 +432,13 @@ pub mod tile {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("tile.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("tile.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
     /// Invocations in a workgroup.
     pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
-    /// Layout of bind group 1, for a pipeline of one's own.
+    /// Layout of bind group 1, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("all"),
         entries: &[
@@ -556,7 +556,7 @@ pub mod tile {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A 2-D array texture of at least 3 layers of the target's size, of a float format with at least 1 component.
@@ -590,7 +590,7 @@ pub mod tile {
         assert!(core::mem::size_of:: < Parameters > () == 16);
     };
     impl Parameters {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             tau: 0.0,
             padding_0: [0; 3],
@@ -604,7 +604,7 @@ pub mod tile {
         }
     }
     impl Parameters {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 16] {
             let mut bytes = [0; 16];
@@ -620,7 +620,7 @@ pub mod tile {
             self
         }
     }
-    /// The shader on a device: make it once, and bind it to what it reads and writes.
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
     #[derive(Debug)]
     pub struct Pass(straightline_runtime::Pass);
     impl Pass {
@@ -632,7 +632,7 @@ pub mod tile {
         pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
             Self::with_options(device, &straightline_runtime::PassOptions::default())
         }
-        /// Compiles the shader with options: for a target of another format, say.
+        /// Compiles the shader with options, for example for a target of another format.
         ///
         /// # Errors
         ///
@@ -705,13 +705,13 @@ pub mod tile {
                 )
                 .map(Bound)
         }
-        /// The pass itself, to ask what it binds.
+        /// The underlying pass, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Pass {
             &self.0
         }
     }
-    /// The shader with what it reads and writes: encode it every frame.
+    /// The shader with its inputs and outputs: encode it every frame.
     #[derive(Debug)]
     pub struct Bound(straightline_runtime::Bound);
     impl Bound {
@@ -719,7 +719,7 @@ pub mod tile {
         pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
             self.0.encode(encoder);
         }
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -727,13 +727,13 @@ pub mod tile {
         pub fn set_tau(&self, queue: &wgpu::Queue, value: f32) {
             self.0.write_at(queue, 0, &value.to_le_bytes());
         }
-        /// What is bound itself, for timing it.
+        /// The underlying binding, for timing.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Bound {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -932,13 +932,13 @@ pub mod graded {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("graded.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("graded.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "graded";
     /// Invocations in a workgroup.
     pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
-    /// Layout of bind group 0, for a pipeline of one's own.
+    /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("graded"),
         entries: &[
@@ -976,7 +976,7 @@ pub mod graded {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A storage buffer of [`Light`], 32 bytes each, at least one.
@@ -1035,7 +1035,7 @@ pub mod graded {
         assert!(core::mem::size_of:: < Parameters > () == 128);
     };
     impl Parameters {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             grade_x_axis: [0.0; 3],
             grade_y_axis: [0.0; 3],
@@ -1057,7 +1057,7 @@ pub mod graded {
         };
     }
     impl Parameters {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 128] {
             let mut bytes = [0; 128];
@@ -1152,7 +1152,7 @@ pub mod graded {
         assert!(core::mem::size_of:: < Light > () == 32);
     };
     impl Light {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             position: [0.0; 3],
             kind: 0,
@@ -1173,7 +1173,7 @@ pub mod graded {
         }
     }
     impl Light {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 32] {
             let mut bytes = [0; 32];
@@ -1189,7 +1189,7 @@ pub mod graded {
             bytes
         }
     }
-    /// The shader on a device: make it once, and bind it to what it reads and writes.
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
     #[derive(Debug)]
     pub struct Pass(straightline_runtime::Pass);
     impl Pass {
@@ -1201,7 +1201,7 @@ pub mod graded {
         pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
             Self::with_options(device, &straightline_runtime::PassOptions::default())
         }
-        /// Compiles the shader with options: for a target of another format, say.
+        /// Compiles the shader with options, for example for a target of another format.
         ///
         /// # Errors
         ///
@@ -1235,13 +1235,13 @@ pub mod graded {
                 )
                 .map(Bound)
         }
-        /// The pass itself, to ask what it binds.
+        /// The underlying pass, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Pass {
             &self.0
         }
     }
-    /// The shader with what it reads and writes: encode it every frame.
+    /// The shader with its inputs and outputs: encode it every frame.
     #[derive(Debug)]
     pub struct Bound(straightline_runtime::Bound);
     impl Bound {
@@ -1249,7 +1249,7 @@ pub mod graded {
         pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
             self.0.encode(encoder);
         }
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -1280,13 +1280,13 @@ pub mod graded {
         pub fn set_steps(&self, queue: &wgpu::Queue, value: i32) {
             self.0.write_at(queue, 120, &value.to_le_bytes());
         }
-        /// What is bound itself, for timing it.
+        /// The underlying binding, for timing.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Bound {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -1516,11 +1516,11 @@ pub mod drawn {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("drawn.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("drawn.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "drawn";
-    /// Layout of bind group 0, for a pipeline of one's own.
+    /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("drawn"),
         entries: &[
@@ -1552,7 +1552,7 @@ pub mod drawn {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A 2-D texture of any size, of a depth format.
@@ -1574,7 +1574,7 @@ pub mod drawn {
         assert!(core::mem::size_of:: < Parameters > () == 16);
     };
     impl Parameters {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             bias: 0.0,
             padding_0: [0; 3],
@@ -1588,7 +1588,7 @@ pub mod drawn {
         }
     }
     impl Parameters {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 16] {
             let mut bytes = [0; 16];
@@ -1604,13 +1604,13 @@ pub mod drawn {
             self
         }
     }
-    /// What the vertex shader must give, as members of a structure in WGSL.
+    /// Outputs that the vertex shader must have, as members of a structure in WGSL.
     pub const VARYINGS: &str = "@location(0) coord: vec3f,\n@location(1) shade: f32,\n";
-    /// The shader on a device, behind a vertex shader: make it once, and bind it to what it reads.
+    /// The shader on a device, after a vertex shader: create it once, and bind it to its inputs.
     #[derive(Debug)]
     pub struct Draw(straightline_runtime::Draw);
     impl Draw {
-        /// Compiles the shader, and the vertex shader of `options`, which gives [`VARYINGS`].
+        /// Compiles the shader, and the vertex shader of `options`, which outputs [`VARYINGS`].
         ///
         /// # Errors
         ///
@@ -1621,7 +1621,7 @@ pub mod drawn {
         ) -> Result<Self, Error> {
             straightline_runtime::Draw::from_shader(device, &SHADER, options).map(Self)
         }
-        /// Binds the shader to what it reads.
+        /// Binds the shader to its inputs.
         ///
         /// # Errors
         ///
@@ -1643,13 +1643,13 @@ pub mod drawn {
                 )
                 .map(BoundDraw)
         }
-        /// What is drawn itself, to ask what it binds.
+        /// The underlying draw, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Draw {
             &self.0
         }
     }
-    /// The shader with what it reads: set it in a render pass, and draw triangles.
+    /// The shader with its inputs: set it in a render pass, and draw triangles.
     #[derive(Debug)]
     pub struct BoundDraw(straightline_runtime::BoundDraw);
     impl BoundDraw {
@@ -1657,7 +1657,7 @@ pub mod drawn {
         pub fn set(&self, pass: &mut wgpu::RenderPass<'_>) {
             self.0.set(pass);
         }
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -1665,13 +1665,13 @@ pub mod drawn {
         pub fn set_bias(&self, queue: &wgpu::Queue, value: f32) {
             self.0.write_at(queue, 0, &value.to_le_bytes());
         }
-        /// What is bound itself.
+        /// The underlying binding.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::BoundDraw {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -1777,11 +1777,11 @@ pub mod several {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("several.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("several.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "several";
-    /// Layout of bind group 0, for a pipeline of one's own.
+    /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("several"),
         entries: &[
@@ -1799,13 +1799,13 @@ pub mod several {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A 2-D texture of the target's size, of a float format with at least 4 components.
         pub color: &'a wgpu::TextureView,
     }
-    /// What the shader writes: textures of one size.
+    /// Targets of the shader: textures of one size.
     #[derive(Clone, Copy, Debug)]
     pub struct Targets<'a> {
         /// The target of `bright` at location 0, generated for `rgba16float`.
@@ -1813,7 +1813,7 @@ pub mod several {
         /// The target of `level` at location 1, generated for `r32float`.
         pub level: &'a wgpu::TextureView,
     }
-    /// The shader on a device: make it once, and bind it to what it reads and writes.
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
     #[derive(Debug)]
     pub struct Pass(straightline_runtime::Pass);
     impl Pass {
@@ -1825,7 +1825,7 @@ pub mod several {
         pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
             Self::with_options(device, &straightline_runtime::PassOptions::default())
         }
-        /// Compiles the shader with options: for a target of another format, say.
+        /// Compiles the shader with options, for example for a target of another format.
         ///
         /// # Errors
         ///
@@ -1857,13 +1857,13 @@ pub mod several {
                 )
                 .map(Bound)
         }
-        /// The pass itself, to ask what it binds.
+        /// The underlying pass, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Pass {
             &self.0
         }
     }
-    /// The shader with what it reads and writes: encode it every frame.
+    /// The shader with its inputs and outputs: encode it every frame.
     #[derive(Debug)]
     pub struct Bound(straightline_runtime::Bound);
     impl Bound {
@@ -1871,13 +1871,13 @@ pub mod several {
         pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
             self.0.encode(encoder);
         }
-        /// What is bound itself, for timing it.
+        /// The underlying binding, for timing.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Bound {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -1945,13 +1945,13 @@ pub mod waiting {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("waiting.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("waiting.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "waiting";
     /// Invocations in a workgroup.
     pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
-    /// Layout of bind group 0, for a pipeline of one's own.
+    /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("waiting"),
         entries: &[
@@ -1989,7 +1989,7 @@ pub mod waiting {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A 2-D texture of the target's size, of a float format with at least 1 component.
@@ -2009,7 +2009,7 @@ pub mod waiting {
         assert!(core::mem::size_of:: < Parameters > () == 16);
     };
     impl Parameters {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             limit: 0.0,
             padding_0: [0; 3],
@@ -2023,7 +2023,7 @@ pub mod waiting {
         }
     }
     impl Parameters {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 16] {
             let mut bytes = [0; 16];
@@ -2039,7 +2039,7 @@ pub mod waiting {
             self
         }
     }
-    /// The shader on a device: make it once, and bind it to what it reads and writes.
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
     #[derive(Debug)]
     pub struct Pass(straightline_runtime::Pass);
     impl Pass {
@@ -2051,7 +2051,7 @@ pub mod waiting {
         pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
             Self::with_options(device, &straightline_runtime::PassOptions::default())
         }
-        /// Compiles the shader with options: for a target of another format, say.
+        /// Compiles the shader with options, for example for a target of another format.
         ///
         /// # Errors
         ///
@@ -2085,13 +2085,13 @@ pub mod waiting {
                 )
                 .map(Bound)
         }
-        /// The pass itself, to ask what it binds.
+        /// The underlying pass, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Pass {
             &self.0
         }
     }
-    /// The shader with what it reads and writes: encode it every frame.
+    /// The shader with its inputs and outputs: encode it every frame.
     #[derive(Debug)]
     pub struct Bound(straightline_runtime::Bound);
     impl Bound {
@@ -2099,7 +2099,7 @@ pub mod waiting {
         pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
             self.0.encode(encoder);
         }
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -2107,13 +2107,13 @@ pub mod waiting {
         pub fn set_limit(&self, queue: &wgpu::Queue, value: f32) {
             self.0.write_at(queue, 0, &value.to_le_bytes());
         }
-        /// What is bound itself, for timing it.
+        /// The underlying binding, for timing.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Bound {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -2199,13 +2199,13 @@ pub mod sraa {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("sraa.wgsl");
-    /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
     pub const MANIFEST: &str = include_str!("sraa.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "sraa";
     /// Invocations in a workgroup.
     pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
-    /// Layout of bind group 0, for a pipeline of one's own.
+    /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("sraa"),
         entries: &[
@@ -2255,7 +2255,7 @@ pub mod sraa {
             },
         ],
     };
-    /// What the shader reads.
+    /// Inputs of the shader.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// A 2-D array texture of at least 5 layers of the target's size, of a float format with at least 1 component.
@@ -2277,7 +2277,7 @@ pub mod sraa {
         assert!(core::mem::size_of:: < Parameters > () == 16);
     };
     impl Parameters {
-        /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
         pub const ZERO: Self = Self {
             tau: 0.0,
             padding_0: [0; 3],
@@ -2299,7 +2299,7 @@ pub mod sraa {
         }
     }
     impl Parameters {
-        /// The values as they lie in the buffer.
+        /// Returns the bytes of the values in the buffer's layout.
         #[must_use]
         pub fn to_bytes(self) -> [u8; 16] {
             let mut bytes = [0; 16];
@@ -2315,7 +2315,7 @@ pub mod sraa {
             self
         }
     }
-    /// The shader on a device: make it once, and bind it to what it reads and writes.
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
     #[derive(Debug)]
     pub struct Pass(straightline_runtime::Pass);
     impl Pass {
@@ -2327,7 +2327,7 @@ pub mod sraa {
         pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
             Self::with_options(device, &straightline_runtime::PassOptions::default())
         }
-        /// Compiles the shader with options: for a target of another format, say.
+        /// Compiles the shader with options, for example for a target of another format.
         ///
         /// # Errors
         ///
@@ -2362,13 +2362,13 @@ pub mod sraa {
                 )
                 .map(Bound)
         }
-        /// The pass itself, to ask what it binds.
+        /// The underlying pass, for queries about its bindings.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Pass {
             &self.0
         }
     }
-    /// The shader with what it reads and writes: encode it every frame.
+    /// The shader with its inputs and outputs: encode it every frame.
     #[derive(Debug)]
     pub struct Bound(straightline_runtime::Bound);
     impl Bound {
@@ -2376,7 +2376,7 @@ pub mod sraa {
         pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
             self.0.encode(encoder);
         }
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -2384,13 +2384,13 @@ pub mod sraa {
         pub fn set_tau(&self, queue: &wgpu::Queue, value: f32) {
             self.0.write_at(queue, 0, &value.to_le_bytes());
         }
-        /// What is bound itself, for timing it.
+        /// The underlying binding, for timing.
         #[must_use]
         pub fn inner(&self) -> &straightline_runtime::Bound {
             &self.0
         }
     }
-    /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
     pub static SHADER: straightline_runtime::Shader<'static> = {
         use straightline_runtime::Shader;
         use straightline_runtime::plan::{
@@ -2400,7 +2400,7 @@ pub mod sraa {
         };
         Shader::generated(
             WGSL,
-            0x68e1_8ea2_179f_c1bf,
+            0x5cd8_5b7c_1c4f_f7fb,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("sraa"),

@@ -1,4 +1,4 @@
-//! Knobs: each has one text, one example and one place in `docs/settings.md`, however it is set.
+//! Knobs: each has one text, one example and one entry in `docs/settings.md`, wherever it is set.
 //!
 //! `STRAIGHTLINE_BLESS=1` writes the page.
 
@@ -9,16 +9,16 @@ use straightline_codegen::{Config, Kernel, Overrides, ShaderSpec, Stage};
 
 const INTRODUCTION: &str = "# Settings of a shader
 
-A shader is described by settings.
-Each has the same name, values and default everywhere:
+Settings describe how a shader is computed and written.
+A setting has the same name, values and default wherever you set it:
 
-- `build.rs`: a method of the kernel's configuration, of `ShaderSpec`, and of its half `Settings` or `EmitOptions`;
-- the command line: `--NAME` of `emit` and `check`; commands that run a kernel take those of the first half;
-- the page: a control, and a key of the messages to its generator;
-- `engine.toml`: a key of a shader, for what an engine decides.
+* in `build.rs`: a method of the kernel's configuration, of `ShaderSpec`, or of its half `Settings` or `EmitOptions`;
+* on the command line: `--NAME` of `emit` and `check`; commands that run a kernel take those of the first half;
+* on the page: a control, and a key of the messages to its generator;
+* in `engine.toml`: a key of a shader, for settings that the engine determines.
 ";
 
-/// The page that `docs/settings.md` is to be.
+/// Returns the expected contents of `docs/settings.md`.
 fn page() -> String {
     let mut page = INTRODUCTION.to_owned();
     for (part, heading, about) in [
@@ -58,7 +58,7 @@ fn the_page_has_every_knob() {
     assert_eq!(written, page(), "STRAIGHTLINE_BLESS=1 writes docs/settings.md");
 }
 
-/// Texts of a knob in its example.
+/// Returns the texts of a knob's example.
 fn texts(knob: &Knob) -> Vec<String> {
     knob.value_texts(&knob.example(ShaderSpec::new()))
 }
@@ -132,7 +132,7 @@ fn json_holds_what_is_changed() {
     }
 }
 
-/// A built-in kernel's own structure of options says what texts say.
+/// The typed options of a built-in kernel equal the same options as texts.
 #[test]
 fn structures_of_options_are_texts() {
     let typed = Sraa {
@@ -169,7 +169,7 @@ fn structures_of_options_are_texts() {
     assert!(ShaderSpec::new().options(&Sraa::default()).settings.options.is_empty());
 }
 
-/// A description of several shaders writes the same files in a `build.rs` and without one.
+/// A description shared by several shaders writes the same files in a `build.rs` and without one.
 #[test]
 fn configurations_write_what_a_description_says() {
     let spec = ShaderSpec::new()

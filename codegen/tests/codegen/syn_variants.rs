@@ -1,13 +1,13 @@
-//! Every variant of syn's tree is handled or refused with a place: `docs/syn-variants.md` is the table.
+//! Every variant of syn's tree is either handled or rejected with a place; `docs/syn-variants.md` has the table.
 //!
-//! `STRAIGHTLINE_BLESS=1` writes the table as it is now.
+//! `STRAIGHTLINE_BLESS=1` writes the current table.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 use straightline_codegen::{Kernel, Settings};
 
-/// The variants of an enum that syn may not extend: the match has no arm for others.
+/// Declares the variants of enums that syn may not extend: the match has no arm for others.
 macro_rules! closed {
     ($($name:ident: $($variant:ident)*;)*) => {
         const CLOSED: &[(&str, &[&str])] = &[$((stringify!($name), &[$(stringify!($variant)),*])),*];
@@ -39,7 +39,7 @@ closed! {
     WhereClausePlacement: Early Late;
 }
 
-/// The variants of the enums that syn may extend, as of syn 3.
+/// Variants of the enums that syn may extend, as of syn 3.
 const OPEN: &[(&str, &[&str])] = &[
     (
         "BinOp",
@@ -203,7 +203,7 @@ const OPEN: &[(&str, &[&str])] = &[
     ("WherePredicate", &["Lifetime", "Type"]),
 ];
 
-/// Variants that no file's text is parsed as.
+/// Variants that parsing never produces.
 const NEVER: [&str; 3] = ["Expr::Group", "Type::Group", "Lit::Verbatim"];
 
 /// Returns whether the text, parsed by syn, contains the variant.
@@ -215,7 +215,7 @@ fn holds(debug: &str, variant: &str) -> bool {
     })
 }
 
-/// A whole file: statements stand in a kernel, items before it.
+/// Returns a whole file: statements go into a kernel, items before it.
 fn whole(text: &str) -> String {
     const HEAD: &str = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4";
     match text.split_once("===") {
@@ -224,7 +224,7 @@ fn whole(text: &str) -> String {
     }
 }
 
-/// `handled`, or the message.
+/// Compiles the file; returns `handled`, or the error.
 fn result(file: &str) -> String {
     match Kernel::from_text("k.rs", file, "k").compile(&Settings::default()) {
         Ok(_) => "handled".to_owned(),
@@ -246,9 +246,11 @@ fn every_variant_is_handled_or_refused() {
         .map(|line| line.split_once(" | ").unwrap_or_else(|| panic!("no ` | ` in {line}")))
         .collect();
     let mut table = String::from(
-        "# What becomes of each kind of Rust syntax\n\n\
-         Kernels are read by syn. These are the variants of its tree, each with an example: what the generator handles, and what it\n\
-         refuses where a kernel reaches it. Made by `cargo test -p straightline-codegen --test codegen syn_variants::`.\n",
+        "# Support for each kind of Rust syntax\n\n\
+         The front end parses kernels with syn.\n\
+         The tables list every variant of syn's syntax tree, with an example and the result.\n\
+         The generator either handles a variant, or refuses it with an error if a kernel reaches it.\n\
+         `cargo test -p straightline-codegen --test codegen syn_variants::` checks this page.\n",
     );
     let mut seen = BTreeSet::new();
     let mut wrong = Vec::new();
@@ -260,7 +262,7 @@ fn every_variant_is_handled_or_refused() {
         for variant in *variants {
             let full = format!("{name}::{variant}");
             if NEVER.contains(&full.as_str()) {
-                let _ = writeln!(table, "| {variant} | | no text is read as this |");
+                let _ = writeln!(table, "| {variant} | | never produced by parsing |");
                 continue;
             }
             let examples: Vec<&str> = cases

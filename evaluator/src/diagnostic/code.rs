@@ -1,15 +1,14 @@
-//! The codes of errors: one for each kind of mistake, with the page that explains it.
+//! Error codes: one for each kind of mistake, with the page that explains it.
 
 use std::fmt;
 
-/// Declares the codes: name, number, title. `codes/NUMBER.md` has the explanation.
+/// Declares the codes: name, number, title. `codes/NUMBER.md` contains the explanation.
 macro_rules! codes {
     ($($name:ident = $number:literal, $title:literal;)*) => {
-        /// Kind of an error, by which tools and callers tell errors apart.
+        /// Kind of an error, by which tools and callers distinguish errors.
         ///
-        /// Displays as its number, such as `E0301`. The hundreds are the stage: reading and syntax, names and items,
-        /// types, what the language does not have, evaluation, options and settings, emission, engines, mistakes in
-        /// Straightline.
+        /// Displays as its number, such as `E0301`. The hundreds are the stage: reading and syntax, names and items, types,
+        /// unsupported language features, evaluation, options and settings, emission, engines, mistakes in Straightline.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
         pub enum Code {
@@ -20,7 +19,7 @@ macro_rules! codes {
         }
 
         impl Code {
-            /// Every code, in order of its number.
+            /// Every code, ordered by number.
             pub const ALL: &[Code] = &[$(Code::$name),*];
 
             /// Number of the code, such as `E0301`.
@@ -30,16 +29,16 @@ macro_rules! codes {
                 }
             }
 
-            /// The mistake in a few words.
+            /// Short description of the mistake.
             pub fn title(self) -> &'static str {
                 match self {
                     $(Code::$name => $title,)*
                 }
             }
 
-            /// Explanation in Markdown: what is refused, why, and what to write instead.
+            /// Explanation in Markdown: the rejected code, the reason, and the code to write instead.
             ///
-            /// Code blocks marked with the code's number are refused with it; unmarked ones are kernels.
+            /// Code blocks marked with the code's number are rejected with it; unmarked ones are valid kernels.
             pub fn explanation(self) -> &'static str {
                 match self {
                     $(Code::$name => include_str!(concat!("codes/", $number, ".md")),)*

@@ -1,20 +1,20 @@
-//! A source file as it is shown beside an error: characters that a terminal acts on are written out, and of lines longer than a
-//! screen the part around the error is shown.
+//! Source text as shown next to an error: control characters are escaped, and lines that are too long are cut to the part
+//! around the error.
 
 use super::{File, Span};
 use codespan_reporting::files::{Error, Files};
 use std::ops::Range;
 
-/// Characters of a line that are shown.
+/// Maximum number of characters shown of a line.
 const WIDTH: usize = 120;
 
-/// Of these, before the place of an error.
+/// Maximum number of these characters before the location of the error.
 const BEFORE: usize = 40;
 
-/// Characters of a message that are shown.
+/// Maximum number of characters shown of a message.
 const MESSAGE: usize = 500;
 
-/// The files of one error.
+/// The source files of one error.
 pub struct Views(Vec<View>);
 
 struct View {
@@ -22,11 +22,11 @@ struct View {
     text: String,
     /// Byte in `text` at which each line begins.
     lines: Vec<usize>,
-    /// Lines that are shown otherwise than they are.
+    /// Lines whose shown text differs from the source.
     changed: Vec<Changed>,
 }
 
-/// A line that is shown otherwise than it is.
+/// A line whose shown text differs from the source.
 struct Changed {
     line: usize,
     /// Byte in `View::text` for each byte of the original line.
@@ -35,7 +35,7 @@ struct Changed {
 }
 
 impl Views {
-    /// The files for an error at some places.
+    /// Returns the files for an error at the given locations.
     pub fn new(files: &[File], places: &[Span]) -> Self {
         let views = files.iter().enumerate().map(|(k, file)| {
             let used = places.iter().filter(|p| p.file as usize == k);
@@ -46,7 +46,7 @@ impl Views {
         Views(views.collect())
     }
 
-    /// Range of bytes in the shown text that a place covers.
+    /// Byte range in the shown text that a location covers.
     pub fn shown_range(&self, place: Span) -> Option<Range<usize>> {
         let view = self.0.get(place.file as usize)?;
         let (start, end) = (
@@ -85,14 +85,14 @@ impl View {
             }
             start += text.len();
         }
-        // As in `line_starts`: a line begins after the last line break too.
+        // As in codespan's `line_starts`: a line also begins after the last line break.
         if file.text.is_empty() || file.text.ends_with('\n') {
             view.lines.push(view.text.len());
         }
         view
     }
 
-    /// Adds a line that is too long, or has characters to be written out; the error is `at` some byte of it.
+    /// Adds a line that is too long or contains characters to escape. `at` is the byte of the error in the line.
     fn push_changed_line(&mut self, line: usize, text: &str, body: &str, at: usize) {
         let before = body.get(..at).map_or(usize::MAX, |text| text.chars().count());
         let before = if before == usize::MAX { 0 } else { before };
@@ -138,9 +138,9 @@ impl View {
         });
     }
 
-    /// Byte of the shown text for a byte of the file.
+    /// Converts a byte offset in the file to one in the shown text.
     fn shown_offset(&self, byte: usize) -> usize {
-        // Lines are as long as they were, but for those that are changed.
+        // Only changed lines have another length in the shown text.
         let mut moved: isize = 0;
         for changed in &self.changed {
             let start = self.lines[changed.line];
@@ -197,14 +197,14 @@ impl<'a> Files<'a> for Views {
     }
 }
 
-/// Returns whether a terminal or an editor acts on a character instead of showing it: controls, line ends other than a line feed, marks
-/// that change the direction of writing, and characters without a width.
+/// Returns whether a terminal or an editor acts on a character instead of showing it: controls, line ends other than a line
+/// feed, marks that change the writing direction, and zero-width characters.
 fn is_unprintable(c: char) -> bool {
     (c.is_control() && c != '\t')
         || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
-/// Text with characters that a terminal acts on written out.
+/// Escapes the characters of a text that a terminal would act on.
 pub fn written_out(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
@@ -217,7 +217,7 @@ pub fn written_out(text: &str) -> String {
     shown
 }
 
-/// A message: written out, and of one that repeats a long text its beginning and its end.
+/// Escapes a message and shortens long ones to their beginning and end.
 pub fn printable_message(text: &str) -> String {
     let shown = written_out(text);
     let count = shown.chars().count();

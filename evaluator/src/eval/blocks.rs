@@ -1,4 +1,4 @@
-//! Blocks and their statements, with what ends where they end.
+//! Blocks and their statements, with the exits that target the end of a block.
 
 use super::Evaluator;
 use super::departures::{Tail, has_exits};
@@ -8,12 +8,12 @@ use crate::diagnostic::Span;
 use crate::front::tree::{Block, Expr, ExprKind, Pattern, Statement};
 
 impl Evaluator<'_> {
-    /// A block in a scope of its own. An error in one statement does not hide those in the next.
+    /// Evaluates a block in its own scope. An error in one statement does not hide errors in later ones.
     pub fn eval_block(&mut self, block: &Block) -> Eval {
         self.block_in(block, Tail::Open)
     }
 
-    /// A block, and what ends with it.
+    /// Evaluates a block in tail position: exits that target its end fall through.
     pub fn block_in(&mut self, block: &Block, tail: Tail<'_>) -> Eval {
         let mark = self.scope.enter();
         let around = self.builder.is_exact();
@@ -24,8 +24,8 @@ impl Evaluator<'_> {
         result
     }
 
-    /// A block from a statement on. Where what follows a loop of it needs a constant that the loop assigns, evaluation goes back to
-    /// the statement with the loop.
+    /// Evaluates a block starting at a statement. If a constant depends on a loop of the block, evaluation goes back to the
+    /// statement with the loop.
     fn eval_statements(&mut self, block: &Block, mut from: usize, tail: Tail<'_>) -> Eval {
         let noted = self.errors.len();
         let mut points = RestartPoints::default();
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
                             }
                             Err(leave) => return Err(leave),
                         },
-                        // What a `break` gives: it has a value wherever it is looked at.
+                        // The value of a `break` is defined wherever it is read.
                         None if matches!(pattern, Pattern::Name(name, ..) if name.starts_with('#')) => Value::Undef,
                         None => Value::Unset,
                     };
@@ -112,7 +112,7 @@ impl Evaluator<'_> {
         self.expr_in(value, tail)
     }
 
-    /// A block that a `break` of its label leaves.
+    /// Evaluates a block that a `break` with its label leaves.
     pub fn eval_labelled_block(&mut self, label: &str, block: &Block, span: Span) -> Eval {
         let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = self.eval_block(block);
@@ -120,7 +120,7 @@ impl Evaluator<'_> {
         self.merge_exits(since, outcome, mark, &leads_here, span)
     }
 
-    /// An expression at the end of a block.
+    /// Evaluates an expression in tail position.
     pub fn expr_in(&mut self, expr: &Expr, tail: Tail<'_>) -> Eval {
         match (&expr.kind, tail) {
             (_, Tail::Open) => self.eval_expr(expr),

@@ -1,4 +1,4 @@
-//! What each loop contributes to the size of a kernel.
+//! Contribution of each loop to the size of a kernel.
 
 use super::Evaluator;
 use super::demand::UnrollReason;
@@ -8,26 +8,26 @@ use crate::limits;
 use crate::policy::{self, Unroll};
 use std::collections::HashMap;
 
-/// What helps a kernel that is too large.
+/// Help for a kernel that is too large.
 pub const BUDGET_HELP: &str = "run loops over fewer values, leave the largest one in the shader with `#[cfg_attr(false, unroll(none))]`, or raise the budget";
 
-/// A loop of the source, and what became of it.
+/// A loop of the source, and how it was evaluated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoopReport {
-    /// The function that it stands in.
+    /// Function that contains the loop.
     pub function: String,
-    /// Its counter, or `while`.
+    /// Counter of the loop, or `while`.
     pub counter: String,
-    /// Where it stands.
+    /// Location of the loop.
     pub span: Span,
-    /// What was made of it the last time.
+    /// Unroll mode that was used most recently.
     pub unroll: Unroll,
-    /// Why it was unrolled although it was asked to be left in the shader, if it was.
+    /// Reason why the loop was unrolled although it was requested to stay in the shader.
     pub reason: Option<String>,
-    /// Copies of its body that were evaluated, over all times that it was reached: one for each iteration if it is unrolled, one
-    /// if it is left in the shader.
+    /// Number of copies of the body that were evaluated, over all visits: one for each iteration of an unrolled loop, one
+    /// for a loop left in the shader.
     pub copies: u64,
-    /// Operations that its body left, those of loops inside it left out.
+    /// Operations that the body produced, without those of nested loops.
     pub operations: u64,
 }
 
@@ -42,28 +42,29 @@ impl LoopReport {
 #[derive(Clone, Debug, Default)]
 pub struct LoopTracker {
     reports: Vec<LoopReport>,
-    /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
+    /// Loops being evaluated: index, number of operations at the start, and operations of nested loops.
     open: Vec<(usize, usize, usize)>,
-    /// How often each loop was tried to be left in the shader in vain, and why not the last time.
+    /// Failed attempts to leave each loop in the shader: their number, and the reason for the last one.
     failures: HashMap<Span, (u32, UnrollReason)>,
-    /// Attempts to unroll each loop that were given up, as its end turned out to be a runtime value.
+    /// Attempts to unroll each loop that were given up because its end is a runtime value.
     open_ends: HashMap<Span, u32>,
-    /// Errors to give if there are no others: what follows a loop needs it unrolled, but it was asked for by name.
+    /// Errors to report if there are no others: the code after a loop needs it unrolled, but the loop was explicitly
+    /// requested to stay.
     deferred: Vec<Diagnostic>,
 }
 
-/// Attempts to leave one loop in the shader after which it is unrolled wherever it is reached. Without such an end loops
-/// in loops would be tried twice a level.
+/// Number of failed attempts to leave a loop in the shader, after which it is always unrolled. Without this limit, nested
+/// loops would be tried twice a level.
 const MAX_FAILURES: u32 = 3;
 
-/// Iterations after which a `while` that is left early under a runtime condition is taken to end at run time only.
+/// Number of iterations after which a `while` with exits under runtime conditions is assumed to end at run time only.
 const MAX_OPEN_ITERATIONS: u64 = 256;
 
-/// The least number of such iterations, after attempts in vain. Without a decrease loops in loops would be tried 256 times a level.
+/// Minimum of that number after failed attempts. Without a decrease, nested loops would be tried 256 times a level.
 const MIN_OPEN_ITERATIONS: u64 = 4;
 
 impl LoopTracker {
-    /// A loop begins, when `operations` have been made.
+    /// Enters a loop when the graph has `operations` operations.
     pub fn enter_loop(&mut self, function: &str, counter: &str, span: Span, operations: usize) {
         let known = self.reports.iter().position(|r| r.span == span);
         let index = known.unwrap_or_else(|| {
@@ -81,56 +82,57 @@ impl LoopTracker {
         self.open.push((index, operations, 0));
     }
 
-    /// Its body is evaluated once more.
+    /// Counts one more evaluation of the innermost loop's body.
     pub fn record_iteration(&mut self) {
         if let Some((index, ..)) = self.open.last() {
             self.reports[*index].copies += 1;
         }
     }
 
-    /// Notes why a loop is unrolled; the first reason stays.
+    /// Records why a loop is unrolled. The first reason is kept.
     pub fn record_reason(&mut self, span: Span, reason: String) {
         if let Some(report) = self.reports.iter_mut().find(|r| r.span == span) {
             report.reason.get_or_insert(reason);
         }
     }
 
-    /// An attempt to leave a loop in the shader has failed.
+    /// Records that an attempt to leave a loop in the shader failed.
     pub fn record_failure(&mut self, span: Span, why: &UnrollReason) {
         let entry = self.failures.entry(span).or_insert_with(|| (0, why.clone()));
         *entry = (entry.0 + 1, why.clone());
     }
 
-    /// Why a loop is not tried to be left in the shader any more.
+    /// Reason why a loop is no longer tried in the shader; `None` while it may be tried.
     pub fn previous_failure(&self, span: Span) -> Option<UnrollReason> {
         let (times, why) = self.failures.get(&span)?;
         (*times >= MAX_FAILURES).then(|| why.clone())
     }
 
-    /// Iterations after which the attempt to unroll a loop is given up if some have left it.
+    /// Number of iterations after which an attempt to unroll a loop is given up, if an exit was taken under a runtime
+    /// condition.
     pub fn iteration_limit(&self, span: Span) -> u64 {
         let failed = self.open_ends.get(&span).copied().unwrap_or(0);
         (MAX_OPEN_ITERATIONS >> (2 * failed).min(63)).max(MIN_OPEN_ITERATIONS)
     }
 
-    /// An attempt to unroll a loop is given up.
+    /// Records that an attempt to unroll a loop was given up.
     pub fn record_open_end(&mut self, span: Span) {
         *self.open_ends.entry(span).or_insert(0) += 1;
     }
 
-    /// An error to give if there are no others.
+    /// Records an error to report if there are no others.
     pub fn defer_error(&mut self, error: Diagnostic) {
         if !self.deferred.contains(&error) {
             self.deferred.push(error);
         }
     }
 
-    /// Errors to give if there are no others.
+    /// Takes the errors to report if there are no others.
     pub fn take_deferred(&mut self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.deferred)
     }
 
-    /// Goes back to a state, but keeps in mind which attempts failed.
+    /// Restores an earlier state, but keeps the record of failed attempts.
     pub fn return_to(&mut self, before: LoopTracker) {
         let refused = std::mem::take(&mut self.failures);
         let guessed = std::mem::take(&mut self.open_ends);
@@ -141,7 +143,7 @@ impl LoopTracker {
         };
     }
 
-    /// It ends.
+    /// Leaves the innermost loop.
     pub fn leave_loop(&mut self, unroll: Unroll, operations: usize) {
         if let Some((index, began, inner)) = self.open.pop() {
             let made = operations.saturating_sub(began);
@@ -153,20 +155,20 @@ impl LoopTracker {
         }
     }
 
-    /// All loops in order of the source.
+    /// All loops in source order.
     pub fn sorted_reports(&self) -> Vec<LoopReport> {
         let mut reports = self.reports.clone();
         reports.sort_by_key(|r| r.span);
         reports
     }
 
-    /// The error with what each loop contributed, the largest five.
+    /// Adds the contribution of each of the five largest loops to an error.
     pub fn name_largest(&self, error: Diagnostic) -> Diagnostic {
         name_largest_loops(&self.reports, error)
     }
 }
 
-/// An error about size with what each loop contributed, the largest five.
+/// Adds the contribution of each of the five largest loops to an error about size.
 pub fn name_largest_loops(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
     let mut largest: Vec<&LoopReport> = reports.iter().filter(|r| r.copies > 0).collect();
     largest.sort_by_key(|r| std::cmp::Reverse(r.operations));
@@ -181,11 +183,12 @@ pub fn name_largest_loops(reports: &[LoopReport], mut error: Diagnostic) -> Diag
     error
 }
 
-/// Parts of a value that are copied in the time of a step.
+/// Number of components copied in the time of one step.
 const PARTS_PER_STEP: usize = 8;
 
 impl Evaluator<'_> {
-    /// Counts the work of copying or comparing a value of so many parts, so that copies of large arrays in loops end.
+    /// Counts the work of copying or comparing a value with `parts` components. Without this, copies of large arrays in
+    /// loops would not exhaust the budget.
     pub fn count_copy(&mut self, parts: usize, span: Span) -> Eval<()> {
         let steps = (parts / PARTS_PER_STEP) as u64;
         self.steps += steps;
@@ -193,7 +196,7 @@ impl Evaluator<'_> {
         self.count_step(span)
     }
 
-    /// Notes an error for each loop that the policy names and the kernel has not.
+    /// Records an error for each loop that the policy names and the kernel does not have.
     pub fn check_loop_paths(&mut self) {
         let known = self.loops.sorted_reports();
         for (path, _) in &self.policy.loops {

@@ -1,4 +1,4 @@
-//! Buffers: parameters of that type, and what is read of an element.
+//! Buffer parameters, and reads of their elements.
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
@@ -8,11 +8,11 @@ use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{Access, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
 
-/// Elements of an array that a host fills, at most: vectors that fill a uniform buffer everywhere.
+/// Maximum number of elements of a host-filled array: the number of vectors in a uniform buffer on every device.
 const LONGEST: i64 = 1024;
 
 impl Evaluator<'_> {
-    /// A parameter that is a buffer.
+    /// Adds a buffer parameter.
     pub(super) fn buffer_parameter(&mut self, name: &str, of: &str, args: &[SourceType], span: Span) -> Eval {
         let element = self.element_type(name, args, span)?;
         let access = match of {
@@ -52,7 +52,8 @@ impl Evaluator<'_> {
         Ok(Value::Buffer(buffers.len() as u32 - 1))
     }
 
-    /// Elements that are values lie one after the other natively and in a shader; those that are structures as shaders have them.
+    /// Returns the element type of a buffer. Value elements are packed natively and in a shader; structures use the
+    /// shader's layout.
     fn element_type(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<Element> {
         let refused = || -> Exit {
             Diagnostic::error_at(
@@ -74,7 +75,7 @@ Code::ResourceElement,
             if fields.is_empty() {
                 return Err(refused());
             }
-            // Fields of a structure inside another are called by both names, which may be those of another field.
+            // The name of a nested field is joined from both names, which may clash with another field.
             let mut named: Vec<(String, Type)> = Vec::new();
             for (name, ty) in fields {
                 let name = self.free_name(&name, &|name| named.iter().any(|(other, _)| other == name));
@@ -88,7 +89,8 @@ Code::ResourceElement,
         }
     }
 
-    /// The fields that a type takes in a structure `of`: one of a number, of a structure those of its fields behind its name.
+    /// Collects the fields that a type occupies in a structure `of`. A number is one field; the fields of a nested
+    /// structure are prefixed with its name.
     fn fields_of(
         &mut self,
         of: &str,
@@ -99,7 +101,7 @@ Code::ResourceElement,
     ) -> Eval<()> {
         let library = self.library;
         let inner = |field: &str| match name {
-            // Of a tuple structure.
+            // Field of a tuple structure.
             "" if field.starts_with(|c: char| c.is_ascii_digit()) => format!("part_{field}"),
             "" => unraw(field).to_owned(),
             outer => format!("{outer}_{}", unraw(field)),
@@ -163,7 +165,7 @@ Code::ResourceElement,
         Ok(())
     }
 
-    /// The length of an array that a host fills.
+    /// Returns the length of a host-filled array. Fails unless it is a constant between 1 and `LONGEST`.
     pub(super) fn known_length(&mut self, len: &Expr) -> Eval<u32> {
         let count = self.eval_expr(len)?;
         match self.known_int(&count) {
@@ -179,7 +181,7 @@ Code::ResourceElement,
         }
     }
 
-    /// A method of a buffer.
+    /// Evaluates a buffer method.
     pub fn eval_buffer_method(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         if self.builder.graph().buffers[index as usize].access != Access::Read {
             return self.written_buffer(index, name, args, span);
@@ -209,7 +211,7 @@ Code::ResourceElement,
         }
     }
 
-    /// What a type takes of an element, from the field `next` on.
+    /// Reads the part of an element that a value of type `ty` occupies, from field `next` on.
     fn read_part(&mut self, buffer: u32, index: NodeId, ty: &SourceType, next: &mut u32) -> Eval {
         let library = self.library;
         match ty {
@@ -249,7 +251,7 @@ Code::ResourceElement,
         }
     }
 
-    /// A field of an element, or a part of one that is an array.
+    /// Reads a field of an element, or one element of a field that is an array.
     fn read_field(&mut self, buffer: u32, element: NodeId, next: &mut u32, part: Option<u32>) -> NodeId {
         let field = *next;
         *next += 1;
@@ -266,7 +268,7 @@ Code::ResourceElement,
     }
 }
 
-/// A number or a vector by its name.
+/// Number or vector type with a name.
 pub(super) fn value_named(name: &str) -> Option<Type> {
     match name {
         "f32" => Some(Type::F32),

@@ -1,7 +1,7 @@
-//! Closures and functions as values. They are inlined where they are called.
+//! Closures and functions as values. They are inlined at each call.
 //!
-//! A closure that only reads a variable has its value from where the closure is made: Rust keeps it from changing while the
-//! closure lives. One that writes a variable has its place.
+//! A closure that only reads a variable captures its value where the closure is created; Rust guarantees that it does not
+//! change while the closure lives. A closure that writes a variable captures its place.
 
 use super::departures::Tail;
 use super::value::{Captured, ClosureValue, Eval, Exit, Jump, Value};
@@ -15,7 +15,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Evaluator<'_> {
-    /// A closure, with the variables that it mentions.
+    /// Evaluates a closure expression and captures the variables that it mentions.
     pub fn eval_closure(&mut self, code: &Arc<Closure>, span: Span) -> Eval {
         let body = Block {
             statements: Vec::new(),
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         })))
     }
 
-    /// Calls what a variable holds: a closure, or a function by its path.
+    /// Calls the value of a variable: a closure, or a function named by its path.
     pub fn call_value(&mut self, callee: &Value, args: Vec<Value>, span: Span) -> Eval {
         let closed = match callee {
             Value::Closure(closed) => Rc::clone(closed),
@@ -107,7 +107,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Calls one of several functions, from the one at a position on: a chain of conditions, as of an `if`.
+    /// Calls one of several functions, starting at position `k`, by a chain of conditions like that of an `if`.
     fn invoke_one(&mut self, number: NodeId, all: &[Value], k: usize, args: Vec<Value>, span: Span) -> Eval {
         if k + 1 == all.len() {
             return self.call_value(&all[k], args, span);
@@ -130,7 +130,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Two functions as numbers of one list, so that a condition can choose between them.
+    /// Represents two functions as numbers into one list, so that a condition can select between them.
     pub fn one_of(&mut self, a: &Value, b: &Value) -> (Value, Value) {
         let mut all: Vec<Value> = Vec::new();
         let each = |value: &Value| match value {
@@ -165,7 +165,7 @@ impl Evaluator<'_> {
         (numbered(a), numbered(b))
     }
 
-    /// The function at a runtime index, an `i32`; the last one beyond the end.
+    /// The function at a runtime index of type `i32`; the last one if the index is out of range.
     pub fn called_at(&mut self, elements: &[Value], index: NodeId) -> Value {
         let mut found = elements[elements.len() - 1].clone();
         for (k, element) in elements.iter().enumerate().rev().skip(1) {
@@ -185,7 +185,7 @@ impl Evaluator<'_> {
         found
     }
 
-    /// The number of one of several functions.
+    /// Constant for position `k` in a list of `count` functions.
     fn function_number(&mut self, k: usize, count: usize) -> NodeId {
         match count {
             2 => self.builder.bool(k == 1),
@@ -193,7 +193,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether the number of one of several functions is that of the one at a position.
+    /// Tests if a function number equals position `k`.
     fn is_number(&mut self, number: NodeId, count: usize, k: usize) -> NodeId {
         match (count, k) {
             (2, 1) => number,
@@ -220,14 +220,14 @@ impl Evaluator<'_> {
         }
         let outcome = self.expr_in(&closed.code.body, Tail::Function);
         let value = self.merge_exits(0, outcome, mark, &|way| matches!(way, Jump::Return(_)), span)?;
-        // A reference to a variable of the closure's own would lead nowhere.
+        // A reference to one of the closure's own variables would dangle.
         match &closed.code.result {
             Some(ty) => self.ascribe_type(value, Some(ty), closed.code.body.span),
             None => Ok(value),
         }
     }
 
-    /// Refuses a closure that changes variables, where it is called in another order than natively or not as often.
+    /// Rejects a closure that changes variables where the number or order of calls differs from native execution.
     pub fn only_reads(&self, callee: &Value, method: &str, span: Span) -> Eval<()> {
         match callee.changes_variables() {
             true => Err(Diagnostic::error_at(

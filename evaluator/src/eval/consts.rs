@@ -7,7 +7,7 @@ use crate::ir::{Op, Scalar, Type};
 use std::f32::consts;
 
 impl Evaluator<'_> {
-    /// `PI`, `f32::MAX`, `Vec4::ZERO`, ...
+    /// Evaluates a named constant: `PI`, `f32::MAX`, `Vec4::ZERO`, ...
     pub fn known_constant(&mut self, path: &[String]) -> Option<Value> {
         let (ty, name) = match path {
             [.., ty, name] => (ty.as_str(), name.as_str()),

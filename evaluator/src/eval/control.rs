@@ -1,4 +1,4 @@
-//! `if`, and joining what two sides did.
+//! `if`, and the join of its two sides.
 
 use super::Evaluator;
 use super::departures::{EarlyExit, Side, Tail};
@@ -10,12 +10,12 @@ use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
 use std::rc::Rc;
 
-/// Branches and loops that are left in the shader inside of one another: WGSL reads 127 braces in braces, some of which are those of
-/// the function and the test for the frame's border.
+/// Maximum nesting of branches and loops left in the shader. WGSL accepts 127 nested braces, some of which belong to the
+/// function and the test for the frame's border.
 const MAX_NESTED: usize = 100;
 
 impl Evaluator<'_> {
-    /// An `if`, and what ends with it.
+    /// Evaluates an `if` in tail position.
     pub fn eval_if(
         &mut self,
         condition: &Expr,
@@ -37,12 +37,13 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether another branch or loop may be left in the shader inside of those that are open. Beyond, branches are selections.
+    /// Returns whether another branch or loop may be nested in the open ones in the shader. Beyond the limit, branches
+    /// become selections.
     pub fn may_nest(&self) -> bool {
         self.builder.open_regions().len() < MAX_NESTED
     }
 
-    /// A condition, as a boolean.
+    /// Evaluates a condition to a boolean.
     pub fn eval_condition(&mut self, condition: &Expr) -> Eval<NodeId> {
         let value = self.eval_value(condition)?;
         let id = self.value_node(&value, condition.span)?;
@@ -57,7 +58,7 @@ impl Evaluator<'_> {
         Ok(id)
     }
 
-    /// `assert!`: a compile-time constant that must hold.
+    /// Evaluates `assert!`, whose condition must be a compile-time constant that holds.
     pub fn eval_assert(&mut self, condition: &Expr, message: &str) -> Eval {
         let value = self.eval_expr(condition)?;
         let id = self.value_node(&value, condition.span)?;
@@ -76,7 +77,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A condition that is a runtime value: both sides are evaluated, and what differs is selected, or a branch is kept.
+    /// Evaluates both sides of a runtime condition. Values that differ are selected, or a branch is left in the shader.
     pub fn eval_branch(
         &mut self,
         tail: Tail<'_>,
@@ -97,7 +98,7 @@ impl Evaluator<'_> {
         });
         self.branch_conditions.pop();
         if matches!(&joined, Err(exit) if exit.is_failure()) {
-            // Values made inside belong to no place outside.
+            // Values created inside must not be used outside.
             self.scope = before;
             self.early_exits.clear();
         }
@@ -173,7 +174,7 @@ impl Evaluator<'_> {
         self.join_kept(condition, negated, (first, second), (after_left, left?), right?, span)
     }
 
-    /// One side of a branch that is kept, with all who leave it in one state.
+    /// Evaluates one side of a branch in the shader and merges the states of its exits into one.
     fn flat_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval<Side> {
         let mark = self.scope.enter();
         let outcome = self.eval_side(tail, span, evaluate);
@@ -181,7 +182,7 @@ impl Evaluator<'_> {
         self.side_of(outcome, departed, mark, span)
     }
 
-    /// Evaluates what is only looked at where a run-time condition holds.
+    /// Evaluates code whose result is used only where a runtime condition holds.
     fn eval_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
         let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = evaluate(self);
@@ -190,7 +191,7 @@ impl Evaluator<'_> {
         outcome
     }
 
-    /// The right side of `&&` or `||` after `condition`, which nobody leaves.
+    /// Evaluates the right side of `&&` or `||` after `condition`. The right side has no exits.
     pub fn lazy_side(&mut self, condition: NodeId, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
         let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = right(self);
@@ -213,7 +214,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Joins the two sides: variables and values that differ are selected, or become the branch's results.
+    /// Joins the two sides: variables and values that differ are selected, or become results of the branch.
     pub fn join_sides(
         &mut self,
         condition: NodeId,
@@ -226,7 +227,7 @@ impl Evaluator<'_> {
         Ok(joined.into_iter().next().unwrap_or(Value::Poison))
     }
 
-    /// As [`Evaluator::join`], of several values beside the variables.
+    /// Like [`Evaluator::join_sides`], for several values in addition to the variables.
     pub fn join_all(
         &mut self,
         condition: NodeId,
@@ -237,7 +238,7 @@ impl Evaluator<'_> {
     ) -> Eval<Vec<Value>> {
         let mut pairs: Vec<_> = values.into_iter().map(|(left, right)| (None, left, right)).collect();
         let mut compared = 0;
-        // Who left before a variable was made never comes to where it can be seen.
+        // An exit taken before a variable was created never reaches code that can see it.
         for slot in 0..self.scope.len().min(left_scope.len()) {
             let (a, b) = (left_scope.name_and_value(slot).1, self.scope.name_and_value(slot).1);
             if let (Value::Array(x), Value::Array(y)) = (a, b) {
@@ -295,7 +296,7 @@ impl Evaluator<'_> {
         let Some((first, second)) = regions else {
             return pairs.map(|(a, b)| self.build_select(condition, *a, *b)).collect();
         };
-        // Only what differs leaves the branch.
+        // Only values that differ become results of the branch.
         let differing: Vec<(NodeId, NodeId)> = pairs.clone().filter(|(a, b)| a != b).map(|(a, b)| (*a, *b)).collect();
         let graph = self.builder.graph_mut();
         let happens = [first, second]
@@ -321,7 +322,7 @@ impl Evaluator<'_> {
         merged
     }
 
-    /// One of two values; of arrays, element by element.
+    /// Selects between two values; arrays are selected element by element.
     fn build_select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
         let ty = self.ty(a);
         let Type::Array { len, .. } = ty else {

@@ -1,7 +1,7 @@
 //! Values that had to be compile-time constants, and the loops left in the shader that they depend on.
 //!
-//! A loop that is left in the shader makes what it assigns runtime values. Where a constant is needed of one of them, the graph
-//! says which loops it depends on, and evaluation goes back to them (`points.rs`).
+//! A loop left in the shader turns the variables that it assigns into runtime values. If a constant is needed that depends
+//! on such a value, the graph shows the loops that feed it, and evaluation goes back to them (`points.rs`).
 
 use super::Evaluator;
 use super::value::{Captured, ConstantDemand, Eval, Exit, Value};
@@ -10,37 +10,37 @@ use crate::ir::{Graph, NodeId, Op, RegionId};
 use crate::shorten;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Reason why a loop is unrolled although it was asked to be left in the shader.
+/// Reason why a loop is unrolled although it was requested to stay in the shader.
 #[derive(Clone, Debug)]
 pub struct UnrollReason {
-    /// The error of the kernel with the loop in the shader.
+    /// The error that occurs with the loop in the shader.
     pub error: Diagnostic,
-    /// One line for reports.
+    /// Reason in one line, for reports.
     pub reason: String,
 }
 
 /// A loop that is left in the shader.
 struct StructuredLoop {
     region: RegionId,
-    /// Place of the loop in the source.
+    /// Location of the loop in the source.
     span: Span,
-    /// Start and end of its counter, and initial values of what it carries.
+    /// Start and end of the counter, and initial carried values.
     args: Vec<NodeId>,
 }
 
-/// Loops that are left in the shader.
+/// All loops that are left in the shader.
 #[derive(Default)]
 pub struct StructuredLoops {
     /// In order of their regions.
     loops: Vec<StructuredLoop>,
-    /// Loops that could be unrolled, by their places.
+    /// Loops that could be unrolled, by location.
     unrollable: HashSet<Span>,
-    /// Loops that the trip count of a `while` depends on, by the place of the `while`.
+    /// Loops that the trip count of a `while` depends on, by the location of the `while`.
     end_causes: HashMap<Span, BTreeSet<Span>>,
 }
 
 impl StructuredLoops {
-    /// Notes that a loop has become a region, with its bounds and initial values.
+    /// Records that a loop has become a region, with its bounds and initial values.
     pub fn push_loop(&mut self, region: RegionId, span: Span, args: Vec<NodeId>) {
         self.loops.push(StructuredLoop { region, span, args });
     }
@@ -50,28 +50,28 @@ impl StructuredLoops {
         self.loops.len()
     }
 
-    /// Forgets loops that came later.
+    /// Removes all loops after the first `len`.
     pub fn truncate(&mut self, len: usize) {
         self.loops.truncate(len);
     }
 
-    /// Notes that a loop is left in the shader only because that is asked for.
+    /// Records that a loop is left in the shader only because it was requested.
     pub fn mark_unrollable(&mut self, span: Span) {
         self.unrollable.insert(span);
     }
 
-    /// Notes the loops because of which the end of a `while` is a runtime value.
+    /// Records the loops that make the end of a `while` a runtime value.
     pub fn record_end_causes(&mut self, span: Span, loops: BTreeSet<Span>) {
         self.end_causes.insert(span, loops);
     }
 
-    /// Returns whether a loop that could be unrolled came after the first `len`.
+    /// Returns whether a loop that could be unrolled was added after the first `len`.
     pub fn has_unrollable_since(&self, len: usize) -> bool {
         let later = self.loops.get(len..).unwrap_or_default();
         later.iter().any(|kept| self.unrollable.contains(&kept.span))
     }
 
-    /// Position of the first loop of a place.
+    /// Position of the first loop at a location.
     pub fn first_position(&self, span: Span) -> Option<usize> {
         self.loops.iter().position(|kept| kept.span == span)
     }
@@ -81,7 +81,7 @@ impl StructuredLoops {
         found.ok().map(|k| &self.loops[k])
     }
 
-    /// Loops that could be unrolled, of those that nodes depend on.
+    /// Loops that could be unrolled and that `nodes` depend on.
     pub fn loops_feeding(&self, graph: &Graph, nodes: &[NodeId]) -> BTreeSet<Span> {
         if self.unrollable.is_empty() {
             return BTreeSet::new();
@@ -98,8 +98,8 @@ impl StructuredLoops {
 }
 
 impl Evaluator<'_> {
-    /// Ends evaluation where nodes had to be compile-time constants and are not: with a demand if loops left in the shader are the
-    /// cause, else with the error.
+    /// Returns the exit for nodes that must be compile-time constants and are not: a demand to unroll the loops left in the
+    /// shader that feed them, or the error if there are none.
     pub fn demand_constants(&self, nodes: &[NodeId], error: impl Into<Box<Diagnostic>>) -> Exit {
         let (loops, error) = (
             self.structured_loops.loops_feeding(self.builder.graph(), nodes),
@@ -108,7 +108,7 @@ impl Evaluator<'_> {
         self.demand_unrolling(loops, *error)
     }
 
-    /// As [`Evaluator::demand`], of loops that are known to be the cause.
+    /// Like [`Evaluator::demand_constants`], for loops that are known to be the cause.
     pub fn demand_unrolling(&self, loops: BTreeSet<Span>, error: Diagnostic) -> Exit {
         match loops.is_empty() {
             true => error.into(),
@@ -116,14 +116,14 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Evaluator::demand`], of all numbers that values are made of.
+    /// Like [`Evaluator::demand_constants`], for all nodes of several values.
     pub fn demand_of(&self, values: &[&Value], error: Diagnostic) -> Exit {
         let mut nodes = Vec::new();
         values.iter().for_each(|value| collect_nodes(value, &mut nodes));
         self.demand_constants(&nodes, error)
     }
 
-    /// An outcome of which an error is a demand for nodes to be compile-time constants.
+    /// Turns an error in `outcome` into a demand for `nodes` to be compile-time constants.
     pub fn demand_on_error<T>(&self, nodes: &[NodeId], outcome: Eval<T>) -> Eval<T> {
         outcome.map_err(|exit| match exit {
             Exit::Error(error) => self.demand_constants(nodes, error),
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Unrolls loops wherever they are reached from now on.
+    /// Unrolls the given loops wherever they are reached from now on.
     pub fn unroll_for(&mut self, loops: BTreeSet<Span>, error: Diagnostic) {
         let why = self.unroll_reason(error);
         for span in loops {
@@ -140,7 +140,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// An error with the reason that it is for unrolling a loop: the value, its place, and the need.
+    /// Reason for unrolling a loop, built from an error: the value, its location, and why a constant is needed.
     pub fn unroll_reason(&self, error: Diagnostic) -> UnrollReason {
         let place = error.span.and_then(|span| {
             let file = self.files.get(span.file as usize)?;
@@ -167,7 +167,7 @@ fn source_excerpt(text: &str) -> String {
     shorten(line.trim_end().trim_end_matches('{').trim_end())
 }
 
-/// All numbers that a value is made of, with those that a closure captures and the ends of ranges.
+/// Collects all nodes of a value, including those that a closure captures and the ends of ranges.
 fn collect_nodes(value: &Value, out: &mut Vec<NodeId>) {
     match value {
         Value::Closure(closed) => {
@@ -184,7 +184,7 @@ fn collect_nodes(value: &Value, out: &mut Vec<NodeId>) {
     }
 }
 
-/// Goes from numbers to what they are computed from.
+/// Search from nodes to the loops that they are computed from.
 struct LoopSearch<'w> {
     graph: &'w Graph,
     kept: &'w StructuredLoops,
@@ -215,10 +215,10 @@ impl LoopSearch<'_> {
                     }
                     _ => self.pending.extend(&node.args),
                 },
-                // The first is the counter.
+                // Parameter 0 is the counter.
                 (Op::Param(region, k), _) => {
                     let position = (*k as usize).checked_sub(1);
-                    // Unrolled, its first iteration shows whether the initial values matter.
+                    // If the loop is unrolled, its first iteration shows whether the initial values matter.
                     if !self.visit_carried(*region, position) {
                         self.visit_initial(*region, position);
                     }
@@ -229,7 +229,7 @@ impl LoopSearch<'_> {
         self.found
     }
 
-    /// The bounds of a loop, and the initial value of what it carries at a position.
+    /// Visits the bounds of a loop, and the initial value of the carried variable at a position.
     fn visit_initial(&mut self, region: RegionId, position: Option<usize>) {
         let Some(kept) = self.kept.find_loop(region) else {
             return;
@@ -238,7 +238,7 @@ impl LoopSearch<'_> {
         self.pending.extend(position.and_then(|k| kept.args.get(k + 2)));
     }
 
-    /// Visits the value that a loop carries at a position, or its counter: both depend on how often it runs. Returns whether the loop can
+    /// Visits the carried value at a position, or the counter. Both depend on the trip count. Returns whether the loop can
     /// be unrolled.
     fn visit_carried(&mut self, region: RegionId, position: Option<usize>) -> bool {
         let Some(kept) = self.kept.find_loop(region) else {

@@ -1,10 +1,10 @@
 //! `break`, `continue` and `return` under runtime conditions.
 //!
-//! Who leaves does so in the state that it has then; all others go on. Evaluation goes on for the others alone, and keeps
-//! in mind who has left: with which condition, by which way, in which state. Where that way leads, the states meet again:
-//! behind the loop, at the end of the iteration, at the end of the function. What the others compute meanwhile is computed
-//! for those who have left too, but never looked at: operations are pure. Where branches are kept, what follows becomes
-//! their other side, so that nothing is computed in vain.
+//! An early exit captures the state at the exit. Evaluation continues for the remaining invocations and keeps a list of the
+//! exits taken so far: condition, target, state. At the target the states are merged: after the loop, at the end of the
+//! iteration, at the end of the function. Values computed after an exit are also computed for the invocations that took it,
+//! but never read; this is safe because operations are pure. If branches are left in the shader, the code after an exit
+//! becomes the other side of the branch, so that no invocation computes unused values.
 
 use super::Evaluator;
 use super::scope::Scope;
@@ -14,21 +14,21 @@ use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::ir::{BinaryOp, NodeId, Op, RegionId, Type, UnaryOp};
 use crate::policy::Branches;
 
-/// Those who have left what is being evaluated.
+/// An exit that was taken from the code being evaluated.
 #[derive(Clone, Debug)]
 pub struct EarlyExit {
-    /// Holds for them, unless it is one of those before them.
+    /// Condition of this exit, given that no earlier exit was taken.
     pub condition: NodeId,
-    /// The way that they took.
+    /// Kind and target of the exit.
     pub jump: Jump,
-    /// Their variables.
+    /// Variables at the exit.
     pub scope: Scope,
-    /// Of those who left one branch by different ways, which that was: nobody took two of them.
+    /// The branch in the shader that this exit belongs to, if any. Exits of one branch are mutually exclusive.
     pub group: Option<RegionId>,
 }
 
 impl EarlyExit {
-    /// Of those for whom a condition holds.
+    /// Returns an exit under a condition that belongs to no branch.
     pub fn from_parts(condition: NodeId, way: Jump, scope: Scope) -> EarlyExit {
         EarlyExit {
             condition,
@@ -39,10 +39,10 @@ impl EarlyExit {
     }
 }
 
-/// What ends with the block that is being evaluated: ways that lead there need no departure.
+/// Construct that the current block is the tail of. Exits that target its end fall through.
 #[derive(Clone, Copy, Debug)]
 pub enum Tail<'t> {
-    /// Nothing.
+    /// None: every exit must be recorded.
     Open,
     /// The function.
     Function,
@@ -51,7 +51,7 @@ pub enum Tail<'t> {
 }
 
 impl Tail<'_> {
-    /// Whether a way leads to the end of what it is the end of.
+    /// Returns whether an exit targets the end of this construct.
     pub fn is_target_of(self, way: &Jump) -> bool {
         match self {
             Tail::Open => false,
@@ -61,11 +61,11 @@ impl Tail<'_> {
     }
 }
 
-/// What one side of a branch came to.
+/// Outcome of one side of a branch.
 pub struct Side {
-    /// Its value, if it goes on.
+    /// Value of the side, if evaluation reaches its end.
     pub value: Option<Value>,
-    /// Who leaves it, each by another way.
+    /// Exits of the side with their conditions, one for each target.
     pub exits: Vec<(Jump, NodeId)>,
     /// States before they were merged into one.
     pub states: Vec<SideState>,
@@ -73,14 +73,14 @@ pub struct Side {
 
 /// The variables at the end of a side.
 pub struct SideState {
-    /// Exit that is taken in this state; `None` of the state that goes on.
+    /// Exit taken in this state; `None` if evaluation continues.
     pub jump: Option<Jump>,
     /// Variables in this state.
     pub scope: Scope,
 }
 
 impl SideState {
-    /// Whether this state goes where `way` leads; `None` is on.
+    /// Returns whether this state takes the exit `way`, or continues if `way` is `None`.
     pub fn matches_jump(&self, way: Option<&Jump>) -> bool {
         match (&self.jump, way) {
             (Some(own), Some(way)) => own.is_like(way),
@@ -90,7 +90,8 @@ impl SideState {
 }
 
 impl Evaluator<'_> {
-    /// Evaluates for those alone who have not left since there were `since` departures, if it can be said in the shader.
+    /// Evaluates `rest` under the condition that none of the exits since `since` was taken, if branches are kept in the
+    /// shader.
     pub fn eval_if_live(
         &mut self,
         since: usize,
@@ -108,7 +109,7 @@ impl Evaluator<'_> {
         self.eval_branch(tail, left, true, span, |e| e.rethrow_exits(departed), rest)
     }
 
-    /// Those who left leave again, from the block that is being evaluated now.
+    /// Repeats recorded exits from the block that is being evaluated now.
     fn rethrow_exits(&mut self, mut departed: Vec<EarlyExit>) -> Eval {
         let Some(last) = departed.pop() else {
             return Ok(Value::unit());
@@ -118,7 +119,7 @@ impl Evaluator<'_> {
         Err(Exit::Left(last.jump))
     }
 
-    /// An `if` and what follows it: where one side always leaves, that belongs to the other side.
+    /// Evaluates an `if` and the code after it. If one side always exits, that code becomes part of the other side.
     pub fn eval_guard_clause(
         &mut self,
         (condition, then, otherwise): (&Expr, &Block, Option<&Expr>),
@@ -154,7 +155,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The side of an `if` where its condition does not hold, and what follows.
+    /// Evaluates the `else` side of an `if`, and the code after it.
     fn other_side(
         &mut self,
         otherwise: Option<&Expr>,
@@ -173,7 +174,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Evaluates something, and what follows it for those who have not left it.
+    /// Evaluates `first`, then `rest` under the condition that `first` took no exit.
     pub fn followed_by(
         &mut self,
         first: impl FnOnce(&mut Self) -> Eval,
@@ -186,14 +187,14 @@ impl Evaluator<'_> {
         self.eval_if_live(since, tail, span, |e| rest(e))
     }
 
-    /// Whether what follows an exit under a run-time condition is left to a branch in the shader.
+    /// Returns whether code after an exit under a runtime condition becomes a branch in the shader.
     pub fn keeps_exits(&self, attribute: Option<Branches>) -> bool {
         let stated = attribute.unwrap_or(self.policy.branches);
         self.may_nest() && (self.policy.keeps_branch(attribute) || (self.loop_depth > 0 && stated == Branches::AsLoops))
     }
 
-    /// Those who have left by a way that leads here, since there were `since` departures, go on from here, with the values
-    /// that they left with. `mark`: variables beyond are gone.
+    /// Merges the exits since `since` that target this point into the current state, each with the value that it carries.
+    /// Variables after `mark` are dropped.
     pub fn merge_exits(
         &mut self,
         since: usize,
@@ -203,7 +204,7 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval {
         let mut mine: Vec<EarlyExit> = Vec::new();
-        // Holds for those who have not arrived yet.
+        // Condition that none of the merged exits was taken.
         let mut others = self.builder.bool(true);
         for mut departure in self.early_exits.split_off(since) {
             if leads_here(&departure.jump) {
@@ -220,7 +221,7 @@ impl Evaluator<'_> {
             Err(Exit::Left(way)) if leads_here(&way) => way.into_value(),
             Err(Exit::Left(way)) => match mine.pop() {
                 None => return Err(Exit::Left(way)),
-                // All others have left for good.
+                // All other invocations have left for good.
                 Some(last) => {
                     let arrived: Vec<NodeId> = mine.iter().map(|d| d.condition).chain([last.condition]).collect();
                     let mut condition = self.builder.bool(true);
@@ -243,8 +244,8 @@ impl Evaluator<'_> {
         Ok(value)
     }
 
-    /// Makes one state of those who left a side and those who go on, so that it can leave a region: who left by which way
-    /// is told by a boolean each.
+    /// Merges the exits of a side and its normal end into one state that can leave a region. A boolean for each target
+    /// records which exit was taken.
     pub fn side_of(&mut self, outcome: Eval, departed: Vec<EarlyExit>, mark: usize, span: Span) -> Eval<Side> {
         let (value, last) = match outcome {
             Ok(value) => (Some(value), None),
@@ -299,7 +300,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Joins two sides that have been kept as regions: exits become departures.
+    /// Joins two sides that are left in the shader as regions. Their exits are recorded as early exits of the branch.
     pub fn join_kept(
         &mut self,
         condition: NodeId,
@@ -388,7 +389,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Two values that leave the sides of a branch; where there is none on a side, any will do.
+    /// Returns the values of both sides of a branch. A missing value is undefined.
     fn pair_values(&mut self, a: Option<&Value>, b: Option<&Value>) -> (Value, Value) {
         match (a, b) {
             (Some(a), Some(b)) => (a.clone(), b.clone()),
@@ -398,7 +399,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A value of the same shape that nobody looks at.
+    /// Undefined value of the same shape.
     pub fn undef_like(&mut self, value: &Value) -> Value {
         let mut leaves = Vec::new();
         value.flatten(&mut leaves);
@@ -406,7 +407,7 @@ impl Evaluator<'_> {
         value.unflatten(&mut blanks.into_iter())
     }
 
-    /// Any value of a type.
+    /// Undefined value of a type.
     pub fn undef_node(&mut self, ty: Type) -> NodeId {
         let Type::Array { len, .. } = ty else {
             return self.builder.add(Op::Undef, Vec::new(), ty);
@@ -415,7 +416,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::MakeArray, vec![element; len as usize], ty)
     }
 
-    /// Names the booleans that say who has left.
+    /// Names the boolean that records whether an exit was taken, and the returned value.
     pub fn name_exit(&mut self, flag: NodeId, way: &Jump, span: Span) {
         let name = match way {
             Jump::Break(_) => "stopped",
@@ -428,12 +429,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `!a`.
+    /// Builds `!a`.
     pub fn not(&mut self, a: NodeId) -> NodeId {
         self.builder.add(Op::Unary(UnaryOp::Not), [a], Type::BOOL)
     }
 
-    /// `a && b`.
+    /// Builds `a && b`.
     pub fn and(&mut self, a: NodeId, b: NodeId) -> NodeId {
         match (self.known_bool(a), self.known_bool(b)) {
             (Some(true), _) => b,
@@ -443,7 +444,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `a || b`.
+    /// Builds `a || b`.
     pub fn or(&mut self, a: NodeId, b: NodeId) -> NodeId {
         match (self.known_bool(a), self.known_bool(b)) {
             (Some(false), _) => b,
@@ -454,7 +455,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether a block never comes to its end.
+/// Returns whether a block never reaches its end.
 pub fn always_leaves(block: &Block) -> bool {
     let last = block.value.as_deref().or(match block.statements.last() {
         Some(Statement::Expr(e)) => Some(e),
@@ -463,7 +464,7 @@ pub fn always_leaves(block: &Block) -> bool {
     last.is_some_and(expr_always_leaves)
 }
 
-/// Whether an expression never gives a value.
+/// Returns whether an expression never yields a value.
 pub fn expr_always_leaves(e: &Expr) -> bool {
     match &e.kind {
         ExprKind::Return(_) | ExprKind::Break(_) | ExprKind::Continue(_) => true,
@@ -474,7 +475,7 @@ pub fn expr_always_leaves(e: &Expr) -> bool {
     }
 }
 
-/// Whether one side of an `if` never comes to its end, or one of the `else if`s that follow.
+/// Returns whether a branch of an `if`, or of one of its `else if`s, never reaches its end.
 pub fn has_exits(then: &Block, otherwise: Option<&Expr>) -> bool {
     always_leaves(then)
         || otherwise.is_some_and(|other| match &other.kind {

@@ -1,8 +1,8 @@
-//! What a kernel does besides giving values: it writes to buffers and pictures.
+//! Side effects of a kernel: writes to buffers and images.
 //!
-//! Both sides of a condition that is selected are evaluated, and those who have left a loop or function are evaluated along; so
-//! an effect has a condition of its own, which says for whom it happens: those on whose side it stands who have not left. Of
-//! branches and loops that are left in the shader, the region that it is in says the rest.
+//! Both sides of a selected condition are evaluated, and code after an early exit is evaluated for all invocations. Each
+//! effect therefore carries a condition: the conditions of the sides that contain it, and that no exit was taken. For
+//! branches and loops left in the shader, the region implies the rest.
 
 use super::Evaluator;
 use super::buffers::value_named;
@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
 use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Target, Type};
 
-/// Method and operation of what a buffer of atomics has.
+/// Methods of a buffer of atomics, with their operations.
 const ATOMICS: [(&str, AtomicOp); 8] = [
     ("add", AtomicOp::Add),
     ("max", AtomicOp::Max),
@@ -23,27 +23,27 @@ const ATOMICS: [(&str, AtomicOp); 8] = [
     ("load", AtomicOp::Load),
 ];
 
-/// What has atomics, for messages.
+/// Atomic methods with their arguments, for messages.
 pub const ATOMIC_METHODS: &str =
     "`add`, `max`, `min`, `and`, `or`, `xor`, `exchange`, each of an index and a value, `load` of an index, and `len`";
 
-/// What is done to memory.
+/// Kind of an access to memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemoryEffect {
-    /// An element is changed at once.
+    /// Atomic change of an element.
     Atomic(AtomicOp),
-    /// An element is written.
+    /// Write of an element.
     Store,
 }
 
-/// The atomic operation that a method with so many arguments is.
+/// Atomic operation of a method with this number of arguments.
 pub fn atomic_named(name: &str, arguments: usize) -> Option<AtomicOp> {
     let (_, op) = ATOMICS.iter().find(|(method, _)| *method == name)?;
     (arguments == if *op == AtomicOp::Load { 1 } else { 2 }).then_some(*op)
 }
 
 impl Evaluator<'_> {
-    /// Evaluates what happens only for those for whom all of `conditions` are as stated, and who have not left.
+    /// Evaluates code whose effects happen only if each of `conditions` has the stated value and no early exit was taken.
     pub fn eval_under<T>(&mut self, conditions: &[(NodeId, bool)], evaluate: impl FnOnce(&mut Self) -> T) -> T {
         let mark = self.path_conditions.len();
         self.path_conditions.extend(conditions);
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         outcome
     }
 
-    /// Evaluates what is called, where nobody has left yet; it is reached by those who have not left where it is called.
+    /// Evaluates a called function without pending exits, under the condition that none of the current ones was taken.
     pub fn eval_without_exits<T>(&mut self, evaluate: impl FnOnce(&mut Self) -> T) -> T {
         let pending = std::mem::take(&mut self.early_exits);
         let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
@@ -61,7 +61,7 @@ impl Evaluator<'_> {
         outcome
     }
 
-    /// For whom the place that is being evaluated is reached, as far as no region says it.
+    /// Condition under which the code being evaluated is reached, as far as regions do not imply it.
     pub(super) fn reach_condition(&mut self) -> NodeId {
         let mut conditions = self.path_conditions.clone();
         conditions.extend(self.early_exits.iter().map(|departure| (departure.condition, false)));
@@ -73,7 +73,7 @@ impl Evaluator<'_> {
         all
     }
 
-    /// A parameter that is a picture of the frame's size, which the kernel writes.
+    /// Adds a parameter that is an image of the frame's size, written by the kernel.
     pub(super) fn image_parameter(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval {
         let ty = match args {
             [SourceType::Name(of, _)] => value_named(of),
@@ -98,7 +98,7 @@ impl Evaluator<'_> {
         Ok(Value::Image(images.len() as u32 - 1))
     }
 
-    /// A method of a picture that the kernel writes.
+    /// Evaluates a method of an image that the kernel writes.
     pub fn eval_image_method(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let image = self.builder.graph().images[index as usize].name.clone();
         match (name, args) {
@@ -121,7 +121,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A method of a buffer that the kernel writes.
+    /// Evaluates a method of a buffer that the kernel writes.
     pub fn written_buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let buffer = self.builder.graph().buffers[index as usize].clone();
         let effect = match (buffer.access, atomic_named(name, args.len()), args) {
@@ -137,7 +137,7 @@ impl Evaluator<'_> {
         self.effect_on(Memory::Buffer(index), effect, args, span)
     }
 
-    /// Writes to memory at an index, the first of `args`, what the second is.
+    /// Adds an effect on memory. The first of `args` is the index, the second the value.
     pub fn effect_on(&mut self, memory: Memory, effect: MemoryEffect, args: &[Value], span: Span) -> Eval {
         let (element, name) = self.builder.graph().memory(memory);
         let name = name.to_owned();
@@ -180,7 +180,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Whether an index is inside of memory.
+    /// Builds the test for an index inside memory.
     fn index_in_bounds(&mut self, memory: Memory, index: &Value, span: Span) -> Eval<NodeId> {
         let index = self.value_node(index, span)?;
         let len = match memory {
@@ -195,7 +195,7 @@ impl Evaluator<'_> {
                 self.builder.i32(len as i32)
             }
         };
-        // A negative index is a large one.
+        // A negative index becomes a large one.
         let kind = match self.ty(index) {
             Type::USIZE => Scalar::Usize,
             _ => Scalar::U32,
@@ -208,7 +208,7 @@ impl Evaluator<'_> {
         Ok(self.builder.add(Op::Binary(BinaryOp::Lt), [at, len], Type::BOOL))
     }
 
-    /// Whether a place is inside of the frame.
+    /// Builds the test for a position inside the frame.
     fn inside_frame(&mut self, at: NodeId) -> NodeId {
         if matches!(self.builder.graph().node(at).op, Op::Pixel) && self.builder.graph().invocation == Invocation::Pixel
         {
@@ -218,7 +218,7 @@ impl Evaluator<'_> {
         let [at, frame] = [at, frame].map(|id| self.vector_components(id));
         let mut inside = self.builder.bool(true);
         for (at, side) in at.into_iter().zip(frame) {
-            // A negative coordinate is a large one.
+            // A negative coordinate becomes a large one.
             let [at, side] = [at, side].map(|id| self.convert_node(id, Scalar::U32));
             let within = self.builder.add(Op::Binary(BinaryOp::Lt), [at, side], Type::BOOL);
             inside = self.and(inside, within);
@@ -226,7 +226,7 @@ impl Evaluator<'_> {
         inside
     }
 
-    /// Effects are of invocations that compute one pixel, inside the frame.
+    /// Rejects writes unless each invocation computes one pixel inside the frame.
     fn check_write_allowed(&mut self, name: &str, span: Span) -> Eval<()> {
         let (what, help) = match self.builder.graph().invocation {
             Invocation::Pixel => return Ok(()),

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::options::unknown_settings;
-// Booleans are in no buffer.
+// Booleans cannot be stored in buffers.
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use straightline_kernels::{OptionText, OptionValues};
 
 impl Evaluator<'_> {
-    /// Evaluates the kernel `entry`: its results, the options chosen, its documentation.
+    /// Evaluates the kernel `entry`. Returns its results, the chosen options and its documentation.
     pub fn eval_kernel(&mut self, entry: &str, settings: &[OptionText]) -> Eval<(Vec<NodeId>, OptionValues, String)> {
         let library = self.library;
         let Some(function) = library.functions.get(entry) else {
@@ -74,7 +74,7 @@ impl Evaluator<'_> {
         Ok((outputs, options, function.docs.clone()))
     }
 
-    /// Parameters that no kernel can take, whatever their types are called: for kernels in which other errors were found.
+    /// Returns errors for parameters that no kernel can have, whatever their types. Used if other errors were found.
     pub fn parameter_errors(mut self, entry: &str) -> Vec<Diagnostic> {
         let Some(function) = self.library.functions.get(entry) else {
             return Vec::new();
@@ -94,7 +94,7 @@ impl Evaluator<'_> {
         self.errors
     }
 
-    /// Names of parameters, and of the fields of those that are structures, with how often each is one.
+    /// Names of parameters and of the fields of structure parameters, with the number of uses of each.
     fn names_of_parameters(&self, params: &[Param]) -> BTreeMap<String, usize> {
         let library = self.library;
         let mut names = BTreeMap::new();
@@ -148,7 +148,7 @@ impl Evaluator<'_> {
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
             let ty = ty.peel_refs();
-            // Where several structures have such a field, it is called by both names.
+            // If several structures have a field of this name, the parameter's name is prefixed.
             let is_one = self.parameters.get(unraw(field)).is_none_or(|times| *times == 1);
             let known = match is_one {
                 true => field.to_string(),
@@ -175,8 +175,8 @@ impl Evaluator<'_> {
         Ok(Value::structure(type_name.clone(), fields))
     }
 
-    /// What is set at run time of a parameter: of an array its elements, by name and number, of a structure inside another its
-    /// fields, by both names; `None` if that is no number.
+    /// Adds the uniforms of a parameter. Array elements are named by number, fields of a nested structure by both names.
+    /// Returns `None` if the type contains something that is no number.
     fn uniform_part(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
         let library = self.library;
         match ty {
@@ -189,7 +189,7 @@ impl Evaluator<'_> {
                         Some(element) => elements.push(element),
                         None => return Ok(None),
                     }
-                    // Of structures and matrices, what was added has longer names.
+                    // The uniforms added for structures and matrices have longer names.
                     let added = self.builder.graph_mut().uniforms.last_mut();
                     if let Some(uniform) = added.filter(|uniform| uniform.name == own) {
                         uniform.part = Some(UniformPart {
@@ -216,7 +216,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A parameter that is set at run time, or built in; `None` if its type is no number.
+    /// Adds a parameter that is set at run time or built in; `None` if its type is no number.
     fn uniform_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
         if let Some(value) = self.quad_parameter(name, ty, span)? {
             return Ok(Some(value));
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
             other => match (vector_type(other), super::matrix::column_count(other)) {
                 (Some((kind, lanes)), _) => Type::value(kind, lanes),
                 (None, Some(n)) => {
-                    // Columns in a row are a matrix in memory, in WGSL and in GLSL.
+                    // Consecutive columns form a matrix in memory, in WGSL and in GLSL.
                     let mut columns = Vec::new();
                     for (index, axis) in (0..).zip(super::matrix::axis_names(n)) {
                         let own = self.part_name(name, axis);

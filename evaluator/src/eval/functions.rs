@@ -1,4 +1,4 @@
-//! The prelude's functions of floats.
+//! Float functions of the prelude.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
-    /// A function of the prelude; `None` if it has none of this name.
+    /// Evaluates a prelude function; `None` if there is none with this name.
     pub fn eval_prelude_call(&mut self, name: &str, values: &[Value], span: Span) -> Eval<Option<Value>> {
         let unary = match name {
             "fract" => Some(UnaryOp::Fract),
@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Refuses bounds of `clamp` that are known to be the wrong way round: Rust panics at them, and Tint refuses them.
+    /// Rejects constant bounds of `clamp` that are swapped: Rust panics on them, and Tint rejects them.
     pub(super) fn in_order(&self, low: NodeId, high: NodeId, span: Span) -> Eval<()> {
         let graph = self.builder.graph();
         let (Some(least), Some(most)) = (graph.constant_bits(low), graph.constant_bits(high)) else {

@@ -1,11 +1,11 @@
-//! Integer methods, with the meaning of Rust's.
+//! Integer methods with Rust's semantics.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
-/// Methods that count or turn bits.
+/// Operation of a method that counts or reorders bits.
 pub fn bit_method(name: &str) -> Option<UnaryOp> {
     Some(match name {
         "count_ones" => UnaryOp::CountOneBits,
@@ -17,7 +17,7 @@ pub fn bit_method(name: &str) -> Option<UnaryOp> {
 }
 
 impl Evaluator<'_> {
-    /// A method of two integers.
+    /// Evaluates a method of two integers.
     pub fn integer_two(
         &mut self,
         receiver: &Value,
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
             }
             _ => return self.build_euclid(receiver, x, name, a, span).map(Some),
         };
-        // A known receiver is a node by now: known integers do not wrap.
+        // A constant receiver must be a node here, because untyped integers do not wrap.
         let receiver = match receiver {
             Value::Int(_) => Value::Node(x),
             other => other.clone(),
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
         Ok(Some(found))
     }
 
-    /// `rem_euclid` and `div_euclid`, of vectors component by component.
+    /// Builds `rem_euclid` or `div_euclid`; vectors component by component.
     fn build_euclid(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<NodeId> {
         let (x, n) = match receiver {
             Value::Int(_) => self.same_type(&Value::Node(x), a, span)?,
@@ -90,11 +90,12 @@ impl Evaluator<'_> {
         let positive = |bits: [u32; 4]| bits[..lanes].iter().all(|n| *n as i32 > 0);
         let rest = self.builder.add(op(BinaryOp::Rem), [x, n], ty);
         if name == "rem_euclid" && self.builder.graph().constant_bits(n).is_some_and(positive) {
-            // ((x % n) + n) % n, which for a positive n is what Rust computes.
+            // ((x % n) + n) % n, which matches Rust for a positive n.
             let up = self.builder.add(op(BinaryOp::Add), [rest, n], ty);
             return Ok(self.builder.add(op(BinaryOp::Rem), [up, n], ty));
         }
-        // Where the remainder is below 0, it is moved up by |n|, and the quotient one away from where n points.
+        // If the remainder is negative, add |n| to it. The quotient then moves by one: down for a positive n, up for a
+        // negative one.
         let whole = self.builder.add(op(BinaryOp::Div), [x, n], ty);
         let mut found = Vec::new();
         for k in 0..ty.component_count() {

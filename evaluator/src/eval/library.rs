@@ -1,4 +1,4 @@
-//! Functions of the standard library that work on places and types: `mem::swap`, `mem::replace`, `T::from`.
+//! Standard library functions on places and types: `mem::swap`, `mem::replace`, `T::from`.
 
 use super::Evaluator;
 use super::call::vector_type;
@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Op, Scalar, Type};
 
 impl Evaluator<'_> {
-    /// `mem::swap(&mut a, &mut b)` and `mem::replace(&mut a, b)`; `None` of any other function.
+    /// Evaluates `mem::swap(&mut a, &mut b)` or `mem::replace(&mut a, b)`; `None` for any other function.
     pub fn eval_mem_call(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let name = path.last().map(String::as_str).unwrap_or_default();
         match (name, values) {
@@ -32,8 +32,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `f32::from(x)`, `u32::from(flag)`, `Vec3::from(array)`, `Vec4::from((vector, w))`; `None` if `ty` is no number and no
-    /// vector.
+    /// Evaluates `f32::from(x)`, `u32::from(flag)`, `Vec3::from(array)`, `Vec4::from((vector, w))`; `None` unless `ty` is a
+    /// number or a vector.
     pub fn from(&mut self, ty: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
         if let Some((kind, lanes)) = vector_type(ty) {
             let parts = match value {

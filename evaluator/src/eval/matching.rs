@@ -1,7 +1,7 @@
-//! `match`, and what becomes one: `if let`, `let ... else`, `matches!`.
+//! `match`, and the constructs lowered to it: `if let`, `let ... else`, `matches!`.
 //!
-//! The arms are a chain of conditions. One that is a compile-time constant decides by itself; of one that is a runtime
-//! value both sides are evaluated, the arm and all that come after it.
+//! The arms form a chain of conditions. A compile-time constant selects an arm during evaluation. For a runtime condition,
+//! both the arm and all later arms are evaluated.
 
 use super::Evaluator;
 use super::departures::Tail;
@@ -13,10 +13,10 @@ use crate::ir::{BinaryOp, NodeId};
 use crate::policy::Branches;
 use std::borrow::Cow;
 
-/// Alternatives of one pattern that bind names, after which it is refused.
+/// Maximum number of alternatives of one pattern that bind names.
 const MAX_ALTERNATIVES: usize = 64;
 
-/// A pattern in which no `|` binds names, and the arm that it is of.
+/// A pattern without `|` around bindings, and its arm.
 struct Case<'a> {
     pattern: Cow<'a, Pattern>,
     arm: &'a Arm,
@@ -33,7 +33,7 @@ impl Evaluator<'_> {
     ) -> Eval {
         let value = self.eval_expr(subject)?;
         let mut arms = arms;
-        // Most arms take a value for certain, or for certain not.
+        // Most arms match certainly, or certainly do not.
         while let Some((arm, rest)) = arms.split_first()
             && arm.guard.is_none()
             && !binds_in_or(&arm.pattern)
@@ -74,7 +74,7 @@ impl Evaluator<'_> {
         self.eval_cases(&value, &cases, keep, tail, span)
     }
 
-    /// What the first case gives that takes the value.
+    /// Evaluates the first case that matches the value.
     fn eval_cases(&mut self, value: &Value, cases: &[Case<'_>], keep: bool, tail: Tail<'_>, span: Span) -> Eval {
         self.count_step(span)?;
         let Some((case, rest)) = cases.split_first() else {
@@ -102,7 +102,7 @@ impl Evaluator<'_> {
         match self.known_bool(condition) {
             Some(true) => body(self),
             Some(false) => self.eval_cases(value, rest, keep, tail, span),
-            // The arms take all values together, so the last one takes what the others leave.
+            // The arms are exhaustive, so the last one matches whatever remains.
             None if case.arm.guard.is_none() && self.is_last(value, rest, span)? => body(self),
             None => self.eval_branch(tail, condition, keep, span, body, |e| {
                 e.eval_cases(value, rest, keep, tail, span)
@@ -110,7 +110,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether no other case may take a value: there is none, or all are of variants that it is known not to be.
+    /// Returns whether no later case can match: there is none, or all are variants that the value is known not to be.
     fn is_last(&mut self, value: &Value, rest: &[Case<'_>], span: Span) -> Eval<bool> {
         if rest.is_empty() {
             return Ok(true);
@@ -127,7 +127,7 @@ impl Evaluator<'_> {
         Ok(true)
     }
 
-    /// Evaluates what sees the names of a pattern that has taken a value.
+    /// Evaluates code in the scope of the names that a matching pattern binds.
     fn with_bound(
         &mut self,
         pattern: &Pattern,
@@ -142,7 +142,7 @@ impl Evaluator<'_> {
         result
     }
 
-    /// Whether a pattern takes a value: a boolean, known or not. Binds nothing.
+    /// Builds the test of a value against a pattern: a boolean, constant or not. Binds nothing.
     fn test_pattern(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<NodeId> {
         match pattern {
             Pattern::Wild | Pattern::Rest | Pattern::Name(..) => Ok(self.builder.bool(true)),
@@ -224,7 +224,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a value is a variant.
+    /// Builds the test for a variant.
     fn test_variant(&mut self, value: &Value, variant: usize, span: Span) -> Eval<NodeId> {
         match self.deref_value(value.clone(), span)? {
             Value::Enum(choice) => Ok(self.is_variant(&choice, variant)),
@@ -238,7 +238,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether each pattern takes its value; after one that is known not to, none is looked at.
+    /// Builds the test of each value against its pattern. Stops after one that is known not to match.
     fn test_all(&mut self, pairs: Vec<(&Pattern, Value)>, span: Span) -> Eval<NodeId> {
         let mut all = self.builder.bool(true);
         for (pattern, value) in pairs {
@@ -257,7 +257,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Patterns with the parts that they take; `..` takes any.
+/// Pairs patterns with the parts of a value; `..` skips any number.
 fn zip_patterns<'p>(patterns: &'p [Pattern], parts: &[Value]) -> Vec<(&'p Pattern, Value)> {
     let each = Pattern::part_ranges(patterns, parts.len()).into_iter().flatten();
     let each = each.filter(|(pattern, _)| !pattern.is_rest());
@@ -265,7 +265,7 @@ fn zip_patterns<'p>(patterns: &'p [Pattern], parts: &[Value]) -> Vec<(&'p Patter
         .collect()
 }
 
-/// A pattern as patterns in which no `|` binds names.
+/// Expands a pattern to patterns without `|` around bindings.
 fn expand_alternatives(pattern: &Pattern) -> Vec<Pattern> {
     if !binds_in_or(pattern) {
         return vec![pattern.clone()];
@@ -310,7 +310,7 @@ fn expand_alternatives(pattern: &Pattern) -> Vec<Pattern> {
     }
 }
 
-/// Whether a `|` anywhere in a pattern binds names.
+/// Returns whether a `|` anywhere in a pattern binds names.
 fn binds_in_or(pattern: &Pattern) -> bool {
     match pattern {
         Pattern::Or(cases) => cases.iter().any(binds_names),

@@ -1,4 +1,4 @@
-//! Functions of numbers and vectors, by the names that `f32` and glam give them.
+//! Functions of numbers and vectors, named as in `f32` and glam.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -7,7 +7,7 @@ use crate::front::methods::{UNLIKE, known_methods};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
-    /// A method of a number or vector.
+    /// Evaluates a method of a number or vector.
     pub fn eval_math_method(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval {
         if let Some(value) = self.quad_method(receiver, name, args, span)? {
             return Ok(value);
@@ -33,7 +33,7 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Clamp, [x, low, high], ty))
             }
             [to, amount] if name == "lerp" => {
-                // As glam computes it: self * (1 - s) + to * s.
+                // As in glam: self * (1 - s) + to * s.
                 let one = Value::Node(self.builder.f32(1.0));
                 let rest = self.eval_binary(BinaryOp::Sub, &one, amount, span)?;
                 let from = self.eval_binary(BinaryOp::Mul, receiver, &rest, span)?;
@@ -65,7 +65,7 @@ impl Evaluator<'_> {
         if let Some(op) = super::integers::bit_method(name) {
             return Ok(ty.is_integer().then(|| {
                 let counted = self.builder.add(Op::Unary(op), [x], ty);
-                // Rust counts in u32.
+                // Rust returns the count as u32.
                 if name == "reverse_bits" {
                     counted
                 } else {
@@ -100,8 +100,8 @@ impl Evaluator<'_> {
                 Some(negative)
             }
             "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, [x], Type::U32)),
-            // A shader may assume that there are no NaNs: the test is one of bits.
-            // A NaN is larger than infinity, by its bits without the sign.
+            // A shader may assume that there are no NaNs, so the test uses bits: without its sign, a NaN is larger than
+            // infinity.
             "is_nan" | "is_finite" if ty.is_float() => {
                 let largest = self.largest_magnitude(x);
                 let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
             "length_squared" if ty.is_integer() && ty.component_count() > 1 => Some(self.integer_dot(x, x)),
             "length" if vector => Some(self.build_length(x)),
             "normalize" if vector => {
-                // As glam computes it: the vector times the reciprocal of its length.
+                // As in glam: the vector times the reciprocal of its length.
                 let length = self.build_length(x);
                 let one = self.builder.f32(1.0);
                 let scale = self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32);
@@ -204,7 +204,7 @@ impl Evaluator<'_> {
                 return self.integer_two(receiver, x, name, a, span);
             }
             "reflect" if float_vector => {
-                // As glam computes it: self - 2 * self.dot(normal) * normal.
+                // As in glam: self - 2 * self.dot(normal) * normal.
                 let (v, n) = self.same_type(receiver, a, span)?;
                 let dot = self.build_dot(v, n);
                 let two = self.builder.f32(2.0);
@@ -268,7 +268,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `x` to a power by squares, the lowest first, as Rust multiplies; for a negative power the reciprocal of that.
+    /// Builds `x` to a constant power by repeated squaring, lowest bit first as in Rust; the reciprocal for a negative
+    /// power.
     fn build_power(&mut self, x: NodeId, n: i64) -> NodeId {
         let ty = self.ty(x);
         let one = self.builder.f32(1.0);
@@ -289,7 +290,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The sum of products of components, first to last.
+    /// Builds the sum of products of components, first to last.
     fn integer_dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
         let ty = self.ty(a);
         let part = Type::scalar(ty.scalar_kind().unwrap_or(Scalar::I32));
@@ -305,7 +306,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::Dot, [a, b], Type::F32)
     }
 
-    /// Bits of the largest component, its sign left out.
+    /// Builds the bits of the component with the largest magnitude, without the sign.
     fn largest_magnitude(&mut self, x: NodeId) -> NodeId {
         let bits_type = Type::value(Scalar::U32, self.ty(x).component_count());
         let bits = self.builder.add(Op::Bitcast, [x], bits_type);
@@ -324,7 +325,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::Unary(UnaryOp::Sqrt), [squared], Type::F32)
     }
 
-    /// The components of a vector as scalars.
+    /// Components of a vector as scalars.
     pub fn vector_components(&mut self, x: NodeId) -> Vec<NodeId> {
         let ty = self.ty(x);
         if ty.is_scalar() {
@@ -336,7 +337,7 @@ impl Evaluator<'_> {
             .collect()
     }
 
-    /// `v.xy()`, `v.zyx()`, ...
+    /// Builds a swizzle: `v.xy()`, `v.zyx()`, ...
     fn build_swizzle(&mut self, x: NodeId, name: &str) -> Option<NodeId> {
         let ty = self.ty(x);
         let lanes: Option<Vec<u8>> = name
@@ -393,7 +394,7 @@ fn unary_method(name: &str) -> Option<UnaryOp> {
     })
 }
 
-/// `as_vec2` and its like.
+/// Target type of `as_vec2` and similar methods.
 fn conversion_method(name: &str) -> Option<(Scalar, u8)> {
     let rest = name.strip_prefix("as_")?;
     let (kind, lanes) = match rest.strip_prefix("vec") {

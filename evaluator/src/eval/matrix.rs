@@ -1,4 +1,4 @@
-//! Matrices: structures of columns, with glam's names and glam's order of operations.
+//! Matrices: structures of columns, with glam's names and order of operations.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -8,7 +8,7 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
 const AXES: [&str; 4] = ["x_axis", "y_axis", "z_axis", "w_axis"];
 
-/// Columns of `Mat2`, `Mat3` or `Mat4`.
+/// Number of columns of `Mat2`, `Mat3` or `Mat4`.
 pub fn column_count(ty: &str) -> Option<u8> {
     match ty {
         "Mat2" => Some(2),
@@ -18,7 +18,7 @@ pub fn column_count(ty: &str) -> Option<u8> {
     }
 }
 
-/// The type that `mat2`, `mat3` or `mat4` makes; of any other name none.
+/// Type that `mat2`, `mat3` or `mat4` constructs; empty for any other name.
 fn made_by(name: &str) -> &'static str {
     match name {
         "mat2" => "Mat2",
@@ -28,13 +28,13 @@ fn made_by(name: &str) -> &'static str {
     }
 }
 
-/// Fields of a matrix: its columns.
+/// Field names of a matrix: its columns.
 pub fn axis_names(n: u8) -> &'static [&'static str] {
     &AXES[..n as usize]
 }
 
 impl Evaluator<'_> {
-    /// `Mat3::from_cols(a, b, c)`, `mat3(a, b, c)`, `Mat3::from_diagonal(d)`.
+    /// Evaluates `Mat3::from_cols(a, b, c)`, `mat3(a, b, c)`, `Mat3::from_diagonal(d)`.
     pub fn matrix_function(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let (ty, name) = match path {
             [name] => (made_by(name), "from_cols"),
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A method of a matrix.
+    /// Evaluates a matrix method.
     pub fn matrix_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval {
         let (ty, columns) = self.matrix_columns(value, span)?;
         match (name, args) {
@@ -126,7 +126,7 @@ impl Evaluator<'_> {
             },
             ("mul_vec2" | "mul_vec3" | "mul_vec4", [vector]) => self.matrix_product(value, vector, span),
             ("mul_mat2" | "mul_mat3" | "mul_mat4", [other]) => self.matrix_product(value, other, span),
-            // As glam: a point has w 1, a direction 0, and the result's w is dropped.
+            // As in glam: w is 1 for a point and 0 for a direction, and the result's w is dropped.
             ("transform_point3" | "transform_vector3", [vector]) if columns.len() == 4 => {
                 let vector = self.value_node(vector, span)?;
                 if self.ty(vector) != Type::value(Scalar::F32, 3) {
@@ -153,7 +153,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A matrix times a vector, another matrix, or a number.
+    /// Builds a matrix times a vector, another matrix, or a number.
     pub fn matrix_product(&mut self, left: &Value, right: &Value, span: Span) -> Eval {
         if let (Value::Node(_), Value::Struct { .. }) = (left, right) {
             return self.matrix_by_number(right, left, span);
@@ -203,7 +203,7 @@ impl Evaluator<'_> {
         Ok(matrix_value(&products))
     }
 
-    /// The sum of the columns times the vector's components, first to last.
+    /// Builds the sum of the columns times the vector's components, first to last.
     fn times_vector(&mut self, columns: &[NodeId], vector: NodeId) -> NodeId {
         let ty = self.ty(columns[0]);
         let mut sum = self.scale_column(columns[0], vector, 0);
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// A matrix of its columns.
+/// Matrix value with the given columns.
 pub fn matrix_value(columns: &[NodeId]) -> Value {
     let named = AXES.iter().zip(columns);
     let fields = named.map(|(name, id)| ((*name).into(), Value::Node(*id)));

@@ -61,7 +61,7 @@ impl Evaluator<'_> {
             return Ok(Value::Node(found));
         }
         let (a, b) = match op {
-            // A shift's count may be of another integer type.
+            // The count of a shift may have another integer type.
             BinaryOp::Shl | BinaryOp::Shr => (self.value_node(left, span)?, self.shift_count(left, right, span)?),
             _ => self.same_type(left, right, span)?,
         };
@@ -82,7 +82,7 @@ impl Evaluator<'_> {
         Ok(Value::Node(self.builder.add(Op::Binary(op), [a, b], ty)))
     }
 
-    /// Two matrices, column by column.
+    /// Applies an operator to two matrices, column by column.
     fn by_fields(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
         match (left, right) {
             (
@@ -107,7 +107,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Rust compares vectors as wholes.
+    /// Builds a comparison. Rust compares vectors as a whole.
     fn build_comparison(&mut self, op: BinaryOp, a: NodeId, b: NodeId) -> Eval {
         let lanes = self.ty(a).component_count();
         let each = self
@@ -137,7 +137,7 @@ impl Evaluator<'_> {
         Ok(self.build_splat(count, ty.component_count()))
     }
 
-    /// An operation on known values of `usize`, which has 64 bits while it is known.
+    /// Evaluates an operation on constants of type `usize`, which has 64 bits at compile time.
     fn fold_integers(&mut self, op: BinaryOp, a: i64, b: i64, span: Span) -> Eval {
         use BinaryOp::*;
         let known = match op {
@@ -185,12 +185,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Both values as nodes of one type: integers take the other's type, scalars fill the other's components.
+    /// Converts both values to nodes of one type: integer literals take the other type, scalars are splatted.
     pub fn same_type(&mut self, left: &Value, right: &Value, span: Span) -> Eval<(NodeId, NodeId)> {
         let (a, b) = match (left, right) {
             (Value::Int(n), Value::Node(id)) => (self.int_of(*n, *id, span)?, *id),
             (Value::Node(id), Value::Int(n)) => (*id, self.int_of(*n, *id, span)?),
-            // What inference knows nothing of: a literal takes the other's type.
+            // Inference knows no type here: a literal takes the other's type.
             (Value::Node(a), Value::Node(b)) if self.ty(*a) == Type::USIZE && self.ty(*b) != Type::USIZE => {
                 match self.known_int(left) {
                     Some(n) => (self.int_of(n, *b, span)?, *b),
@@ -225,13 +225,13 @@ impl Evaluator<'_> {
         .into())
     }
 
-    /// A known integer of the kind of another number.
+    /// Converts a constant integer to the kind of another number.
     fn int_of(&mut self, n: i64, other: NodeId, span: Span) -> Eval<NodeId> {
         let kind = self.ty(other).scalar_kind().unwrap_or(Scalar::Usize);
         self.int_node(n, kind, span)
     }
 
-    /// A scalar in each of `lanes` components.
+    /// Repeats a scalar in each of `lanes` components.
     pub fn build_splat(&mut self, id: NodeId, lanes: u8) -> NodeId {
         if lanes == 1 || self.ty(id).component_count() > 1 {
             return id;
@@ -240,13 +240,13 @@ impl Evaluator<'_> {
         self.builder.add(Op::Splat, [id], ty)
     }
 
-    /// A node's components converted to another kind.
+    /// Converts a node's components to another kind.
     pub fn convert_node(&mut self, id: NodeId, kind: Scalar) -> NodeId {
         let ty = self.ty(id).with_scalar(kind);
         self.builder.add(Op::Convert, [id], ty)
     }
 
-    /// `value as type`.
+    /// Evaluates `value as type`.
     pub fn eval_cast(&mut self, value: &Value, ty: &SourceType, span: Span) -> Eval {
         let SourceType::Name(name, _) = ty else {
             if matches!(ty, SourceType::Fn(..)) && value.is_called() {
@@ -292,12 +292,12 @@ impl Evaluator<'_> {
         })
     }
 
-    /// An `i32` as the `usize` that it is.
+    /// Converts an `i32` to the `usize` that it represents.
     pub fn as_usize(&mut self, id: NodeId) -> Value {
         Value::Node(self.convert_node(id, Scalar::Usize))
     }
 
-    /// An index of what does not clamp it: an `i32` node. An index beyond is so as an `i32` too.
+    /// Converts an index to an `i32` node without clamping. An index that is out of range stays so.
     pub fn index_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         let id = self.value_node(value, span)?;
         match self.ty(id) {
@@ -317,7 +317,8 @@ impl Evaluator<'_> {
 }
 
 impl Evaluator<'_> {
-    /// An index that is not beyond the last of `count` elements (`count` an `i32` node): an `i32` node. `last` is the last one's name.
+    /// Clamps an index to the last of `count` elements. `count` and the result are `i32` nodes. `last` names the node of
+    /// the last index.
     pub fn held_index(&mut self, value: &Value, count: NodeId, last: &str, span: Span) -> Eval<NodeId> {
         let id = self.value_node(value, span)?;
         let one = self.builder.i32(1);

@@ -1,4 +1,4 @@
-//! Loops that are left in the shader: what they count, and bodies written several times in a row.
+//! Loops left in the shader: what they count, and partial unrolling.
 
 use super::Evaluator;
 use super::departures::{EarlyExit, Tail};
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// What an attempt may change, to go back to.
+/// State to restore after an attempt.
 #[derive(Clone)]
 pub struct Checkpoint {
     scope: Scope,
@@ -23,41 +23,41 @@ pub struct Checkpoint {
     loops: super::budget::LoopTracker,
     early_exits: Vec<EarlyExit>,
     loop_depth: u32,
-    /// Loops that are left in the shader.
+    /// Number of loops left in the shader.
     loop_count: usize,
-    /// Reads made.
+    /// Site of the last read.
     last_site: u32,
     made: Mark,
 }
 
 impl Checkpoint {
-    /// Number of loops that had been left in the shader.
+    /// Number of loops left in the shader at this point.
     pub fn loop_count(&self) -> usize {
         self.loop_count
     }
 
-    /// How many errors had been noted.
+    /// Number of errors recorded at this point.
     pub fn error_count(&self) -> usize {
         self.errors
     }
 }
 
-/// What a loop that is left in the shader counts.
+/// Quantity that a loop left in the shader counts.
 pub enum LoopCount {
     /// The values of a range.
     Range(LoopPlan),
     /// Positions in a list of values.
     Elements(Columns),
-    /// Elements of an array, by mutable references to them: the array, and how many there are.
+    /// Elements of an array by mutable reference: the array, and its length.
     Places(Place, u32),
-    /// Iterations, which the body takes no notice of.
+    /// Iterations whose number the body does not use.
     Times(u32),
-    /// Nothing: it goes on until the body leaves it.
+    /// Nothing: the loop runs until the body exits it.
     Unknown,
 }
 
 impl Evaluator<'_> {
-    /// A state to return to.
+    /// Captures the current state.
     pub fn take_checkpoint(&self) -> Checkpoint {
         Checkpoint {
             scope: self.scope.clone(),
@@ -72,7 +72,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Goes back, and removes the nodes made meanwhile. Gives the first error that was noted meanwhile.
+    /// Restores a state and removes all nodes added since. Returns the first error recorded since.
     pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
         self.counters = before.counters;
@@ -91,16 +91,16 @@ impl Evaluator<'_> {
         noted
     }
 
-    /// Goes back as if nothing had been evaluated since: reads are numbered as before too.
+    /// Restores a state completely, including the numbering of reads.
     pub fn rewind_to(&mut self, before: Checkpoint) {
         self.last_site = before.last_site;
         self.return_to(before);
     }
 
-    /// Goes back, but keeps values that consist of constants and of values from before.
+    /// Restores a state, but keeps values built only from constants and earlier nodes.
     pub fn return_with(&mut self, mut before: Checkpoint, values: Vec<Value>) -> Vec<Value> {
         if !values.iter().all(Value::is_plain) {
-            // What a closure took along cannot be made anew.
+            // The captures of a closure cannot be rebuilt.
             before.made = self.builder.mark().with_effects_of(&before.made);
             self.return_to(before);
             return values;
@@ -119,7 +119,7 @@ impl Evaluator<'_> {
         }
         self.return_to(before);
         let mut made: HashMap<NodeId, NodeId> = HashMap::new();
-        // Arguments come before their users.
+        // Arguments precede their users.
         for (id, node) in lost {
             let args: Vec<NodeId> = node.args.iter().map(|arg| *made.get(arg).unwrap_or(arg)).collect();
             made.insert(id, self.builder.add(node.op, args, node.ty));
@@ -128,7 +128,7 @@ impl Evaluator<'_> {
         values.iter().map(|value| value.unflatten(&mut leaves)).collect()
     }
 
-    /// Leaves a loop in the shader, its body written once or several times in a row.
+    /// Leaves a loop in the shader, its body repeated once or several times. Returns the unroll mode used.
     pub fn keep_loop(&mut self, body: &LoopBody<'_>, count: &LoopCount, unroll: Unroll, span: Span) -> Eval<Unroll> {
         let (own, trips) = match count {
             LoopCount::Range(course) => (course.counter_type, course.trips),
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
         Ok(unroll)
     }
 
-    /// Iteration `own` of a loop.
+    /// Evaluates iteration `own` of a loop.
     fn eval_iteration(&mut self, body: &LoopBody<'_>, count: &LoopCount, own: NodeId, span: Span) -> Eval<()> {
         let item = match count {
             LoopCount::Range(course) => self.counter_at(course, own),

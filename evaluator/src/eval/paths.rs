@@ -1,4 +1,4 @@
-//! What a path stands for: a variable, a constant, a function, a variant.
+//! Resolution of paths: variable, constant, function, variant.
 
 use super::call::vector_type;
 use super::enums::EnumValue;
@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// A variable, a constant or a variant.
+    /// Evaluates a path to a variable, a constant or a variant.
     pub fn eval_path(&mut self, path: &[String], span: Span) -> Eval {
         let of_parameter = match path {
             [of, name] => match self.scope.get(of) {
@@ -82,7 +82,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a path is that of a function: of the kernel's files, or a method of a number or a vector.
+    /// Returns whether a path names a function: one in the kernel's files, or a method of a number or a vector.
     fn is_function(&self, path: &[String]) -> bool {
         let functions = &self.library.functions;
         match path {
@@ -97,7 +97,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A constant of the kernel's files, evaluated once.
+    /// Evaluates a constant of the kernel's files, once.
     fn eval_constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
         if let Some(value) = self.consts.get(name).map(|(_, value)| value) {
             return Ok(Some(value.clone()));

@@ -1,11 +1,11 @@
-//! Going back to a loop that is left in the shader, to unroll it.
+//! Restart points: going back to a loop left in the shader, to unroll it.
 //!
-//! A demand for a constant leaves the blocks around up to the one with the statement that holds the loops in question. That block goes
-//! back to its state before the statement, and goes on from there with the loops unrolled. A loop that was unrolled for the sake of
-//! a constant is never left in the shader again: evaluation goes back at most once for each.
+//! A demand for a constant propagates outwards to the block with the statement that contains the loops in question. That
+//! block restores its state before the statement and continues with the loops unrolled. A loop that was unrolled because of
+//! a constant is never left in the shader again, so evaluation goes back at most once for each.
 //!
-//! A kernel with many demands would be evaluated from its first loops on for each of them. After some, a block is evaluated to its
-//! end, so that all its demands are met at once.
+//! A kernel with many demands would be re-evaluated from its first loops on for each of them. After `AT_ONCE` restarts, a
+//! block is therefore evaluated to its end, so that all its demands are met at once.
 
 use super::Evaluator;
 use super::partial::Checkpoint;
@@ -15,10 +15,10 @@ use crate::front::scan_effects;
 use crate::front::tree::{Block, Statement};
 use std::collections::BTreeSet;
 
-/// Times that evaluation goes back as soon as a constant is needed.
+/// Number of restarts that happen as soon as a constant is needed.
 const AT_ONCE: usize = 4;
 
-/// Statements of a block that evaluation may go back to, and demands that were put off to the end of the block.
+/// Restart points of a block, and demands deferred to the end of the block.
 #[derive(Default)]
 pub struct RestartPoints {
     points: Vec<RestartPoint>,
@@ -27,14 +27,14 @@ pub struct RestartPoints {
 
 /// A statement that evaluation may go back to.
 struct RestartPoint {
-    /// Position of the statement in its block; of the block's value, the number of statements.
+    /// Position of the statement in its block; for the block's value, the number of statements.
     statement: usize,
     /// State before it.
     before: Checkpoint,
 }
 
 impl Evaluator<'_> {
-    /// Notes that evaluation may go back to a statement, if it may leave a loop in the shader.
+    /// Adds a restart point if the statement may leave a loop in the shader.
     pub fn add_restart_point(&mut self, points: &mut RestartPoints, statement: usize, span: Span) {
         let points = &mut points.points;
         if points
@@ -49,7 +49,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Puts the demands of a statement off to the end of the block, so that those of later statements are found too.
+    /// Defers the demands of a statement to the end of the block, so that those of later statements are found too.
     ///
     /// # Errors
     ///
@@ -69,7 +69,7 @@ impl Evaluator<'_> {
             value: None,
             exact: false,
         };
-        // No later demand is to be one because of values that the statement would have replaced.
+        // Values that the statement would have replaced must not cause further demands.
         for name in scan_effects(&alone, &self.library.mutating).assigned {
             if let Some(slot) = self.scope.find_slot(&name) {
                 let value = self.scope.name_and_value(slot).1.clone();
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The outcome of a block, with the demands that were put off.
+    /// Returns the outcome of a block, together with its deferred demands.
     pub fn with_deferred(&self, outcome: Eval, points: &mut RestartPoints) -> Eval {
         let mut needs = std::mem::take(&mut points.deferred);
         match outcome {
@@ -93,8 +93,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Goes back to the last statement before all demanded loops that are first left in the shader behind the first of `points`. These
-    /// loops are unrolled from there on. Returns the position of the statement.
+    /// Goes back to the last statement before all demanded loops that were first left in the shader after the first of
+    /// `points`. These loops are unrolled from there on. Returns the position of the statement.
     ///
     /// # Errors
     ///
@@ -125,7 +125,7 @@ impl Evaluator<'_> {
         Ok(point.statement)
     }
 
-    /// Evaluates, and once more from the beginning for demands that none of the blocks inside has met.
+    /// Runs `evaluate`, and restarts it from the beginning for each demand that no nested block met.
     pub fn meeting_demands<T>(&mut self, mut evaluate: impl FnMut(&mut Self) -> Eval<T>) -> Eval<T> {
         loop {
             let before = self.take_checkpoint();

@@ -1,6 +1,6 @@
-//! Quads: a value of each lane is a node like any other; messages ask the other lanes for theirs.
+//! Quads: a lane's value is a node like any other; quad swaps read the other lanes' values.
 //!
-//! rustc sees to it that a `Quad<bool>` decides no branch, so that all lanes come to every message.
+//! rustc ensures that a `Quad<bool>` controls no branch, so all lanes reach every swap.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -11,7 +11,7 @@ use crate::ir::{BinaryOp, Invocation, NodeId, Op, QuadDirection, Scalar, Type, V
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
 impl Evaluator<'_> {
-    /// The type of a lane, of a type that may be a `Quad`.
+    /// Type of a lane's value, for a `Quad`; `None` for any other type.
     pub fn lane_type<'t>(&self, ty: &'t SourceType) -> Option<&'t SourceType> {
         match ty.peel_refs() {
             SourceType::Name(name, args) if name == "Quad" && !self.library.structs.contains_key("Quad") => {
@@ -21,7 +21,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A parameter of the kernel that has a value in each lane: the pixel, or what the host interpolates.
+    /// Adds a kernel parameter with a value for each lane: the pixel, or an interpolated value.
     pub fn quad_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
         let Some(SourceType::Name(lane, _)) = self.lane_type(ty) else {
             return Ok(None);
@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         Ok(Some(Value::Node(self.builder.add(Op::Varying(index), Vec::new(), ty))))
     }
 
-    /// The prelude's functions of lanes; `None` if it has none of this name.
+    /// Evaluates a prelude function for lanes; `None` if there is none with this name.
     pub fn quad_function(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let (of, name) = match path {
             [.., of, name] => (of.as_str(), name.as_str()),
@@ -91,7 +91,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A method that only quads have; `None` if this is none of them.
+    /// Evaluates a method that only quads have; `None` if there is none with this name.
     pub fn quad_method(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
         let direction = match name {
             "swap_horizontal" => Some(QuadDirection::Horizontal),
@@ -170,8 +170,8 @@ impl Evaluator<'_> {
         Ok(Value::Node(self.builder.add(Op::QuadSwap(direction), [x], ty)))
     }
 
-    /// The lane's own value, and what it receives from beside, from above or below, and from across. What fits goes in two messages:
-    /// own and below together are sent to beside.
+    /// Builds the lane's own value and those received horizontally, vertically and diagonally. Small values take two swaps:
+    /// own and vertical value are swapped horizontally together.
     fn build_quad_gather(&mut self, x: NodeId, name: &str, span: Span) -> Eval {
         let own = Value::Node(x);
         let (Some(scalar), lanes @ (1 | 2)) = (self.ty(x).scalar_kind(), self.ty(x).component_count()) else {
@@ -200,7 +200,7 @@ impl Evaluator<'_> {
         Ok(Value::array(vec![own, beside, below, across]))
     }
 
-    /// Some lanes of a vector; the whole of a number.
+    /// Components of a vector; a scalar as it is.
     fn take_components(&mut self, value: NodeId, lanes: std::ops::Range<u8>) -> Vec<NodeId> {
         let ty = self.ty(value);
         match (ty.is_scalar(), ty.scalar_kind()) {
@@ -233,7 +233,7 @@ impl Evaluator<'_> {
         .into())
     }
 
-    /// One of four values, by the lane.
+    /// Selects one of four values by the lane.
     fn of_lanes(&mut self, lanes: &[Value], span: Span) -> Eval {
         let lane = self.quad_lane(span)?;
         let zero = self.builder.i32(0);

@@ -1,8 +1,8 @@
-//! Ranges: their methods, their values, and how often a loop over one runs.
+//! Ranges: methods, values, and trip counts of loops over them.
 //!
-//! A loop that is left in the shader and is not plainly `start..end` counts its iterations from 0, and derives the
-//! source's counter from that count in arithmetic that wraps. The number of iterations is computed without a difference
-//! that could overflow, so that ranges up to the ends of their type run as in Rust.
+//! A loop left in the shader that is not simply `start..end` counts its iterations from 0, and computes the source's
+//! counter from that count with wrapping arithmetic. The trip count is computed without a difference that could overflow,
+//! so that ranges up to the ends of their type run as in Rust.
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Range, Value};
@@ -10,29 +10,29 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Expr;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
-/// Iterations after which a loop is taken to be a mistake.
+/// Number of iterations above which a loop is considered a mistake.
 const MAX_ROUNDS: i128 = 1_000_000;
 
-/// How a loop over a range runs in the graph.
+/// Form of a loop over a range in the graph.
 pub struct LoopPlan {
-    /// The type that iterations are counted in.
+    /// Type in which iterations are counted.
     pub counter_type: Type,
     /// Number of iterations, of type `own`.
     pub trips: NodeId,
-    /// First and one past the last counter, where the loop needs no count of its own.
+    /// First counter and one past the last, if the loop needs no count of its own.
     pub plain_bounds: Option<(NodeId, NodeId)>,
-    /// The smallest value, and the end.
+    /// Smallest value, and the end.
     start: NodeId,
     end: NodeId,
-    /// The value that the walk begins at.
+    /// First value of the loop.
     from: NodeId,
-    /// Whether the walk goes down.
+    /// `true` if the values decrease.
     down: bool,
-    /// Distance of two values.
+    /// Distance between values.
     step: u32,
-    /// Whether the values come last to first.
+    /// `true` if the values come last to first.
     reversed: bool,
-    /// Whether a known counter is an integer without a type: of `usize`.
+    /// `true` if a constant counter is an untyped integer, which stands for `usize`.
     index: bool,
 }
 
@@ -44,7 +44,7 @@ impl LoopPlan {
 }
 
 impl Evaluator<'_> {
-    /// `start..end`, `start..=end`.
+    /// Evaluates `start..end` or `start..=end`.
     pub fn eval_range(&mut self, start: &Expr, end: &Expr, inclusive: bool) -> Eval {
         let (start, end) = (self.eval_value(start)?, self.eval_value(end)?);
         Ok(Value::Range(Range {
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         }))
     }
 
-    /// A method of a range.
+    /// Evaluates a range method.
     pub fn range_method(&mut self, range: &Range, name: &str, args: &[Value], span: Span) -> Eval {
         let mut range = range.clone();
         let plain = range.step == 1 && !range.down;
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
         Ok(Value::Range(range))
     }
 
-    /// The type of a range's counter; whether a known counter has no type of its own.
+    /// Type of a range's counter, and whether a constant counter has no type of its own.
     fn counted_in(&self, range: &Range, span: Span) -> Eval<(Scalar, bool)> {
         let mut kinds = Vec::new();
         for end in [&range.start, &range.end] {
@@ -144,7 +144,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A known counter.
+    /// Constant counter value.
     fn known_counter(&mut self, n: i64, kind: Scalar, index: bool) -> Value {
         if index {
             return Value::Int(n);
@@ -152,7 +152,7 @@ impl Evaluator<'_> {
         Value::Node(self.builder.constant(Type::scalar(kind), [n as u32, 0, 0, 0]))
     }
 
-    /// The values of a range in the order of the loop, if both its ends are known.
+    /// Values of a range in loop order, if both its ends are constants.
     pub fn range_values(&mut self, range: &Range, span: Span) -> Eval<Option<Vec<Value>>> {
         let (kind, index) = self.counted_in(range, span)?;
         let Some((start, end)) = self.known_int(&range.start).zip(self.known_int(&range.end)) else {
@@ -181,7 +181,7 @@ impl Evaluator<'_> {
         Ok(Some(values.collect()))
     }
 
-    /// How a loop over a range runs in the graph.
+    /// Plans the form of a loop over a range in the graph.
     pub fn plan_loop(&mut self, range: &Range, span: Span) -> Eval<LoopPlan> {
         let (kind, index) = self.counted_in(range, span)?;
         let ty = Type::scalar(kind);
@@ -199,19 +199,19 @@ impl Evaluator<'_> {
         let plain = match known {
             _ if !upright => None,
             _ if !range.inclusive => Some((start, end)),
-            // One past a known end, where there is one.
+            // The value after a constant end, if there is one.
             Some((_, last)) if last < limit => {
                 let past = self.int_node(last + 1, kind, span)?;
                 Some((start, past))
             }
             _ => None,
         };
-        // Counts that an i32 holds need no conversion.
+        // Counts that fit an i32 need no conversion.
         let from_zero = self.known_int(&Value::Node(start)) == Some(0) && !range.inclusive;
         let counted = known.is_some() || (from_zero && ty != Type::USIZE);
         let own = if counted { ty } else { Type::U32 };
         let trips = match known.and_then(|(start, end)| u32::try_from(iteration_count(range, start, end)).ok()) {
-            // Few enough, or the range would have been refused.
+            // The count is small enough, or the range would have been rejected.
             Some(trips) => self.integer_constant(trips, own),
             None => self.build_trip_count(range, (start, end), own),
         };
@@ -243,11 +243,11 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Number of iterations, in the type `own`: of an empty or backwards range 0.
+    /// Builds the trip count in the type `own`; 0 for an empty or reversed range.
     fn build_trip_count(&mut self, range: &Range, (start, end): (NodeId, NodeId), own: Type) -> NodeId {
         let from_zero = self.known_int(&Value::Node(start)) == Some(0);
         if from_zero && !range.inclusive && range.step == 1 {
-            // Nothing is less than 0 but an i32, of which such an end leaves the range empty.
+            // Only an i32 can be less than 0. For any other type, such an end leaves the range empty.
             return match self.ty(start) {
                 Type::I32 => self.builder.add(Op::Binary(BinaryOp::Max), [end, start], own),
                 _ => self.counted_end(end, own),
@@ -256,13 +256,13 @@ impl Evaluator<'_> {
         let holds = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
         let any = self.builder.add(Op::Binary(holds), [start, end], Type::BOOL);
         let (zero, one) = (self.integer_constant(0, own), self.integer_constant(1, own));
-        // The distance of two i32 fits into a u32, and wraps to it.
+        // The distance between two i32 fits a u32, and wraps to it.
         let [low, high] = [start, end].map(|id| self.counted_end(id, own));
         let distance = self.builder.add(Op::Binary(BinaryOp::Sub), [high, low], own);
         let trips = match (range.step, range.inclusive) {
             (1, false) => distance,
             (1, true) => {
-                // All values of a type are one more than it can count: the last of them is left out.
+                // The number of all values of a type does not fit that type: the last value is dropped.
                 let all = self.may_be_all(range, start, end);
                 let distance = if all {
                     let most = self.integer_constant(u32::MAX - 1, own);
@@ -290,7 +290,8 @@ impl Evaluator<'_> {
         self.builder.add(Op::Select, [any, trips, zero], own)
     }
 
-    /// An end of a range in the type that iterations are counted in: a loop of 2^32 iterations has no end.
+    /// Converts an end of a range to the type in which iterations are counted. A loop of 2^32 iterations would not end, so
+    /// the upper bits of a `usize` are dropped.
     fn counted_end(&mut self, end: NodeId, own: Type) -> NodeId {
         match (self.ty(end), own) {
             (Type::USIZE, Type::U32) => self.builder.add(Op::Bitcast, [end], own),
@@ -298,11 +299,11 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether an inclusive range may have all values of its type, as far as its ends are known.
+    /// Returns whether an inclusive range may contain all values of its type, as far as its ends are constants.
     fn may_be_all(&self, range: &Range, start: NodeId, end: NodeId) -> bool {
         let (least, most) = match self.ty(start) {
             Type::U32 => (0, i64::from(u32::MAX)),
-            // A loop of 2^64 iterations has no end.
+            // A loop of 2^64 iterations would not end.
             Type::USIZE => return false,
             _ => (i64::from(i32::MIN), i64::from(i32::MAX)),
         };
@@ -310,7 +311,7 @@ impl Evaluator<'_> {
         range.inclusive && may(start, least) && may(end, most)
     }
 
-    /// The source's counter in iteration `own`.
+    /// Builds the source's counter in iteration `own`.
     pub fn counter_at(&mut self, course: &LoopPlan, own: NodeId) -> Value {
         let ty = self.ty(course.from);
         let mut at = own;
@@ -336,7 +337,7 @@ impl Evaluator<'_> {
         self.as_counter(counter, course.index)
     }
 
-    /// A counter as the loop's body takes it: a known one of `usize` is an integer without a type.
+    /// Counter as the loop's body expects it: a constant `usize` is an untyped integer.
     pub fn as_counter(&self, counter: NodeId, index: bool) -> Value {
         match self.known_int(&Value::Node(counter)) {
             Some(known) if index => Value::Int(known),
@@ -344,12 +345,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A constant integer.
+    /// Adds a constant integer.
     pub fn integer_constant(&mut self, n: u32, ty: Type) -> NodeId {
         self.builder.constant(ty, [n, 0, 0, 0])
     }
 
-    /// `x op n`, in the type of `x`.
+    /// Builds `x op n`, in the type of `x`.
     pub fn build_integer_op(&mut self, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
         let ty = self.ty(x);
         let n = self.integer_constant(n, ty);
@@ -357,12 +358,12 @@ impl Evaluator<'_> {
     }
 }
 
-/// The last value of a range of which the end is known.
+/// Last value of a range with a constant end.
 fn last_value(range: &Range, end: i64) -> i128 {
     i128::from(end) - i128::from(!range.inclusive)
 }
 
-/// Number of iterations of a loop over a range with known ends.
+/// Trip count of a loop over a range with constant ends.
 fn iteration_count(range: &Range, start: i64, end: i64) -> i128 {
     let distance = last_value(range, end) - i128::from(start);
     if distance < 0 {
@@ -373,7 +374,7 @@ fn iteration_count(range: &Range, start: i64, end: i64) -> i128 {
 }
 
 impl LoopPlan {
-    /// Whether a known counter is an integer without a type.
+    /// Returns whether a constant counter is an untyped integer.
     pub fn of_indices(&self) -> bool {
         self.index
     }

@@ -1,4 +1,4 @@
-//! Parameters that are bound: samplers here, textures and buffers in modules of their own.
+//! Resource parameters: samplers here, textures and buffers in modules of their own.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -8,7 +8,7 @@ use crate::front::unraw;
 use crate::ir::{Sampler, Uniform};
 
 impl Evaluator<'_> {
-    /// A parameter that stands for a resource; `None` if its type is none.
+    /// Adds a resource parameter; `None` if its type is not a resource.
     pub fn resource_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
         let SourceType::Name(type_name, args) = ty else {
             return Ok(None);
@@ -31,25 +31,25 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A name for an input, by which hosts know it: the parameter's, unless another input has it.
+    /// Unique name of an input for hosts: the parameter's, unless another input has it.
     pub fn input_name(&self, name: &str) -> String {
         let name = unraw(name);
         self.free_name(name, &|name| self.is_input(name))
     }
 
-    /// A name for an option that is set at run time: its field's, unless a parameter or another input has it.
+    /// Unique name of an option that is set at run time: the field's, unless a parameter or another input has it.
     pub fn option_name(&self, name: &str) -> String {
         let name = unraw(name);
         self.free_name(name, &|name| self.is_input(name) || self.parameters.contains_key(name))
     }
 
-    /// A name that is made of a parameter's and a part's: that of no other input or parameter.
+    /// Unique name joined from those of a parameter and a part.
     pub fn part_name(&self, name: &str, part: &str) -> String {
         let name = format!("{}_{}", unraw(name), unraw(part));
         self.free_name(&name, &|name| self.is_input(name) || self.parameters.contains_key(name))
     }
 
-    /// `name`, or else `name_2`, `name_3`, ...: the first that is not taken.
+    /// First of `name`, `name_2`, `name_3`, ... that is not taken.
     pub(super) fn free_name(&self, name: &str, taken: &dyn Fn(&str) -> bool) -> String {
         // There are fewer names than numbers.
         let others = (2..u32::MAX).map(|k| format!("{name}_{k}"));
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         all.find(|name| !taken(name)).unwrap_or_else(|| name.to_owned())
     }
 
-    /// Whether an input has a name, or a whole of which parts are inputs.
+    /// Returns whether an input has this name, or a whole whose parts are inputs.
     fn is_input(&self, name: &str) -> bool {
         let graph = self.builder.graph();
         let is_whole = |u: &Uniform| u.part.as_ref().is_some_and(|part| part.of == name);
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
             || graph.varyings.iter().any(|v| v.name == name)
     }
 
-    /// A number for a read of its own.
+    /// Next site number for a read.
     pub(super) fn next_site(&mut self) -> u32 {
         self.last_site += 1;
         self.last_site

@@ -1,4 +1,4 @@
-//! What a kernel gives: one value for each pixel, or a structure or tuple of them, each with a target of its own.
+//! Results of a kernel: one value for each pixel, or a structure or tuple of them, each with a target of its own.
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
@@ -7,11 +7,11 @@ use crate::front::tree::Function;
 use crate::front::unraw;
 use crate::ir::{Invocation, NodeId, Scalar, Target, Type};
 
-/// Colour attachments that WebGPU promises.
+/// Minimum number of colour attachments that WebGPU guarantees.
 const MOST: usize = 8;
 
 impl Evaluator<'_> {
-    /// Takes a kernel's value apart: gives the results, whose targets are noted in the graph.
+    /// Splits a kernel's value into its results, and records their targets in the graph.
     pub fn split_results(&mut self, value: &Value, function: &Function) -> Eval<Vec<NodeId>> {
         let span = function.span;
         let parts = self.parts_of_result(value, function)?;
@@ -44,7 +44,7 @@ impl Evaluator<'_> {
         Ok(results)
     }
 
-    /// A name for a value that the kernel gives: its field's, unless a picture that the kernel writes has it.
+    /// Unique name of a result: the field's, unless an image that the kernel writes has it.
     fn output_name(&self, name: &str, targets: &[Target]) -> String {
         let images = &self.builder.graph().images;
         self.free_name(unraw(name), &|name| {
@@ -52,12 +52,12 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The values that go to targets, with their names and places in the source.
+    /// Result values with their names and source locations.
     fn parts_of_result(&self, value: &Value, function: &Function) -> Eval<Vec<(String, Value, Span)>> {
         let span = function.span;
         let of_group = matches!(self.builder.graph().invocation, Invocation::Group(_));
         let value = match value {
-            // Of each thread that of its pixel.
+            // Each thread stores the value of its own pixel.
             Value::Struct { ty, fields } if of_group && ty == "PerThread" => &fields[0].1,
             Value::Tuple(parts) if of_group && parts.is_empty() => value,
             _ if of_group => {

@@ -1,4 +1,4 @@
-//! Variables by name, and by the place that a mutable reference holds.
+//! Variables, addressed by name or by the place that a mutable reference holds.
 
 use super::value::{Place, Value};
 use crate::front::name::Name;
@@ -6,17 +6,17 @@ use crate::limits::Held;
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// The variables of all functions being evaluated, each function's after its caller's. By name a function sees its own;
-/// through a mutable reference it reaches those of its callers.
+/// The variables of all functions being evaluated, each function's after its caller's. Names resolve within the innermost
+/// function; a mutable reference reaches the variables of its callers.
 #[derive(Debug, Default)]
 pub struct Scope {
     /// Outermost first; a later variable of the same name shadows an earlier one.
     variables: Vec<Variable>,
-    /// Where the variables of the innermost function begin.
+    /// Position of the innermost function's first variable.
     base: usize,
-    /// Number of the next variable, shared by all copies: no two variables ever have the same.
+    /// Number of the next variable. Shared by all copies, so that no two variables have the same number.
     next: Rc<Cell<u32>>,
-    /// Memory of a copy.
+    /// Accounts for the memory of a copy.
     _held: Option<Held>,
 }
 
@@ -36,35 +36,36 @@ struct Variable {
     name: Name,
     id: u32,
     value: Value,
-    /// The same value as other states hold it, until it is assigned: the result of a branch, of which this state knows the constant.
+    /// Form of the value that other states share, until it is assigned. Set for a branch result that this state knows as a
+    /// constant.
     shared: Option<Value>,
 }
 
 impl Scope {
-    /// A mark to return to with [`Scope::leave`].
+    /// Returns a mark for [`Scope::leave`].
     pub fn enter(&self) -> usize {
         self.variables.len()
     }
 
-    /// Forgets variables made since the mark.
+    /// Drops variables added since the mark.
     pub fn leave(&mut self, mark: usize) {
         self.variables.truncate(mark);
     }
 
-    /// Begins a function, which sees none of the names so far; gives what [`Scope::leave_function`] needs.
+    /// Enters a function, which sees no names of its callers. Returns the argument for [`Scope::leave_function`].
     pub fn enter_function(&mut self) -> (usize, usize) {
         let outer = (self.base, self.variables.len());
         self.base = self.variables.len();
         outer
     }
 
-    /// Ends a function.
+    /// Leaves a function.
     pub fn leave_function(&mut self, (base, mark): (usize, usize)) {
         self.variables.truncate(mark);
         self.base = base;
     }
 
-    /// A new variable; gives its position.
+    /// Adds a variable and returns its position.
     pub fn bind(&mut self, name: impl Into<Name>, value: Value) -> usize {
         let id = self.next.get();
         self.next.set(id + 1);
@@ -77,18 +78,18 @@ impl Scope {
         self.variables.len() - 1
     }
 
-    /// The variable's value.
+    /// Value of a variable.
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.find_slot(name).map(|slot| &self.variables[slot].value)
     }
 
-    /// Position of the variable that a name stands for.
+    /// Position of the variable that a name refers to.
     pub fn find_slot(&self, name: &str) -> Option<usize> {
         let own = &self.variables[self.base..];
         own.iter().rposition(|v| &*v.name == name).map(|k| self.base + k)
     }
 
-    /// The variable at a position as a place that a reference may hold.
+    /// Place of the variable at a position, for a reference to hold.
     pub fn slot_place(&self, slot: usize) -> Place {
         Place {
             slot,
@@ -97,7 +98,7 @@ impl Scope {
         }
     }
 
-    /// Whether the variable that a place is a part of is still there.
+    /// Returns whether the variable that contains a place still exists.
     pub fn is_alive(&self, place: &Place) -> bool {
         self.variables.get(place.slot).is_some_and(|v| v.id == place.id)
     }
@@ -108,21 +109,22 @@ impl Scope {
         (name, value)
     }
 
-    /// Changes the value at a position; gives the old one.
+    /// Sets the value at a position and returns the old one.
     pub fn set_value(&mut self, slot: usize, value: Value) -> Value {
         self.variables[slot].shared = None;
         std::mem::replace(&mut self.variables[slot].value, value)
     }
 
-    /// States the constants of a value at a position. The value that was there stays the form that it is joined in.
+    /// Replaces the value at a position with one whose constants are known. The old value stays as the form shared with
+    /// other states.
     pub fn refine_value(&mut self, slot: usize, value: Value) {
         let variable = &mut self.variables[slot];
         let general = std::mem::replace(&mut variable.value, value);
         variable.shared = Some(general);
     }
 
-    /// Lets a variable that has a value in one of two states have any value in the other. Which states it has a value in, the
-    /// states before they are joined tell.
+    /// Sets a variable that has a value in only one of two states to an undefined value in the other. The states before the
+    /// join still show which of them had a value.
     pub fn fill_unset(&mut self, other: &mut Scope) {
         for (a, b) in self.variables.iter_mut().zip(&mut other.variables) {
             match (&a.value, &b.value) {
@@ -134,17 +136,17 @@ impl Scope {
         }
     }
 
-    /// Forgets the form that the value at a position shares with other states.
+    /// Drops the shared form of the value at a position.
     pub fn clear_shared(&mut self, slot: usize) {
         self.variables[slot].shared = None;
     }
 
-    /// The form that the value at a position shares with other states.
+    /// Shared form of the value at a position.
     pub fn shared_value(&self, slot: usize) -> Option<&Value> {
         self.variables[slot].shared.as_ref()
     }
 
-    /// A form of the variable at a position that both states hold: each of them may know it as another constant.
+    /// Form of the variable at a position that both states share. Each state may know it as a different constant.
     pub fn common_value<'s>(&'s self, other: &'s Scope, slot: usize) -> Option<&'s Value> {
         let theirs = other.variables[slot].value_forms();
         let mut own = self.variables[slot].value_forms().into_iter().flatten();
@@ -166,7 +168,7 @@ impl Scope {
 }
 
 impl Variable {
-    /// The value as other states hold it, and as this one knows it.
+    /// Forms of the value: as this state knows it, and as other states share it.
     fn value_forms(&self) -> [Option<&Value>; 2] {
         [self.shared.as_ref(), Some(&self.value)]
     }

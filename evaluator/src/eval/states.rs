@@ -1,8 +1,8 @@
 //! Compile-time constants of one state among several.
 //!
-//! A branch or loop in the shader has one set of results for all states in which it is left. A state that goes on, or takes one
-//! exit, may know a variable as a constant where the result is a runtime value: `break` after `found = 3` leaves with 3. Keeping
-//! such constants apart is what lets an unrolled loop around the branch count its iterations.
+//! A branch or loop in the shader has one set of results for all its exits. A single state, whether it continues or takes
+//! an exit, may know a variable as a constant where the result is a runtime value: after `found = 3`, a `break` leaves with
+//! 3. Keeping such constants by state lets an unrolled loop around the branch count its iterations.
 
 use super::Evaluator;
 use super::departures::SideState;
@@ -13,7 +13,7 @@ use crate::ir::{NodeId, Op};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// The merged scope as one state knows it: the state that takes `way`, or of `None` the one that goes on.
+    /// Returns the merged scope as known by the state that takes the exit `way`, or by the continuing state for `None`.
     pub fn in_state(&self, merged: &Scope, states: &[SideState], way: Option<&Jump>) -> Scope {
         let mut scope = merged.clone();
         let states: Vec<&Scope> = states
@@ -37,12 +37,12 @@ impl Evaluator<'_> {
         scope
     }
 
-    /// A value with the constants that all of `states` agree on; `None` if they add none.
+    /// Refines a value with the constants that all of `states` agree on; `None` if they add none.
     pub fn refine_from_states(&self, joined: &Value, states: &[&Value]) -> Option<Value> {
         let (first, others) = states.split_first()?;
         match joined {
             Value::Unset => None,
-            // Given a value in some of the states alone, a variable has none.
+            // A variable that is set in only some of the states counts as unset.
             _ if states.contains(&&Value::Unset) => Some(Value::Unset),
             _ if shares_storage(joined, first) && others.iter().all(|value| shares_storage(joined, value)) => None,
             Value::Node(id) => {
@@ -86,7 +86,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Each part refined by what the states hold at its position, or as it was; `None` if none is refined.
+    /// Refines each part by what the states hold at its position; `None` if no part changes.
     fn refined_parts(
         &self,
         parts: &[&Value],
@@ -104,7 +104,7 @@ impl Evaluator<'_> {
         any.then_some(refined)
     }
 
-    /// A value of an enum of which the states agree on the variant.
+    /// Refines an enum value if the states agree on the variant.
     fn refined_choice(&self, joined: &EnumValue, states: &[&Value]) -> Option<Value> {
         let choice_of = |value: &Value| match value {
             Value::Enum(choice) if choice.ty == joined.ty => self.known_variant(choice),
@@ -135,8 +135,8 @@ impl Evaluator<'_> {
         })))
     }
 
-    /// Whether two scopes hold the same compile-time constants, and no constant where the other holds none. What is decided at
-    /// compile time is decided alike in both.
+    /// Returns whether two scopes hold the same compile-time constants, and no constant where the other holds none.
+    /// Compile-time decisions are then the same in both.
     pub fn as_known(&self, a: &Scope, b: &Scope) -> bool {
         a.len() == b.len()
             && (0..a.len()).all(|slot| self.value_as_known(a.name_and_value(slot).1, b.name_and_value(slot).1))
@@ -177,7 +177,7 @@ impl Evaluator<'_> {
         let (x, y) = (graph.node(a), graph.node(b));
         match (&x.op, &y.op) {
             _ if a == b => true,
-            // Parts of these are read as they were put in.
+            // Reading a part of these returns the node it was built from.
             (Op::Compose, Op::Compose) | (Op::MakeArray, Op::MakeArray) => {
                 let mut pairs = x.args.iter().zip(y.args.iter());
                 x.ty == y.ty && x.args.len() == y.args.len() && pairs.all(|(a, b)| self.node_as_known(*a, *b))
@@ -188,7 +188,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether two values are one and the same, as far as that is quick to say.
+/// Returns whether two values share their storage. A cheap test for equality, with false negatives.
 fn shares_storage(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Node(a), Value::Node(b)) => a == b,

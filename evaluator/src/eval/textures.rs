@@ -1,4 +1,4 @@
-//! Textures: the kernel's parameters of these types, and their methods.
+//! Textures: kernel parameters of these types, and their methods.
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
@@ -8,19 +8,19 @@ use crate::front::tree::Type as SourceType;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Texture, Type};
 
-/// What a method of a texture is called with.
+/// Arguments of a texture method.
 #[derive(Default)]
 struct TextureArguments {
-    /// The coordinate or place, the layer or sample, and what else a read takes, in order.
+    /// The coordinate or position, the layer or sample, and any other arguments of the read, in order.
     read: Vec<NodeId>,
-    /// The level, unless it is the finest.
+    /// The mip level, unless it is the finest.
     level: Option<NodeId>,
     sampler: u32,
     component: u8,
 }
 
 impl Evaluator<'_> {
-    /// A parameter that stands for a texture; `None` if its type is none.
+    /// Adds a texture parameter; `None` if its type is not a texture.
     pub(super) fn texture_parameter(
         &mut self,
         name: &str,
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         Ok(Some(Value::Texture(textures.len() as u32 - 1)))
     }
 
-    /// A method of a texture.
+    /// Evaluates a texture method.
     pub fn eval_texture_method(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let texture = self.builder.graph().textures[index as usize].clone();
         let of = TextureType::from_texture(&texture);
@@ -123,7 +123,7 @@ impl Evaluator<'_> {
         Ok(Value::Node(self.builder.add(op, args, ty)))
     }
 
-    /// The arguments of a method, each as what it is to be; what lies outside of the texture is taken to its border.
+    /// Converts the arguments of a method to their types, and clamps coordinates to the texture.
     fn texture_arguments(
         &mut self,
         index: u32,
@@ -186,7 +186,7 @@ impl Evaluator<'_> {
         Ok(given)
     }
 
-    /// A layer by its number, the last one beyond the end where nothing else sees to that.
+    /// Clamps a layer index to the last layer, where the sampler does not do that.
     fn clamp_layer(
         &mut self,
         index: u32,
@@ -195,7 +195,7 @@ impl Evaluator<'_> {
         layer: &Value,
         span: Span,
     ) -> Eval<NodeId> {
-        // Samplers take a layer outside for the nearest one.
+        // Samplers clamp the layer themselves.
         let sampled = method
             .params
             .iter()
@@ -207,7 +207,7 @@ impl Evaluator<'_> {
         self.clamp_index(layer, layers, ["last_layer", "layer"], span)
     }
 
-    /// A level by its number, the smallest one beyond the end; `None` for the finest.
+    /// Clamps a mip level to the smallest one; `None` for the finest.
     fn clamp_level(&mut self, texture: u32, level: &Value, span: Span) -> Eval<Option<NodeId>> {
         if self.known_int(level) == Some(0) {
             return Ok(None);
@@ -216,7 +216,7 @@ impl Evaluator<'_> {
         self.clamp_index(level, levels, ["last_level", "level"], span).map(Some)
     }
 
-    /// An index that is not beyond the last of so many; `names` are those of the last one and of the index.
+    /// Clamps an index to the last of `count`. `names` are for the nodes of the last index and the clamped one.
     fn clamp_index(&mut self, index: &Value, count: NodeId, names: [&str; 2], span: Span) -> Eval<NodeId> {
         let inside = self.held_index(index, count, names[0], span)?;
         self.name_value(&Value::Node(inside), names[1], span);
@@ -261,7 +261,8 @@ impl Evaluator<'_> {
         .into())
     }
 
-    /// Width and height of a texture or of one of its levels, and depth of a volume: the frame's where it has that.
+    /// Width and height of a texture or of one of its levels, and depth of a volume; the frame's size for a frame-sized
+    /// texture.
     fn size_of(&mut self, texture: u32, level: Option<NodeId>) -> NodeId {
         let entry = &self.builder.graph().textures[texture as usize];
         let ty = entry.kind.coordinate_type();
@@ -271,14 +272,14 @@ impl Evaluator<'_> {
         };
         let size = self.builder.add(op, Vec::new(), ty);
         let Some(level) = level else { return size };
-        // Not asked of the device: some take the level of one pixel for that of its neighbours.
+        // Computed instead of queried: some drivers use one pixel's level for its neighbours.
         let level = self.builder.add(Op::Splat, [level], ty);
         let halved = self.builder.add(Op::Binary(BinaryOp::Shr), [size, level], ty);
         let one = self.builder.constant(ty, one_bits(ty));
         self.builder.add(Op::Binary(BinaryOp::Max), [halved, one], ty)
     }
 
-    /// A texel's coordinate, clamped to the texture.
+    /// Clamps a texel coordinate to the texture.
     fn clamp_coordinate(
         &mut self,
         index: u32,

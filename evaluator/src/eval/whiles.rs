@@ -13,14 +13,14 @@ use crate::ir::NodeId;
 use crate::policy::{Asked, Unroll};
 use std::collections::BTreeSet;
 
-/// Iterations of a `while`, if they are known, and by slot the constants that variables are after them.
+/// Trip count of a `while`, if it is known, and the constants of variables after it, by slot.
 type CountedWhile = (Option<u64>, Vec<(usize, Value)>);
 
-/// Extent to which a `while` can be unrolled.
+/// Extent to which a `while` could be unrolled.
 enum WhileEnd {
-    /// To its end, or to where it is left for good.
+    /// To its end, or to an unconditional exit.
     Ended(Eval),
-    /// To nowhere: the end is a runtime value, which depends on these loops that are left in the shader.
+    /// Not at all: its end is a runtime value that depends on these loops left in the shader.
     Open(BTreeSet<Span>),
 }
 
@@ -48,10 +48,10 @@ impl Evaluator<'_> {
         ends
     }
 
-    /// Runs a `while` as asked, or as it can be. Where the iterations can be counted now, as the condition is known in each, a
-    /// loop of so many is left in the shader; where they cannot, one that the body leaves.
+    /// Runs a `while` as requested, or as far as possible. If the condition is constant in every iteration, the trip count
+    /// is known and a counted loop is left in the shader. Otherwise the body exits the loop.
     ///
-    /// Gives what became of it, and how it ends.
+    /// Returns the unroll mode used, and the outcome of the loop.
     fn run_while(
         &mut self,
         condition: &Expr,
@@ -89,7 +89,7 @@ impl Evaluator<'_> {
             };
             refused = match granted {
                 LoopOutcome::Kept(unroll) => {
-                    // What the loop makes of variables is known where it is known without the loop.
+                    // Variables whose values are constant without the loop stay constants after it.
                     for (slot, value) in after {
                         if self.scope.name_and_value(slot).1 != &value {
                             self.scope.set_value(slot, value);
@@ -132,7 +132,7 @@ impl Evaluator<'_> {
         Ok((Unroll::None, self.finish_loop(condition, block, label)))
     }
 
-    /// What comes behind a loop that was left in the shader: nothing, if only `return` or an outer loop's `break` ends it.
+    /// Outcome after a loop left in the shader: an exit, if only `return` or an outer loop's `break` ends the loop.
     fn finish_loop(&mut self, condition: &Expr, block: &Block, label: Option<&str>) -> Eval {
         let endless = matches!(condition.kind, ExprKind::Bool(true)) && !has_break(block, label);
         match endless.then(|| self.early_exits.pop()).flatten() {
@@ -144,7 +144,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// How many iterations a `while` has, if that is known, and the constants that variables are after it.
+    /// Trip count of a `while`, if it is known, and the constants of variables after it.
     fn count_iterations(&mut self, condition: &Expr, body: &LoopBody<'_>, span: Span) -> Eval<CountedWhile> {
         let test = Block {
             statements: vec![Statement::Expr(condition.clone())],
@@ -192,7 +192,7 @@ impl Evaluator<'_> {
         Ok((ended.then_some(rounds), slots.into_iter().zip(values).collect()))
     }
 
-    /// Whether all numbers in a value are known.
+    /// Returns whether all numbers of a value are constants.
     fn is_known(&self, value: &Value) -> bool {
         let mut leaves = Vec::new();
         value.flatten(&mut leaves);
@@ -202,7 +202,7 @@ impl Evaluator<'_> {
                 .all(|id| self.builder.graph().constant_bits(*id).is_some())
     }
 
-    /// Unrolls a `while`, as far as its end is a compile-time constant. Counts its iterations.
+    /// Unrolls a `while` as long as its condition is a compile-time constant. Counts the iterations in `rounds`.
     fn unroll_while(&mut self, condition: &Expr, body: &LoopBody<'_>, rounds: &mut u64, span: Span) -> Eval<WhileEnd> {
         let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let noted = self.errors.len();
@@ -218,7 +218,7 @@ impl Evaluator<'_> {
                 None => return Ok(self.open_end(&[id])),
             }
             if self.early_exits.len() > since {
-                // With nothing new known the next iteration is decided as the last one was, and so are all that follow.
+                // If no constant changed, the next iteration decides as the last one did, and so do all later ones.
                 let repeats = before.as_ref().is_some_and(|before| self.as_known(before, &self.scope));
                 if repeats || *rounds >= limit {
                     if !repeats {
@@ -248,16 +248,16 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The end of a `while` that conditions decide at run time.
+    /// End of a `while` that depends on runtime conditions.
     fn open_end(&self, conditions: &[NodeId]) -> WhileEnd {
         WhileEnd::Open(self.structured_loops.loops_feeding(self.builder.graph(), conditions))
     }
 }
 
-/// Nodes that are made to count the iterations of a loop, after which its end is left to the shader.
+/// Maximum number of nodes created to count the iterations of a loop. Beyond it, the end is left to the shader.
 const MAX_COUNTED: usize = 50_000;
 
-/// Whether an expression may call what writes through a reference that it is given.
+/// Returns whether an expression may call a function that writes through a reference.
 fn has_calls(e: &Expr) -> bool {
     matches!(e.kind, ExprKind::Call(..) | ExprKind::Method(..) | ExprKind::Block(_))
         || child_exprs(e).into_iter().any(has_calls)

@@ -1,8 +1,8 @@
-//! Kernels of workgroups: phases that all threads run, and what they share.
+//! Kernels of workgroups: phases that all threads run, and the memory they share.
 //!
-//! A kernel of a workgroup says once what the whole of it does; each of its phases, `group.each(|thread| ...)`, says what one
-//! thread does. Outside of the phases all threads compute the same, so that conditions and loops around a phase are decided
-//! alike by all of them. Between two phases lies a barrier, unless nothing has been written before.
+//! A workgroup kernel describes the work of the whole group; each of its phases, `group.each(|thread| ...)`, describes that
+//! of one thread. Outside phases all threads compute the same, so they agree on every condition and loop around a phase. A
+//! barrier separates two phases, unless nothing has been written since the last one.
 
 use super::Evaluator;
 use super::buffers::value_named;
@@ -14,14 +14,14 @@ use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, Op, Sca
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
-/// Threads that every device has in a workgroup.
+/// Number of threads in a workgroup that every device supports.
 const MOST_THREADS: i64 = 256;
 
 impl Evaluator<'_> {
-    /// The method that runs a phase.
+    /// Path of the method that runs a phase.
     pub(super) const PHASE: &'static str = "Workgroup::each";
 
-    /// A parameter that is the workgroup, `&Workgroup<WIDTH, HEIGHT>`; `None` of any other type.
+    /// Adds the workgroup parameter, `&Workgroup<WIDTH, HEIGHT>`; `None` for any other type.
     pub(super) fn workgroup_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
         let found = self.library.structs.get("Workgroup");
         let first = found.and_then(|structure| structure.fields.first());
@@ -99,7 +99,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A parameter that all threads of a workgroup share.
+    /// Adds a parameter that all threads of a workgroup share.
     pub(super) fn shared_parameter(&mut self, name: &str, of: &str, args: &[SourceType], span: Span) -> Eval {
         let atomic = of == "AtomicShared";
         let refused = |what: String| -> Exit {
@@ -152,7 +152,7 @@ impl Evaluator<'_> {
         Ok(Value::Shared(shared.len() as u32 - 1))
     }
 
-    /// `group.each(f)`: what every thread does, once all of them have done what comes before.
+    /// Evaluates `group.each(f)`: each thread runs `f` after all threads have finished the code before.
     pub(super) fn eval_phase(&mut self, function: &Function, args: Vec<Value>, span: Span) -> Eval {
         if self.in_phase {
             return Err(
@@ -178,7 +178,8 @@ impl Evaluator<'_> {
         result
     }
 
-    /// Whether something has been done to memory since the last barrier, and if so whether to buffers that are read too.
+    /// Determines whether memory was accessed since the last barrier; `None` if not. Otherwise returns whether that
+    /// includes buffers that are also read.
     fn needs_barrier(&self) -> Option<bool> {
         let graph = self.builder.graph();
         let atomics = graph.buffers.iter().any(|b| b.access == Access::Atomic);
@@ -193,7 +194,7 @@ impl Evaluator<'_> {
                 };
                 found = Some(found.unwrap_or(false) || buffers);
             }
-            // The end of the iteration before comes first.
+            // The end of the previous iteration comes before the start of this one.
             if !graph.region(*region).params.is_empty() {
                 return Some(atomics);
             }
@@ -201,7 +202,7 @@ impl Evaluator<'_> {
         found
     }
 
-    /// A method of what a workgroup shares.
+    /// Evaluates a method of shared memory.
     pub(super) fn shared_memory(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let shared = self.builder.graph().shared[index as usize].clone();
         let effect = match (shared.atomic, name, args) {

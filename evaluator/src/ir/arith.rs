@@ -1,11 +1,11 @@
-//! Arithmetic of the operations: the single definition, used to fold constants and to interpret, in any precision.
+//! Arithmetic of the operations: the single definition, used by constant folding and by the interpreter, in any precision.
 
 use super::{AtomicOp, BinaryOp, Bits, Op, Real, Scalar, Type, UnaryOp, usize_bits, usize_value};
 
-/// A scalar or up to four lanes of a vector, each the bits of an integer or of an `R`; unused lanes are 0.
+/// A scalar or up to four components of a vector, each the bits of an integer or of an `R`; unused components are 0.
 pub type Cells = [u64; 4];
 
-/// The bits of what a host gives as cells of an `R`.
+/// Converts host data to cells of an `R`.
 pub fn host_cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
     bits.map(|bits| match ty.scalar_kind() {
         Some(Scalar::F32) => R::from_f64(f64::from(f32::from_bits(bits))).to_bits(),
@@ -13,7 +13,7 @@ pub fn host_cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
     })
 }
 
-/// The bits of a constant as cells of an `R`.
+/// Converts the bits of a constant to cells of an `R`.
 pub fn constant_cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
     if ty == Type::USIZE {
         return [usize_value(bits), 0, 0, 0];
@@ -24,10 +24,10 @@ pub fn constant_cells<R: Real>(ty: Type, bits: &Bits) -> Cells {
     })
 }
 
-/// Operands that a value operation has at most: the components of a vector.
+/// Maximum number of operands of a value operation: the components of a vector.
 pub const MOST_OPERANDS: usize = 4;
 
-/// The result of a value operation on constants in `f32`, as the graph holds it.
+/// Evaluates a value operation on constants in `f32`, in the graph's representation.
 pub fn fold_op(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> {
     let mut cells = [[0; 4]; MOST_OPERANDS];
     let cells = cells.get_mut(..args.len())?;
@@ -44,8 +44,8 @@ pub fn fold_op(op: &Op, operand: Type, args: &[Bits], ty: Type) -> Option<Bits> 
     })
 }
 
-/// The result of a value operation (not a read, nor anything of arrays and regions) on arguments of type `operand`;
-/// `None` for operations that are not decided by their arguments alone.
+/// Evaluates a value operation on arguments of type `operand`. Returns `None` for operations that their arguments alone do
+/// not determine: reads, and operations on arrays and regions.
 pub fn apply_op<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Option<Cells> {
     let lanes = ty.component_count() as usize;
     let real = |cell: u64| R::from_bits(cell);
@@ -135,7 +135,7 @@ fn apply_binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u
     }
 }
 
-/// Computes a component of an operation on two operands of a type.
+/// Evaluates one component of an operation on two operands of a type.
 fn apply_component<R: Real>(op: BinaryOp, operand: Type, a: u64, b: u64) -> Option<u64> {
     let first = |holds: bool| Some(if holds { a } else { b });
     match op {
@@ -263,7 +263,7 @@ fn convert_cell<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
 
 fn bitcast_cell<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     use Scalar::*;
-    // In other precisions too, bits are those of the nearest `f32`.
+    // In other precisions too, the bits are those of the nearest `f32`.
     Some(match (from, to) {
         (F32, I32 | U32) => u64::from((R::from_bits(cell).to_f64() as f32).to_bits()),
         (I32 | U32, F32) => R::from_f64(f64::from(f32::from_bits(cell as u32))).to_bits(),

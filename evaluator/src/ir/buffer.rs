@@ -1,4 +1,4 @@
-//! Buffers: what their elements are, and where each part of one lies.
+//! Buffers: their elements, and the layout of each.
 
 use super::Type;
 
@@ -14,7 +14,7 @@ pub struct Buffer {
 }
 
 impl Buffer {
-    /// The type of its elements; of structures, which are only read field by field, `Type::Results`.
+    /// Type of the elements; `Type::Results` for structures, which are read only field by field.
     pub fn value_type(&self) -> Type {
         match self.element {
             Element::Value(ty) => ty,
@@ -26,7 +26,7 @@ impl Buffer {
 /// Accesses of a kernel to a buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Access {
-    /// Only reads, and nothing changes the buffer meanwhile.
+    /// Only reads. Nothing changes the buffer during a dispatch.
     #[default]
     Read,
     /// Only writes.
@@ -38,14 +38,14 @@ pub enum Access {
 /// An element of a buffer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// A scalar, or a vector of 2 or 4.
+    /// A scalar, or a vector of 2 or 4 components.
     Value(Type),
-    /// Several numbers under their names.
+    /// Several named numbers.
     Struct(Structure),
 }
 
-/// A structure in memory: its fields in order, each at the next multiple of its alignment, as WGSL and GLSL's std430 lay it
-/// out.
+/// A structure in memory. Its fields are in order, each at the next multiple of its alignment, as in WGSL and in GLSL's
+/// std430.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Structure {
     /// Name in the kernel.
@@ -57,16 +57,16 @@ pub struct Structure {
 /// A field of a structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Name; those of the fields of a nested structure are joined by `_`.
+    /// Name; names of fields of a nested structure are joined by `_`.
     pub name: String,
     /// A scalar or vector, or an array of them.
     pub ty: Type,
-    /// Bytes from the structure's beginning.
+    /// Offset in bytes from the start of the structure.
     pub offset: u32,
 }
 
 impl Structure {
-    /// With fields of these names and types.
+    /// Lays out fields with these names and types.
     pub fn new(name: String, fields: Vec<(String, Type)>) -> Structure {
         let mut at = 0u32;
         let placed = fields.into_iter().map(|(name, ty)| {
@@ -79,7 +79,7 @@ impl Structure {
         Structure { name, fields }
     }
 
-    /// Bytes from one structure to the next: its size, to a multiple of its largest alignment.
+    /// Distance in bytes between structures: the size, rounded up to the largest alignment.
     pub fn stride(&self) -> u32 {
         let end = self
             .fields
@@ -91,7 +91,7 @@ impl Structure {
 }
 
 impl Element {
-    /// The type of a field by its number, 0 of a single value.
+    /// Type of field `k`; a single value is field 0.
     pub fn field_type(&self, k: u32) -> Option<Type> {
         match self {
             Element::Value(ty) => (k == 0).then_some(*ty),
@@ -99,7 +99,7 @@ impl Element {
         }
     }
 
-    /// Bytes from one element to the next.
+    /// Distance in bytes between elements.
     pub fn stride(&self) -> u32 {
         match self {
             Element::Value(ty) => {
@@ -110,7 +110,7 @@ impl Element {
         }
     }
 
-    /// The types of all scalars and vectors of an element, in order: elements of arrays one by one.
+    /// Types of all scalars and vectors of an element, in order; array elements one by one.
     pub fn value_types(&self) -> Vec<Type> {
         match self {
             Element::Value(ty) => vec![*ty],

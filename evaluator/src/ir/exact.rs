@@ -3,18 +3,18 @@
 use super::{BinaryOp, Builder, NodeId, Op, Type};
 
 impl Builder<'_> {
-    /// Makes operations on floats exact from now on, or no longer.
+    /// Starts or stops making operations on floats exact.
     pub fn set_exact(&mut self, exact: bool) {
         self.exact = exact;
     }
 
-    /// True while operations on floats are made exact.
+    /// `true` while operations on floats are made exact.
     pub fn is_exact(&self) -> bool {
         self.exact
     }
 
-    /// The node that computes an operation on floats, each of its roundings marked. A dot or cross product becomes the
-    /// products and sums that it stands for, first to last, since shader languages leave their order open.
+    /// Adds an operation on floats with each of its roundings marked as exact. A dot or cross product is expanded into
+    /// products and sums, first to last, because shader languages leave their order open.
     pub fn add_exact(&mut self, op: Op, args: &[NodeId], ty: Type) -> NodeId {
         match op {
             Op::Dot => {

@@ -24,34 +24,34 @@ pub struct Node {
     pub ty: Type,
 }
 
-/// The body of a structured loop or one side of a kept branch.
+/// The body of a structured loop, or one side of a branch in the shader.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Region {
-    /// The region that it was written in; `None` for the body of the kernel, region 0.
+    /// Region that contains this one; `None` for the body of the kernel, region 0.
     pub parent: Option<RegionId>,
     /// Counter and carried values, for a loop.
     pub params: Vec<NodeId>,
     /// Values that leave the region.
     pub results: Vec<NodeId>,
-    /// Of a loop: whether this iteration is the last one, whatever the counter says.
+    /// For a loop: whether this iteration is the last one, regardless of the counter.
     pub stop: Option<NodeId>,
-    /// Effects of the region in order, with the loops and branches that contain effects.
+    /// Effects of the region in order, including the loops and branches that contain effects.
     pub effects: Vec<NodeId>,
 }
 
 impl Region {
-    /// Everything that is computed for use outside of it: its results, and whether it stops.
+    /// Values computed for use outside the region: its results and its stop condition.
     pub fn yielded_values(&self) -> impl Iterator<Item = NodeId> {
         self.results.iter().copied().chain(self.stop)
     }
 }
 
-/// A step in the nesting of regions.
+/// Start or end of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// The region begins inside the innermost open one.
+    /// Opens a region inside the innermost open one.
     Open(RegionId),
-    /// The innermost open region ends.
+    /// Closes the innermost open region.
     Close(RegionId),
 }
 
@@ -60,10 +60,10 @@ pub enum Event {
 pub struct Sampler {
     /// Name in the kernel.
     pub name: String,
-    /// `true` if it compares with a reference.
+    /// `true` for a sampler that compares with a reference.
     pub comparison: bool,
-    /// `true` if it may interpolate texels. A sampler that neither filters nor compares gathers texels as they are, from inside the
-    /// texture.
+    /// `true` if the sampler may interpolate texels. A sampler that neither filters nor compares gathers texels unchanged,
+    /// from inside the texture.
     pub filters: bool,
 }
 
@@ -77,10 +77,10 @@ pub struct Target {
 }
 
 impl Target {
-    /// Name of the target of a kernel that gives one value.
+    /// Name of the target of a kernel with a single result.
     pub const DEFAULT_NAME: &'static str = "destination";
 
-    /// Default target of a kernel: one colour.
+    /// The default target: one `vec4f` colour.
     pub fn default_color() -> Target {
         Target {
             name: Target::DEFAULT_NAME.to_owned(),
@@ -98,11 +98,11 @@ pub struct Uniform {
     pub ty: Type,
     /// Value to use unless the host sets one.
     pub default: Option<f64>,
-    /// Of what it is a part.
+    /// The whole that the uniform is a part of, if any.
     pub part: Option<UniformPart>,
 }
 
-/// A column of a matrix, or an element of an array of scalars or vectors, that a kernel takes as one value.
+/// A column of a matrix, or an element of an array of scalars or vectors, that is one parameter of the kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UniformPart {
     /// Name of the whole in the kernel.
@@ -115,7 +115,7 @@ pub struct UniformPart {
     pub columns: bool,
 }
 
-/// A value of a fragment that the host's rasteriser interpolates.
+/// A fragment's value that the host's rasteriser interpolates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Varying {
     /// Name in the kernel.
@@ -130,18 +130,18 @@ pub enum Invocation {
     /// A pixel inside the frame.
     #[default]
     Pixel,
-    /// A pixel that may lie outside the frame: of a block that is yet to be expanded.
+    /// A pixel that may lie outside the frame: part of a block that is still to be expanded.
     MayBeOutside,
-    /// A pixel, in step with the three others of its quad; it may lie outside the frame.
+    /// A pixel, in step with the other three of its quad; may lie outside the frame.
     Lane,
-    /// A pixel, together with the others of its workgroup, so many across and down; it may lie outside the frame.
+    /// A pixel of a workgroup with this width and height; may lie outside the frame.
     Group([u32; 2]),
-    /// A block of pixels, so many across and down, its upper left one inside the frame.
+    /// A block of pixels with this width and height. The upper left one lies inside the frame.
     Block([u32; 2]),
 }
 
 impl Invocation {
-    /// Pixels across and down.
+    /// Width and height in pixels.
     pub fn block_size(self) -> [u32; 2] {
         match self {
             Invocation::Pixel | Invocation::MayBeOutside | Invocation::Lane | Invocation::Group(_) => [1, 1],
@@ -149,7 +149,7 @@ impl Invocation {
         }
     }
 
-    /// Pixels across and down that are computed together: those of an invocation, or of all invocations of a workgroup.
+    /// Width and height in pixels of the area computed together: by an invocation, or by all invocations of a workgroup.
     pub fn tile_size(self) -> [u32; 2] {
         match self {
             Invocation::Group(size) => size,
@@ -158,30 +158,30 @@ impl Invocation {
     }
 }
 
-/// A kernel as a graph of pure operations; see the module's text for what it means.
+/// A kernel as a graph of pure operations. The module's documentation defines its semantics.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// In order of creation: arguments come before their users.
+    /// In order of creation: arguments precede their users.
     pub nodes: Vec<Node>,
     /// Origin of each node, by node.
     pub origins: Vec<Option<Origin>>,
-    /// The region in which each node was first made, by node.
+    /// Region in which each node was first created, by node.
     pub homes: Vec<RegionId>,
     /// Region 0 is the body of the kernel.
     pub regions: Vec<Region>,
-    /// When each region was opened and closed, by the number of nodes there were, in order.
+    /// Starts and ends of regions in order, each with the number of nodes at that point.
     pub events: Vec<(u32, Event)>,
     /// Textures, by the index that `Op::Load` carries.
     pub textures: Vec<Texture>,
     /// Buffers, by the index that `Op::BufferLoad` carries.
     pub buffers: Vec<Buffer>,
-    /// Pictures of the frame's size that are written at any place, by the index that `Memory::Image` carries.
+    /// Images of the frame's size that are written at any position, by the index that `Memory::Image` carries.
     pub images: Vec<Target>,
     /// Workgroup memory, by the index that `Memory::Shared` carries.
     pub shared: Vec<SharedArray>,
     /// Samplers, by the index that `Op::Sample` carries.
     pub samplers: Vec<Sampler>,
-    /// Run-time parameters, by the index that `Op::Uniform` carries.
+    /// Runtime parameters, by the index that `Op::Uniform` carries.
     pub uniforms: Vec<Uniform>,
     /// Interpolated values, by the index that `Op::Varying` carries.
     pub varyings: Vec<Varying>,
@@ -193,11 +193,11 @@ pub struct Graph {
     pub tallies: Vec<String>,
     /// Source files, by the index that origins carry.
     pub files: Vec<String>,
-    /// Purposes of the source's functions, by file and first line, in order.
+    /// Purposes of the source's functions, ordered by file and first line.
     pub purposes: Arc<[Purpose]>,
 }
 
-/// Purpose of a function of the source: for comments.
+/// Purpose of a function of the source, for comments.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Purpose {
     /// Index into [`Graph::files`].
@@ -212,20 +212,20 @@ impl Graph {
     /// The body of the kernel.
     pub const BODY: RegionId = RegionId(0);
 
-    /// The end of a loop, an `i32`, that only its stop ends.
+    /// End of a loop that only its stop ends, an `i32`.
     pub const ENDLESS: i32 = i32::MAX;
 
-    /// A node.
+    /// Returns a node.
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0 as usize]
     }
 
-    /// A node's type.
+    /// Returns a node's type.
     pub fn ty(&self, id: NodeId) -> Type {
         self.node(id).ty
     }
 
-    /// A region.
+    /// Returns a region.
     pub fn region(&self, id: RegionId) -> &Region {
         &self.regions[id.0 as usize]
     }
@@ -235,7 +235,7 @@ impl Graph {
         self.origins[id.0 as usize].as_ref()
     }
 
-    /// The kernel's results: for each of the invocation's pixels, row by row, a value for each of [`Graph::targets`].
+    /// The kernel's results: for each pixel of the invocation, row by row, a value for each of [`Graph::targets`].
     pub fn outputs(&self) -> &[NodeId] {
         &self.regions[0].results
     }
@@ -245,18 +245,19 @@ impl Graph {
         !self.regions[0].effects.is_empty()
     }
 
-    /// Returns whether the kernel changes a buffer or a picture: the contents of workgroup memory are lost at its end.
+    /// Returns whether the kernel changes a buffer or an image. Workgroup memory does not count, because its contents are
+    /// lost at the end.
     pub fn has_lasting_effects(&self) -> bool {
         let mut effects = self.regions.iter().flat_map(|region| &region.effects);
         effects.any(|id| matches!(self.node(*id).op.memory(), Some(Memory::Buffer(_) | Memory::Image(_))))
     }
 
-    /// All pictures that it writes: what it gives for each pixel, and those that it writes at any place.
+    /// All images that the kernel writes: its targets, and those written at any position.
     pub fn written_targets(&self) -> impl Iterator<Item = &Target> + Clone {
         self.targets.iter().chain(&self.images)
     }
 
-    /// The type of the elements of memory, and its name.
+    /// Type of the elements of memory, and its name.
     pub fn memory(&self, memory: Memory) -> (Type, &str) {
         match memory {
             Memory::Buffer(k) => {
@@ -287,7 +288,7 @@ impl Graph {
         }
     }
 
-    /// The regions of a loop or branch.
+    /// Regions of a loop or branch; empty for other nodes.
     pub fn regions_of(&self, id: NodeId) -> Vec<RegionId> {
         match self.node(id).op {
             Op::Loop(body) => vec![body],
@@ -297,25 +298,25 @@ impl Graph {
     }
 }
 
-/// Simplifications applied as nodes are made.
+/// Simplifications applied when nodes are created.
 pub trait Rules {
-    /// A node that stands for `op` of `args`, or `None` to make it as it is. May make other nodes first.
+    /// Returns a node equivalent to `op` of `args`, or `None` to create it unchanged. May create other nodes first.
     fn simplify(&self, builder: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId>;
 }
 
-/// Makes a graph node by node; equal nodes are made once.
+/// Builds a graph node by node; equal nodes are created once.
 pub struct Builder<'r> {
     graph: Graph,
-    /// Nodes by their hashes; of two with one hash the later has the next that is free.
+    /// Nodes by hash. On a collision, the later node uses the next free hash.
     known: FxHashMap<u64, NodeId>,
     rules: &'r dyn Rules,
     open: Vec<RegionId>,
-    /// True while operations on floats are made [`Op::Exact`].
+    /// `true` while operations on floats are made [`Op::Exact`].
     pub(super) exact: bool,
 }
 
 impl<'r> Builder<'r> {
-    /// An empty graph whose body is open.
+    /// Creates an empty graph whose body is open.
     pub fn new(rules: &'r dyn Rules) -> Self {
         let body = Region {
             parent: None,
@@ -338,7 +339,7 @@ impl<'r> Builder<'r> {
         }
     }
 
-    /// Makes room for so many nodes.
+    /// Reserves capacity for nodes.
     pub fn reserve(&mut self, nodes: usize) {
         self.graph.nodes.reserve(nodes);
         self.graph.origins.reserve(nodes);
@@ -355,7 +356,7 @@ impl<'r> Builder<'r> {
         &mut self.graph
     }
 
-    /// The node that computes `op` of `args`, simplified.
+    /// Adds `op` of `args`, simplified.
     pub fn add(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
         if self.exact && op.is_rounding() && ty.is_float() {
             return self.add_exact(op, args.as_ref(), ty);
@@ -363,7 +364,7 @@ impl<'r> Builder<'r> {
         self.add_simplified(op, args, ty)
     }
 
-    /// The node that computes `op` of `args`, simplified and not made exact.
+    /// Adds `op` of `args`, simplified but not made exact.
     pub(super) fn add_simplified(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
         let (rules, args) = (self.rules, args.as_ref());
         match rules.simplify(self, &op, args, ty) {
@@ -372,7 +373,7 @@ impl<'r> Builder<'r> {
         }
     }
 
-    /// The node that computes `op` of `args` exactly as stated.
+    /// Adds `op` of `args` exactly as given.
     pub fn intern(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
         let args = args.as_ref();
         let free = match self.find_or_hash(&op, args, ty) {
@@ -392,7 +393,7 @@ impl<'r> Builder<'r> {
         id
     }
 
-    /// An effect, behind all others of the region that is open.
+    /// Adds an effect after all others of the innermost open region.
     pub fn add_effect(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
         let id = self.push(Node { op, args, ty });
         self.record_effect(id);
@@ -416,7 +417,7 @@ impl<'r> Builder<'r> {
         self.graph.regions[region.0 as usize].effects.push(id);
     }
 
-    /// The regions that are open, the body first.
+    /// Open regions, the body first.
     pub fn open_regions(&self) -> &[RegionId] {
         &self.open
     }
@@ -427,14 +428,14 @@ impl<'r> Builder<'r> {
         open.map(|region| self.graph.region(*region).effects.len()).collect()
     }
 
-    /// Takes back the effects since the open regions had so many.
+    /// Removes the effects added since the open regions had these numbers of them.
     pub fn take_back(&mut self, effects: &[usize]) {
         for (region, count) in self.open.iter().zip(effects) {
             self.graph.regions[region.0 as usize].effects.truncate(*count);
         }
     }
 
-    /// A state to go back to with [`Builder::return_to`].
+    /// Returns a state for [`Builder::return_to`].
     pub fn mark(&self) -> Mark {
         Mark {
             nodes: self.graph.nodes.len(),
@@ -444,13 +445,13 @@ impl<'r> Builder<'r> {
         }
     }
 
-    /// Removes all nodes, regions and effects that were made since a mark, at which the same regions were open.
+    /// Removes all nodes, regions and effects added since a mark. The same regions must be open as at the mark.
     pub fn return_to(&mut self, mark: &Mark) {
         self.take_back(&mark.effects);
         for k in (mark.nodes..self.graph.nodes.len()).rev() {
             let node = &self.graph.nodes[k];
             let mut hash = hash_of(&node.op, &node.args, node.ty);
-            // Last in, first out: no chain of equal hashes is cut. Effects are in none.
+            // Removal is last in, first out, so no chain of equal hashes breaks. Effects are in no chain.
             while let Some(id) = self.known.get(&hash) {
                 if id.0 as usize == k {
                     self.known.remove(&hash);
@@ -466,12 +467,12 @@ impl<'r> Builder<'r> {
         self.graph.events.truncate(mark.events);
     }
 
-    /// The node that computes `op` of `args`, if there is one already.
+    /// Node that computes `op` of `args`, if there is one already.
     pub fn find_node(&self, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
         self.find_or_hash(op, args, ty).ok()
     }
 
-    /// The node that is equal, or the hash by which it would be known.
+    /// Equal node, or the hash under which a new one is stored.
     fn find_or_hash(&self, op: &Op, args: &[NodeId], ty: Type) -> Result<NodeId, u64> {
         let mut hash = hash_of(op, args, ty);
         while let Some(id) = self.known.get(&hash) {
@@ -484,32 +485,32 @@ impl<'r> Builder<'r> {
         Err(hash)
     }
 
-    /// A constant.
+    /// Adds a constant.
     pub fn constant(&mut self, ty: Type, bits: Bits) -> NodeId {
         self.intern(Op::Const(bits), Vec::new(), ty)
     }
 
-    /// A constant float.
+    /// Adds a constant float.
     pub fn f32(&mut self, value: f32) -> NodeId {
         self.constant(Type::F32, [value.to_bits(), 0, 0, 0])
     }
 
-    /// A constant signed integer.
+    /// Adds a constant signed integer.
     pub fn i32(&mut self, value: i32) -> NodeId {
         self.constant(Type::I32, [value as u32, 0, 0, 0])
     }
 
-    /// A constant `usize`.
+    /// Adds a constant `usize`.
     pub fn usize(&mut self, value: u64) -> NodeId {
         self.constant(Type::USIZE, usize_bits(value))
     }
 
-    /// A constant boolean.
+    /// Adds a constant boolean.
     pub fn bool(&mut self, value: bool) -> NodeId {
         self.constant(Type::BOOL, [value as u32, 0, 0, 0])
     }
 
-    /// Says where a node comes from; of a node with two origins, what both agree on is kept.
+    /// Sets the origin of a node. If the node already has one, the two are merged ([`Origin::merge`]).
     pub fn set_origin(&mut self, id: NodeId, origin: &Origin) {
         match &mut self.graph.origins[id.0 as usize] {
             Some(present) => present.merge(origin),
@@ -548,7 +549,7 @@ impl<'r> Builder<'r> {
         self.graph.regions[id.0 as usize].results = results;
     }
 
-    /// Another parameter for a region that is open, of values that leave a loop and are not looked at in it.
+    /// Adds a parameter to an open region, for a value that leaves the loop but is not read in it.
     pub fn add_param(&mut self, region: RegionId, ty: Type) -> NodeId {
         let k = self.graph.region(region).params.len() as u32;
         let param = self.intern(Op::Param(region, k), Vec::new(), ty);
@@ -556,13 +557,13 @@ impl<'r> Builder<'r> {
         param
     }
 
-    /// Says when the loop of a region ends before its counter does.
+    /// Sets the condition under which a loop ends before its counter does.
     pub fn set_stop(&mut self, region: RegionId, stop: NodeId) {
         let never = self.graph.constant_bits(stop).is_some_and(|bits| bits[0] == 0);
         self.graph.regions[region.0 as usize].stop = (!never).then_some(stop);
     }
 
-    /// Closes the body with its results.
+    /// Closes the body with its results and returns the graph.
     pub fn finish(mut self, outputs: Vec<NodeId>) -> Graph {
         self.close_region(outputs);
         assert!(self.open.is_empty(), "every region that was opened is closed");
@@ -570,19 +571,19 @@ impl<'r> Builder<'r> {
     }
 }
 
-/// State of a builder, by how much it has made.
+/// State of a builder: the number of nodes and effects.
 #[derive(Clone, Debug)]
 pub struct Mark {
     /// Number of nodes.
     pub nodes: usize,
     regions: usize,
     events: usize,
-    /// Of each region that is open.
+    /// Number of effects of each open region.
     effects: Vec<usize>,
 }
 
 impl Mark {
-    /// A later mark, at which there were the effects of an earlier one.
+    /// Returns this mark with the effects of an earlier one.
     pub fn with_effects_of(self, earlier: &Mark) -> Mark {
         Mark {
             effects: earlier.effects.clone(),

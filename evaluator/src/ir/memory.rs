@@ -1,4 +1,4 @@
-//! Memory that a kernel writes: buffers and pictures of the host's, and what the invocations of a workgroup share.
+//! Memory that a kernel writes: host buffers and images, and the shared memory of a workgroup.
 
 use super::Type;
 
@@ -9,30 +9,30 @@ pub enum Memory {
     Buffer(u32),
     /// Workgroup memory, by index into `Graph::shared`.
     Shared(u32),
-    /// A picture of the frame's size, by index into `Graph::images`.
+    /// An image of the frame's size, by index into `Graph::images`.
     Image(u32),
 }
 
-/// Bytes that every device has for what a workgroup shares.
+/// Bytes of workgroup memory that every device supports.
 pub const MOST_SHARED_BYTES: u64 = 16_384;
 
-/// An array that the invocations of a workgroup share; all 0 when they begin. It is bound by no host.
+/// An array shared by the invocations of a workgroup. All elements are 0 at the start, and no host binds it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SharedArray {
     /// Name in the kernel.
     pub name: String,
-    /// A scalar or a vector, of numbers.
+    /// A numeric scalar or vector.
     pub element: Type,
-    /// Number of its elements, at least 1.
+    /// Number of elements, at least 1.
     pub len: u32,
-    /// `true` if its elements are changed by atomic operations alone.
+    /// `true` if only atomic operations change the elements.
     pub atomic: bool,
-    /// `true` if the invocations write every element before any of them reads one, so that it need not be 0 first.
+    /// `true` if the invocations write every element before any is read, so that no initialisation to 0 is needed.
     pub filled: bool,
 }
 
 impl SharedArray {
-    /// Bytes that it takes in a workgroup's memory: as WGSL lays it out, a vector of three lies as one of four does.
+    /// Size in bytes in workgroup memory. As in WGSL, a vector of three components takes the space of four.
     pub fn byte_size(&self) -> u64 {
         let lanes = match self.element.component_count() {
             3 => 4,

@@ -5,9 +5,9 @@ use super::{Bits, Memory, RegionId};
 /// Operation of a node on its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// A known value, by its bits.
+    /// A constant, by its bits.
     Const(Bits),
-    /// An undefined value: nothing reads it.
+    /// An undefined value; no used result depends on it.
     Undef,
     /// Coordinate of the output pixel, `vec2<i32>`, inside the frame.
     Pixel,
@@ -19,42 +19,42 @@ pub enum Op {
     Thread,
     /// The pixel of a workgroup's first invocation, `vec2<i32>`, the same in all of them.
     GroupOrigin,
-    /// True if the pixel of an invocation of a workgroup is to be computed: inside the frame.
+    /// `true` if the pixel of this workgroup invocation lies inside the frame and must be computed.
     Inside,
-    /// The argument as the lane beside, above or below, or across has it, bit for bit.
+    /// The argument's value in the horizontal, vertical or diagonal neighbour lane, bit for bit.
     QuadSwap(QuadDirection),
-    /// The argument's fine derivative, of floats: in both lanes of a row the right one's less the left one's, in both of
-    /// a column the lower one's less the upper one's.
+    /// Fine derivative of a float argument: in both lanes of a row the right value minus the left one, in both lanes of a
+    /// column the lower value minus the upper one.
     Derivative(Axis),
     /// A value that the host's rasteriser interpolates for each lane, by index into `Graph::varyings`.
     Varying(u32),
-    /// A run-time parameter, by index into `Graph::uniforms`.
+    /// A runtime parameter, by index into `Graph::uniforms`.
     Uniform(u32),
     /// An operation on one argument.
     Unary(UnaryOp),
-    /// Two arguments of one type; comparisons give booleans, lane by lane. Of two float scalars `Min` and `Max` are those of
-    /// `f32`, which pass over a NaN; of two vectors those of glam: the first one's component where it is less, or greater, and
-    /// else the second one's.
+    /// Two arguments of one type; comparisons return booleans, component by component. For float scalars, `Min` and `Max`
+    /// match `f32` and ignore a NaN. For vectors they match glam: the first argument's component where it is less, or
+    /// greater, and the second one's otherwise.
     Binary(BinaryOp),
-    /// Sum of the products of the lanes, first to last: two vectors to a scalar.
+    /// Sum of the products of the components, first to last: two vectors to a scalar.
     Dot,
     /// Cross product of two `vec3<f32>`.
     Cross,
-    /// x, low, high, as Rust has it: a float scalar that is a NaN stays one (`f32::clamp`), vectors of floats are
-    /// `x.max(low).min(high)` as glam's are.
+    /// x, low, high, as in Rust: a float scalar that is a NaN stays a NaN (`f32::clamp`); float vectors are
+    /// `x.max(low).min(high)` as in glam.
     Clamp,
     /// condition (scalar boolean), value if true, value if false.
     Select,
-    /// A scalar in every lane.
+    /// A scalar in every component.
     Splat,
-    /// A vector from its lanes, each a scalar.
+    /// A vector from its components, each a scalar.
     Compose,
     /// A component of a vector.
     Extract(u8),
-    /// A conversion to the node's type, lane by lane, as WGSL's value constructors do it: floats to integers
+    /// A conversion to the node's type, component by component, as in WGSL's value constructors: floats to integers
     /// truncate and saturate.
     Convert,
-    /// Reinterprets the bits as another kind of number, lane by lane.
+    /// Reinterprets the bits as another kind of number, component by component.
     Bitcast,
     /// Width and height of a texture's finest level (index into `Graph::textures`), and depth of a volume: a vector of `i32`,
     /// each at least 1.
@@ -63,94 +63,94 @@ pub enum Op {
     TextureLevels(u32),
     /// Number of layers of a texture (index into `Graph::textures`), `i32`, at least 1.
     TextureLayers(u32),
-    /// A texel: coordinate (a vector of `i32`, inside the texture), the layer or sample (`i32`) where there are several, and the
-    /// level (`i32`, inside the texture) where it is not the finest.
-    /// `site` keeps reads of different calls apart until load sharing sets it to 0.
+    /// A texel: coordinate (a vector of `i32`, inside the texture); the layer or sample (`i32`) if there are several; and
+    /// the level (`i32`, inside the texture) unless it is the finest. `site` keeps reads of different calls separate until
+    /// load sharing sets it to 0.
     Load {
         /// Index into `Graph::textures`.
         texture: u32,
-        /// The call that it stands for, or 0.
+        /// Site of the call, or 0.
         site: u32,
     },
-    /// A texture between its texels: place (floats from 0 to 1, or a direction), and the layer (`i32`, outside the nearest one)
-    /// where there are several. At its finest level; or at that of one more argument, an `f32`; or at that of two more, steps
-    /// along which it is read, of the place's type.
+    /// A filtered read of a texture: position (floats from 0 to 1, or a direction), and the layer (`i32`, clamped to the
+    /// nearest one) if there are several. Reads the finest level; with one more argument, the level given as `f32`; with
+    /// two more, the level for these gradients, of the position's type.
     Sample {
         /// Index into `Graph::textures`.
         texture: u32,
         /// Index into `Graph::samplers`.
         sampler: u32,
-        /// As of `Load`.
+        /// As in `Load`.
         site: u32,
     },
-    /// A component of each of the four texels around a coordinate (`vec2<f32>`), in a layer (`i32`) where there are several, as
-    /// `vec4<f32>`: lower left, lower right, upper right, upper left.
+    /// A component of each of the four texels around a coordinate (`vec2<f32>`), in a layer (`i32`) if there are several,
+    /// as `vec4<f32>`: lower left, lower right, upper right, upper left.
     Gather {
         /// Index into `Graph::textures`.
         texture: u32,
         /// Index into `Graph::samplers`.
         sampler: u32,
-        /// 0 to 3.
+        /// Component, 0 to 3.
         component: u8,
-        /// As of `Load`.
+        /// As in `Load`.
         site: u32,
     },
-    /// Fraction of a depth texture around a place, in a layer where there are several (both as of `Sample`), that passes a comparison with
-    /// a reference (`f32`).
+    /// Fraction of a depth texture around a position that passes a comparison with a reference (`f32`). Position and layer
+    /// are as in `Sample`.
     Compare {
         /// Index into `Graph::textures`.
         texture: u32,
         /// Index into `Graph::samplers`.
         sampler: u32,
-        /// As of `Load`.
+        /// As in `Load`.
         site: u32,
     },
-    /// Comparison of each of the four depths around a coordinate (`vec2<f32>`) with a reference (`f32`): 1 for those that pass and 0 for
-    /// the others, in the lanes of a `vec4<f32>`, in the order of `Gather`.
+    /// Comparison of each of the four depths around a coordinate (`vec2<f32>`) with a reference (`f32`): 1 for those that
+    /// pass and 0 for the others, in the components of a `vec4<f32>`, in the order of `Gather`.
     GatherCompare {
         /// Index into `Graph::textures`.
         texture: u32,
         /// Index into `Graph::samplers`.
         sampler: u32,
-        /// As of `Load`.
+        /// As in `Load`.
         site: u32,
     },
     /// Number of elements of a buffer (index into `Graph::buffers`), `i32`, at least 1.
     BufferLen(u32),
-    /// A part of an element of a buffer: index (`i32`, inside the buffer), and of an array in it the index there (`i32`, inside
-    /// the array).
+    /// A part of a buffer element: index (`i32`, inside the buffer), and for a field that is an array the index there
+    /// (`i32`, inside the array).
     BufferLoad {
         /// Index into `Graph::buffers`.
         buffer: u32,
-        /// Number of the element's field; 0 of an element that is a value.
+        /// Index of the element's field; 0 for an element that is a value.
         field: u32,
-        /// As of `Load`.
+        /// As in `Load`.
         site: u32,
     },
-    /// Changes an element at once, as no other invocation can come between: condition (scalar boolean), index (`i32`,
-    /// inside the memory where the condition holds), and a value of the element's type but for `AtomicOp::Load`. Gives what was
-    /// there before, and 0 where the condition does not hold, for which nothing is done. An effect.
+    /// Changes an element atomically: condition (scalar boolean), index (`i32`, inside the memory if the condition holds),
+    /// and a value of the element's type except for `AtomicOp::Load`. Returns the old value. If the condition does not
+    /// hold, returns 0 and does nothing. An effect.
     Atomic {
-        /// Memory that it changes.
+        /// Memory that is changed.
         memory: Memory,
         /// Operation on the element.
         op: AtomicOp,
     },
-    /// Writes an element: condition, index, value, as of `Atomic`. An effect.
+    /// Writes an element: condition, index and value, as in `Atomic`. An effect.
     Store(Memory),
-    /// An element of what a workgroup shares (index into `Graph::shared`): condition (scalar boolean), index (`i32`, inside). Any
-    /// value where the condition does not hold. An effect, for it has its place among the others.
+    /// An element of shared memory (index into `Graph::shared`): condition (scalar boolean), index (`i32`, inside).
+    /// Undefined if the condition does not hold. An effect, because its order among the others matters.
     SharedLoad(u32),
-    /// Waits for the other invocations of the workgroup; what any of them has done to what they share is seen by all of them
-    /// behind it. An effect.
+    /// Waits for the other invocations of the workgroup. Their accesses to shared memory before the barrier are visible to
+    /// all invocations after it. An effect.
     Barrier {
-        /// `true` if it also makes writes to buffers visible.
+        /// `true` if writes to buffers become visible too.
         buffers: bool,
     },
-    /// The argument, floats, as the operation that made it rounds them: no compiler may merge, reorder or contract that operation
-    /// with others (`docs/semantics.md`, *Exactness*).
+    /// The argument, floats, as the operation that computed it rounds it: no compiler may merge, reorder or contract that
+    /// operation with others (`docs/semantics.md`, *Exactness*).
     Exact,
-    /// A value counted by name (index into `Graph::tallies`); the value itself.
+    /// A value counted by name (index into `Graph::tallies`); returns the value itself.
     Tally(u32),
     /// An array from its elements.
     MakeArray,
@@ -158,9 +158,10 @@ pub enum Op {
     ArrayGet,
     /// array, index (`i32`), element.
     ArraySet,
-    /// start, end (both `i32` or both `u32`), carried values. It ends early where its region says so.
+    /// start, end (both `i32` or both `u32`), carried values. Ends early if the region's stop holds.
     Loop(RegionId),
-    /// condition (scalar boolean): results of the first region if it holds, else of the second.
+    /// condition (scalar boolean). Yields the results of the first region if the condition holds, otherwise those of the
+    /// second.
     If(RegionId, RegionId),
     /// A result of a loop or branch.
     Result(u32),
@@ -191,7 +192,7 @@ impl AtomicOp {
     };
 }
 
-/// From which lane of a quad a message comes.
+/// Source lane of a quad swap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // named as in GLSL
 pub enum QuadDirection {
@@ -208,7 +209,7 @@ impl QuadDirection {
         QuadDirection::Diagonal,
     ];
 
-    /// The axes along which it comes from the other side of the quad: 1 or 0.
+    /// 1 for each axis along which the source lane is on the other side of the quad, otherwise 0.
     pub fn axis_bits(self) -> [u32; 2] {
         match self {
             QuadDirection::Horizontal => [1, 0],
@@ -240,11 +241,11 @@ pub enum UnaryOp {
     Round,
     Trunc,
     Fract,
-    /// Between 0 and 1; of a NaN 0, of -0 too.
+    /// Clamps to 0 to 1; 0 for a NaN and for -0.
     Saturate,
     Sqrt,
     InverseSqrt,
-    /// Of a negative number a negative one.
+    /// Cube root; negative for a negative number.
     Cbrt,
     Exp,
     Exp2,
@@ -352,7 +353,7 @@ impl UnaryOp {
         ]
     };
 
-    /// Returns whether hardware computes it in a special, slower unit.
+    /// Returns whether hardware computes the operation in a special, slower unit.
     pub fn is_transcendental(self) -> bool {
         use UnaryOp::*;
         matches!(
@@ -377,8 +378,8 @@ impl UnaryOp {
 }
 
 impl Op {
-    /// Returns whether it does more than compute a value: it happens as often as the kernel says, in the order of the source, and is never
-    /// merged with another.
+    /// Returns whether the operation does more than compute a value. An effect happens as often as the kernel says, in
+    /// source order, and is never merged with another.
     pub fn is_effect(&self) -> bool {
         matches!(
             self,
@@ -386,7 +387,7 @@ impl Op {
         )
     }
 
-    /// Tells if it rounds floats, so that a compiler that merges it with others may change a bit.
+    /// Returns whether the operation rounds floats, so that merging it with others may change a bit.
     pub fn is_rounding(&self) -> bool {
         use BinaryOp::{Add, Atan2, Div, Mul, Pow, Rem, Sub};
         match self {
@@ -400,12 +401,12 @@ impl Op {
         }
     }
 
-    /// Returns whether it reads memory that a host fills, which nothing changes meanwhile.
+    /// Returns whether the operation reads host memory that does not change during a dispatch.
     pub fn is_read(&self) -> bool {
         self.site().is_some()
     }
 
-    /// The texture that it reads or asks the size of.
+    /// Texture that is read or queried.
     pub fn texture(&self) -> Option<u32> {
         match self {
             Op::Load { texture, .. }
@@ -420,7 +421,7 @@ impl Op {
         }
     }
 
-    /// The sampler that it reads by.
+    /// Sampler of a read.
     pub fn sampler(&self) -> Option<u32> {
         match self {
             Op::Sample { sampler, .. }
@@ -431,7 +432,7 @@ impl Op {
         }
     }
 
-    /// The buffer that it reads, writes or asks the length of.
+    /// Buffer that is read, written or queried.
     pub fn buffer(&self) -> Option<u32> {
         match self {
             Op::BufferLoad { buffer, .. } | Op::BufferLen(buffer) => Some(*buffer),
@@ -442,7 +443,7 @@ impl Op {
         }
     }
 
-    /// The memory that an effect works on.
+    /// Memory that an effect works on.
     pub fn memory(&self) -> Option<Memory> {
         match self {
             Op::Atomic { memory, .. } | Op::Store(memory) => Some(*memory),
@@ -451,12 +452,12 @@ impl Op {
         }
     }
 
-    /// Returns whether it is ordered but free of side effects; dead if unused.
+    /// Returns whether the operation is ordered but free of side effects; dead if unused.
     pub fn is_removable_effect(&self) -> bool {
         matches!(self, Op::SharedLoad(_))
     }
 
-    /// The call that a read stands for, 0 for all of them.
+    /// Site of a read; 0 if the read is shared by all calls.
     pub fn site(&self) -> Option<u32> {
         match self {
             Op::Load { site, .. }
@@ -469,7 +470,7 @@ impl Op {
         }
     }
 
-    /// A read that stands for every call of it.
+    /// The read shared by all calls.
     pub fn without_site(mut self) -> Op {
         if let Op::Load { site, .. }
         | Op::Sample { site, .. }

@@ -1,8 +1,8 @@
-//! Origins of nodes, from which names and comments of the emitted text are made.
+//! Origins of nodes, from which names and comments in the emitted text are derived.
 
 use std::sync::Arc;
 
-/// A loop counter's value at the time a node was made.
+/// Value of a loop counter when a node was created.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Counter {
     /// The counter's name in the source.
@@ -17,16 +17,17 @@ pub enum Naming {
     /// A variable.
     #[default]
     Let,
-    /// The parameter that the value was passed as.
+    /// The parameter that received the value.
     Parameter,
-    /// The function that gave it.
+    /// The function that returned the value.
     Function,
 }
 
-/// The variable that a node was made for, or else what it was passed as, or what gave it.
+/// Source-level identity of a node: the variable it was created for, or else the parameter that received it, or the
+/// function that returned it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// Name of the variable; for a part of a structure `variable_field`. Empty if there is none.
+    /// Name of the variable; `variable_field` for a part of a structure. Empty if there is none.
     pub name: Arc<str>,
     /// Source of the name.
     pub naming: Naming,
@@ -34,15 +35,15 @@ pub struct Origin {
     pub file: u32,
     /// Line, from 1.
     pub line: u32,
-    /// Counters of the unrolled loops around, outermost first.
+    /// Counters of the enclosing unrolled loops, outermost first.
     pub counters: Arc<[Counter]>,
 }
 
 impl Origin {
-    /// The line of what is nowhere in the source.
+    /// Line of nodes that have no place in the source.
     pub const NOWHERE: u32 = 0;
 
-    /// The origin of a node that two places share: the better name, and of one name what both agree on.
+    /// Merges the origins of a node that two places share: keeps the better name, and for equal names the common counters.
     pub fn merge(&mut self, other: &Origin) {
         if self.name.is_empty() || other.naming < self.naming {
             *self = other.clone();

@@ -1,4 +1,4 @@
-//! The graph from its text.
+//! Parsing of a graph from its text.
 //!
 //! File tests: `evaluator/tests/filetests/parse`.
 
@@ -8,22 +8,22 @@ use super::{
     Type, UnaryOp, Uniform, UniformPart, Varying,
 };
 
-/// Why a text is not a graph.
+/// An error in the text of a graph.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct ParseError {
-    /// From 1.
+    /// Line, from 1.
     pub line: usize,
     /// Description of the error.
     pub problem: String,
 }
 
-/// Reads what [`super::print`] writes. What the text says is built as it stands, nothing is simplified; whether it
-/// keeps the rules is for [`super::verify`] to say.
+/// Parses the output of [`super::print`]. The graph is built as written, without simplification. [`super::verify`] checks
+/// the rules.
 ///
 /// # Errors
 ///
-/// The first line that cannot be read, and why.
+/// The first line that cannot be parsed, and the reason.
 pub fn parse(text: &str) -> Result<Graph, ParseError> {
     let mut reader = GraphParser::default();
     reader.graph.regions.push(empty_region(None));
@@ -499,7 +499,7 @@ fn find_position<'a>(mut names: impl Iterator<Item = &'a String>, name: &str) ->
     names.position(|known| known == name).map(|k| k as u32)
 }
 
-/// Parses the part of a whole that a uniform is: `grade column 0 3`.
+/// Parses the whole that a uniform is a part of: `grade column 0 3`.
 fn parse_part(text: &str) -> Parsed<UniformPart> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (of, columns, index, count) = match words[..] {
@@ -531,7 +531,7 @@ fn parse_scalar(text: &str) -> Parsed<Scalar> {
     found.ok_or_else(|| format!("`{text}` is no type"))
 }
 
-/// `f32`, `vec3<i32>`, `array<vec4<f32>, 9>`, `results`.
+/// Parses `f32`, `vec3<i32>`, `array<vec4<f32>, 9>`, `results`.
 fn parse_type(text: &str) -> Parsed<Type> {
     if text == "results" {
         return Ok(Type::Results);

@@ -1,7 +1,7 @@
 //! The graph as text, for people and for tests; [`super::parse`] reads it back.
 //!
-//! Tables first, then one node a line, indented by region, and the kernel's results last. A kernel without a `target` gives one
-//! colour:
+//! Tables first, then one node a line, indented by region, and the kernel's results last. A kernel without a `target`
+//! returns one colour:
 //!
 //! ```text
 //! file kernels/src/glow.rs
@@ -17,7 +17,7 @@
 use super::{Access, Element, Event, Field, Graph, Invocation, NodeId, Op, Scalar, Target, Type};
 use std::fmt::Write;
 
-/// The whole graph.
+/// Prints the whole graph.
 pub fn print(graph: &Graph) -> String {
     let mut text = print_tables(graph);
     let mut depth = 0usize;
@@ -226,7 +226,7 @@ fn print_op(graph: &Graph, op: &Op, ty: Type) -> String {
     }
 }
 
-/// A lane that reads back as the same bits.
+/// Prints a component such that it parses to the same bits.
 fn print_component(ty: Type, bits: u32) -> String {
     match ty.scalar_kind() {
         Some(Scalar::F32) if f32::from_bits(bits).is_nan() => format!("bits:{bits:08x}"),

@@ -1,34 +1,34 @@
-//! Precisions that a graph can be interpreted in.
+//! Precisions in which a graph can be interpreted.
 
 use super::{BinaryOp, UnaryOp};
 use std::ops::{Add, Mul, Sub};
 
-/// A floating-point number: `f32` as shaders have it, `f64` to tell rounding from mistakes, [`F16`] for what half
-/// precision would do.
+/// A floating-point number: `f32` as in shaders, `f64` to distinguish rounding from mistakes, [`F16`] to predict the effect
+/// of half precision.
 pub trait Real:
     Copy + PartialEq + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Send + Sync + 'static
 {
     /// `f16`, `f32` or `f64`.
     const NAME: &'static str;
-    /// Precision of samplers: they read and return `f32` where shaders compute in less.
+    /// Precision of samplers. They read and return `f32` even where shaders compute in less.
     type Sampled: Real;
     /// The nearest number.
     fn from_f64(x: f64) -> Self;
-    /// A number that the kernel makes itself, a constant or of an integer: the nearest one that is finite, and not zero, if
-    /// that was neither. A bound such as `x.min(1.0e30)` must go on bounding, and `sum.max(1.0e-12)` must go on keeping a
-    /// division from 0/0.
+    /// Converts a number that the kernel creates itself, such as a constant or a converted integer. The result is the
+    /// nearest finite number, and not zero unless `x` is zero. A bound such as `x.min(1.0e30)` must stay a bound, and
+    /// `sum.max(1.0e-12)` must still prevent 0/0.
     fn made(x: f64) -> Self {
         Self::from_f64(x)
     }
-    /// Converts to `f64`, which changes no value.
+    /// Converts to `f64`, which is lossless.
     fn to_f64(self) -> f64;
     /// Bits of the number, the unused high ones 0.
     fn to_bits(self) -> u64;
     /// The number with these bits.
     fn from_bits(bits: u64) -> Self;
-    /// An operation on one number, as WGSL defines it.
+    /// Applies an operation to one number, as WGSL defines it.
     fn unary(self, op: UnaryOp) -> Option<Self>;
-    /// An operation on two numbers that gives a number.
+    /// Applies an operation on two numbers whose result is a number.
     fn binary(self, op: BinaryOp, other: Self) -> Option<Self>;
 }
 
@@ -70,7 +70,7 @@ macro_rules! real {
                     Round => x.round_ties_even(),
                     Trunc => x.trunc(),
                     Fract => x - x.floor(),
-                    // Not `clamp`, which returns a NaN: it is 0 here, as in hardware.
+                    // Not `clamp`, which returns a NaN for a NaN; the result is 0 here, as in hardware.
                     Saturate if x > 0.0 => x.min(1.0),
                     Saturate => 0.0,
                     Sqrt => x.sqrt(),
@@ -116,8 +116,8 @@ macro_rules! real {
 real!(f32, u32);
 real!(f64, u64);
 
-/// IEEE 754 binary16: every operation is done in `f32` and rounded, which for + - * / and the square root is the
-/// correctly rounded result.
+/// IEEE 754 binary16. Every operation is computed in `f32` and rounded, which is the correctly rounded result for + - * /
+/// and the square root.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F16(half::f16);
 
@@ -126,7 +126,7 @@ impl F16 {
         F16(half::f16::from_f32(x))
     }
 
-    /// The nearest number; of a finite one a finite one, and of one that is not zero one that is not.
+    /// Nearest number that is finite if `x` is finite, and nonzero if `x` is nonzero.
     pub fn nearest_finite(x: f64) -> half::f16 {
         use half::f16;
         let near = f16::from_f64(x);

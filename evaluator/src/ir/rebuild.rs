@@ -1,11 +1,11 @@
-//! Building a graph again, without what is not used: the frame of every pass.
+//! Rebuilding of a graph without unused nodes: the frame of every pass.
 //!
 //! File tests: `evaluator/tests/filetests/passes/rebuild`.
 
 use super::{Builder, Event, Graph, NodeId, Op, Region, RegionId, Rules, Type};
 use std::sync::Arc;
 
-/// Options of rebuilding a graph.
+/// Options for rebuilding a graph.
 pub struct Rebuild<'a> {
     /// Simplifications to apply.
     pub rules: &'a dyn Rules,
@@ -13,20 +13,22 @@ pub struct Rebuild<'a> {
     pub share_loads: bool,
 }
 
-/// Replacements for nodes while a graph is rebuilt, and nodes that come before all of them.
+/// Replacements for nodes while a graph is rebuilt, and nodes placed before all of them.
 pub trait Replace {
-    /// Makes what comes first.
+    /// Adds the nodes that come first.
     fn add_prologue(&mut self, builder: &mut Builder<'_>);
 
-    /// Replacement of a node of the old graph, where `new` has the replacements of the nodes before it; `None` to copy the node.
+    /// Returns the replacement of a node of the old graph; `None` to copy the node. `new` contains the replacements of
+    /// earlier nodes.
     fn replace_node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId>;
 
-    /// The type of a parameter or a result that was of the type `ty`.
+    /// Type of a parameter or result whose old type was `ty`.
     fn replace_type(&self, _old: NodeId, ty: Type) -> Type {
         ty
     }
 
-    /// Replacement of the start or the end of the loop of `region`, in the type of its counter; `None` for the general replacement.
+    /// Replacement of the start or end of the loop of `region`, in the type of its counter; `None` for the general
+    /// replacement.
     fn replace_bound(
         &mut self,
         _builder: &mut Builder<'_>,
@@ -37,8 +39,8 @@ pub trait Replace {
         None
     }
 
-    /// Replacement of result `k` of `region`, or of the first value of what its loop carries there, in the type of the result; `None` for
-    /// the general replacement.
+    /// Replacement of result `k` of `region`, or of the initial carried value of its loop, in the type of the result;
+    /// `None` for the general replacement.
     fn replace_passed(
         &mut self,
         _builder: &mut Builder<'_>,
@@ -51,7 +53,7 @@ pub trait Replace {
     }
 }
 
-/// Leaves every node what it is.
+/// Copies every node unchanged.
 struct CopyAll;
 
 impl Replace for CopyAll {
@@ -62,13 +64,13 @@ impl Replace for CopyAll {
     }
 }
 
-/// Rebuilds a kernel, with its effects: unused nodes, unused carried values and unused components of texels vanish, and the pass's rules
-/// apply.
+/// Rebuilds a kernel with its effects. Drops unused nodes, unused carried values and unused components of texels, and
+/// applies the pass's rules.
 pub fn rebuild_graph(old: &Graph, pass: &Rebuild<'_>) -> Graph {
     rebuild_replacing(old, pass, &mut CopyAll)
 }
 
-/// As [`rebuild_graph`], with other nodes in the place of some.
+/// Like [`rebuild_graph`], with some nodes replaced.
 pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Replace) -> Graph {
     let live = Liveness::from_graph(old);
     let mut builder = Builder::new(pass.rules);
@@ -103,7 +105,7 @@ pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Repl
     walk.builder.finish(outputs)
 }
 
-/// Gives a new graph everything of the old one's but its nodes and regions.
+/// Copies everything from the old graph except its nodes and regions.
 pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.textures.clone_from(&old.textures);
     new.buffers.clone_from(&old.buffers);
@@ -125,7 +127,7 @@ struct Rebuilder<'g, 'r> {
     builder: Builder<'r>,
     new_ids: Vec<Option<NodeId>>,
     new_regions: Vec<Option<RegionId>>,
-    /// Room for a node's arguments.
+    /// Buffer for a node's arguments, reused.
     args: Vec<NodeId>,
 }
 
@@ -137,7 +139,7 @@ impl Rebuilder<'_, '_> {
     fn event(&mut self, event: Event, replace: &dyn Replace) {
         match event {
             Event::Open(region) if self.live.regions[region.0 as usize] => self.open(region, replace),
-            // Results of a region may be newer than its end: they are set when its owner is built.
+            // Results of a region may be newer than its end: they are set when the loop or branch is built.
             Event::Close(region) if self.live.regions[region.0 as usize] => self.builder.close_region(Vec::new()),
             _ => {}
         }
@@ -157,13 +159,13 @@ impl Rebuilder<'_, '_> {
         }
     }
 
-    /// Positions of the results of a region that are used, of `count` values of which the first `before` are none.
+    /// Positions of the used results of a region. The first `before` of the `count` values are no results.
     fn used_positions(&self, region: RegionId, count: usize, before: usize) -> Vec<usize> {
         let used = &self.live.results[region.0 as usize];
         (0..count - before).filter(|k| used[*k]).collect()
     }
 
-    /// Gives the regions of a loop or branch their results.
+    /// Sets the results of the regions of a loop or branch.
     fn set_results(&mut self, owner: NodeId, replace: &mut dyn Replace) {
         for region in self.old.regions_of(owner) {
             let results: Vec<NodeId> = self
@@ -249,7 +251,7 @@ impl Rebuilder<'_, '_> {
                 }
             }
             Op::Const(_) => self.builder.intern(op, args, ty),
-            // Of a texel that has become a number.
+            // The texel has become a scalar.
             Op::Extract(0) if self.builder.graph().ty(args[0]) == ty => args[0],
             _ => self.builder.add(op, args, ty),
         };
@@ -265,7 +267,7 @@ impl Rebuilder<'_, '_> {
     }
 }
 
-/// Components up to the last one that is used of any texel, for each texture.
+/// For each texture, the number of components up to the last one used of any texel.
 fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
     let texel_of = |id: NodeId| match graph.node(id).op {
         Op::Load { texture, .. } | Op::Sample { texture, .. } => Some(texture as usize),
@@ -301,7 +303,7 @@ fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
 struct Liveness {
     nodes: Vec<bool>,
     regions: Vec<bool>,
-    /// By region, whether each of its results leaves it; the two sides of a branch agree.
+    /// By region, whether each of its results is used outside; the same for both sides of a branch.
     results: Vec<Vec<bool>>,
 }
 
@@ -356,7 +358,7 @@ impl Liveness {
         live
     }
 
-    /// Result `k` of `owner` is used: so are what computes it and, in a loop, its first value.
+    /// Marks result `k` of `owner` as used, together with the value that computes it and, in a loop, its initial value.
     fn mark_result(&mut self, graph: &Graph, owner: NodeId, k: usize, pending: &mut Vec<NodeId>) {
         for region in graph.regions_of(owner) {
             if !std::mem::replace(&mut self.results[region.0 as usize][k], true) {
@@ -370,8 +372,8 @@ impl Liveness {
         }
     }
 
-    /// Filters values that correspond to a region's results: keeps those whose result is used. With `counter` the first value corresponds
-    /// to none and is kept.
+    /// Keeps those of the values whose region results are used. With `counter`, the first value corresponds to no result
+    /// and is kept.
     fn keep_used(&self, region: RegionId, values: &[NodeId], counter: bool) -> Vec<NodeId> {
         let skip = usize::from(counter && !values.is_empty());
         let used = self.results[region.0 as usize].iter();

@@ -1,4 +1,4 @@
-//! Textures: what kinds there are, and how each is addressed.
+//! Textures: their kinds, and how each is addressed.
 
 use super::{Scalar, Type};
 
@@ -11,20 +11,20 @@ pub enum TextureKind {
     Layers,
     /// A volume.
     Volume,
-    /// The six faces of a cube, which a direction finds.
+    /// The six faces of a cube, addressed by a direction.
     Cube,
-    /// A single image with several samples a texel.
+    /// A single image with several samples per texel.
     Multisampled,
-    /// A single image of depths to compare.
+    /// A single image of depths for comparison.
     Depth,
-    /// A stack of images of depths to compare.
+    /// A stack of images of depths for comparison.
     DepthLayers,
-    /// Six faces of depths to compare.
+    /// Six faces of depths for comparison.
     DepthCube,
 }
 
 impl TextureKind {
-    /// Every kind, with the word for it in the text of a graph.
+    /// Every kind, with its name in the text of a graph.
     pub const ALL: [(TextureKind, &'static str); 8] = [
         (TextureKind::Flat, "flat"),
         (TextureKind::Layers, "layers"),
@@ -36,7 +36,7 @@ impl TextureKind {
         (TextureKind::DepthCube, "depthcube"),
     ];
 
-    /// The word for it in the text of a graph.
+    /// Name in the text of a graph.
     pub fn ir_name(self) -> &'static str {
         let found = TextureKind::ALL.iter().find(|(kind, _)| *kind == self);
         found.expect("every kind is listed").1
@@ -47,12 +47,12 @@ impl TextureKind {
         self.has_layers() || self == TextureKind::Multisampled
     }
 
-    /// Returns whether it is a stack of images.
+    /// Returns whether the texture is a stack of images.
     pub fn has_layers(self) -> bool {
         matches!(self, TextureKind::Layers | TextureKind::DepthLayers)
     }
 
-    /// Returns whether its texels are depths, to be compared.
+    /// Returns whether the texels are depths for comparison.
     pub fn is_depth(self) -> bool {
         matches!(
             self,
@@ -65,28 +65,28 @@ impl TextureKind {
         matches!(self, TextureKind::Cube | TextureKind::DepthCube)
     }
 
-    /// Returns whether a sampler can filter it.
+    /// Returns whether a sampler can filter the texture.
     pub fn is_filtered(self) -> bool {
         !self.is_depth() && self != TextureKind::Multisampled
     }
 
-    /// Returns whether its rows are those of a picture, which some hosts count from below.
+    /// Returns whether the rows are those of an image, which some hosts count from below.
     pub fn has_rows(self) -> bool {
         !self.is_cube() && self != TextureKind::Volume
     }
 
-    /// Components of a size and of a texel's coordinate, without a layer.
+    /// Number of components of a size and of a texel's coordinate, without a layer.
     pub fn dimension_count(self) -> u8 {
         if self == TextureKind::Volume { 3 } else { 2 }
     }
 
-    /// A place that a sampler reads at: two or three floats.
+    /// Type of a position for a sampler: two or three floats.
     pub fn position_type(self) -> Type {
         let three = self.is_cube() || self == TextureKind::Volume;
         Type::value(Scalar::F32, if three { 3 } else { 2 })
     }
 
-    /// A texel's coordinate, and a size, as the graph has them.
+    /// Type of a texel's coordinate, and of a size, in the graph.
     pub fn coordinate_type(self) -> Type {
         Type::value(Scalar::I32, self.dimension_count())
     }
@@ -99,24 +99,25 @@ pub struct Texture {
     pub name: String,
     /// Kind of the texture.
     pub kind: TextureKind,
-    /// Kind of a texel's components: float, or integer, which no sampler reads.
+    /// Kind of a texel's components: float or integer. Samplers cannot read integers.
     pub scalar: Scalar,
     /// Components of a texel that the kernel uses, 1 to 4.
     pub components: u8,
-    /// Components of a texel by its type in the kernel, 1 to 4: data rather than a colour below 3.
+    /// Components of a texel by its type in the kernel, 1 to 4. With fewer than 3, the texture holds data rather than a
+    /// colour.
     pub declared: u8,
-    /// `true` if it has the output's size, `false` if it has its own.
+    /// `true` if the texture has the output's size, `false` if it has its own.
     pub framed: bool,
 }
 
 impl Texture {
-    /// A texel as the kernel has it.
+    /// Type of a texel in the kernel.
     pub fn texel_type(&self) -> Type {
         Type::value(self.scalar, self.components)
     }
 
-    /// Returns whether the largest index that is read determines the required number of layers, or samples of a texel. The number of other
-    /// textures is queried.
+    /// Returns whether the largest index that is read determines the required number of layers, or of samples per texel.
+    /// For other textures the number is queried.
     pub fn is_counted(&self) -> bool {
         self.kind == TextureKind::Multisampled || (self.framed && self.kind == TextureKind::Layers)
     }

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// The bits of a scalar or of up to four components of a vector; unused components are 0. A `usize` has two words, the lower first.
+/// The bits of a scalar or of up to four components of a vector; unused components are 0. A `usize` has two words, the
+/// lower first.
 pub type Bits = [u32; 4];
 
 /// The bits of a `usize`.
@@ -10,12 +11,12 @@ pub fn usize_bits(value: u64) -> Bits {
     [value as u32, (value >> 32) as u32, 0, 0]
 }
 
-/// The value that the bits of a `usize` stand for.
+/// Value of the bits of a `usize`.
 pub fn usize_value(bits: &Bits) -> u64 {
     u64::from(bits[0]) | u64::from(bits[1]) << 32
 }
 
-/// Kind of a lane.
+/// Kind of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Scalar {
     /// 0 or 1.
@@ -24,7 +25,7 @@ pub enum Scalar {
     I32,
     /// Wrapping.
     U32,
-    /// 64 bits, wrapping: a runtime `usize` while a kernel is evaluated. The pass `narrow` leaves none.
+    /// 64 bits, wrapping: a runtime `usize` during evaluation. The pass `narrow` removes it.
     Usize,
     /// IEEE 754 binary32.
     F32,
@@ -35,21 +36,21 @@ pub enum Scalar {
 pub enum Type {
     /// A scalar (`components` 1) or a vector of 2 to 4.
     Value {
-        /// Kind of each lane.
+        /// Kind of each component.
         scalar: Scalar,
-        /// 1 to 4.
+        /// Number of components, 1 to 4.
         components: u8,
     },
     /// A fixed number of scalars or vectors.
     Array {
-        /// Kind of each lane of an element.
+        /// Kind of each component of an element.
         scalar: Scalar,
-        /// Bits of an element, 1 to 4.
+        /// Number of components of an element, 1 to 4.
         components: u8,
         /// Number of elements, at least 1.
         len: u32,
     },
-    /// Results of a loop or a branch: read by `Op::Result`.
+    /// Results of a loop or branch, read by `Op::Result`.
     Results,
 }
 
@@ -83,7 +84,7 @@ impl Type {
         }
     }
 
-    /// Bits of a value or of an array's element; 0 for `Results`.
+    /// Number of components of a value or of an array's element; 0 for `Results`.
     pub fn component_count(self) -> u8 {
         match self {
             Type::Value { components, .. } | Type::Array { components, .. } => components,
@@ -104,7 +105,7 @@ impl Type {
         }
     }
 
-    /// The element of an array; a value is its own element.
+    /// Element type of an array; a value is its own element.
     pub fn element_type(self) -> Type {
         match self {
             Type::Array { scalar, components, .. } => Type::Value { scalar, components },
@@ -112,7 +113,7 @@ impl Type {
         }
     }
 
-    /// Scalars or vectors that it is made of: elements of an array; 1 of a value.
+    /// Number of scalars or vectors: the elements of an array; 1 for a value.
     pub fn part_count(self) -> u32 {
         match self {
             Type::Array { len, .. } => len,
@@ -120,7 +121,7 @@ impl Type {
         }
     }
 
-    /// Alignment and size in bytes as WGSL and GLSL's std430 have them in memory.
+    /// Alignment and size in bytes in memory, as in WGSL and in GLSL's std430.
     pub fn memory_layout(self) -> (u32, u32) {
         let (alignment, size) = match self.component_count() {
             1 => (4, 4),
@@ -139,7 +140,7 @@ impl Type {
         matches!(self, Type::Array { .. })
     }
 
-    /// Returns whether this is a single lane.
+    /// Returns whether this is a scalar.
     pub fn is_scalar(self) -> bool {
         matches!(self, Type::Value { components: 1, .. })
     }
@@ -156,7 +157,7 @@ impl Type {
 }
 
 impl Type {
-    /// The type as glam and Rust call it: `f32`, `IVec2`, `[Vec4; 9]`.
+    /// Name of the type in Rust or glam: `f32`, `IVec2`, `[Vec4; 9]`.
     pub fn in_rust(self) -> String {
         match self {
             Type::Value { scalar, components: 1 } => scalar.to_string(),
@@ -199,7 +200,7 @@ impl fmt::Display for Type {
     }
 }
 
-/// The vector that glam calls so, `Vec3` or `IVec2` say: the kind and the number of its components.
+/// Kind and number of components of a glam vector type such as `Vec3` or `IVec2`.
 pub fn vector_named(name: &str) -> Option<(Scalar, u8)> {
     let (kind, components) = match name.strip_prefix("Vec") {
         Some(components) => (Scalar::F32, components),

@@ -1,20 +1,23 @@
 //! Invariants of every graph.
 //!
-//! 1. Arguments, and a region's results and parameters, are made before their users.
-//! 2. Every operation has as many arguments as it takes, of the types that it takes, and gives the type it says. Vectors have
-//!    2 to 4 components, arrays at least one element; of booleans a constant is 0 or 1.
-//! 3. Indices of textures, buffers, samplers, uniforms, interpolated values, tallies and regions exist. Every region but the
-//!    body belongs to one loop or branch; its parent was opened before it, and its parameters say that they are its own. The
-//!    regions of a branch agree in their results, a loop's carried values in number and type with its results; a loop alone
-//!    may have a stop, a boolean.
+//! 1. Arguments, and a region's results and parameters, precede their users.
+//! 2. Every operation has the number and types of arguments that it requires, and returns the type that it declares.
+//!    Vectors have 2 to 4 components, arrays at least one element; a boolean constant is 0 or 1.
+//! 3. Indices of textures, buffers, samplers, uniforms, interpolated values, tallies and regions exist. Every region except
+//!    the body belongs to one loop or branch. Its parent was opened before it, and its parameters name it as their region.
+//!    The regions of a branch have the same result types; a loop's carried values match its results in number and type.
+//!    Only a loop may have a stop, a boolean.
 //! 4. A parameter is only used inside its region.
-//! 5. The kernel has a result for each target of each pixel of its invocation, of the target's type: a float, an integer or a
-//!    vector of them. No two targets have one name.
-//! 6. Bits, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
-//! 7. What is of workgroups is of kernels whose invocations are theirs; what they share are arrays of at least one number or vector, of atomics of integers.
-//! 8. Every effect that something depends on is one of one region, on whose evaluation it happens, and each loop or branch with effects is one of the region
-//!    that it was written in; a region has them in the order in which they were made. Only there their values are used. What is
-//!    written is no buffer that is read. A kernel whose invocations are blocks or lanes has none.
+//! 5. The kernel has a result for each target of each pixel of its invocation, of the target's type: a float, an integer or
+//!    a vector of them. Names of targets are unique.
+//! 6. Lane positions, quad swaps, derivatives and interpolated values occur only in kernels whose invocations are lanes of
+//!    quads.
+//! 7. Workgroup operations occur only in kernels whose invocations form workgroups. Shared memory consists of arrays with
+//!    at least one number or vector; atomics are integers.
+//! 8. Every effect that a result depends on belongs to exactly one region, whose evaluation performs it. Each loop or
+//!    branch with effects belongs to the region that contains it. A region lists them in order of creation, and their
+//!    values are used only inside it. No buffer is both written and read. A kernel whose invocations are blocks or lanes
+//!    has no effects.
 //!
 //! File tests: `evaluator/tests/filetests/verify`.
 
@@ -23,7 +26,7 @@ mod resources;
 use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Type, UnaryOp};
 use std::collections::HashMap;
 
-/// Checks a graph; the message names the node that breaks a rule.
+/// Checks a graph. The message names the node that breaks a rule.
 pub fn verify_graph(graph: &Graph) -> Result<(), String> {
     check_results(graph)?;
     check_regions(graph)?;
@@ -40,7 +43,7 @@ pub fn verify_graph(graph: &Graph) -> Result<(), String> {
     check_scopes(graph)
 }
 
-/// Rule 5.
+/// Checks rule 5.
 fn check_results(graph: &Graph) -> Result<(), String> {
     let outputs = &graph.regions.first().ok_or("no body")?.results;
     let [width, height] = graph.invocation.block_size();
@@ -68,7 +71,7 @@ fn check_results(graph: &Graph) -> Result<(), String> {
     Ok(())
 }
 
-/// Rule 7, but for operations.
+/// Checks rule 7, except for operations.
 fn check_shared(graph: &Graph) -> Result<(), String> {
     let wrong = graph.shared.iter().find(|shared| {
         let numbers = matches!(shared.element, Type::Value { scalar, .. } if scalar != Scalar::Bool);
@@ -81,7 +84,7 @@ fn check_shared(graph: &Graph) -> Result<(), String> {
     }
 }
 
-/// Rule 8, but for where values are used.
+/// Checks rule 8, except for the uses of values.
 fn check_effects(graph: &Graph) -> Result<(), String> {
     let mut of: Vec<Option<RegionId>> = vec![None; graph.nodes.len()];
     for (k, region) in graph.regions.iter().enumerate() {
@@ -106,7 +109,7 @@ fn check_effects(graph: &Graph) -> Result<(), String> {
             None if op.is_effect() => of[id.0 as usize],
             _ => None,
         };
-        // An effect that was rolled back is in no region, and nothing uses it.
+        // An effect that was rolled back belongs to no region, and nothing uses it.
         let missing = of[id.0 as usize].is_none() && (op.is_effect() || wanted.is_some());
         if (missing && live[id.0 as usize]) || (!missing && of[id.0 as usize] != wanted) {
             return Err(format!("%{} is no effect of the region that it happens in", id.0));
@@ -140,7 +143,7 @@ fn live_nodes(graph: &Graph) -> Vec<bool> {
     live
 }
 
-/// Rules 1 and 3, as far as they are of regions.
+/// Checks rules 1 and 3, as far as they concern regions.
 fn check_regions(graph: &Graph) -> Result<(), String> {
     let mut owners = vec![0; graph.regions.len()];
     for id in graph.node_ids() {
@@ -186,7 +189,7 @@ fn expect_types(holds: bool, what: &str, types: &[Type]) -> Result<(), String> {
     }
 }
 
-/// `types` is room for the types of the arguments.
+/// Checks one node. `types` is a reused buffer for the types of the arguments.
 fn check_node(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String> {
     let node = graph.node(id);
     types.clear();
@@ -489,7 +492,7 @@ fn find_region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {
         .ok_or_else(|| "no such region".to_owned())
 }
 
-/// Rule 4: what depends on a parameter is used where the parameter is known.
+/// Checks rule 4: a node that depends on a parameter is used only where the parameter is in scope.
 fn check_scopes(graph: &Graph) -> Result<(), String> {
     let inside = |mut at: RegionId, outer: RegionId| loop {
         if at == outer {

@@ -1,4 +1,4 @@
-//! Coordinates of texels, component by component.
+//! Texel coordinates, component by component.
 //!
 //! File tests: `evaluator/tests/filetests/passes/coordinates`.
 
@@ -10,21 +10,21 @@ use std::collections::BTreeSet;
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
-/// Steps beyond which a coordinate might wrap: a pixel's is less than 2^20.
+/// Steps beyond this might wrap; a pixel's coordinate is less than 2^20.
 const MAX_STEP: i32 = 1 << 30;
 
-/// Brings the neighbours of the pixel into their textures column by column and row by row, where that takes fewer operations than
-/// doing it texel by texel: 49 texels around a pixel lie in seven columns and seven rows, of which one needs nothing. Each coordinate
-/// is the same integer as before.
+/// Clamps the coordinates of a pixel's neighbours by column and by row, if that takes fewer operations than by texel. For
+/// example, 49 texels around a pixel lie in seven columns and seven rows, one of each without a clamp. Each coordinate
+/// remains the same integer.
 ///
-/// Comes behind every pass that looks for coordinates as vectors.
+/// Runs after every pass that matches coordinates as vectors.
 pub fn by_component(graph: &Graph) -> Graph {
     let found: Vec<Neighbour> = graph
         .node_ids()
         .filter(|id| is_read(&graph.node(*id).op))
         .filter_map(|id| Neighbour::from_node(graph, graph.node(id).args[0]))
         .collect();
-    // Of each distinct coordinate and of each distinct component; a vector's operation is one for each component.
+    // Count each distinct coordinate and each distinct component once. A vector operation counts as one for each component.
     let whole: BTreeSet<_> = found.iter().collect();
     let parts: BTreeSet<_> = found
         .iter()
@@ -46,14 +46,14 @@ fn is_read(op: &Op) -> bool {
     matches!(op, Op::Load { .. })
 }
 
-/// A coordinate that is a constant step away from the pixel and brought inside.
+/// A coordinate at a constant step from the pixel, clamped to the texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Neighbour {
     pixel: NodeId,
     step: [i32; 2],
-    /// The largest coordinate, where it is brought below that.
+    /// Largest coordinate, if the coordinate is clamped to that.
     last: Option<NodeId>,
-    /// `true` if it is clamped to at least 0.
+    /// `true` if the coordinate is clamped to at least 0.
     from_zero: bool,
     /// `true` if the pixel itself is known to lie inside, so that a step back never passes the last coordinate.
     inside: bool,
@@ -107,7 +107,7 @@ impl Neighbour {
         })
     }
 
-    /// A component, brought inside on the sides on which it may lie outside. A pixel never lies before the first.
+    /// A component, clamped on the sides where it may lie outside. A pixel never lies before the first coordinate.
     fn axis_part(&self, axis: u8) -> Part {
         let step = self.step[usize::from(axis)];
         Part {
@@ -125,7 +125,7 @@ impl Neighbour {
     }
 }
 
-/// The size of which `last` is the largest coordinate.
+/// Size operation whose largest coordinate is `last`.
 fn size_op(g: &Graph, last: NodeId) -> Option<Op> {
     let node = g.node(last);
     let is_one = |id: NodeId| g.constant_bits(id).is_some_and(|bits| bits[..2] == [1, 1]);
@@ -170,7 +170,7 @@ impl Part {
         at
     }
 
-    /// Name for the column or row, with the distance from the second on.
+    /// Name for the column or row, with the distance unless it is 1.
     fn step_name(&self) -> String {
         let side = match (self.axis, self.step) {
             (0, 0) => "column",

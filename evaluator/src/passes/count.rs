@@ -1,4 +1,4 @@
-//! Static counts: what one invocation executes.
+//! Static counts of the operations that one invocation executes.
 
 use super::ranges;
 use super::schedule::{Block, Schedule, Step};
@@ -6,11 +6,11 @@ use crate::ir::{Graph, Memory, NodeId, Op, SharedArray, Type};
 use std::collections::BTreeMap;
 use straightline_manifest::Counts;
 
-/// The texture that a filter filters; its reads are counted apart.
+/// The texture that a filter filters. Its reads are counted separately.
 const FILTERED: &str = "color";
 
-/// Counts what one invocation executes; a loop whose trip count is a runtime value counts as one iteration.
-/// `statements` and `max_live` are known only once text is emitted and are left 0.
+/// Counts the operations that one invocation executes. A loop with a runtime trip count counts as one iteration.
+/// `statements` and `max_live` are known only after emission and are left 0.
 pub fn count_operations(graph: &Graph, schedule: &Schedule) -> Counts {
     let run = Counter { graph }.block(&schedule.body);
     let reads: BTreeMap<String, u32> = run.reads;
@@ -75,7 +75,7 @@ impl RunCounts {
         self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }
 
-    /// Of two alternatives, the larger in each figure.
+    /// Maximum of two alternatives in each figure.
     fn max(mut self, other: RunCounts) -> RunCounts {
         for (name, n) in other.reads {
             let slot = self.reads.entry(name).or_default();
@@ -152,7 +152,7 @@ impl Counter<'_> {
     }
 }
 
-/// Bytes of what a workgroup shares and uses.
+/// Bytes of shared memory that are used.
 fn shared_memory(graph: &Graph, schedule: &Schedule) -> u32 {
     let live = |id: &NodeId| schedule.has_node(*id);
     let used = |k: usize| {
@@ -170,12 +170,11 @@ fn shared_memory(graph: &Graph, schedule: &Schedule) -> u32 {
     u32::try_from(bytes).unwrap_or(u32::MAX)
 }
 
-/// Layers that the textures of the largest GPUs have; an index that is only known to be smaller than more is not bounded.
+/// Layers supported by the largest GPUs. An index with a larger bound counts as unbounded.
 const MAX_LAYERS: i64 = 2048;
 
-/// Layers, or samples, of a texture that reads can reach: one more than the largest index; 1 of a texture that is asked how
-/// many it has. `None` if an index is not
-/// bounded by a compile-time constant.
+/// Number of layers, or samples, of a texture that reads can reach: one more than the largest index; 1 if only their number
+/// is queried. Returns `None` if an index is not bounded by a compile-time constant.
 pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     let mut layers = 1;
     if !graph.textures[texture as usize].is_counted() {
@@ -193,7 +192,7 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     Some(layers)
 }
 
-/// Returns the most iterations of a loop, if both bounds are known.
+/// Returns the maximum trip count of a loop, if both bounds are known.
 pub(super) fn max_trip_count(graph: &Graph, node: NodeId) -> Option<u32> {
     let endless = graph.constant_bits(graph.node(node).args[1]) == Some([Graph::ENDLESS as u32, 0, 0, 0]);
     if endless && graph.region(graph.regions_of(node)[0]).stop.is_some() {
@@ -207,14 +206,14 @@ pub(super) fn max_trip_count(graph: &Graph, node: NodeId) -> Option<u32> {
             _ => i64::from(bits as i32),
         })
     };
-    // Never more than a u32 holds.
+    // The difference always fits a u32.
     Some((bound(1)? - bound(0)?).max(0) as u32)
 }
 
 fn basic_blocks(graph: &Graph, block: &Block) -> u32 {
     let inner = block.steps.iter().map(|step| match step {
         Step::Eval(_) => 0,
-        // The test, the body, and what follows.
+        // The test, the body, and the code after it.
         Step::Loop { node, body } => {
             let stops = graph.region(graph.regions_of(*node)[0]).stop.is_some();
             2 + u32::from(stops) + basic_blocks(graph, body)

@@ -1,14 +1,14 @@
-//! Operations of floats at constants where drivers depart from IEEE 754: division by zero, by an infinity, by subnormal numbers
-//! and by a difference that is zero; powers 0 and 1.
+//! Float operations on constants where drivers deviate from IEEE 754: division by zero, by an infinity, by subnormal
+//! numbers and by a difference that is zero; powers 0 and 1.
 //!
-//! Drivers fold such a division before they run it: to 0, or to a value that is not written at all. Each rule returns the same
-//! bits by an operation that they leave alone; a NaN may have other bits.
+//! Drivers fold such a division at compile time, to 0 or to a value that is never written. Each rule computes the same bits
+//! by an operation that drivers leave alone; only the bits of a NaN may differ.
 //!
 //! File tests: `evaluator/tests/filetests/passes/edges`.
 
 use crate::ir::{BinaryOp, Builder, NodeId, Op, Scalar, Type};
 
-/// Computes a division or a power by other operations, with the same value.
+/// Replaces a division or a power by other operations with the same value.
 pub fn at_constants(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let Op::Binary(op @ (BinaryOp::Div | BinaryOp::Pow)) = op else {
         return None;
@@ -22,7 +22,7 @@ pub fn at_constants(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> 
     }
 }
 
-/// `x^0` and `1^y` are 1, of a NaN too; `x^1` is `x`.
+/// `x^0` and `1^y` are 1, also for a NaN; `x^1` is `x`.
 fn fold_power(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> Option<NodeId> {
     let all = |id: NodeId, value: f32| {
         let lanes = usize::from(ty.component_count());
@@ -81,7 +81,7 @@ fn is_edge(bits: u32) -> bool {
     !f32::from_bits(bits).is_normal()
 }
 
-/// A scalar by a constant that [`is_edge`].
+/// Divides a scalar by a constant that [`is_edge`].
 fn by_constant(b: &mut Builder<'_>, x: NodeId, divisor: f32) -> NodeId {
     let times = |b: &mut Builder<'_>, x: NodeId, factor: f32| {
         let factor = b.f32(factor);
@@ -95,7 +95,7 @@ fn by_constant(b: &mut Builder<'_>, x: NodeId, divisor: f32) -> NodeId {
         let zero = times(b, x, 1.0 / divisor);
         if_finite(b, x, zero)
     } else {
-        // If the scaled value overflows, so does the quotient; and a power of two never rounds.
+        // If the scaled value overflows, so does the quotient; a power of two never rounds.
         const SCALE: f32 = 16_777_216.0;
         let scaled = times(b, x, SCALE);
         let divisor = b.f32(divisor * SCALE);
@@ -103,7 +103,7 @@ fn by_constant(b: &mut Builder<'_>, x: NodeId, divisor: f32) -> NodeId {
     }
 }
 
-/// The reciprocal of `a - a`, if `y` is one.
+/// The reciprocal of `a - a`, if `y` has that form.
 fn of_nothing(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     let node = b.graph().node(y);
     let same = node.op == Op::Binary(BinaryOp::Sub) && node.args[0] == node.args[1] && node.ty == Type::F32;
@@ -112,7 +112,7 @@ fn of_nothing(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     Some(if_finite(b, a, infinity))
 }
 
-/// `value` where `x` is finite, and else a NaN.
+/// `value` if `x` is finite, otherwise a NaN.
 fn if_finite(b: &mut Builder<'_>, x: NodeId, value: NodeId) -> NodeId {
     let bits = b.add(Op::Bitcast, [x], Type::U32);
     let [mask, infinity] = [0x7fff_ffff, 0x7f80_0000].map(|word| b.constant(Type::U32, [word, 0, 0, 0]));
@@ -122,7 +122,7 @@ fn if_finite(b: &mut Builder<'_>, x: NodeId, value: NodeId) -> NodeId {
     b.add(Op::Select, [finite, value, nan], Type::F32)
 }
 
-/// A quotient of vectors, component by component.
+/// Divides vectors component by component.
 fn by_component(b: &mut Builder<'_>, x: NodeId, y: NodeId, ty: Type) -> NodeId {
     let pairs = split_components(b, x, ty).into_iter().zip(split_components(b, y, ty));
     let pairs: Vec<_> = pairs.collect();

@@ -1,7 +1,7 @@
-//! Algebra that may change a rounding: what [`Math::Fast`](crate::policy::Math::Fast) asks for.
+//! Algebra that may change a rounding, as [`Math::Fast`](crate::policy::Math::Fast) requests.
 //!
-//! Each rewrite is tagged with what it may change. None of them makes something finite infinite within the bounds that
-//! [`is_held`] sets to constants, none drops a test that the kernel makes, and none takes for granted that there is no NaN.
+//! Each rewrite states what it may change. None of them turns a finite value infinite within the bounds that [`is_held`]
+//! sets for constants, drops a test of the kernel, or assumes that there are no NaNs.
 //!
 //! File tests: `evaluator/tests/filetests/passes/fast`.
 
@@ -11,14 +11,15 @@ use crate::ir::{
 };
 use std::collections::HashMap;
 
-/// The kernel with fewer or cheaper operations on floats, each result off by some roundings:
-/// What is exact ([`Op::Exact`]) stays as it is.
+/// Rebuilds the kernel with fewer or cheaper operations on floats, each result off by some roundings. Exact operations
+/// ([`Op::Exact`]) remain unchanged.
 ///
-/// - a division by a constant is a multiplication by its reciprocal, and so are several divisions by one value (1 rounding);
-/// - `exp` is `exp2`, log2 e going into constants (2 roundings of the exponent);
-/// - a constant factor goes into the constants of a sum, a product or a quotient (1 rounding a term; of a sum that cancels, of its
-///   largest term), where a multiplication and an addition are one step on most GPUs;
-/// - `x + 0` is `x` (a zero may have the other sign).
+/// - A division by a constant becomes a multiplication by its reciprocal, and so do several divisions by one value (1
+///   rounding).
+/// - `exp` becomes `exp2`, with log2 e folded into constants (2 roundings of the exponent).
+/// - A constant factor is folded into the constants of a sum, a product or a quotient (1 rounding a term; in a sum that
+///   cancels, of its largest term). Most GPUs multiply and add in one instruction.
+/// - `x + 0` becomes `x` (a zero may change its sign).
 pub fn apply_fast_math(graph: &Graph) -> Graph {
     let mut rewriting = FastMath::from_graph(graph);
     let pass = Rebuild {
@@ -35,11 +36,11 @@ const LOG2_E: Factor = [std::f32::consts::LOG2_E; 4];
 
 struct FastMath<'g> {
     old: &'g Graph,
-    /// By node, how often it is used.
+    /// By node, the number of uses.
     uses: Vec<u32>,
-    /// By node, whether it must be rounded as it is written.
+    /// By node, whether it must be rounded as written.
     exact: Vec<bool>,
-    /// By divisor, how many quotients there are; of a vector by one number, one for each component.
+    /// By divisor, the number of quotients; a vector divided by a scalar counts once for each component.
     quotients: HashMap<NodeId, u32>,
 }
 
@@ -75,7 +76,7 @@ impl<'g> FastMath<'g> {
         (self.old.ty(id).scalar_kind() == Some(Scalar::F32)).then(|| bits.map(f32::from_bits))
     }
 
-    /// A product's or a quotient's other side and the constant that it is multiplied by.
+    /// Splits a product or a quotient into its other side and its constant factor.
     fn split_factor(&self, id: NodeId) -> Option<(NodeId, Factor)> {
         let node = self.old.node(id);
         let lanes = usize::from(node.ty.component_count());
@@ -95,7 +96,7 @@ impl<'g> FastMath<'g> {
         }
     }
 
-    /// Returns whether a constant factor is free here: it is folded into a constant, or into a sum with a constant.
+    /// Returns whether a constant factor costs nothing here: it is folded into a constant, or into a sum with a constant.
     fn absorbs_factor(&self, id: NodeId) -> bool {
         let node = self.old.node(id);
         if self.constant_factor(id).is_some() {
@@ -114,7 +115,7 @@ impl<'g> FastMath<'g> {
         }
     }
 
-    /// A value of the old graph, times a constant.
+    /// Builds a value of the old graph times a constant.
     fn build_scaled(&self, b: &mut Builder<'_>, id: NodeId, by: Factor, new: &[Option<NodeId>]) -> NodeId {
         let node = self.old.node(id);
         let lanes = usize::from(node.ty.component_count());
@@ -147,7 +148,7 @@ impl<'g> FastMath<'g> {
         b.add(Op::Binary(BinaryOp::Mul), [same, factor], node.ty)
     }
 
-    /// A quotient by a value by which there are others, as a product with its reciprocal.
+    /// Builds a quotient whose divisor is shared, as a product with the reciprocal.
     fn shared_quotient(&self, b: &mut Builder<'_>, id: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
         let (divisor, _) = common_divisor(self.old, id)?;
         if self.quotients.get(&divisor).is_none_or(|count| *count < 2) {
@@ -201,7 +202,7 @@ fn component_count(ty: Type) -> usize {
     usize::from(ty.component_count())
 }
 
-/// Returns the divisor of a node, if it is a single number and no constant, and the number of quotients.
+/// Returns the divisor of a node, if it is a scalar and not constant, and the number of quotients.
 fn common_divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
     let node = g.node(id);
     let ([_, below], true) = (&node.args[..], node.op == Op::Binary(BinaryOp::Div)) else {
@@ -216,7 +217,7 @@ fn common_divisor(g: &Graph, id: NodeId) -> Option<(NodeId, u32)> {
     (is_float && g.constant_bits(of).is_none()).then_some((of, u32::from(node.ty.component_count())))
 }
 
-/// Returns whether constants are 0 or in the range of normal numbers of half precision: then no product with one of them underflows or
+/// Returns whether constants are 0 or in the normal range of half precision. No product with one of them then underflows or
 /// overflows that did not before.
 fn is_held(factors: &[f32]) -> bool {
     let held = |k: f32| k == 0.0 || (6.2e-5..=65504.0).contains(&k.abs());

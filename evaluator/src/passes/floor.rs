@@ -1,5 +1,5 @@
-//! The floor of a kernel: its reads and its stores, and next to nothing between. No form of the kernel can be faster, so
-//! what a form takes longer is what its arithmetic costs.
+//! The lower bound (*floor*) of a kernel: its reads and stores, with almost nothing between. No form of the kernel can be
+//! faster, so the time above the floor is the cost of its arithmetic.
 
 use super::fold::Exact;
 use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Scalar, Type, copy_tables};
@@ -9,18 +9,18 @@ const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
 const COLOUR: Type = Type::value(Scalar::F32, 4);
 
-/// More than a texel holds; whether one is larger is known only once it is read.
+/// Exceeds every texel value. The compiler cannot know that before the texel is read.
 const LARGE: f32 = 1.0e30;
 
-/// A graph with the same distinct reads and the same number of outputs, each output the sum of all components of the reads
-/// that it depended on: none of them can be dropped, and no two of them merged.
+/// Builds a graph with the same distinct reads and the same number of outputs. Each output is the sum of all components of
+/// the reads that it depended on, so no read can be dropped and no two can be merged.
 ///
-/// Where a read looks is computed as in the kernel, unless that takes another read or a transcendental function. Then it
-/// looks near the pixel instead, at a place of its own; if it waited for another read, it still does.
+/// The position of a read is computed as in the kernel, unless that takes another read or a transcendental function. In
+/// that case the read has its own position near the pixel; if it waited for another read, it still does.
 ///
 /// # Errors
 ///
-/// If a loop or branch is left: how often its reads happen is not known.
+/// Fails if a loop or branch is left, because the number of its reads is unknown.
 pub fn build_floor(graph: &Graph) -> Result<Graph, String> {
     let is_kept = |op: &Op| matches!(op, Op::Loop(_) | Op::If(..));
     if graph.has_effects() {
@@ -47,7 +47,7 @@ pub fn build_floor(graph: &Graph) -> Result<Graph, String> {
         .filter(|id| live[id.0 as usize] && graph.node(*id).op.is_read())
         .collect();
     floor.copy_plain();
-    // Places that are kept come first, so that no other is chosen where they are.
+    // Unchanged positions come first, so that no chosen position coincides with one of them.
     let (kept, moved): (Vec<NodeId>, Vec<NodeId>) = reads.iter().partition(|id| floor.is_placed(**id));
     for id in kept.into_iter().chain(moved) {
         floor.add_read(id);
@@ -80,16 +80,16 @@ fn dependent_nodes(graph: &Graph, from: &[NodeId]) -> Vec<bool> {
 struct FloorBuilder<'g> {
     old: &'g Graph,
     builder: Builder<'g>,
-    /// By old node, its new one: of what needs no read and no transcendental function, and of reads.
+    /// By old node, its new one, for reads and for nodes that need no read and no transcendental function.
     ids: Vec<Option<NodeId>>,
-    /// Reads that there are.
+    /// Reads added so far.
     made: HashSet<NodeId>,
-    /// Number of reads whose place had to be chosen.
+    /// Number of reads whose position had to be chosen.
     moved: u32,
 }
 
 impl FloorBuilder<'_> {
-    /// Takes over what needs no read and no transcendental function.
+    /// Copies the nodes that need no read and no transcendental function.
     fn copy_plain(&mut self) {
         for id in self.old.node_ids() {
             let node = self.old.node(id);
@@ -117,7 +117,7 @@ impl FloorBuilder<'_> {
         }
     }
 
-    /// Returns whether the place of a read is computed as in the kernel.
+    /// Returns whether the position of a read is computed as in the kernel.
     fn is_placed(&self, read: NodeId) -> bool {
         let mut args = self.old.node(read).args.iter();
         args.all(|arg| self.ids[arg.0 as usize].is_some() && !self.old.node(*arg).op.is_read())
@@ -144,7 +144,7 @@ impl FloorBuilder<'_> {
         self.take_over(id, new);
     }
 
-    /// The last read that arguments wait for, as a number.
+    /// Last read that the arguments depend on, as a number.
     fn awaited_read(&mut self, args: &[NodeId]) -> Option<NodeId> {
         let needed = dependent_nodes(self.old, args);
         let is_read = |id: &NodeId| needed[id.0 as usize] && self.old.node(*id).op.is_read();
@@ -157,7 +157,7 @@ impl FloorBuilder<'_> {
         })
     }
 
-    /// Arguments for a read whose place cannot be computed as in the kernel.
+    /// Arguments for a read whose position cannot be computed as in the kernel.
     fn moved_args(&mut self, op: &Op, old: &[NodeId], awaited: Option<NodeId>) -> Vec<NodeId> {
         let step = self.build_step(awaited);
         let first = match op {
@@ -173,7 +173,7 @@ impl FloorBuilder<'_> {
         };
         let mut args = vec![first];
         for arg in &old[1..] {
-            // A layer, or what is compared with.
+            // A layer, or a reference for comparison.
             let ty = self.old.ty(*arg);
             let plain = self.ids[arg.0 as usize].filter(|_| !self.old.node(*arg).op.is_read());
             let other = match (plain, awaited) {
@@ -186,7 +186,7 @@ impl FloorBuilder<'_> {
         args
     }
 
-    /// A step from the pixel, another one for each that is asked for; one that only a read decides if one is awaited.
+    /// Next step from the pixel, different for each call; depends on `awaited` if there is one.
     fn build_step(&mut self, awaited: Option<NodeId>) -> NodeId {
         let (x, y) = ((self.moved % 5) as i32 - 2, (self.moved / 5) as i32 - 2);
         let near = self.builder.constant(PAIR, [x as u32, y as u32, 0, 0]);
@@ -197,7 +197,7 @@ impl FloorBuilder<'_> {
         self.builder.add(Op::Select, [is_large, far, near], PAIR)
     }
 
-    /// Width and height.
+    /// Width and height of a texture, or of the frame.
     fn size(&mut self, texture: Option<u32>) -> NodeId {
         match texture {
             Some(texture) if !self.old.textures[texture as usize].framed => {
@@ -215,7 +215,7 @@ impl FloorBuilder<'_> {
         }
     }
 
-    /// A pair with as many components as `ty` has, the third of them `last`.
+    /// Extends a pair to the components of `ty`, the third of them `last`.
     fn extend_pair(&mut self, pair: NodeId, last: NodeId, ty: Type) -> NodeId {
         if ty.component_count() == 2 {
             return pair;
@@ -230,7 +230,8 @@ impl FloorBuilder<'_> {
         self.builder.add(Op::Binary(op), [x, y], ty)
     }
 
-    /// A texel near the pixel, inside the texture; of one that has another size, at the pixel's place in it.
+    /// Coordinate of a texel near the pixel, inside the texture. In a texture of another size, near the pixel's relative
+    /// position.
     fn texel(&mut self, texture: u32, step: NodeId) -> NodeId {
         let size = self.size(Some(texture));
         let mut pixel = self.builder.add(Op::Pixel, Vec::new(), PAIR);
@@ -252,7 +253,7 @@ impl FloorBuilder<'_> {
         )
     }
 
-    /// A place near the pixel, from 0 to 1.
+    /// Position near the pixel, from 0 to 1.
     fn place(&mut self, texture: Option<u32>, step: NodeId) -> NodeId {
         let (size, frame) = (self.size(texture), self.size(None));
         let pixel = self.builder.add(Op::Pixel, Vec::new(), PAIR);
@@ -271,14 +272,14 @@ impl FloorBuilder<'_> {
         self.extend_pair(place, middle, ty)
     }
 
-    /// An index inside a buffer.
+    /// Index inside a buffer.
     fn element(&mut self, buffer: u32, step: NodeId) -> NodeId {
         let length = self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32);
         let [x, y] = [0, 1].map(|lane| self.builder.add(Op::Extract(lane), [step], Type::I32));
         let five = self.builder.i32(5);
         let rows = self.binary(BinaryOp::Mul, y, five);
         let index = self.binary(BinaryOp::Add, rows, x);
-        // From (-2, -2) on.
+        // Steps begin at (-2, -2).
         let first = self.builder.i32(12);
         let index = self.binary(BinaryOp::Add, index, first);
         let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
@@ -294,7 +295,7 @@ impl FloorBuilder<'_> {
         }
     }
 
-    /// The sum of reads as a colour: those of as many lanes are added up first.
+    /// Sum of reads as a colour. Reads with the same number of components are summed first.
     fn sum_reads(&mut self, reads: &[NodeId]) -> NodeId {
         let mut sums: [Option<NodeId>; 4] = [None; 4];
         for read in reads {
@@ -318,7 +319,7 @@ impl FloorBuilder<'_> {
         total.unwrap_or_else(|| self.builder.constant(COLOUR, [0; 4]))
     }
 
-    /// A colour's first components as a result of another type.
+    /// First components of a colour, converted to another type.
     fn color_to_type(&mut self, colour: NodeId, ty: Type) -> NodeId {
         let lanes = ty.component_count();
         let floats = Type::value(Scalar::F32, lanes);
@@ -339,7 +340,7 @@ impl FloorBuilder<'_> {
         }
     }
 
-    /// A value of so many lanes in the lanes of a colour.
+    /// Extends a value with `lanes` components to a colour.
     fn as_color(&mut self, value: NodeId, lanes: usize) -> NodeId {
         match lanes {
             1 => self.builder.add(Op::Splat, [value], COLOUR),

@@ -1,7 +1,7 @@
-//! Algebra: simplifications that change no bit of the result.
+//! Algebraic simplifications that change no bit of the result.
 //!
-//! Each rule rewrites towards fewer or simpler nodes and says why it is exact where that is not plain. What may
-//! change a rounding, a NaN or the sign of a zero has no place here.
+//! Each rule rewrites towards fewer or simpler nodes and states why it is exact if that is not obvious. Rules that may
+//! change a rounding, a NaN or the sign of a zero do not belong here.
 //!
 //! File tests: `evaluator/tests/filetests/passes/fold`.
 
@@ -25,7 +25,7 @@ impl Rules for Exact {
     }
 }
 
-/// Known arguments: the result is known.
+/// Folds an operation on constants.
 fn fold_constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let (first, last) = (args.first()?, args.last()?);
     if ty.is_array() {
@@ -55,7 +55,7 @@ fn find_swapped(b: &Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<N
     b.find_node(&Op::Binary(other), &[args[1], args[0]], ty)
 }
 
-/// Vectors taken apart as they were put together; selections that are decided.
+/// Folds components of composed vectors, and selections whose condition is known.
 fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let node = |id: NodeId| b.graph().node(id);
     match op {
@@ -85,7 +85,7 @@ fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option
             .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
         Op::Exact if node(args[0]).op == Op::Exact => Some(args[0]),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
-        // From a signed integer to an unsigned one and back, bits stay.
+        // Conversions from a signed integer to an unsigned one and back keep the bits.
         Op::Convert
             if ty.is_integer()
                 && ty != Type::USIZE
@@ -95,7 +95,7 @@ fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option
         {
             Some(node(args[0]).args[0])
         }
-        // Of a number that was widened, the lower bits.
+        // A widened number keeps its lower bits.
         Op::Convert
             if matches!(ty, Type::I32 | Type::U32)
                 && node(args[0]).op == Op::Convert
@@ -105,14 +105,14 @@ fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option
             let narrow = node(args[0]).args[0];
             Some(b.add(Op::Convert, [narrow], ty))
         }
-        // A constant or uniform is the same in every lane; two equal messages in a row cancel.
+        // A constant or uniform is the same in every lane; two equal swaps in a row cancel.
         Op::QuadSwap(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
         Op::QuadSwap(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
         _ => None,
     }
 }
 
-/// Elements read back at known indices.
+/// Folds array elements read at constant indices.
 fn fold_array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     if *op != Op::ArrayGet {
         return None;
@@ -138,7 +138,7 @@ fn fold_array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option
     }
 }
 
-/// An element of an array whose elements are parts of one element of a buffer, in order: that part.
+/// Folds an element of an array whose elements are consecutive parts of one buffer element: reads that part directly.
 fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) -> Option<NodeId> {
     let g = b.graph();
     let parts = g.node(array).args.clone();
@@ -162,7 +162,7 @@ fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) ->
     if !ordered {
         return None;
     }
-    // An index outside is that of the last element, a negative one too.
+    // An index out of range, including a negative one, refers to the last element.
     let last = parts.len() as u32 - 1;
     let inside = ranges::integer_bounds(g, index).is_some_and(|(low, high)| low >= 0 && high <= i64::from(last));
     let index = match inside {
@@ -200,7 +200,7 @@ fn fold_algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId>
     }
 }
 
-/// A choice of booleans of which one is known is a conjunction or disjunction.
+/// Folds a selection between booleans, one of them constant, to a conjunction or disjunction.
 fn fold_bool_select(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Option<NodeId> {
     let known = |b: &Builder<'_>, id| b.graph().constant_bits(id).map(|bits| bits[0] != 0);
     let (op, negated, other) = match (known(b, yes), known(b, no)) {
@@ -222,16 +222,16 @@ fn fold_bool_select(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: Nod
 fn fold_float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     let is = |id: NodeId, value: f32| all_lanes(g, id, value.to_bits());
     match op {
-        // -0 + 0 is 0, so a zero may only go where the other side is never -0; x + -0 is x for every x.
+        // -0 + 0 is 0, so a zero can be dropped only if the other side is never -0; x + -0 is x for every x.
         BinaryOp::Add if is(y, -0.0) || (is(y, 0.0) && ranges::is_nonnegative(g, x)) => Some(x),
         BinaryOp::Add if is(x, -0.0) || (is(x, 0.0) && ranges::is_nonnegative(g, y)) => Some(y),
         BinaryOp::Sub if is(y, 0.0) => Some(x),
         BinaryOp::Mul | BinaryOp::Div if is(y, 1.0) => Some(x),
         BinaryOp::Mul if is(x, 1.0) => Some(y),
-        // The smaller of 0 and what is never negative; of 0 and a NaN it is 0 too, but of vectors only if the 0 comes last.
+        // The minimum of 0 and a nonnegative value is 0. For a NaN it is 0 too, but for vectors only if the 0 comes last.
         BinaryOp::Min if is(x, 0.0) && ranges::is_nonnegative(g, y) && g.ty(x).is_scalar() => Some(x),
         BinaryOp::Min if is(y, 0.0) && ranges::is_nonnegative(g, x) => Some(y),
-        // A value that is bounded already; what `min` gave is no NaN.
+        // The value is bounded already. The result of `min` is no NaN.
         BinaryOp::Min if bounded_by(g, y, x) => Some(y),
         BinaryOp::Min if bounded_by(g, x, y) => Some(x),
         BinaryOp::Min | BinaryOp::Max if x == y => Some(x),
@@ -239,7 +239,7 @@ fn fold_float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     }
 }
 
-/// The square of what has been computed with the other sign: rounding is the same on both sides of zero.
+/// Replaces a square by that of the negated value, if that exists: rounding is symmetric around zero.
 fn fold_square(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     if op != BinaryOp::Mul || x != y {
         return None;
@@ -249,7 +249,7 @@ fn fold_square(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Optio
     Some(b.add(Op::Binary(op), [opposite, opposite], ty))
 }
 
-/// The node that computes `-id`, if there is one already: `b - a` of `a - b`, and what is divided by the same.
+/// Existing node that computes `-id`: `b - a` for `a - b`, and quotients of such differences.
 fn find_negation(b: &Builder<'_>, id: NodeId) -> Option<NodeId> {
     let node = b.graph().node(id);
     let args = match node.op {
@@ -260,7 +260,7 @@ fn find_negation(b: &Builder<'_>, id: NodeId) -> Option<NodeId> {
     b.find_node(&node.op, &args, node.ty)
 }
 
-/// Returns whether `id` is never more than the non-zero constant `bound`, and never a NaN.
+/// Returns whether `id` is at most the non-zero constant `bound`, and never a NaN.
 fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     let is_bound = g.constant_bits(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31);
     is_bound && at_most(g, id, bound)
@@ -273,7 +273,7 @@ fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
             .constant_bits(bound)
             .is_some_and(|lanes| lanes.iter().any(|x| f32::from_bits(*x).is_nan())),
         Op::Exact | Op::Tally(_) => at_most(g, node.args[0], bound),
-        // Of vectors the last argument stands for a NaN in the first.
+        // For vectors, the last argument replaces a NaN in the first.
         Op::Binary(BinaryOp::Min) if node.ty.is_scalar() => node.args.contains(&bound),
         Op::Binary(BinaryOp::Min) => node.args[1] == bound,
         Op::Binary(BinaryOp::Max) => node.args.iter().all(|arg| at_most(g, *arg, bound)),
@@ -333,8 +333,8 @@ fn fold_integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Opti
     }
 }
 
-/// Rewrites `(pixel + a) + b` as `pixel + (a + b)`: integers wrap, so their order is free. Neighbours of neighbours then have the same
-/// form, and their reads are shared.
+/// Rewrites `(pixel + a) + b` as `pixel + (a + b)`, which is exact because integers wrap. Neighbours of neighbours then
+/// have the same form, and their reads are shared.
 fn merge_steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
     let ty = b.graph().ty(x);
     let (inner, second) = match (b.graph().constant_bits(x), b.graph().constant_bits(y)) {
@@ -359,8 +359,8 @@ fn merge_steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
     Some(b.add(Op::Binary(BinaryOp::Add), [pixel, sum], ty))
 }
 
-/// A divisor with 1 for every component that is known to be 0. Dividing by 0 is as dividing by 1: it gives the dividend, and no
-/// remainder; but shading languages refuse to divide by a known 0.
+/// Replaces each component of a divisor that is known to be 0 by 1. Both divisors return the dividend and remainder 0, but
+/// shading languages reject a constant divisor 0.
 fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     let ty = b.graph().ty(y);
     let node = b.graph().node(y).clone();
@@ -426,7 +426,7 @@ fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
     b.add(Op::Unary(UnaryOp::Not), [x], ty)
 }
 
-/// Returns whether `id` is a constant with `bits` in every lane.
+/// Returns whether `id` is a constant with `bits` in every component.
 fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
     let lanes = match g.ty(id) {
         Type::USIZE => return g.constant_bits(id).is_some_and(|c| usize_value(&c) == u64::from(bits)),

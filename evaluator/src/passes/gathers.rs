@@ -1,9 +1,10 @@
-//! Four texels of one component read at once.
+//! Reads of one component of four texels at once.
 //!
-//! A read takes part if it is of a texture of the frame's size and of its finest level, at a constant offset from the pixel that is
-//! then brought into the frame, if every pixel does it, and if one component of its texel is used. Where several such texels lie in a
-//! square of two by two, a gather reads all four. Its place is the corner that the four share, which is as far from where a sampler would
-//! take other texels as can be: half a texel. A sampler that clamps takes what lies outside of the frame to its border, as reads do.
+//! A read is eligible if it has a frame-sized texture, the finest level, and a constant offset from the pixel that is
+//! clamped to the frame; if every pixel performs it; and if one component of its texel is used. Where several such texels
+//! lie in a square of two by two, a gather reads all four. The gather's position is the corner that the four share, half a
+//! texel from the nearest position where a sampler would take other texels. A sampler that clamps takes positions outside
+//! the frame to its border, as reads do.
 //!
 //! File tests: `evaluator/tests/filetests/passes/gathers`.
 
@@ -21,29 +22,29 @@ const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
 const FOUR: Type = Type::value(Scalar::F32, 4);
 
-/// Texels of a gather that must be wanted: fewer are read as soon one by one.
+/// Minimum number of used texels in a gather. Fewer are read as fast one by one.
 const FEWEST: usize = 2;
 
-/// Name of the sampler that gathers, where nothing else has it.
+/// Name of the gathering sampler, if it is free.
 const SAMPLER: &str = "texels";
 
-/// Reads of a texture, or of a layer of it, of which some became gathers.
+/// Reads of a texture, or of one of its layers, some of which became gathers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gathered {
     /// The texture's name.
     pub texture: String,
-    /// The layer, where there are several.
+    /// The layer, if there are several.
     pub layer: Option<u32>,
     /// Component of the texels, from 0.
     pub component: u8,
-    /// Reads that gathers stand for.
+    /// Number of reads replaced by gathers.
     pub reads: u32,
-    /// Gathers.
+    /// Number of gathers.
     pub gathers: u32,
 }
 
 impl Gathered {
-    /// The texture, its layer where there are several, and the component, for people.
+    /// Display name of the texture, with its layer if there are several, and the component.
     pub fn display_name(&self) -> String {
         let component = ["x", "y", "z", "w"][usize::from(self.component & 3)];
         match self.layer {
@@ -56,18 +57,18 @@ impl Gathered {
 /// Source of a gather: texture, component and layer.
 type Source = (u32, u8, Option<u32>);
 
-/// An offset from the pixel, across and down.
+/// Offset from the pixel, horizontally and vertically.
 type Offset = [i32; 2];
 
-/// Reads of one source by their offsets: the same texel may be read several times.
+/// Reads of one source by their offsets. Several reads may have the same texel.
 type Reads = BTreeMap<Offset, Vec<NodeId>>;
 
-/// Reads four texels at once where several of them are wanted. The picture is the same, bit for bit. Says what became of each texture's
-/// reads; nothing, where no four texels lie so.
+/// Replaces reads by gathers of four texels where several of them are used. The image is the same, bit for bit. Returns the
+/// gathers of each texture; empty if no texels form a square.
 ///
 /// # Errors
 ///
-/// Why the kernel has no such form.
+/// The reason why the kernel cannot use gathers.
 pub fn form_gathers(graph: &Graph) -> Result<(Graph, Vec<Gathered>), String> {
     match graph.invocation {
         Invocation::Pixel | Invocation::MayBeOutside | Invocation::Block(_) => {}
@@ -102,10 +103,10 @@ pub fn form_gathers(graph: &Graph) -> Result<(Graph, Vec<Gathered>), String> {
     Ok((rebuild_replacing(graph, &pass, &mut gathering), gathered))
 }
 
-/// A gather: its source, the offset of the upper left texel, and each read that it replaces with the square's column and row.
+/// A gather: its source, the offset of the upper left texel, and each replaced read with its column and row in the square.
 type Square = (Source, Offset, Vec<(NodeId, [usize; 2])>);
 
-/// Squares of two by two texels that are worth a gather, in the order in which they are chosen: those first that the most reads are left for.
+/// Squares of two by two texels that are worth a gather, in order of choice: most remaining reads first.
 fn choose_squares(graph: &Graph) -> Vec<Square> {
     let mut chosen = Vec::new();
     for (source, mut reads) in gatherable_reads(graph) {
@@ -116,7 +117,7 @@ fn choose_squares(graph: &Graph) -> Vec<Square> {
                 .collect();
             let within = |[y, x]: [i32; 2]| PLACES.map(|[across, down]| [x + across as i32, y + down as i32]);
             let wanted = |corner: [i32; 2]| within(corner).iter().filter(|at| reads.contains_key(*at)).count();
-            // Of equals the first, by rows.
+            // Ties go to the first, by rows.
             let best = corners.into_iter().rev().max_by_key(|corner| wanted(*corner));
             let Some(corner) = best.filter(|corner| wanted(*corner) >= FEWEST) else {
                 break;
@@ -168,12 +169,12 @@ fn gatherable_reads(graph: &Graph) -> BTreeMap<Source, Reads> {
     all
 }
 
-/// Builds gathers in the place of reads.
+/// Replaces reads by gathers.
 struct Gathering<'g> {
     old: &'g Graph,
     sampler: Sampler,
     squares: &'g [Square],
-    /// By read, its square and where it lies in that.
+    /// By read, its square and its position in that.
     reads: HashMap<NodeId, (usize, [usize; 2])>,
 }
 
@@ -193,7 +194,7 @@ impl<'g> Gathering<'g> {
         }
     }
 
-    /// The corner that the texels of a square share, as a sampler has it.
+    /// Position of the corner that the texels of a square share.
     fn build_corner(b: &mut Builder<'_>, [x, y]: Offset) -> NodeId {
         let (pixel, frame) = (
             b.add(Op::Pixel, Vec::new(), PAIR),
@@ -237,13 +238,13 @@ impl Replace for Gathering<'_> {
         let ty = self.old.ty(id);
         Some(match ty.is_scalar() {
             true => one,
-            // Only the component that is gathered is looked at.
+            // Only the gathered component is used.
             false => b.add(Op::Splat, [one], ty),
         })
     }
 }
 
-/// Names a value that is nowhere in the source.
+/// Names a value that has no place in the source.
 fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
     if b.graph().origin(id).is_none() {
         let origin = Origin {

@@ -1,4 +1,4 @@
-//! The lanes of a quad in other ways than by quad operations: four pixels in one invocation, and messages by derivatives.
+//! Alternatives to quad operations for the lanes of a quad: four pixels in one invocation, and swaps by derivatives.
 
 use super::fold::Exact;
 use crate::ir::{
@@ -8,12 +8,12 @@ use crate::ir::{
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
-/// Has one invocation compute a block of pixels, of a kernel of quads one or more of them: its lanes run in step, and a
-/// message is the other lane's value itself. What lanes have in common, reads above all, is computed once.
+/// Makes one invocation compute a block of pixels, or one or more quads of a quad kernel. The lanes run in step, and a swap
+/// is the other lane's value itself. Values common to the lanes, above all reads, are computed once.
 ///
 /// # Errors
 ///
-/// Why the kernel's pixels cannot run in step: a structured loop or branch that they may take differently.
+/// The reason why the kernel's pixels cannot run in step: a structured loop or branch that may differ between them.
 pub fn expand_lanes(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
     if graph.has_effects() {
         return Err("it writes to buffers, and pixels that lie outside of the frame would too".to_owned());
@@ -82,12 +82,12 @@ impl Expansion<'_> {
     fn event(&mut self, event: Event) {
         match event {
             Event::Open(region) => self.open(region),
-            // Results of a region may be newer than its end: they are set when its owner is built.
+            // Results of a region may be newer than its end: they are set when the loop or branch is built.
             Event::Close(_) => self.builder.close_region(Vec::new()),
         }
     }
 
-    /// A region with a parameter for each lane; a loop's counter is one for all.
+    /// Opens a region with a parameter for each lane; the counter of a loop is shared.
     fn open(&mut self, region: RegionId) {
         let params = self.old.region(region).params.clone();
         let mut types = Vec::new();
@@ -154,7 +154,7 @@ impl Expansion<'_> {
         }
     }
 
-    /// Refuses what differs between lanes.
+    /// Rejects a value that differs between lanes.
     fn require_uniform(&self, id: NodeId, what: &str) -> Result<(), String> {
         let lanes = &self.ids[id.0 as usize];
         if lanes.iter().all(|lane| *lane == lanes[0]) {
@@ -217,7 +217,7 @@ impl Expansion<'_> {
         self.builder.add(Op::Binary(BinaryOp::Add), [corner, offset], PAIR)
     }
 
-    /// The lane's pixel, or the nearest one in the frame.
+    /// Pixel of the lane, or the nearest one in the frame.
     fn clamped_pixel(&mut self, lane: usize) -> NodeId {
         let pixel = self.lane_pixel(lane);
         let frame = self.builder.add(Op::FrameSize, Vec::new(), PAIR);
@@ -227,7 +227,7 @@ impl Expansion<'_> {
         self.builder.add(Op::Clamp, [pixel, zero, last], PAIR)
     }
 
-    /// Notes what a node became, and gives the new ones its name, with the lane where they differ.
+    /// Records the new nodes of an old one, and gives them its name, with the lane where they differ.
     fn record_lanes(&mut self, old: NodeId, new: Vec<NodeId>) {
         let alike = new.iter().all(|id| *id == new[0]);
         if let Some(origin) = self.old.origin(old) {
@@ -252,12 +252,13 @@ impl Expansion<'_> {
     }
 }
 
-/// Sends messages by fine derivatives, as the chapter does: a value plus or minus its difference from the other lane's.
-/// Exact only where that difference and the sum with it are (`docs/quads.md`); a diagonal message takes two steps.
+/// Implements swaps with fine derivatives, as in the chapter that `docs/quads.md` describes: a value plus or minus its
+/// difference from the other lane's. Exact only where that difference and the sum with it are exact. A diagonal swap takes
+/// two steps.
 ///
 /// # Errors
 ///
-/// If a message is not of floats: derivatives are of floats alone.
+/// Fails for a swap of integers or booleans, because derivatives exist only for floats.
 pub fn by_derivatives(graph: &Graph) -> Result<Graph, String> {
     let unfit = graph
         .nodes
@@ -292,7 +293,7 @@ impl Rules for Derivatives {
     }
 }
 
-/// value + derivative, or value - derivative in the lane that the difference is taken from.
+/// value + derivative, or value - derivative in the lane from which the difference is subtracted.
 fn neighbour_value(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     let pair = Type::value(Scalar::F32, 2);
     let lane = b.add(Op::Lane, Vec::new(), PAIR);

@@ -1,6 +1,6 @@
 //! Passes over the graph.
 //!
-//! A pass takes a graph and builds another. [`schedule_graph`] alone decides order and place.
+//! A pass takes a graph and builds a new one. [`schedule_graph`] alone decides order and place.
 
 mod coordinates;
 mod count;
@@ -34,7 +34,7 @@ pub use tiles::{Sharing, Tile, UnsharedReads, by_workgroup};
 
 use crate::ir::{Graph, Rebuild, rebuild_graph};
 
-/// Makes reads of the same texel one read, and with them all that is computed from them alike.
+/// Merges reads of the same texel, and the nodes computed from them in the same way.
 pub fn share_loads(graph: &Graph) -> Graph {
     rebuild_graph(
         graph,
@@ -45,7 +45,7 @@ pub fn share_loads(graph: &Graph) -> Graph {
     )
 }
 
-/// Drops what the result does not depend on, and applies the exact rules to what is left.
+/// Drops nodes that the result does not depend on, and applies the exact rules to the others.
 pub fn clean_graph(graph: &Graph) -> Graph {
     rebuild_graph(
         graph,

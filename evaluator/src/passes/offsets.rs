@@ -2,20 +2,20 @@
 
 use crate::ir::{BinaryOp, Graph, Node, NodeId, Op, Scalar, UnaryOp};
 
-/// Numbers beyond which nothing is followed: pixels are fewer, so that no sum wraps.
+/// Maximum absolute value that is followed. Frames have fewer pixels, so no sum wraps.
 const FARTHEST: i64 = 1 << 24;
 
-/// A component of a coordinate, as far as it follows from the pixel, which lies inside the frame. Each but the constant is of an
-/// axis, 0 or 1.
+/// A component of a coordinate, relative to the pixel, which lies inside the frame. Every variant except the constant names
+/// an axis, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
     /// A constant.
     Known(i64),
-    /// The frame's width or height and so much.
+    /// The frame's width or height plus an offset.
     Size(usize, i64),
-    /// The pixel's and so much.
+    /// The pixel's coordinate plus an offset.
     Away(usize, i64),
-    /// `Away`, clamped to the frame: it can lie outside only on the side of its offset.
+    /// `Away`, clamped to the frame. Before the clamp it can lie outside only on the side of its offset.
     Inside(usize, i64),
 }
 
@@ -24,8 +24,8 @@ use Place::{Away, Inside, Known, Size};
 /// The first two components of a value.
 type Places = [Option<Place>; 2];
 
-/// By node, the offset from the pixel at which a texel with this coordinate lies, before it is brought into the frame. `None` where
-/// it is no such coordinate.
+/// By node, the offset from the pixel of a texel with this coordinate, before it is clamped to the frame; `None` for any
+/// other value.
 pub fn pixel_offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
     let mut places: Vec<Places> = Vec::with_capacity(graph.nodes.len());
     for id in graph.node_ids() {
@@ -47,7 +47,7 @@ pub fn pixel_offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
     places.iter().map(offset).collect()
 }
 
-/// A component of a node's value.
+/// Place of one component of a node's value.
 fn component_place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Option<Place> {
     if component >= usize::from(node.ty.component_count()) {
         return None;
@@ -98,12 +98,12 @@ fn move_place(place: Place, by: i64) -> Option<Place> {
         Known(n) => Known(n + by),
         Size(axis, n) => Size(axis, n + by),
         Away(axis, n) => Away(axis, n + by),
-        // A clamped coordinate has another offset at the border.
+        // A clamped coordinate has a different offset at the border.
         Inside(..) => return (by == 0).then_some(place),
     })
 }
 
-/// At least 0. What lies before the pixel is never behind the last one.
+/// Clamps a place to at least 0. A place before the pixel never lies past the last one.
 fn not_before(place: Place) -> Option<Place> {
     match place {
         Away(axis, n) if n < 0 => Some(Inside(axis, n)),
@@ -112,7 +112,7 @@ fn not_before(place: Place) -> Option<Place> {
     }
 }
 
-/// At most the last pixel's along an axis. What lies behind the pixel is never before the first one.
+/// Clamps a place to the last pixel along an axis. A place after the pixel never lies before the first one.
 fn not_behind(place: Place, last: usize) -> Option<Place> {
     match place {
         Away(axis, _) | Inside(axis, _) if axis != last => None,

@@ -1,4 +1,4 @@
-//! Rows that count from below.
+//! Row numbers that count from below.
 
 use super::fold::Exact;
 use crate::ir::{
@@ -8,11 +8,12 @@ use crate::ir::{
 const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
 
-/// Returns the kernel for textures whose row 0 is the lowest: every row number is converted to that of the same row there. [`Op::Pixel`]
-/// still counts from above, as do values computed from it; the entry point converts it.
+/// Returns the kernel for textures whose row 0 is the lowest. Every row number is converted. [`Op::Pixel`] and values
+/// computed from it still count from above; the entry point converts it.
 ///
-/// Reads return the texels that the kernel means. A filtered place `v` becomes `1 - v`, which is the same place for every address mode; the
-/// four texels of a gather come in the order that the kernel expects. Volumes and cubes are no pictures: they are the same for every host.
+/// Reads return the texels that the kernel expects. A filtered position `v` becomes `1 - v`, the same position for every
+/// address mode; the four texels of a gather are reordered. Volumes and cubes are not images: they are the same for every
+/// host.
 pub fn from_below(graph: &Graph) -> Graph {
     let pass = Rebuild {
         rules: &FromBelow { graph },
@@ -55,7 +56,7 @@ impl Rules for FromBelow<'_> {
 }
 
 impl FromBelow<'_> {
-    /// A texel by its row from below. Coordinates have been clamped into the texture by now.
+    /// Converts a texel's row to count from below. Coordinates have already been clamped to the texture.
     fn flip_texel(&self, b: &mut Builder<'_>, texture: u32, coordinate: NodeId, level: Option<&NodeId>) -> NodeId {
         let size = match self.graph.textures[texture as usize].framed {
             true => Op::FrameSize,
@@ -76,7 +77,7 @@ impl FromBelow<'_> {
     }
 }
 
-/// A place between 0 and 1 by its height from below.
+/// Converts a position between 0 and 1 to a height from below.
 fn flip_place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
     let [u, v] = [0, 1].map(|k| b.add(Op::Extract(k), [place], Type::F32));
     let one = b.constant(Type::F32, [1.0f32.to_bits(), 0, 0, 0]);
@@ -86,7 +87,7 @@ fn flip_place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
     at
 }
 
-/// Gives a value a name, at the place in the source that another has.
+/// Names a value and copies its source location from another.
 fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
     if let Some(origin) = b.graph().origin(like).cloned() {
         let origin = Origin {

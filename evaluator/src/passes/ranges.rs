@@ -4,19 +4,19 @@
 
 use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp, usize_value};
 
-/// Depth of arguments to which a query is followed; beyond it nothing is known.
+/// Maximum depth of arguments that a query follows. Nothing is known beyond it.
 const DEPTH: u32 = 12;
 
-/// No texture is wider or higher, and no pixel lies farther out but by a block's width.
+/// Maximum width and height of a texture. A pixel lies at most a block's width farther out.
 const LARGEST_FRAME: i64 = 1 << 15;
 
-/// No buffer has more elements.
+/// Maximum number of elements of a buffer.
 const LONGEST_BUFFER: i64 = 1 << 28;
 
-/// The farthest pixel of a block.
+/// Farthest pixel of a block.
 const FARTHEST_PIXEL: i64 = LARGEST_FRAME + 64;
 
-/// Returns whether every lane of a float is +0, positive or NaN: never negative and never -0.
+/// Returns whether every component of a float is +0, positive or NaN: never negative and never -0.
 pub fn is_nonnegative(g: &Graph, id: NodeId) -> bool {
     at_depth(g, id, DEPTH)
 }
@@ -36,7 +36,7 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
         Op::Unary(UnaryOp::Sqrt | UnaryOp::InverseSqrt) | Op::Exact | Op::Tally(_) | Op::Splat | Op::Extract(_) => {
             known(0)
         }
-        // A sum of such values is one; so is their product, their quotient, and the square of anything.
+        // A square is nonnegative; sums, products and quotients are if their operands are.
         Op::Binary(BinaryOp::Mul) if node.args[0] == node.args[1] => true,
         Op::Binary(BinaryOp::Add | BinaryOp::Mul | BinaryOp::Div | BinaryOp::Min | BinaryOp::Max) => {
             known(0) && known(1)
@@ -48,18 +48,18 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
     }
 }
 
-/// The smallest and the largest value that a scalar integer can have, as far as constants, counters and floats tell.
+/// Smallest and largest value of a scalar integer, derived from constants, counters and floats.
 pub fn integer_bounds(g: &Graph, id: NodeId) -> Option<(i64, i64)> {
     bounds_at(g, id, 0, DEPTH)
 }
 
-/// As [`integer_bounds`], of one component of an integer vector.
+/// Like [`integer_bounds`], for one component of an integer vector.
 pub fn component_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(i64, i64)> {
     bounds_at(g, id, component, DEPTH)
 }
 
-/// The smallest and the largest value that a component of floats can have, either of them infinite. A value for which this is
-/// known is a NaN only where it was clamped, and then hardware decides which of the bounds stands for the NaN.
+/// Smallest and largest value of a float component, either of which may be infinite. A value with known bounds is a NaN
+/// only if a NaN was clamped; hardware then decides which of the bounds replaces it.
 pub fn float_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(f32, f32)> {
     floats_at(g, id, component, DEPTH)
 }
@@ -68,7 +68,7 @@ pub fn float_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(f32, f32)> 
 fn full_range(ty: Type) -> (i64, i64) {
     match ty.scalar_kind() {
         Some(Scalar::U32) => (0, i64::from(u32::MAX)),
-        // The largest `i64` stands for all that is beyond it.
+        // The largest `i64` represents everything above it.
         Some(Scalar::Usize) => (0, i64::MAX),
         _ => (i64::from(i32::MIN), i64::from(i32::MAX)),
     }
@@ -85,7 +85,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
     let of = |k: usize| bounds_at(g, node.args[k], component, depth - 1);
     let (smallest, largest) = full_range(node.ty);
     let (unsigned, wide) = (smallest == 0, node.ty == Type::USIZE);
-    // Values outside of the type's range wrap.
+    // Values outside the type's range wrap.
     let fits = |(low, high): (i64, i64)| {
         (low >= smallest && high <= largest && !(wide && high == largest)).then_some((low, high))
     };
@@ -108,7 +108,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
     };
     let found = match &node.op {
         Op::Const(_) => known(id).map(|n| (n, n)),
-        // A pixel of a block may lie outside of the frame, but never before it.
+        // A pixel of a block may lie past the frame, but never before it.
         Op::Pixel => Some((0, FARTHEST_PIXEL)),
         Op::FrameSize | Op::TextureSize(_) | Op::TextureLayers(_) | Op::TextureLevels(_) => Some((1, LARGEST_FRAME)),
         Op::BufferLen(_) => Some((1, LONGEST_BUFFER)),
@@ -167,7 +167,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
             let ((a, b), (c, d)) = (of(1)?, of(2)?);
             Some((a.min(c), b.max(d)))
         }
-        // Of a wrong index, the last element.
+        // An index out of range refers to the last element.
         Op::ArrayGet if g.node(node.args[0]).op == Op::MakeArray => {
             let elements = g.node(node.args[0]).args.iter();
             let all: Vec<(i64, i64)> = elements
@@ -200,7 +200,7 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
     }
     let of = |k: usize| floats_at(g, node.args[k], component, depth - 1);
     let finite = |(low, high): (f32, f32)| (low.is_finite() && high.is_finite()).then_some((low, high));
-    // Rounding is monotonic: what lies between is rounded to what lies between.
+    // Rounding is monotonic, so values between the corners round to values between them.
     let corners = |f: fn(f32, f32) -> f32| {
         let ((a, b), (c, d)) = (finite(of(0)?)?, finite(of(1)?)?);
         let all = [f(a, c), f(a, d), f(b, c), f(b, d)];
@@ -244,7 +244,7 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
         Op::Binary(BinaryOp::Mul) => corners(|a, b| a * b),
         Op::Binary(BinaryOp::Div) => {
             let (low, high) = of(1)?;
-            // A divisor next to 0 would give what no float holds.
+            // A divisor near 0 may overflow.
             (low > 0.0 || high < 0.0).then(|| corners(|a, b| a / b))?
         }
         Op::Binary(BinaryOp::Min) => match (of(0), of(1)) {
@@ -269,7 +269,7 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
     }
 }
 
-/// Clamping of an integer that is inside already.
+/// Folds a clamp of an integer that is already inside.
 pub fn fold_inner_clamp(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     if *op != Op::Clamp || !ty.is_integer() || ty.is_array() {
         return None;
@@ -283,7 +283,7 @@ pub fn fold_inner_clamp(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option
     all.then_some(args[0])
 }
 
-/// Integers that are compared, or of which the smaller or the larger is taken, where their ranges decide it.
+/// Folds comparisons, minima and maxima of integers whose ranges decide them.
 pub fn fold_comparison(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
     let (Op::Binary(op), g) = (op, b.graph()) else {
         return None;
@@ -302,7 +302,7 @@ pub fn fold_comparison(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<
         }
     }
     let range = |id, component| component_bounds(g, id, component).unwrap_or(full_range(ty));
-    // Compares the first's largest value with the second's smallest by `less`, in every component.
+    // Compares the largest value of the first with the smallest of the second by `less`, in every component.
     let all = |less: fn(i64, i64) -> bool, first, second| {
         (0..ty.component_count()).all(|component| less(range(first, component).1, range(second, component).0))
     };
@@ -325,8 +325,8 @@ pub fn fold_comparison(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<
     (yes || no).then(|| b.bool(yes))
 }
 
-/// Compares two `usize` of which one is a sum that includes the other and does not overflow: `true` if the first is the sum, `false` if the
-/// second is.
+/// Compares two `usize` if one is a sum that includes the other and does not overflow: `true` if the first is the sum,
+/// `false` if the second is.
 fn sum_of(g: &Graph, x: NodeId, y: NodeId) -> Option<bool> {
     let is_sum = |sum: NodeId, part: NodeId| {
         let node = g.node(sum);
@@ -340,8 +340,8 @@ fn sum_of(g: &Graph, x: NodeId, y: NodeId) -> Option<bool> {
     }
 }
 
-/// Clamping of a neighbour's coordinate to the frame: the pixel itself is inside, so a step to the right can only
-/// leave on the right.
+/// Folds the clamp of a neighbour's coordinate to the frame. The pixel itself is inside, so a step to the right can only
+/// leave the frame on the right.
 pub fn fold_frame_clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let g = b.graph();
     if *op != Op::Clamp || !is_zero(g, args[1]) || !is_last(g, args[2]) {
@@ -349,7 +349,7 @@ pub fn fold_frame_clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type)
     }
     let node = g.node(args[0]);
     match node.op {
-        // The pixel of such an invocation may lie outside.
+        // A pixel of such an invocation may lie outside.
         _ if matches!(
             g.invocation,
             Invocation::MayBeOutside | Invocation::Lane | Invocation::Group(_)
@@ -375,7 +375,7 @@ pub fn fold_frame_clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type)
                 None
             }
         }
-        // A clamped coordinate stays: a step to the right or down was limited to the last one, a step back to 0.
+        // A clamped coordinate keeps its direction: a step right or down was limited to the last pixel, a step back to 0.
         Op::Binary(side @ (BinaryOp::Min | BinaryOp::Max)) => {
             let [moved, bound] = [node.args[0], node.args[1]];
             let inner = [moved, args[1], args[2]];
@@ -390,14 +390,14 @@ pub fn fold_frame_clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type)
     }
 }
 
-/// A pixel's coordinate is less than 2^16, so steps of this size cannot wrap.
+/// Steps beyond this might wrap; a pixel's coordinate is less than 2^16.
 const MAX_STEP: i32 = 1 << 30;
 
 fn is_zero(g: &Graph, id: NodeId) -> bool {
     g.constant_bits(id) == Some([0; 4])
 }
 
-/// The frame's size less one.
+/// Returns whether a node is the frame's size minus one.
 fn is_last(g: &Graph, id: NodeId) -> bool {
     let node = g.node(id);
     node.op == Op::Binary(BinaryOp::Sub)

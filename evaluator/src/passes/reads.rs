@@ -1,14 +1,15 @@
-//! In which order texels are read.
+//! Order of texel reads.
 
 use crate::ir::{BinaryOp, Graph, Node, NodeId, Op, RegionId, Scalar, UnaryOp};
 
-/// A pixel far from every border, so that no clamp touches its neighbours; the frame is twice as large.
+/// A pixel far from every border, so that no clamp affects its neighbours. The frame is twice as large.
 const PIXEL: f64 = 4096.0;
 
-/// Brings the reads of each region that depend on nothing there but arithmetic before all else, with that arithmetic: texture by
-/// texture, layer by layer, row by row, so that neighbours in memory are read one after the other (SRAA paper, §3.1).
+/// Moves reads to the start of each region, together with the arithmetic for their coordinates, if they depend on nothing
+/// else there. Reads are sorted by texture, layer and row, so that neighbours in memory are read consecutively (SRAA paper,
+/// §3.1).
 ///
-/// `steps` has the nodes of each region in an order of evaluation, and `place` the region of each node.
+/// `steps` lists the nodes of each region in an order of evaluation, and `place` the region of each node.
 pub fn rows_first(graph: &Graph, place: &[Option<RegionId>], steps: &mut [Vec<NodeId>]) {
     let mut values: Vec<Value> = Vec::with_capacity(graph.nodes.len());
     let mut plain = Vec::with_capacity(graph.nodes.len());
@@ -50,7 +51,7 @@ pub fn rows_first(graph: &Graph, place: &[Option<RegionId>], steps: &mut [Vec<No
     }
 }
 
-/// Returns whether a node is computed from its arguments alone, wherever it stands in its region.
+/// Returns whether a node depends only on its arguments, so that it may move freely in its region.
 fn is_arithmetic(graph: &Graph, id: NodeId) -> bool {
     let node = graph.node(id);
     let waits = node.op.is_read()
@@ -64,8 +65,8 @@ fn is_arithmetic(graph: &Graph, id: NodeId) -> bool {
     !waits
 }
 
-/// Sort key of a read: texture or buffer, then layer, level and the like, then row and column. `None` if its place is not relative to the
-/// pixel.
+/// Sort key of a read: texture or buffer, then layer, level and similar, then row and column. `None` if its position is not
+/// relative to the pixel.
 fn sort_key(graph: &Graph, node: &Node, values: &[Value]) -> Option<Vec<f64>> {
     let resource = match (&node.op, node.op.texture()) {
         (_, Some(texture)) => f64::from(texture),
@@ -81,10 +82,10 @@ fn sort_key(graph: &Graph, node: &Node, values: &[Value]) -> Option<Vec<f64>> {
     Some(key)
 }
 
-/// The lanes of a value at [`PIXEL`], if it depends on the pixel and on sizes alone.
+/// Components of a value at [`PIXEL`], if it depends only on the pixel and on sizes.
 type Value = Option<Vec<f64>>;
 
-/// That of a node, from those of the nodes before it.
+/// Value of a node, computed from those of earlier nodes.
 fn node_value(node: &Node, values: &[Value]) -> Value {
     let lanes = usize::from(node.ty.component_count());
     let scalar = node.ty.scalar_kind()?;

@@ -1,9 +1,9 @@
-//! Regions and order in which nodes are evaluated.
+//! Region and order of evaluation of each node.
 //!
-//! A node goes as far out of loops as its arguments allow, and as far into branches as its uses allow (Click's
-//! global code motion). Within a block nodes keep the order in which they were made, which is the order of the
-//! source, unless reads are to come first. Reads and writes of arrays stay where they were made, so that an array can be one variable that is
-//! changed in place. Effects stay in their regions, and so in their order.
+//! A node moves as far out of loops as its arguments allow, and as far into branches as its uses allow (Click's global code
+//! motion). Within a block, nodes keep their order of creation, which is that of the source, unless reads come first. Array
+//! reads and writes stay where they were created, so that one variable can hold the array and be changed in place. Effects
+//! stay in their regions, and so keep their order.
 
 use super::reads::rows_first;
 use crate::ir::{Graph, NodeId, Op, RegionId};
@@ -14,9 +14,9 @@ use crate::policy::ReadOrder;
 pub struct Schedule {
     /// The body of the kernel.
     pub body: Block,
-    /// Number of uses of each node's value, by node: as an argument or as a region's result.
+    /// Number of uses of each value, by node: as an argument or as a region's result.
     pub uses: Vec<u32>,
-    /// The region that each node is evaluated in, by node; `None` if it is not used.
+    /// Region in which each node is evaluated, by node; `None` if unused.
     pub place: Vec<Option<RegionId>>,
 }
 
@@ -30,34 +30,34 @@ impl Schedule {
 /// Steps of one region, in order.
 #[derive(Clone, Debug, Default)]
 pub struct Block {
-    /// First to last.
+    /// Steps, first to last.
     pub steps: Vec<Step>,
 }
 
 /// A step of a block.
 #[derive(Clone, Debug)]
 pub enum Step {
-    /// Evaluate a node.
+    /// Evaluates a node.
     Eval(NodeId),
-    /// Run the loop that `node` stands for.
+    /// Runs the loop that `node` represents.
     Loop {
         /// The `Op::Loop` node.
         node: NodeId,
         /// Body of the loop.
         body: Block,
     },
-    /// Run one side of the branch that `node` stands for.
+    /// Runs one side of the branch that `node` represents.
     If {
         /// The `Op::If` node.
         node: NodeId,
-        /// If the condition holds.
+        /// Side taken if the condition holds.
         then: Block,
-        /// If it does not.
+        /// Side taken otherwise.
         otherwise: Block,
     },
 }
 
-/// Places and orders the nodes that the output depends on.
+/// Determines region and order of the nodes that the output depends on.
 pub fn schedule_graph(graph: &Graph, reads: ReadOrder) -> Schedule {
     let mut places = Placement::new(graph);
     places.place_nodes();
@@ -100,12 +100,12 @@ fn build_block(graph: &Graph, steps: &[Vec<NodeId>], region: RegionId) -> Block 
 
 struct Placement<'g> {
     graph: &'g Graph,
-    /// Depth of nesting of each region, and of loops alone.
+    /// Nesting depth of each region, and of loops alone in `loops`.
     depth: Vec<u32>,
     loops: Vec<u32>,
     /// Region of an effect, by node.
     happens: Vec<Option<RegionId>>,
-    /// The region that owns a loop's or branch's regions is where it was written.
+    /// Earliest possible region of each node. A loop or branch stays in the region that contains it.
     early: Vec<RegionId>,
     place: Vec<Option<RegionId>>,
     uses: Vec<u32>,
@@ -142,8 +142,8 @@ impl<'g> Placement<'g> {
         for id in self.graph.node_ids() {
             self.early[id.0 as usize] = self.earliest_region(id);
         }
-        // Latest place: the common region of all uses. Users have larger ids, so one sweep down sees them first;
-        // a region's results are used at its end, seen when its owner is.
+        // Latest place: the common region of all uses. Users have larger ids, so one reverse sweep visits them first. A
+        // region's results are used at its end, which is visited with the loop or branch.
         let mut late: Vec<Option<RegionId>> = vec![None; self.graph.nodes.len()];
         for output in self.graph.outputs() {
             late[output.0 as usize] = Some(Graph::BODY);
@@ -182,7 +182,7 @@ impl<'g> Placement<'g> {
         });
     }
 
-    /// The region of the innermost parameter that a node depends on.
+    /// Earliest possible region of a node: that of the innermost parameter that it depends on.
     fn earliest_region(&self, id: NodeId) -> RegionId {
         let node = self.graph.node(id);
         if let Op::Param(region, _) = node.op {
@@ -207,7 +207,7 @@ impl<'g> Placement<'g> {
             .fold(Graph::BODY, deepest)
     }
 
-    /// From the latest place outwards to the earliest: the innermost one with the fewest loops around it.
+    /// Returns the innermost region with the fewest enclosing loops, searching outwards from the latest to the earliest.
     fn choose_region(&self, id: NodeId, latest: RegionId) -> RegionId {
         let early = self.early[id.0 as usize];
         let node = self.graph.node(id);
@@ -217,9 +217,10 @@ impl<'g> Placement<'g> {
         if matches!(node.op, Op::Result(_)) {
             return self.place_of_owner(node.args[0]);
         }
-        // A literal is a value as others are. Versions that follow from writes stay where they were made, as do reads of them.
+        // An array literal is an ordinary value. Written versions of an array stay where they were created, as do reads of
+        // them.
         if (node.ty.is_array() && node.op != Op::MakeArray) || matches!(node.op, Op::ArrayGet) {
-            // Not before what it is made of: a branch that it was made after may have given that.
+            // Not before its operands, which may come from an earlier branch.
             let home = self.common_region(self.graph.homes[id.0 as usize], latest);
             let deeper = self.depth[early.0 as usize] > self.depth[home.0 as usize];
             return if deeper { early } else { home };

@@ -1,4 +1,4 @@
-//! One picture through one pass. Everything here is the caller's own wgpu code but for the three lines of `shaders`.
+//! Runs one picture through one pass. Apart from the three lines of `shaders`, everything here is the caller's own wgpu code.
 
 use crate::shaders::glow;
 use straightline_kernels::prelude::*;
@@ -7,7 +7,7 @@ use wgpu::{TextureFormat, TextureUsages};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// The picture with its glow.
+/// Returns the picture with its glow.
 pub fn glow(picture: &Frame<Vec4>, strength: f32) -> Result<Frame<Vec4>, Failure> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
@@ -61,7 +61,7 @@ fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// Four halves.
+/// Decodes a texel of four halves.
 fn texel(bytes: &[u8]) -> Vec4 {
     let half = |k: usize| {
         let bits = u16::from_le_bytes([bytes[2 * k], bytes[2 * k + 1]]);

@@ -1,14 +1,14 @@
-//! Lets the bright places of a picture glow, and writes `glow.png`.
+//! Adds a glow to the bright areas of a picture, and writes `glow.png`.
 //!
-//! `cargo run [--release] [PICTURE.png] [--cpu]`: without a picture one is made; with `--cpu` the kernel runs as rustc
-//! compiled it, else as the shader that was made from it.
+//! `cargo run [--release] [PICTURE.png] [--cpu]`: without a picture, a test picture is generated. With `--cpu` the kernel runs as
+//! rustc compiled it, otherwise as the generated shader.
 
 mod gpu;
 mod kernels {
     pub mod glow;
 }
 
-/// What `build.rs` made: a module for each kernel.
+/// Output of `build.rs`: a module for each kernel.
 mod shaders {
     straightline_runtime::include_shaders!();
 }
@@ -29,14 +29,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The kernel itself, pixel by pixel.
+/// Runs the kernel natively, pixel by pixel.
 fn native(cfg: &Glow, picture: &Frame<Vec4>) -> Frame<Vec4> {
     let size = picture.size();
     let pixels = (0..size.y as i32).flat_map(|y| (0..size.x as i32).map(move |x| ivec2(x, y)));
     Frame::new(size, pixels.map(|pixel| glow(cfg, picture, pixel)).collect())
 }
 
-/// Bright discs on a dark ground.
+/// Bright discs on a dark background.
 fn discs(size: UVec2) -> Frame<Vec4> {
     let shade = |x: u32, y: u32| {
         let cell = vec2((x % 80) as f32 - 40.0, (y % 72) as f32 - 36.0);
@@ -62,7 +62,7 @@ fn write(path: &str, picture: &Frame<Vec4>) -> Result<(), image::ImageError> {
 mod tests {
     use super::*;
 
-    /// The kernel as rustc compiles it is the reference for the shader that was made from it.
+    /// The kernel as rustc compiles it is the reference for the generated shader.
     #[test]
     fn shader_and_kernel_agree() {
         let picture = discs(uvec2(161, 73));

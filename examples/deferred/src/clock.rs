@@ -1,21 +1,21 @@
-//! What frames cost: the thread that records them, and the device that runs them.
+//! Frame times: of the thread that records the frames, and of the device that runs them.
 
 use std::collections::VecDeque;
 use std::fmt;
 use std::time::Duration;
 use straightline_runtime::{Error, Span, Timer, wgpu};
 
-/// Passes of a frame: five of geometry, placing, shading, motion, SRAA, one that keeps, and to the screen.
+/// Passes of a frame: five of geometry, placing, shading, motion, SRAA, keeping, and presenting.
 const PASSES: u32 = 11;
 
-/// Frames whose timestamps are waited for at most; those beyond are not timed on the device.
+/// Upper limit on frames with pending timestamps. Frames beyond it are not timed on the device.
 const UNDER_WAY: usize = 8;
 
-/// Times of frames, added up until somebody asks.
+/// Frame times, accumulated until they are read.
 pub struct Clock {
-    /// None where the device has no timestamps.
+    /// `None` if the device has no timestamps.
     timer: Option<Timer>,
-    /// Of each frame that the device has not told about yet, which of its passes are SRAA's.
+    /// For each frame with pending timestamps: the indices of its SRAA passes.
     under_way: VecDeque<&'static [usize]>,
     recorded: Sum,
     device: Sum,
@@ -31,18 +31,18 @@ impl Sum {
         self.1 += 1;
     }
 
-    /// The mean, from which on the sum starts anew.
+    /// Returns the mean and resets the sum.
     fn take(&mut self) -> Option<Duration> {
         let Sum(total, count) = std::mem::take(self);
         total.checked_div(count)
     }
 }
 
-/// Means over some frames.
+/// Mean times over some frames.
 pub struct Costs {
-    /// Of the thread: to record a frame and to submit it.
+    /// Time on the thread to record a frame and to submit it.
     pub recorded: Duration,
-    /// Of the device, by its timestamps: all passes of a frame, and SRAA alone. None where it has none.
+    /// Time on the device, from its timestamps: all passes of a frame, and SRAA alone. `None` without timestamps.
     pub device: Option<(Duration, Option<Duration>)>,
 }
 
@@ -59,7 +59,7 @@ impl fmt::Display for Costs {
 }
 
 impl Clock {
-    /// Uses timestamps where the device was created with them.
+    /// Creates a clock. Uses timestamps if the device was created with them.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, Error> {
         let timed = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         Ok(Clock {
@@ -75,17 +75,17 @@ impl Clock {
         self.timer.as_mut().filter(|_| self.under_way.len() < UNDER_WAY)
     }
 
-    /// What the next pass of the frame is timed with.
+    /// Returns the timestamp span for the next pass of the frame.
     pub fn span(&mut self) -> Result<Option<Span<'_>>, Error> {
         self.running().map(Timer::span).transpose()
     }
 
-    /// The same for a pass of the runtime, which takes its span itself.
+    /// Returns the timer, for a pass of the runtime, which takes its span itself.
     pub fn timer(&mut self) -> Option<&mut Timer> {
         self.running()
     }
 
-    /// Ends the frame's part of `encoder`.
+    /// Resolves the frame's timestamps in `encoder`.
     pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder, sraa: &'static [usize]) -> Result<(), Error> {
         if let Some(timer) = self.running() {
             timer.resolve(encoder)?;
@@ -94,7 +94,7 @@ impl Clock {
         Ok(())
     }
 
-    /// Adds a frame, once it is submitted, and what the device has said meanwhile.
+    /// Adds a submitted frame, and reads the timestamps that have arrived in the meantime.
     pub fn add(&mut self, recorded: Duration) -> Result<(), Error> {
         self.recorded.add(recorded);
         self.collect()
@@ -113,7 +113,7 @@ impl Clock {
         Ok(())
     }
 
-    /// Means since the last call. None if there was no frame, or the device has told of none of them yet.
+    /// Returns means since the last call. `None` if there was no frame, or no timestamps have arrived yet.
     pub fn take(&mut self) -> Result<Option<Costs>, Error> {
         self.collect()?;
         if self.timer.is_some() && self.device.1 == 0 {

@@ -1,4 +1,4 @@
-//! The device that everything is drawn on.
+//! The device for all drawing.
 
 use crate::Failure;
 use straightline_runtime::wgpu;
@@ -15,7 +15,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// A device that can draw to `surface`, with timestamps where they are to be believed, or wherever there are any if `always`.
+    /// Creates a device that can draw to `surface`, with timestamps where they are reliable, or wherever they exist if `always`.
     pub async fn new(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
@@ -24,7 +24,7 @@ impl Gpu {
         let options = wgpu::RequestAdapterOptions { compatible_surface: surface, ..Default::default() };
         let adapter = instance.request_adapter(&options).await.map_err(|error| format!("{NO_ADAPTER}: {error}"))?;
         let timestamps = match is_processor(&adapter) && !always {
-            // Software drivers can leave a pass out of the span around it.
+            // Software drivers can omit a pass from the span around it.
             true => wgpu::Features::empty(),
             false => adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
         };
@@ -33,13 +33,13 @@ impl Gpu {
         Ok(Gpu { adapter, device, queue })
     }
 
-    /// Without a surface to draw to.
+    /// Creates a device without a surface.
     pub async fn headless(always: bool) -> Result<Gpu, Failure> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         Gpu::new(&instance, None, always).await
     }
 
-    /// What a time by the wall clock has in it on this device.
+    /// Describes what a wall-clock time includes on this device.
     pub fn clock(&self) -> String {
         let name = self.adapter.get_info().name;
         match (is_processor(&self.adapter), self.device.features().contains(wgpu::Features::TIMESTAMP_QUERY)) {

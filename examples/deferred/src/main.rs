@@ -1,11 +1,11 @@
-//! A small deferred renderer with Subpixel Reconstruction Antialiasing in it.
+//! A small deferred renderer with Subpixel Reconstruction Antialiasing.
 //!
-//! `cargo run` opens a window: Space turns SRAA on and off, P, S, D and H what helps it, Escape closes the window. `cargo run -- --out
-//! picture.png` needs no window: `--size 1280x720`, `--time 2.5`, `--without-sraa` and `--without-placing` say what to draw,
-//! `--timestamps` to use those of software drivers too. `web/build` makes a page of it.
+//! `cargo run` opens a window: Space toggles SRAA, P, S, D and H its extensions, Escape closes the window. `cargo run -- --out
+//! picture.png` needs no window: `--size 1280x720`, `--time 2.5`, `--without-sraa` and `--without-placing` select the picture,
+//! `--timestamps` enables those of software drivers as well. `web/build` builds a web page.
 //!
-//! To read: `renderer.rs` has the passes of a frame in order, `scene.rs` what is drawn, `window.rs`, `web.rs` and
-//! `picture.rs` where it goes, `clock.rs` what it costs.
+//! Where to read: `renderer.rs` has the passes of a frame in order, `scene.rs` the scene, `window.rs`, `web.rs` and
+//! `picture.rs` the outputs, `clock.rs` the frame times.
 
 mod clock;
 mod gpu;
@@ -18,12 +18,12 @@ mod web;
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 mod window;
 
-/// What `build.rs` made: a module for each kernel.
+/// Output of `build.rs`: a module for each kernel.
 mod shaders {
     straightline_runtime::include_shaders!();
 }
 
-/// Whatever went wrong, to be shown.
+/// Any error, to be displayed.
 type Failure = Box<dyn std::error::Error>;
 
 /// Width and height in pixels.
@@ -46,7 +46,7 @@ fn main() -> Result<(), Failure> {
     }
 }
 
-/// Saves a picture, and says what such frames cost.
+/// Saves a picture, and prints the time that such frames take.
 #[cfg(not(target_arch = "wasm32"))]
 fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
     let gpu = pollster::block_on(gpu::Gpu::headless(options.timestamps))?;
@@ -54,7 +54,7 @@ fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
     let mut renderer = renderer::Renderer::new(&gpu.device, &gpu.queue, options.size, picture::FORMAT)?;
     let pixels = pollster::block_on(picture::draw(&gpu, &mut renderer, options.size, time, options.parts))?;
     image::save_buffer(path, &pixels, options.size[0], options.size[1], image::ColorType::Rgba8)?;
-    // The frame before has the drivers' compiling in it.
+    // The previous frame includes the drivers' compilation.
     renderer.clock.take()?;
     let target = picture::target(&gpu, options.size).create_view(&Default::default());
     let mut until_done = Vec::new();
@@ -73,6 +73,6 @@ fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Frames that are timed one by one.
+/// Number of frames that are timed one by one.
 #[cfg(not(target_arch = "wasm32"))]
 const FRAMES: usize = 15;

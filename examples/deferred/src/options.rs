@@ -1,37 +1,37 @@
-//! What to draw, as the command line or the address of a page says.
+//! Drawing options from the command line or from the address of a page.
 
 use crate::{Failure, Size};
 use std::fmt;
 
 pub struct Options {
-    /// A file to save a picture as.
+    /// File to save a picture as.
     pub out: Option<String>,
     pub size: Size,
-    /// The moment in seconds; otherwise time goes on, and a picture is of second 2.
+    /// Fixed time in seconds. Without it time advances, and a saved picture is of second 2.
     pub time: Option<f32>,
     pub parts: Parts,
-    /// Whether the timestamps of software drivers are used too.
+    /// Enables the timestamps of software drivers as well.
     pub timestamps: bool,
 }
 
-/// What is on: SRAA, and what helps it.
+/// Enabled parts: SRAA and its extensions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     pub sraa: bool,
-    /// Shading a pixel where it has a surface that no pixel's centre shows.
+    /// Shades a pixel where it has a surface that no pixel centre shows.
     pub placing: bool,
-    /// Looking farther for what no shading sample nearby shows.
+    /// Searches farther for surfaces that no nearby shading sample shows.
     pub searching: bool,
-    /// Borrowing light, and not the paint that it falls on.
+    /// Borrows light without the albedo of the lit surface.
     pub demodulating: bool,
-    /// Shading each frame at another place of its pixels, and borrowing from earlier ones.
+    /// Shades each frame at a different position in its pixels, and borrows from earlier frames.
     pub history: bool,
 }
 
 impl Parts {
     pub const ALL: Parts = Parts { sraa: true, placing: true, searching: true, demodulating: true, history: true };
 
-    /// Each part with its name and its key.
+    /// Returns each part with its name and its key.
     fn each(&mut self) -> [(&mut bool, &'static str, &'static str); 5] {
         [
             (&mut self.sraa, "SRAA", "Space"),
@@ -42,7 +42,7 @@ impl Parts {
         ]
     }
 
-    /// Turns the part of a key off or on. False if no part has it.
+    /// Toggles the part assigned to a key. Returns `false` if there is none.
     #[cfg(any(feature = "window", target_arch = "wasm32", test))]
     pub fn press(&mut self, key: &str) -> bool {
         let found = self.each().into_iter().find(|(_, _, own)| own.eq_ignore_ascii_case(key));
@@ -67,7 +67,7 @@ impl fmt::Display for Parts {
 }
 
 impl Options {
-    /// Reads `--name value`.
+    /// Parses `--name value`.
     pub fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Options, Failure> {
         let mut options = Options { out: None, size: [960, 540], time: None, parts: Parts::ALL, timestamps: false };
         while let Some(argument) = arguments.next() {
@@ -87,7 +87,7 @@ impl Options {
         Ok(options)
     }
 
-    /// Reads `?name=value&name`.
+    /// Parses `?name=value&name`.
     #[cfg(any(target_arch = "wasm32", test))]
     pub fn of_address(query: &str) -> Result<Options, Failure> {
         let parts = query.trim_start_matches('?').split('&').filter(|part| !part.is_empty());

@@ -1,4 +1,4 @@
-//! A frame without a window, as bytes.
+//! Renders a frame without a window, as bytes.
 
 use crate::gpu::Gpu;
 use crate::options::Parts;
@@ -12,10 +12,10 @@ use wgpu::TextureFormat;
 
 pub const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 
-/// Seconds from a frame to the next.
+/// Seconds between frames.
 const STEP: f32 = 1.0 / 60.0;
 
-/// Draws the frame at `time` seconds, after as many as it remembers, and reads it back: four bytes a pixel, sRGB, rows from the top.
+/// Draws the frame at `time` seconds, after as many as it remembers. Returns four bytes a pixel, sRGB, rows from the top.
 pub async fn draw(
     gpu: &Gpu,
     renderer: &mut Renderer,
@@ -48,7 +48,7 @@ pub async fn draw(
     Ok(mapped.chunks_exact(row as usize).flat_map(|line| line[..width as usize * 4].to_vec()).collect())
 }
 
-/// Something to draw to that can be read back.
+/// Creates a render target that can be read back.
 pub fn target(gpu: &Gpu, [width, height]: Size) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -62,10 +62,10 @@ pub fn target(gpu: &Gpu, [width, height]: Size) -> wgpu::Texture {
     })
 }
 
-/// What the device said, and who waits for it.
+/// Result from the device, and the waiting task.
 type Answer = Arc<Mutex<(Option<Result<(), wgpu::BufferAsyncError>>, Option<Waker>)>>;
 
-/// Maps a buffer for reading. Where there are threads this one waits in `poll`; a browser goes on meanwhile.
+/// Maps a buffer for reading. With threads, this one waits in `poll`; a browser continues in the meantime.
 async fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<(), Failure> {
     let answer = Answer::default();
     let told = Arc::clone(&answer);
@@ -94,7 +94,7 @@ async fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<(), Failure> {
 mod tests {
     use super::*;
 
-    /// Pixels whose colour differs from that of the pixel to the right by more than a little.
+    /// Counts the pixels whose colour clearly differs from that of the pixel to the right.
     fn steps(pixels: &[u8], width: u32) -> usize {
         let rows = pixels.chunks_exact(width as usize * 4);
         let differs = |pair: &[u8]| (0..3).any(|k| pair[k].abs_diff(pair[k + 4]) > 24);
@@ -117,18 +117,18 @@ mod tests {
             assert!(size == [1, 1] || hard > 500, "an empty picture at {size:?}: {hard} edges");
             assert!(smooth > hard / 2 || size == [1, 1], "SRAA blurs {hard} edges to {smooth} at {size:?}");
         }
-        // The scene turns.
+        // The scene rotates.
         let [now, later] = [2.0, 2.5].map(|time| frame([320, 180], time, true));
         assert!(now != later);
     }
 
-    /// Mean squared difference of colours in 8 bits.
+    /// Mean squared difference of 8-bit colours.
     fn error(picture: &[u8], reference: &[f64]) -> f64 {
         let squares = picture.iter().zip(reference).map(|(a, b)| (f64::from(*a) - b).powi(2));
         squares.sum::<f64>() / reference.len() as f64
     }
 
-    /// Against a picture shaded sixteen times a pixel: the same scene four times as large.
+    /// Compared with a picture shaded sixteen times a pixel: the same scene at four times the size.
     #[test]
     fn each_part_brings_the_picture_nearer_to_supersampling() {
         const OFF: Parts = Parts { sraa: false, placing: false, searching: false, demodulating: false, history: false };
@@ -156,7 +156,7 @@ mod tests {
         assert!(by_sraa < 0.5 * without && by_all < 0.7 * by_sraa);
         let without_history = off(Parts { history: false, ..Parts::ALL });
         println!("{without_history:.2} by all but history, {by_all:.2} with it");
-        // The others have found nearly all surfaces; what is left is what four samples a pixel differ from sixteen by.
+        // The other parts have found nearly all surfaces. The rest is the difference between four and sixteen samples a pixel.
         assert!(by_all < 1.02 * without_history);
         for parts in helped {
             let found = off(parts);
@@ -165,7 +165,7 @@ mod tests {
         }
     }
 
-    /// On a device with timestamps, whatever they are worth there, and on one that is the processor without.
+    /// On a device with timestamps, reliable or not, and on a software device without.
     #[test]
     fn frames_are_timed() {
         let devices = [false, true].map(|always| pollster::block_on(Gpu::headless(always)).unwrap());
@@ -175,7 +175,7 @@ mod tests {
             let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
             assert!(renderer.clock.take().unwrap().is_none(), "nothing was drawn");
             for sraa in [true, false] {
-                // More than are waited for.
+                // More than the limit on pending frames.
                 for _ in 0..12 {
                     let parts = Parts { sraa, ..Parts::ALL };
                     pollster::block_on(draw(&gpu, &mut renderer, [320, 180], 2.0, parts)).unwrap();

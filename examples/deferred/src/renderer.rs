@@ -1,5 +1,5 @@
-//! A frame in seven steps: geometry, once for each of its four samples and where the frame is shaded; where each pixel is shaded;
-//! shading, once a pixel; where that was in earlier frames; SRAA; what later frames need; and to the screen.
+//! A frame in seven steps: geometry, once for each of its four samples and for the shading position; placing of the shading;
+//! shading, once a pixel; motion since earlier frames; SRAA; inputs for later frames; and presenting.
 
 use crate::clock::Clock;
 use crate::options::Parts;
@@ -12,7 +12,7 @@ use straightline_runtime::{Bound, Span, wgpu};
 use web_time::Instant;
 use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
 
-/// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`.
+/// Positions of the geometry samples, from the pixel's centre in pixels, y down: the kernel's pattern `latin4`.
 const SAMPLES: [Vec2; 4] = [
     vec2(-0.125, -0.375),
     vec2(0.375, -0.125),
@@ -20,62 +20,62 @@ const SAMPLES: [Vec2; 4] = [
     vec2(0.125, 0.375),
 ];
 
-/// The same, and where the frame is shaded.
+/// Layers of the G-buffer: one for each geometry sample, and one for the shading position.
 const LAYERS: usize = SAMPLES.len() + 1;
 
-/// Which of the samples a frame is shaded at, one frame after the other: with `EARLIER` others it has seen all. Without history, frames
+/// Shading sample of each frame, in turn: together with `EARLIER` others, all are covered. Without history, frames
 /// are shaded at the centre.
 const TURNS: [usize; 4] = [0, 3, 2, 1];
 
-/// Earlier frames that are kept: the kernel's `history`.
+/// Number of earlier frames that are kept: the kernel's `history`.
 pub const EARLIER: usize = 3;
 
-/// Linear depth, so that the kernel needs to know nothing of the projection.
+/// Linear depth, so that the kernel does not depend on the projection.
 const DEPTH: TextureFormat = TextureFormat::R32Float;
 const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
 const ALBEDO: TextureFormat = TextureFormat::Rgba8Unorm;
 const PLACE: TextureFormat = TextureFormat::R32Uint;
 const COLOR: TextureFormat = TextureFormat::Rgba16Float;
-/// A normal, and linear depth.
+/// A normal and linear depth.
 const SURFACE: TextureFormat = TextureFormat::Rgba32Float;
 const MOTION: TextureFormat = TextureFormat::Rgba16Float;
 const Z_BUFFER: TextureFormat = TextureFormat::Depth32Float;
 
-/// Linear depth where there is nothing.
+/// Linear depth of the background.
 const SKY: f64 = 1.0e6;
 
-/// A difference between surfaces that none exceeds: as a threshold, it turns off what begins there.
+/// A difference between surfaces that is never exceeded. As a threshold, it turns a part off.
 const NEVER: f32 = 16.0;
 
-/// Which of a frame's passes are SRAA's: placing and the filter.
+/// Indices of the frame's SRAA passes: placing and the filter.
 const OF_SRAA: [usize; 2] = [LAYERS, LAYERS + 3];
 
-/// Bytes of the uniforms of `scene.wgsl`.
+/// Size of the uniforms of `scene.wgsl`, in bytes.
 const UNIFORMS: usize = 192 + EARLIER * 80;
 
-/// Passes, and what lies between them.
+/// Passes, and the textures between them.
 pub struct Renderer {
     queue: wgpu::Queue,
     passes: Passes,
     kernels: Kernels,
     targets: Targets,
     past: Past,
-    /// What the frames cost.
+    /// Frame times.
     pub clock: Clock,
 }
 
-/// Where each pixel is shaded, and the filter.
+/// Placing of the shading, and the filter.
 struct Kernels {
     place: sraa_place::Pass,
     sraa: sraa::Pass,
 }
 
-/// Pipelines and what does not change with the size.
+/// Pipelines, and everything else that does not depend on the size.
 struct Passes {
     device: wgpu::Device,
     corners: wgpu::Buffer,
     count: u32,
-    /// One for each layer.
+    /// Uniforms of each layer.
     uniforms: Vec<wgpu::Buffer>,
     geometry: wgpu::RenderPipeline,
     shading: wgpu::RenderPipeline,
@@ -84,41 +84,41 @@ struct Passes {
     present: wgpu::RenderPipeline,
 }
 
-/// What does change with the size.
+/// Textures and bindings that depend on the size.
 struct Targets {
     size: Size,
-    /// Depth, normal and albedo: a layer for each sample, and one where the frame is shaded.
+    /// Depth, normal and albedo: a layer for each geometry sample, and one for the shading position.
     geometry: [wgpu::Texture; 3],
     z_buffer: wgpu::TextureView,
-    /// At which sample each pixel is shaded.
+    /// Shading sample of each pixel.
     place: wgpu::TextureView,
-    /// Shaded once a pixel, and what of that does not follow the albedo.
+    /// Shaded colour, one a pixel, and the part of it that does not depend on the albedo.
     shaded: [wgpu::TextureView; 2],
-    /// Light, what does not follow the albedo, and surfaces: a layer for each earlier frame.
+    /// Light, the part that does not depend on the albedo, and surfaces: a layer for each earlier frame.
     kept: [wgpu::Texture; 3],
-    /// Where what is seen was in each of them.
+    /// Motion of each pixel's surface since each of the earlier frames.
     motion: wgpu::Texture,
-    /// The same, antialiased.
+    /// Antialiased colour.
     resolved: wgpu::TextureView,
-    /// From geometry to `place`.
+    /// Pass from geometry to `place`.
     placing: sraa_place::Bound,
-    /// From these to `resolved`.
+    /// Pass from all of these to `resolved`.
     sraa: sraa::Bound,
 }
 
-/// What is known of earlier frames.
+/// State of earlier frames.
 #[derive(Default)]
 struct Past {
-    /// How many there were.
+    /// Number of earlier frames.
     frames: usize,
-    /// With which parts.
+    /// Parts that were enabled.
     parts: Option<Parts>,
-    /// Those that are kept, layer by layer: what took model space to clip space, and where it was shaded.
+    /// Kept frames, layer by layer: their transform from model space to clip space, and their shading position.
     layers: [Option<(Mat4, Vec2)>; EARLIER],
 }
 
 impl Renderer {
-    /// A renderer of pictures of `size` into targets of `format`, which converts to sRGB.
+    /// Creates a renderer for pictures of `size` into targets of `format`, which converts to sRGB.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, size: Size, format: TextureFormat) -> Result<Self, Failure> {
         let shader = device.create_shader_module(wgpu::include_wgsl!("scene.wgsl"));
         let corners = scene::corners();
@@ -147,9 +147,9 @@ impl Renderer {
         })
     }
 
-    /// Records and submits the frame at `time` seconds, with the parts that are on. Where the target has another size than
-    /// the last one, what lies between the passes is made anew, and SRAA bound to it; then, and where parts are turned on or off, earlier
-    /// frames are forgotten.
+    /// Records and submits the frame at `time` seconds with the enabled parts. If the target's size differs from
+    /// the last one, the textures between the passes are recreated and SRAA is bound to them. This, and toggling a part, discards
+    /// earlier frames.
     pub fn draw(&mut self, time: f32, parts: Parts, target: &wgpu::TextureView) -> Result<(), Failure> {
         let begun = Instant::now();
         let size = [target.texture().width(), target.texture().height()];
@@ -162,13 +162,13 @@ impl Renderer {
         let Renderer { queue, passes, targets, past, clock, .. } = self;
         let remembers = parts.sraa && parts.history;
         let jitter = if remembers { SAMPLES[TURNS[past.frames % TURNS.len()]] } else { Vec2::ZERO };
-        // All paint counts as white at least: of one colour.
+        // A floor of 1 makes every albedo count as white.
         let albedo_floor = if parts.demodulating { 0.04 } else { 1.0 };
         let view = View::new(size, time);
         for (sample, uniforms) in SAMPLES.iter().chain([&jitter]).zip(&passes.uniforms) {
             queue.write_buffer(uniforms, 0, &view.uniforms(*sample, jitter, albedo_floor, &past.layers));
         }
-        // Without SRAA nobody borrows, and each pixel needs the colour of its centre.
+        // Without SRAA no pixel borrows, so each needs the colour of its centre.
         targets.placing.set_unseen(queue, if parts.sraa && parts.placing { 0.01 } else { NEVER });
         targets.sraa.set_search_threshold(queue, if parts.searching { 0.05 } else { NEVER });
         targets.sraa.set_albedo_floor(queue, albedo_floor);
@@ -207,7 +207,7 @@ impl Renderer {
     }
 }
 
-/// Records a kernel, timed if frames are.
+/// Records a kernel, timed if the frame is.
 fn record(kernel: &Bound, encoder: &mut wgpu::CommandEncoder, clock: &mut Clock) -> Result<(), Failure> {
     match clock.timer() {
         Some(timer) => kernel.encode_timed(encoder, timer)?,
@@ -233,7 +233,7 @@ impl Passes {
                 cleared(&depth, [SKY, 0.0, 0.0]),
                 // Any unit vector, the same everywhere.
                 cleared(&normal, [0.0, 0.0, 1.0]),
-                // All of the sky's colour is borrowed.
+                // Albedo 1: the sky's full colour can be borrowed.
                 cleared(&albedo, [1.0; 3]),
             ],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -250,7 +250,7 @@ impl Passes {
         pass.draw(0..self.count, 0..1);
     }
 
-    /// Draws one triangle over all of `targets`.
+    /// Draws one triangle that covers all of `targets`.
     fn cover(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -272,7 +272,7 @@ impl Passes {
         pass.draw(0..3, 0..1);
     }
 
-    /// Uniforms at binding 0, textures from 1 on.
+    /// Binds uniforms at binding 0 and textures from 1 on.
     fn bind(
         &self,
         pipeline: &wgpu::RenderPipeline,
@@ -293,7 +293,7 @@ impl Passes {
     }
 }
 
-/// What is seen at a moment.
+/// Camera and scene at one time.
 struct View {
     size: Vec2,
     eye: Vec3,
@@ -301,11 +301,11 @@ struct View {
     to_view: Mat4,
 }
 
-/// The vertical field of view.
+/// Vertical field of view, in radians.
 const FOV: f32 = 0.75;
 
 impl View {
-    /// Of a picture of `size` at `time` seconds.
+    /// Creates the view for a picture of `size` at `time` seconds.
     fn new(size: Size, time: f32) -> View {
         let distance = 5.4 + 1.0 * (0.4 * time).sin();
         let eye = vec3(0.0, 0.45, 1.0).normalize() * distance;
@@ -317,17 +317,17 @@ impl View {
         }
     }
 
-    /// From model space to clip space, for a sample of each pixel.
+    /// Transform from model space to clip space for one sample of each pixel.
     fn to_clip(&self, sample: Vec2) -> Mat4 {
-        // To sample right of the centre, everything moves left.
+        // To sample right of the centre, move everything left.
         let shift = Mat4::from_translation((vec2(-sample.x, sample.y) * 2.0 / self.size).extend(0.0));
         shift * perspective_infinite_reverse(FOV, self.size.x / self.size.y, 0.1) * self.to_view * self.to_world
     }
 
-    /// The uniforms of `scene.wgsl` for a sample, of a frame that is shaded at `jitter`.
+    /// Uniforms of `scene.wgsl` for one sample, in a frame that is shaded at `jitter`.
     fn uniforms(&self, sample: Vec2, jitter: Vec2, albedo_floor: f32, earlier: &[Option<(Mat4, Vec2)>]) -> Vec<u8> {
         let half = (0.5 * FOV).tan() * vec2(self.size.x / self.size.y, 1.0);
-        // Rays of the shading pass: the camera's axes in the world, as far as its picture reaches.
+        // Rays of the shading pass: the camera's axes in world space, scaled to the extent of the picture.
         let axes = self.to_view.transpose();
         let matrices = [self.to_clip(sample), self.to_world].into_iter().flat_map(|m| m.to_cols_array());
         let camera = [axes.x_axis * half.x, axes.y_axis * half.y, self.eye.extend(0.0)];
@@ -393,7 +393,7 @@ impl Targets {
     }
 }
 
-/// One layer, as a plain texture.
+/// Returns one layer as a plain texture.
 fn layer(texture: &wgpu::Texture, at: u32) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(TextureViewDimension::D2),
@@ -403,7 +403,7 @@ fn layer(texture: &wgpu::Texture, at: u32) -> wgpu::TextureView {
     })
 }
 
-/// All layers, as the kernel reads them.
+/// Returns all layers, as read by the kernel.
 fn all_layers(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })
 }
@@ -417,7 +417,7 @@ fn attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<wgpu::Color>) -> Opti
     })
 }
 
-/// A pipeline of two functions of the shader, with the layout that they ask for.
+/// Creates a pipeline of two functions of the shader, with the layout that they require.
 fn pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
@@ -445,7 +445,7 @@ fn pipeline(
         depth_stencil: geometry.then(|| wgpu::DepthStencilState {
             format: Z_BUFFER,
             depth_write_enabled: Some(true),
-            // The reciprocal of depth: 1 is near.
+            // Reversed depth: larger is nearer.
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: Default::default(),
             bias: Default::default(),

@@ -1,12 +1,12 @@
-//! What is drawn: an armillary sphere on a turntable. Rings thinner than a pixel in the distance, facets, a striped disc.
+//! The scene: an armillary sphere on a turntable, with rings thinner than a pixel in the distance, facets, and a striped disc.
 
 use glam::{Vec3, vec3};
 use std::f32::consts::TAU;
 
-/// Position, normal, colour of one corner, as the vertex shader reads them.
+/// Position, normal and colour of one corner, as read by the vertex shader.
 pub type Corner = [Vec3; 3];
 
-/// Three corners for each triangle.
+/// Returns three corners for each triangle.
 pub fn corners() -> Vec<Corner> {
     let mut corners = Vec::new();
     disc(&mut corners);
@@ -34,7 +34,7 @@ pub fn corners() -> Vec<Corner> {
 /// Height of the turntable.
 const FLOOR: f32 = -1.45;
 
-/// A flat polygon, counter-clockwise seen from outside.
+/// Adds a flat polygon, counter-clockwise seen from outside.
 fn polygon(corners: &mut Vec<Corner>, points: &[Vec3], color: Vec3) {
     let normal = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or_zero();
     for k in 2..points.len() {
@@ -70,7 +70,7 @@ fn ring(corners: &mut Vec<Corner>, axis: Vec3, radius: f32, thickness: f32, colo
     }
 }
 
-/// A bar of six flat faces.
+/// Adds a bar of six flat faces.
 fn bar(corners: &mut Vec<Corner>, from: Vec3, to: Vec3, radius: f32, color: Vec3) {
     let (u, v) = (to - from).normalize().any_orthonormal_pair();
     let around = |k: u32| {
@@ -83,7 +83,7 @@ fn bar(corners: &mut Vec<Corner>, from: Vec3, to: Vec3, radius: f32, color: Vec3
     }
 }
 
-/// A ball of flat facets.
+/// Adds a ball of flat facets.
 fn ball(corners: &mut Vec<Corner>, radius: f32, color: Vec3) {
     const RINGS: u32 = 8;
     let at = |ring: u32, side: u32| {

@@ -1,4 +1,4 @@
-//! Frames on the canvas of a page, and as bytes for whoever asks.
+//! Frames on the canvas of a page, and as bytes for a script.
 
 use crate::gpu::Gpu;
 use crate::options::Options;
@@ -14,10 +14,10 @@ use web_sys::{Element, HtmlCanvasElement, KeyboardEvent, Window};
 use web_time::Instant;
 use wgpu::CurrentSurfaceTexture;
 
-/// Frames that the device may be behind. A browser asks for more than it can draw.
+/// Upper limit on frames in flight. A browser requests more than it can draw.
 const AHEAD: u32 = 2;
 
-/// Draws on the page's `<canvas>` until the page is closed, and says in `#state` what frames cost, or what went wrong.
+/// Draws on the page's `<canvas>` until the page is closed. Writes frame times, or an error, to `#state`.
 pub fn start() {
     std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
     wasm_bindgen_futures::spawn_local(async {
@@ -27,8 +27,8 @@ pub fn start() {
     });
 }
 
-/// The frame that an address asks for: four bytes a pixel, sRGB, rows from the top. Not what a canvas shows, which no script can read
-/// reliably, but what the same renderer draws to a texture.
+/// Returns the frame for an address: four bytes a pixel, sRGB, rows from the top. Scripts cannot read a canvas reliably, so the
+/// same renderer draws to a texture instead.
 #[wasm_bindgen]
 pub async fn picture(address: &str) -> Result<Vec<u8>, JsError> {
     let drawn = async {
@@ -46,10 +46,10 @@ struct Screen {
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
     options: Options,
-    /// Frames that are submitted and not done.
+    /// Frames that are submitted and not completed.
     under_way: Arc<AtomicU32>,
     started: Instant,
-    /// Since when frames are counted, and how many there were.
+    /// Start of the count, and number of frames since.
     counted: (Instant, u32),
 }
 
@@ -63,7 +63,7 @@ impl Screen {
         let gpu = Gpu::new(&instance, Some(&surface), options.timestamps).await?;
         let config = surface.get_default_config(&gpu.adapter, width, height);
         let mut config = config.ok_or("the adapter cannot draw to this canvas")?;
-        // The renderer gives linear colours; the format converts them.
+        // The renderer outputs linear colours; the format converts them.
         let format = config.format.add_srgb_suffix();
         config.view_formats.push(format);
         surface.configure(&gpu.device, &config);
@@ -79,7 +79,7 @@ impl Screen {
         }
         let frame = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
-            // Nothing to draw to now; the next frame may have more luck.
+            // There is nothing to draw to now; the next frame may succeed.
             _ => return Ok(()),
         };
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor {
@@ -97,7 +97,7 @@ impl Screen {
         self.count()
     }
 
-    /// Counts a frame, and shows once a second what one costs.
+    /// Counts a frame, and shows the time per frame once a second.
     fn count(&mut self) -> Result<(), Failure> {
         let (since, frames) = &mut self.counted;
         *frames += 1;
@@ -135,11 +135,11 @@ fn toggle_by_keys(screen: Rc<RefCell<Screen>>) {
         }
     });
     window().set_onkeydown(Some(pressed.as_ref().unchecked_ref()));
-    // It is there as long as the page.
+    // The closure must live as long as the page.
     pressed.forget();
 }
 
-/// Asks the browser for the next frame from each, until one fails.
+/// Requests each next frame from the browser, until one fails.
 fn draw_every_frame(screen: Rc<RefCell<Screen>>) {
     let next = Rc::new(RefCell::new(None::<Closure<dyn FnMut()>>));
     let again = Rc::clone(&next);

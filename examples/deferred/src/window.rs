@@ -34,14 +34,14 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 
 struct Application {
     size: Size,
-    /// Where it stands still.
+    /// Fixed time, in seconds.
     time: Option<f32>,
     timestamps: bool,
     parts: Parts,
     started: Instant,
-    /// From the first moment that there can be one.
+    /// Set as soon as a window can be created.
     screen: Option<Screen>,
-    /// Since when frames are counted, and how many there were.
+    /// Start of the count, and number of frames since.
     counted: (Instant, u32),
     failure: Option<Failure>,
 }
@@ -65,7 +65,7 @@ impl Screen {
         let mut config = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
             .ok_or("the adapter cannot draw to this window")?;
-        // The renderer gives linear colours; the format converts them.
+        // The renderer outputs linear colours; the format converts them.
         let format = config.format.add_srgb_suffix();
         if format != config.format {
             config.view_formats.push(format);
@@ -90,7 +90,7 @@ impl Screen {
                 self.surface.configure(&self.gpu.device, &self.config);
                 return Ok(());
             }
-            // Nothing to draw to now; the next frame may have more luck.
+            // There is nothing to draw to now; the next frame may succeed.
             _ => return Ok(()),
         };
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor {
@@ -158,7 +158,7 @@ impl Application {
         }
     }
 
-    /// Counts a frame, and shows once a second what one costs.
+    /// Counts a frame, and shows the time per frame once a second.
     fn count(&mut self) -> Result<(), Failure> {
         let (since, frames) = &mut self.counted;
         *frames += 1;

@@ -3,7 +3,7 @@
 use straightline_runtime::wgpu;
 use wgpu::{TextureFormat, TextureUsages};
 
-/// What `build.rs` made: a module for each kernel.
+/// Output of `build.rs`: a module for each kernel.
 mod shaders {
     straightline_runtime::include_shaders!();
 }
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let picture = image::open(from)?.to_rgba8();
     let (width, height) = picture.dimensions();
 
-    // A device and two textures: your renderer has them already.
+    // A device and two textures. Your renderer already has them.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let input = texture(TextureFormat::Rgba8UnormSrgb, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
     let rows = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
     queue.write_texture(input.as_image_copy(), &picture, rows, input.size());
-    // The shader writes to a storage texture, which has no sRGB: a copy of it is encoded below.
+    // The shader writes to a storage texture, which cannot be sRGB. A copy of it is encoded below.
     let output = texture(TextureFormat::Rgba16Float, TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC);
 
     // The kernel.
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let inputs = shaders::lens::Inputs { image: &image, linear: &linear };
     lens.bind(&inputs, &shaders::lens::Parameters::new(strength), &target)?.encode(&mut encoder);
 
-    // Back from the device, and into a file.
+    // Read back from the device and write to a file.
     let row = (8 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A half of a colour as a byte of an sRGB picture; every fourth is alpha, which is linear.
+/// Converts a half of a colour to a byte of an sRGB picture. Every fourth is alpha, which is linear.
 fn encode((k, half): (usize, &[u8])) -> u8 {
     let bits = u16::from_le_bytes([half[0], half[1]]);
     let (exponent, mantissa) = (i32::from(bits >> 10 & 31), f32::from(bits & 1023));

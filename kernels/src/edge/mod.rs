@@ -1,10 +1,10 @@
-//! The edge filters that deferred renderers used before SRAA: they find edges in depth and normals of one sample a
+//! The edge filters that deferred renderers used before SRAA. They find edges in the depth and normals of one sample a
 //! pixel, and blur there.
 //!
 //! Both are transcribed from a blog's code snippets, which retell S.T.A.L.K.E.R.'s (Shishkovtsov, GPU Gems 2, chapter
-//! 9) and Tabula Rasa's (Koonce, GPU Gems 3, chapter 19). The snippets contain mistakes; [`Form::Paper`] keeps those
-//! that change what is found, so that what they cost can be measured. A pixel is read at its centre: the half pixel
-//! by which Direct3D 9 has to shift a full-screen rectangle has no counterpart here.
+//! 9) and Tabula Rasa's (Koonce, GPU Gems 3, chapter 19). The snippets contain mistakes. [`Form::Paper`] keeps those
+//! that change which edges are found, so that their cost can be measured. A pixel is read at its centre: the half-pixel
+//! shift that Direct3D 9 needs for a full-screen rectangle has no counterpart here.
 
 mod stalker;
 mod tabula_rasa;
@@ -15,41 +15,41 @@ use crate::prelude::*;
 pub use stalker::{Depth, Stalker, stalker};
 pub use tabula_rasa::{TabulaRasa, tabula_rasa};
 
-/// Whether the mistakes of the printed code are kept.
+/// Treatment of the mistakes in the printed code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// As printed.
     Paper,
-    /// With the mistakes mended.
+    /// With the mistakes corrected.
     Corrected,
 }
 
-/// How the G-buffer holds normals.
+/// Encoding of normals in the G-buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Normals {
     /// As unit vectors, in a float format.
     Float,
-    /// As 0.5 + 0.5 n, in a normalised format such as the snippets' RGBA8; made as long as 1.
+    /// As 0.5 + 0.5 n, in a normalised format such as the snippets' RGBA8. Rescaled to length 1 after reading.
     Unorm,
-    /// Unfolded to a square, each axis as 0.5 + 0.5 n, in a normalised format of two components such as RG8 or RG16.
+    /// Octahedral map to a square, each axis as 0.5 + 0.5 n, in a normalised two-component format such as RG8 or RG16.
     Octahedral,
 }
 
-/// What a colour that is infinite or not a number does.
+/// Treatment of colours that are infinite or NaN.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NonFinite {
-    /// It spoils every pixel that is blurred with it.
+    /// Spread to every pixel that is blurred with them.
     Spread,
-    /// The pixel's own colour stands in for a tap that is touched by it, and black for a pixel whose own colour is bad.
+    /// Skipped: the pixel's own colour replaces an affected tap, and black replaces the pixel's own colour if that is bad.
     Skip,
 }
 
-/// What a filter gives.
+/// Output of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Output {
     /// The picture, blurred where there are edges.
     Antialias,
-    /// How much of an edge each pixel is, 0 to 1, in red, green and blue: no colour is read.
+    /// Edge strength of each pixel, 0 to 1, in red, green and blue. No colour is read.
     Edges,
 }
 
@@ -63,7 +63,7 @@ fn facing(normals: Normals, normal: &Frame<Vec3>, pixel: IVec2) -> Vec3 {
     }
 }
 
-/// The colour of `pixel`; black if it is not finite and that is not to spread.
+/// The colour of `pixel`; black if it is not finite and `non_finite` is `Skip`.
 fn own(non_finite: NonFinite, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let own = color.load(pixel);
     match non_finite {
@@ -79,7 +79,7 @@ fn own(non_finite: NonFinite, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
 }
 
 /// The colour `offset` pixels from the centre of `pixel`, filtered. A sampler reads four texels, and 0 times a bad one is
-/// bad: nothing can be told of the others, and `own` is what is left.
+/// bad: the other three cannot be recovered, and `own` is returned instead.
 fn nearby(non_finite: NonFinite, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2, offset: Vec2, own: Vec4) -> Vec4 {
     let texel_size = Vec2::ONE / color.size().as_vec2();
     let tap = color.sample(linear, (pixel.as_vec2() + 0.5 + offset) * texel_size);
@@ -95,10 +95,10 @@ fn nearby(non_finite: NonFinite, color: &Frame<Vec4>, linear: &Sampler, pixel: I
     }
 }
 
-/// `depth`, at most [`DEEPEST`]; what is infinite or not a number is as deep.
+/// `depth`, clamped to at most [`DEEPEST`]; infinite and NaN depths become [`DEEPEST`].
 fn bounded(depth: f32) -> f32 {
     if depth.abs() < DEEPEST { depth } else { DEEPEST }
 }
 
-/// More than any depth, and finite: the sky's infinite depth less itself is not a number.
+/// Larger than any depth, and finite: subtracting the sky's infinite depth from itself would be NaN.
 const DEEPEST: f32 = 1.0e30;

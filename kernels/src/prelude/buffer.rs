@@ -1,15 +1,15 @@
-//! Arrays that a host fills.
+//! Arrays filled by the host.
 
-/// A read-only list of numbers or vectors, at least one. Bound as a `var<storage, read>` of `array<T>`.
+/// A read-only list of numbers or vectors with at least one element. Bound as a `var<storage, read>` of `array<T>`.
 ///
-/// `T` is `f32`, `i32`, `u32`, or a vector of 2 or 4 of them: elements lie one after the other.
+/// `T` is `f32`, `i32`, `u32`, or a vector of 2 or 4 of them. Elements are tightly packed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Buffer<T> {
     elements: Vec<T>,
 }
 
 impl<T: Copy> Buffer<T> {
-    /// A buffer of its elements. Panics unless there is at least one.
+    /// Creates a buffer from its elements. Panics if there are none.
     pub fn new(elements: Vec<T>) -> Self {
         assert!(!elements.is_empty(), "a buffer needs at least one element");
         Buffer { elements }
@@ -20,7 +20,7 @@ impl<T: Copy> Buffer<T> {
         self.elements.len()
     }
 
-    /// Never: a buffer has at least one element.
+    /// Always `false`: a buffer has at least one element.
     pub fn is_empty(&self) -> bool {
         false
     }
@@ -30,7 +30,7 @@ impl<T: Copy> Buffer<T> {
         &self.elements
     }
 
-    /// The element at `index`, or the last one beyond the end.
+    /// Returns the element at `index`, or the last one if `index` is out of bounds.
     pub fn load(&self, index: usize) -> T {
         self.elements[index.min(self.elements.len() - 1)]
     }

@@ -7,8 +7,8 @@ use glam::{IVec2, UVec2, Vec2, Vec4};
 /// A single-sampled image with one texel for each pixel of the output. Bound as a `texture_2d` of `f32`, `i32`
 /// or `u32`.
 ///
-/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`, or their like of `i32` or `u32`: the components that the kernel uses. Integers are
-/// read texel by texel alone.
+/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`, or the same of `i32` or `u32`: the components that the kernel uses. Images of
+/// integers cannot be filtered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame<T> {
     size: UVec2,
@@ -16,8 +16,8 @@ pub struct Frame<T> {
 }
 
 impl<T: Copy> Frame<T> {
-    /// An image of `size` texels from rows, top row first. Panics unless there is one texel for each pixel
-    /// and at least one of them.
+    /// Creates an image of `size` from its texels, row by row from the top. Panics unless there is one texel for each pixel
+    /// and at least one pixel.
     pub fn new(size: UVec2, texels: Vec<T>) -> Self {
         assert!(size.x > 0 && size.y > 0, "an image needs at least one texel");
         assert_eq!(
@@ -38,8 +38,8 @@ impl<T: Copy> Frame<T> {
         &self.texels
     }
 
-    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside. At four coordinates of a quad, four
-    /// texels.
+    /// Returns the texel at `coord`, or the nearest one on the border if `coord` is outside. For a quad of coordinates,
+    /// returns a quad of texels.
     pub fn load<P: PerLane<IVec2>>(&self, coord: P) -> P::Of<T> {
         coord.each(|coord| self.texel(coord))
     }
@@ -51,27 +51,27 @@ impl<T: Copy> Frame<T> {
 }
 
 impl<T: Filterable> Frame<T> {
-    /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads it.
-    /// A GPU weighs texels in steps of 1/256.
+    /// Samples the image at `uv` with `sampler`. (0, 0) is the upper left corner and (1, 1) the lower right.
+    /// A GPU quantises filter weights to 1/256.
     pub fn sample<P: PerLane<Vec2>>(&self, sampler: &Sampler, uv: P) -> P::Of<T> {
         uv.each(|uv| texture::sample(self.size, sampler, uv, |coord| self.texel(coord)))
     }
 
-    /// Component `component` of the four texels that a linear filter would weigh at `uv`: lower left, lower right,
+    /// Returns component `component` of the four texels that a linear filter would weight at `uv`: lower left, lower right,
     /// upper right, upper left.
     pub fn gather<P: PerLane<Vec2>>(&self, component: usize, sampler: &Sampler, uv: P) -> P::Of<Vec4> {
         uv.each(|uv| texture::gather(self.size, sampler, uv, |coord| self.texel(coord).component(component)))
     }
 }
 
-/// A stack of [`Frame`]s, one for each geometry sample. Bound as a `texture_2d_array<f32>`.
+/// A stack of [`Frame`]s, one layer for each geometry sample. Bound as a `texture_2d_array<f32>`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameLayers<T> {
     layers: Vec<Frame<T>>,
 }
 
 impl<T: Copy> FrameLayers<T> {
-    /// A stack from its layers. Panics unless there is at least one and all have the same size.
+    /// Creates a stack from its layers. Panics unless there is at least one and all have the same size.
     pub fn new(layers: Vec<Frame<T>>) -> Self {
         assert!(
             layers.windows(2).all(|pair| pair[0].size == pair[1].size),
@@ -91,8 +91,8 @@ impl<T: Copy> FrameLayers<T> {
         &self.layers
     }
 
-    /// The texel of `layer` at `coord`, or the nearest one on the border if `coord` lies outside.
-    /// Panics if there is no such layer; a shader's manifest states how many it needs.
+    /// Returns the texel of `layer` at `coord`, or the nearest one on the border if `coord` is outside.
+    /// Panics if there is no such layer. A shader's manifest states how many it needs.
     pub fn load<P: PerLane<IVec2>>(&self, coord: P, layer: usize) -> P::Of<T> {
         self.layers[layer].load(coord)
     }

@@ -1,4 +1,4 @@
-//! Functions that Rust and shaders call by one name and mean differently, with the meaning that shaders have.
+//! Functions whose name has a different meaning in Rust and in shaders. Here they have the shader's meaning.
 
 use glam::{Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul, Sub};
@@ -7,7 +7,7 @@ use std::ops::{Add, Mul, Sub};
 pub trait Floats:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self>
 {
-    /// `f` of each lane.
+    /// Applies `f` to each component.
     fn map(self, f: impl Fn(f32) -> f32) -> Self;
 }
 
@@ -35,17 +35,17 @@ impl Floats for Vec4 {
     }
 }
 
-/// `x - floor(x)`: in 0..1 for negative numbers too, where `f32::fract` truncates.
+/// `x - floor(x)`: in 0..1 for negative numbers as well, whereas `f32::fract` truncates.
 pub fn fract<T: Floats>(x: T) -> T {
     x.map(|x| x - x.floor())
 }
 
-/// The nearest integer, of two the even one, where `f32::round` goes away from zero.
+/// Rounds to the nearest integer, ties to even, whereas `f32::round` rounds ties away from zero.
 pub fn round<T: Floats>(x: T) -> T {
     x.map(f32::round_ties_even)
 }
 
-/// 1, -1, or `x` itself where that is a zero, where `f32::signum` has no 0. Of a NaN, 0.
+/// Returns 1, -1, or `x` itself if it is a zero, whereas `f32::signum` never returns 0. Returns 0 for a NaN.
 pub fn sign<T: Floats>(x: T) -> T {
     x.map(|x| {
         if x > 0.0 {
@@ -60,7 +60,7 @@ pub fn sign<T: Floats>(x: T) -> T {
     })
 }
 
-/// `x` between 0 and 1. Of a NaN, 0, as GPUs have it.
+/// Clamps `x` to 0..1. Returns 0 for a NaN, as GPUs do.
 pub fn saturate<T: Floats>(x: T) -> T {
     x.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 })
 }
@@ -70,7 +70,7 @@ pub fn inverse_sqrt<T: Floats>(x: T) -> T {
     x.map(|x| 1.0 / x.sqrt())
 }
 
-/// `a` at 0, `b` at 1, straight between: `a * (1 - t) + b * t`.
+/// Interpolates linearly from `a` at 0 to `b` at 1: `a * (1 - t) + b * t`.
 pub fn mix<T, S>(a: T, b: T, t: S) -> T
 where
     T: Floats + Mul<S, Output = T>,
@@ -80,12 +80,12 @@ where
     a * (1.0 - t) + b * t
 }
 
-/// 0 where `x` is less than `edge`, else 1.
+/// Returns 0 if `x` is less than `edge`, else 1.
 pub fn step(edge: f32, x: f32) -> f32 {
     if x < edge { 0.0 } else { 1.0 }
 }
 
-/// 0 up to `low`, 1 from `high`, a cubic between: `t * t * (3 - 2 * t)`. Where `low` equals `high`, 0 up to it and 1 beyond.
+/// 0 up to `low`, 1 from `high`, and a cubic between: `t * t * (3 - 2 * t)`. If `low` equals `high`: 0 up to it and 1 above.
 pub fn smoothstep<T: Floats>(low: f32, high: f32, x: T) -> T {
     x.map(|x| {
         let t = saturate((x - low) / (high - low));

@@ -1,15 +1,15 @@
-//! The vocabulary of a kernel.
+//! Vocabulary of a kernel.
 //!
-//! What a kernel may call besides its own functions: glam's vectors and matrices, `f32` and integer mathematics, the
-//! functions of [`maths`] for what Rust and shaders call by one name and mean differently, the textures, samplers and
-//! buffers below, [`Quad`]s and their messages, and [`tally`]. Each means the same natively as in the emitted shader. `options!` declares the choices
-//! that are made when a shader is generated.
+//! Everything a kernel may call besides its own functions: glam's vectors and matrices, `f32` and integer mathematics, the
+//! functions of [`maths`] whose names mean something else in Rust, the textures, samplers and
+//! buffers below, [`Quad`]s and their messages, and [`tally`]. Each means the same natively and in the emitted shader. `options!`
+//! declares the options that are fixed when a shader is generated.
 //!
-//! Two attributes speak to the generator alone; to rustc they are nothing:
+//! Two attributes are for the generator only; rustc ignores them:
 //!
-//! - `#[cfg_attr(false, unroll(full))]`, `unroll(none)` or `unroll(4)` before a `for` decides what becomes of that loop;
-//! - `#[cfg_attr(false, branch)]` or `select` before an `if` decides whether a condition that is a runtime value
-//!   becomes a branch, or computes both sides and selects.
+//! - `#[cfg_attr(false, unroll(full))]`, `unroll(none)` or `unroll(4)` before a `for` sets the unrolling of that loop;
+//! - `#[cfg_attr(false, branch)]` or `select` before an `if` decides if a condition that is a runtime value
+//!   becomes a branch, or if both sides are computed and one is selected.
 
 mod buffer;
 mod frame;
@@ -37,17 +37,17 @@ pub use workgroup::{AtomicShared, PerThread, Shared, SharedAtomics, Thread, Work
 
 pub use crate::options;
 
-/// `default`, as the default of an option that is set at run time unless a setting makes it known: `= uniform(0.5)`.
+/// `default`, as the default of an option set at run time unless a setting turns it into a constant: `= uniform(0.5)`.
 ///
-/// Means something to the generator only as the whole default of a number in `options!`.
+/// Affects the generator only as the entire default of a number in `options!`.
 pub const fn uniform<T: Copy>(default: T) -> T {
     default
 }
 
-/// `value`, a number or a quad of them, counted under `name` in the generator's reports. Does nothing else.
+/// Returns `value`, a number or a quad of them, and counts it under `name` in the generator's reports. No other effect.
 ///
-/// Only what is still computed after partial evaluation is counted: a tallied value that turned out to be
-/// known, unused or shared costs nothing and counts nothing.
+/// Counts only values that are still computed after partial evaluation. A tallied value that turned out to be
+/// constant, unused or shared costs nothing and is not counted.
 pub fn tally<T>(_name: &str, value: T) -> T {
     value
 }

@@ -1,29 +1,29 @@
-//! Arrays and pictures that a kernel writes.
+//! Arrays and pictures written by a kernel.
 
 use glam::{IVec2, UVec2};
 use std::fmt;
 use std::sync::atomic::{AtomicI32, AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What an [`AtomicBuffer`] holds: `u32` or `i32`.
+/// Element type of an [`AtomicBuffer`]: `u32` or `i32`.
 pub trait AtomicElement: Copy + Default {
-    /// Rust's own atomic type of it.
+    /// Rust's atomic type for it.
     type Cell: From<Self> + fmt::Debug + Send + Sync;
-    /// What is there now.
+    /// Returns the current value.
     fn load(cell: &Self::Cell) -> Self;
-    /// Puts something else there, and gives what was there.
+    /// Stores `value` and returns the previous value.
     fn exchange(cell: &Self::Cell, value: Self) -> Self;
-    /// Adds, around the ends of the type, and gives what was there.
+    /// Adds `value`, wrapping on overflow, and returns the previous value.
     fn add(cell: &Self::Cell, value: Self) -> Self;
-    /// Leaves the larger of the two, and gives what was there.
+    /// Stores the larger of the two and returns the previous value.
     fn max(cell: &Self::Cell, value: Self) -> Self;
-    /// Leaves the smaller of the two, and gives what was there.
+    /// Stores the smaller of the two and returns the previous value.
     fn min(cell: &Self::Cell, value: Self) -> Self;
-    /// Leaves the bits of both, and gives what was there.
+    /// Stores the bitwise AND and returns the previous value.
     fn and(cell: &Self::Cell, value: Self) -> Self;
-    /// Leaves the bits of either, and gives what was there.
+    /// Stores the bitwise OR and returns the previous value.
     fn or(cell: &Self::Cell, value: Self) -> Self;
-    /// Leaves the bits of one alone, and gives what was there.
+    /// Stores the bitwise XOR and returns the previous value.
     fn xor(cell: &Self::Cell, value: Self) -> Self;
 }
 
@@ -62,23 +62,23 @@ macro_rules! element {
 element!(u32, AtomicU32);
 element!(i32, AtomicI32);
 
-/// What is done to an element of atomics at once: methods of an index and a value, which give what was there before.
+/// Read-modify-write operations on an element: methods that take an index and a value and return the previous value.
 macro_rules! operations {
     ({ $($of:tt)* } $element:ty) => {
         operations! { { $($of)* } $element;
-            /// Puts `value` there.
+            /// Stores `value`.
             exchange;
-            /// Adds `value`, around the ends of the type.
+            /// Adds `value`, wrapping on overflow.
             add;
-            /// Leaves the larger of what is there and `value`.
+            /// Stores the larger of the element and `value`.
             max;
-            /// Leaves the smaller of what is there and `value`.
+            /// Stores the smaller of the element and `value`.
             min;
-            /// Leaves the bits that both have.
+            /// Stores the bitwise AND of the element and `value`.
             and;
-            /// Leaves the bits that either has.
+            /// Stores the bitwise OR of the element and `value`.
             or;
-            /// Leaves the bits that one alone has.
+            /// Stores the bitwise XOR of the element and `value`.
             xor;
         }
     };
@@ -97,18 +97,18 @@ pub(super) use operations;
 
 operations!({ impl<T: AtomicElement> AtomicBuffer<T> } T);
 
-/// A list of `u32` or `i32`, at least one, that all pixels change together, each change at once. Bound as a
+/// A list of `u32` or `i32` with at least one element that all pixels modify atomically. Bound as a
 /// `var<storage, read_write>` of `array<atomic<T>>`.
 ///
-/// Each method gives what was there before. At an index beyond the end nothing happens, and 0 is given. In which order pixels
-/// come is not said: sums, bits, the largest and the smallest do not depend on it, but what is given before does.
+/// Each method returns the previous value. An index out of bounds has no effect, and 0 is returned. The order of the pixels is
+/// unspecified. Sums, bitwise results, the largest and the smallest do not depend on it; the returned previous value does.
 #[derive(Debug)]
 pub struct AtomicBuffer<T: AtomicElement> {
     elements: Vec<T::Cell>,
 }
 
 impl<T: AtomicElement> AtomicBuffer<T> {
-    /// A buffer of its elements. Panics unless there is at least one.
+    /// Creates a buffer from its elements. Panics if there are none.
     pub fn new(elements: Vec<T>) -> Self {
         assert!(!elements.is_empty(), "a buffer needs at least one element");
         AtomicBuffer {
@@ -121,12 +121,12 @@ impl<T: AtomicElement> AtomicBuffer<T> {
         self.elements.len()
     }
 
-    /// Never: a buffer has at least one element.
+    /// Always `false`: a buffer has at least one element.
     pub fn is_empty(&self) -> bool {
         false
     }
 
-    /// All elements as they are now.
+    /// Current values of all elements.
     pub fn elements(&self) -> Vec<T> {
         self.elements.iter().map(T::load).collect()
     }
@@ -135,24 +135,24 @@ impl<T: AtomicElement> AtomicBuffer<T> {
         self.elements.get(index).map_or_else(T::default, change)
     }
 
-    /// What is at `index` now.
+    /// Returns the current value at `index`.
     pub fn load(&self, index: usize) -> T {
         self.at(index, T::load)
     }
 }
 
-/// A list of numbers or vectors, at least one, that a kernel writes and does not read. Bound as a `var<storage, read_write>` of
-/// `array<T>`.
+/// A list of numbers or vectors with at least one element that a kernel writes and does not read. Bound as a
+/// `var<storage, read_write>` of `array<T>`.
 ///
-/// `T` is `f32`, `i32`, `u32`, or a vector of 2 or 4 of them. What is stored beyond the end is dropped. Of two pixels that
-/// store at one index either may come last.
+/// `T` is `f32`, `i32`, `u32`, or a vector of 2 or 4 of them. Stores out of bounds are dropped. If two pixels store at the
+/// same index, either value may remain.
 #[derive(Debug)]
 pub struct StorageBuffer<T> {
     elements: Mutex<Vec<T>>,
 }
 
 impl<T: Copy> StorageBuffer<T> {
-    /// A buffer of its elements. Panics unless there is at least one.
+    /// Creates a buffer from its elements. Panics if there are none.
     pub fn new(elements: Vec<T>) -> Self {
         assert!(!elements.is_empty(), "a buffer needs at least one element");
         StorageBuffer {
@@ -169,17 +169,17 @@ impl<T: Copy> StorageBuffer<T> {
         self.locked().len()
     }
 
-    /// Never: a buffer has at least one element.
+    /// Always `false`: a buffer has at least one element.
     pub fn is_empty(&self) -> bool {
         false
     }
 
-    /// All elements as they are now.
+    /// Current values of all elements.
     pub fn elements(&self) -> Vec<T> {
         self.locked().clone()
     }
 
-    /// Puts `value` at `index`.
+    /// Stores `value` at `index`.
     pub fn store(&self, index: usize, value: T) {
         if let Some(place) = self.locked().get_mut(index) {
             *place = value;
@@ -187,11 +187,11 @@ impl<T: Copy> StorageBuffer<T> {
     }
 }
 
-/// A picture of the frame's size that a kernel writes at any place and does not read. Bound as a `texture_storage_2d`, beside those
-/// of what the kernel gives for its own pixel.
+/// A picture of the frame's size that a kernel writes at any position and does not read. Bound as a `texture_storage_2d`, next
+/// to those of the kernel's outputs for its own pixel.
 ///
-/// `T` is `f32`, `i32`, `u32`, or a vector of them. What is stored outside of the frame is dropped. Of two pixels that store at one
-/// place either may come last; where none does, the picture stays what it was.
+/// `T` is `f32`, `i32`, `u32`, or a vector of them. Stores outside of the frame are dropped. If two pixels store at the same
+/// position, either value may remain. Texels that no pixel stores keep their value.
 #[derive(Debug)]
 pub struct StorageTexture<T> {
     size: UVec2,
@@ -199,7 +199,7 @@ pub struct StorageTexture<T> {
 }
 
 impl<T: Copy + Default> StorageTexture<T> {
-    /// A picture of zeros.
+    /// Creates a picture of zeros.
     pub fn new(size: UVec2) -> Self {
         StorageTexture {
             size,
@@ -207,17 +207,17 @@ impl<T: Copy + Default> StorageTexture<T> {
         }
     }
 
-    /// Width and height.
+    /// Width and height in texels.
     pub fn size(&self) -> UVec2 {
         self.size
     }
 
-    /// All texels as they are now, row by row.
+    /// Current values of all texels, row by row.
     pub fn texels(&self) -> Vec<T> {
         self.texels.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Puts `texel` at a place.
+    /// Stores `texel` at a position.
     pub fn store(&self, at: IVec2, texel: T) {
         if at.cmpge(IVec2::ZERO).all() && at.as_uvec2().cmplt(self.size).all() {
             let [x, y] = at.as_uvec2().to_array();

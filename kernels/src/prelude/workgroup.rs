@@ -1,41 +1,41 @@
-//! Workgroups: invocations that go through a kernel together and share memory.
+//! Workgroups: invocations that run a kernel together and share memory.
 
 use super::storage::{AtomicElement, operations};
 use glam::{IVec2, UVec2};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Invocations that compute a rectangle of pixels together, `WIDTH` across and `HEIGHT` down, at most 256 of them.
+/// Invocations that compute a rectangle of `WIDTH` by `HEIGHT` pixels together, at most 256 of them.
 ///
-/// A kernel that takes one says what the whole workgroup does. What each of its threads does is a phase, [`Workgroup::each`]: all
-/// threads end a phase before one begins the next. Every pixel of the frame is in one workgroup; at the right and lower border
-/// some threads have pixels outside of the frame, which [`Thread::inside`] tells.
+/// A kernel that takes one describes the whole workgroup. The work of each thread is a phase, [`Workgroup::each`]: all
+/// threads end a phase before the next begins. Every pixel of the frame is in exactly one workgroup. At the right and lower
+/// border some threads have pixels outside of the frame; see [`Thread::inside`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Workgroup<const WIDTH: usize, const HEIGHT: usize> {
     origin: IVec2,
     resolution: UVec2,
 }
 
-/// One of the threads of a [`Workgroup`].
+/// A thread of a [`Workgroup`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thread {
-    /// Where it lies in its workgroup: from (0, 0) to (`WIDTH` - 1, `HEIGHT` - 1).
+    /// Position in the workgroup: from (0, 0) to (`WIDTH` - 1, `HEIGHT` - 1).
     pub local: IVec2,
-    /// Its number in its workgroup, row by row: `local.y * WIDTH + local.x`.
+    /// Index in the workgroup, row by row: `local.y * WIDTH + local.x`.
     pub index: usize,
-    /// Its pixel.
+    /// Pixel of this thread.
     pub pixel: IVec2,
-    /// Whether its pixel is inside the frame. What a phase gives for one outside is dropped, but what it writes is not.
+    /// `true` if `pixel` is inside the frame. The result of a phase outside the frame is dropped, but its writes are not.
     pub inside: bool,
 }
 
-/// A value in each thread of a [`Workgroup`]: what a phase gives. A kernel that gives one gives each pixel its own.
+/// A value for each thread of a [`Workgroup`]: the result of a phase. A kernel that returns one returns each pixel's own value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PerThread<T> {
     values: Vec<T>,
 }
 
 impl<T> PerThread<T> {
-    /// The thread's own value.
+    /// Returns the value of `thread`.
     pub fn of(&self, thread: Thread) -> T
     where
         T: Copy,
@@ -43,7 +43,7 @@ impl<T> PerThread<T> {
         self.values[thread.index]
     }
 
-    /// The values of all threads, row by row.
+    /// Values of all threads, row by row.
     pub fn values(&self) -> &[T] {
         &self.values
     }
@@ -63,14 +63,14 @@ impl<const WIDTH: usize, const HEIGHT: usize> Workgroup<WIDTH, HEIGHT> {
         origins.map(move |(x, y)| Workgroup::new(IVec2::new(x as i32, y as i32), resolution))
     }
 
-    /// The pixel of its first thread.
+    /// Pixel of the first thread.
     pub fn origin(&self) -> IVec2 {
         self.origin
     }
 
-    /// A phase: what each thread does, once all of them have done what comes before. Gives what each of them gives.
+    /// Runs a phase: `f` for each thread, once all of them have completed the previous phase. Returns their results.
     ///
-    /// Threads may come in any order: within a phase none may read or write what another one writes of a [`Shared`].
+    /// The order of threads is unspecified: within a phase no thread may access an element of a [`Shared`] that another writes.
     pub fn each<T>(&self, f: impl Fn(Thread) -> T) -> PerThread<T> {
         let places = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
         let threads = places.map(|(x, y)| {
@@ -89,9 +89,9 @@ impl<const WIDTH: usize, const HEIGHT: usize> Workgroup<WIDTH, HEIGHT> {
     }
 }
 
-/// An array that the threads of a [`Workgroup`] share: `Shared<[Vec4; 256]>`. All elements are 0 where a workgroup begins.
+/// An array shared by the threads of a [`Workgroup`]: `Shared<[Vec4; 256]>`. All elements are 0 when a workgroup begins.
 ///
-/// Elements are `f32`, `i32`, `u32`, or vectors of 2 or 4 of them; what a kernel shares takes 16 KiB at most. It is read and
+/// Elements are `f32`, `i32`, `u32`, or vectors of 2 or 4 of them. A kernel may share at most 16 KiB. The array is read and
 /// written in phases.
 #[derive(Debug)]
 pub struct Shared<A> {
@@ -105,7 +105,7 @@ impl<T: Copy + Default, const N: usize> Default for Shared<[T; N]> {
 }
 
 impl<T: Copy + Default, const N: usize> Shared<[T; N]> {
-    /// An array of zeros, for one workgroup.
+    /// Creates an array of zeros for one workgroup.
     pub fn new() -> Self {
         Shared {
             elements: Mutex::new([T::default(); N]),
@@ -122,12 +122,12 @@ impl<T: Copy + Default, const N: usize> Shared<[T; N]> {
         N
     }
 
-    /// The element at `index`, or the last one beyond the end.
+    /// Returns the element at `index`, or the last one if `index` is out of bounds.
     pub fn load(&self, index: usize) -> T {
         self.locked()[index.min(N - 1)]
     }
 
-    /// Puts `value` at `index`; beyond the end nothing happens.
+    /// Stores `value` at `index`. An index out of bounds has no effect.
     pub fn store(&self, index: usize, value: T) {
         if let Some(place) = self.locked().get_mut(index) {
             *place = value;
@@ -135,25 +135,25 @@ impl<T: Copy + Default, const N: usize> Shared<[T; N]> {
     }
 }
 
-/// An array of `u32` or `i32` that the threads of a [`Workgroup`] change together, each change at once: `AtomicShared<[u32; 256]>`.
-/// All elements are 0 where a workgroup begins.
+/// An array of `u32` or `i32` that the threads of a [`Workgroup`] modify atomically: `AtomicShared<[u32; 256]>`.
+/// All elements are 0 when a workgroup begins.
 ///
-/// Each method gives what was there before. At an index beyond the end nothing happens, and 0 is given. In which order threads
-/// come within a phase is not said.
+/// Each method returns the previous value. An index out of bounds has no effect, and 0 is returned. The order of threads
+/// within a phase is unspecified.
 #[derive(Debug)]
 pub struct AtomicShared<A: SharedAtomics> {
     elements: A::Cells,
 }
 
-/// What an [`AtomicShared`] holds: `[u32; N]` or `[i32; N]`.
+/// Array type of an [`AtomicShared`]: `[u32; N]` or `[i32; N]`.
 pub trait SharedAtomics {
-    /// Its elements' type.
+    /// Element type.
     type Element: AtomicElement;
-    /// As they are kept.
+    /// Storage of the elements.
     type Cells;
-    /// As they are kept, all 0.
+    /// Storage with all elements 0.
     fn zeros() -> Self::Cells;
-    /// A cell, if the index is inside.
+    /// Returns the cell at `index`, or `None` if it is out of bounds.
     fn at(cells: &Self::Cells, index: usize) -> Option<&<Self::Element as AtomicElement>::Cell>;
     /// Number of elements.
     const LEN: usize;
@@ -182,7 +182,7 @@ impl<A: SharedAtomics> Default for AtomicShared<A> {
 operations!({ impl<A: SharedAtomics> AtomicShared<A> } A::Element);
 
 impl<A: SharedAtomics> AtomicShared<A> {
-    /// An array of zeros, for one workgroup.
+    /// Creates an array of zeros for one workgroup.
     pub fn new() -> Self {
         AtomicShared { elements: A::zeros() }
     }
@@ -197,7 +197,7 @@ impl<A: SharedAtomics> AtomicShared<A> {
         A::LEN
     }
 
-    /// What is at `index` now.
+    /// Returns the current value at `index`.
     pub fn load(&self, index: usize) -> A::Element {
         self.at(index, A::Element::load)
     }

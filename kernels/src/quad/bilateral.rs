@@ -1,44 +1,44 @@
-//! A bilateral blur at full resolution, its reads shared over the quad (§2.7).
+//! A bilateral blur at full resolution, with reads shared over the quad (§2.7).
 
 use super::guards::Guards;
 use super::surface::{bounded, is_bright_color, no_surface};
 use crate::prelude::*;
 
 options! {
-    /// How an image is blurred.
+    /// Options of the bilateral blur.
     pub struct QuadBilateral {
-        /// Pixels on each side that count.
+        /// Radius in pixels.
         pub radius: i32 [1..=6] = 2,
-        /// Who reads them.
+        /// Distribution of the reads.
         pub sharing: Sharing = Sharing::Quad,
         /// Distance on the screen, in pixels, at which a weight has fallen to exp(-1/2).
         pub sigma: f32 [0.1..=100.0] = 2.0,
-        /// Difference of depths, in their unit, at which a weight has fallen to exp(-1/2).
+        /// Difference in depth, in the unit of depth, at which a weight has fallen to exp(-1/2).
         pub depth_sigma: f32 [1.0e-6..=1.0e6] = 0.1,
-        /// Tests of colours and depths that are not finite.
+        /// Tests for colours and depths that are not finite.
         pub guards: Guards = Guards::Inline,
     }
 }
 
-/// Who reads the pixels around.
+/// Distribution of the reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// Each lane a quarter of those around the quad.
+    /// Shared: each lane reads a quarter of the pixels around the quad.
     Quad,
-    /// Each pixel its own.
+    /// Not shared: each pixel reads its own neighbours.
     Alone,
 }
 
-/// Colours of a quad, each the mean of the (2k+1)² pixels around it, weighted by how near they are on the screen and in
-/// depth. The fourth component of `image` is the depth; so is that of the result.
+/// Colours of a quad, each the mean of the (2k+1)² pixels around it, weighted by nearness on the screen and in
+/// depth. The fourth component of `image` is the depth, and so is that of the result.
 ///
-/// Each lane reads (k+1)² pixels, outwards from the quad's centre, and passes each of them on as it is: weights depend on
-/// who asks.
+/// Each lane reads (k+1)² pixels, outwards from the quad's centre, and passes each of them on unweighted: weights depend on
+/// the receiving lane.
 ///
-/// The result is finite whatever the image holds. A pixel with a colour that is not finite, or of 1.5e38 and more, is black and of no
-/// surface: no other takes it. A depth that is not a number, or of 1e30 and more, counts and comes out as 1e30. Where the sum over bright
-/// colours is too large a pixel keeps its own. `guards=none` leaves these tests out, as a promise that colours are finite and below 1e36, and
-/// depths finite and below 1e18.
+/// The result is finite for every image. A pixel with a colour that is not finite, or is 1.5e38 or more, is black and belongs to
+/// no surface: no other pixel uses it. A depth that is NaN, or is 1e30 or more, counts as 1e30 and is returned as such. A pixel
+/// keeps its own colour where the sum over bright colours is too large. `guards=none` omits these tests; it is a promise that
+/// colours are finite and below 1e36, and depths finite and below 1e18.
 pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let outwards = quad_vector().as_ivec2();
     let own = image.load(pixel);
@@ -51,7 +51,7 @@ pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec
                     let tap = surface(cfg, image.load(pixel + outwards * ivec2(i, j)));
                     let taps = tap.gather();
                     for k in 0..4 {
-                        // Seen from the other lane it lies one pixel farther out.
+                        // For the other lane this pixel lies one pixel farther out.
                         let (x, y) = (i + k as i32 % 2, j + k as i32 / 2);
                         if x <= cfg.radius && y <= cfg.radius {
                             sum += weighed(cfg, taps[k], centre, x * x + y * y);
@@ -78,7 +78,7 @@ pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec
     }
 }
 
-/// A pixel as it counts: one whose colour is not finite is black, and of no surface that any other lies on.
+/// A pixel with its guards applied: a colour that is not finite becomes black, with a depth that no other surface has.
 fn surface(cfg: &QuadBilateral, seen: Quad<Vec4>) -> Quad<Vec4> {
     match cfg.guards {
         Guards::Inline => {
@@ -89,11 +89,11 @@ fn surface(cfg: &QuadBilateral, seen: Quad<Vec4>) -> Quad<Vec4> {
     }
 }
 
-/// What a pixel adds: its difference from the centre, and 1, times its weight. Of pixels all alike nothing is left
-/// but the centre.
+/// Contribution of a pixel: its difference from the centre, and 1, times its weight. For equal pixels only the centre
+/// remains.
 fn weighed(cfg: &QuadBilateral, tap: Quad<Vec4>, centre: Quad<Vec4>, squared: i32) -> Quad<Vec4> {
     if squared == 0 {
-        // The centre itself.
+        // The centre pixel.
         return Quad::splat(Vec4::W);
     }
     let z = (tap.w() - centre.w()) / cfg.depth_sigma;
@@ -102,5 +102,5 @@ fn weighed(cfg: &QuadBilateral, tap: Quad<Vec4>, centre: Quad<Vec4>, squared: i3
     (tap.truncate() - centre.truncate()).extend(1.0) * weight
 }
 
-/// exp(-x / 2) is exp2(x times this).
+/// Factor such that exp(-x / 2) is exp2(x * factor).
 const HALF_LOG2_E: f32 = -0.5 * std::f32::consts::LOG2_E;

@@ -5,65 +5,65 @@ use super::surface::BRIGHTEST;
 use crate::prelude::*;
 
 options! {
-    /// What an image is convolved with.
+    /// Options of the convolution.
     pub struct QuadConvolution {
-        /// Pixels on each side that count: 1 for 3×3, 2 for 5×5, 3 for 7×7.
+        /// Radius in pixels: 1 for 3×3, 2 for 5×5, 3 for 7×7.
         pub radius: i32 [1..=8] = 1,
-        /// Who reads them.
+        /// Distribution of the reads.
         pub sharing: Sharing = Sharing::Quad,
-        /// What a read gives; bilinear taps are of `quad` and odd radii alone.
+        /// Pixels per read. Bilinear taps need `sharing=quad` and an odd radius.
         pub taps: Taps = Taps::Pixels,
-        /// How the pixels around are weighed.
+        /// Weights of the pixels around.
         pub weights: Weights = Weights::Box,
-        /// Weights of 7×7 pixels, row by row, for `given`; with a smaller radius those around the centre. They are taken as
-        /// they are: give weights that sum to 1 for an image that keeps its brightness.
+        /// Weights of 7×7 pixels, row by row, for `weights=given`. A smaller radius uses those around the centre. They are not
+        /// normalised: use weights that sum to 1 to preserve the image's brightness.
         pub given: [f32; 49] = [0.0; 49],
-        /// Tests of pixels that are not finite.
+        /// Tests for pixels that are not finite.
         pub guards: Guards = Guards::Inline,
     }
 }
 
-/// Who reads the pixels around.
+/// Distribution of the reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// Each lane a quarter of those around the quad.
+    /// Shared: each lane reads a quarter of the pixels around the quad.
     Quad,
-    /// Each pixel its own.
+    /// Not shared: each pixel reads its own neighbours.
     Alone,
 }
 
-/// What a read gives.
+/// Pixels per read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Taps {
-    /// A pixel.
+    /// A single pixel.
     Pixels,
-    /// 2×2 pixels, placed so that the sampler's filter weighs them: a quarter of the reads. The quad's (2k+2)² pixels are
-    /// weighed around its middle, and its pixels told apart by the slope of the plane that fits the taps best (§2.9): an
-    /// approximation.
+    /// 2×2 pixels, placed so that the sampler's filter weights them: a quarter of the reads. The quad's (2k+2)² pixels are
+    /// weighted around its middle, and its four results differ by the slope of the plane that fits the taps best (§2.9). This
+    /// is an approximation.
     Bilinear,
 }
 
-/// How the pixels around are weighed.
+/// Weights of the pixels around.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weights {
-    /// All alike, to the sum of 1.
+    /// All equal, with a sum of 1.
     Box,
-    /// By the row of Pascal's triangle, which nears a Gaussian, to the sum of 1.
+    /// A row of Pascal's triangle, which approximates a Gaussian, with a sum of 1.
     Binomial,
-    /// As the option `given` says, which has a radius of 3 at most.
+    /// The weights of the option `given`, for a radius of 3 at most.
     Given,
 }
 
 /// Colours of a quad, each convolved with the (2k+1)² pixels around it.
 ///
-/// Each lane reads (k+1)² pixels, outwards from the quad's centre, and sums them up four times: for itself, and for the
-/// three others with the weights that they give these pixels. The chapter's 3×3 blur weighs such messages once more by
-/// 4, 2, 2 and 1; they are sums already. Reads beyond the border give the border's pixels. `image_sampler` must filter
-/// linearly and clamp; bilinear taps alone use it.
+/// Each lane reads (k+1)² pixels, outwards from the quad's centre, and sums them four times: for itself, and for the
+/// three other lanes with the weights that these lanes use. The chapter's 3×3 blur multiplies such messages again by
+/// 4, 2, 2 and 1, but they are already sums. Reads beyond the border return the border's pixels. `image_sampler` must filter
+/// linearly and clamp; only bilinear taps use it.
 ///
-/// The result is finite whatever the image holds: a pixel of which a component is not finite, or so large that the sum could be infinite,
-/// counts as 0 in all components, for every pixel around it and for itself; of bilinear taps the 2×2 pixels together. `guards=none` leaves
-/// the test out, as a promise that the image is finite and below 1e37.
+/// The result is finite for every image. A pixel with a component that is not finite, or so large that the sum could be infinite,
+/// counts as 0 in all components, for itself and for every pixel around it; with bilinear taps, so do the 2×2 pixels together.
+/// `guards=none` omits the test; it is a promise that the image is finite and below 1e37.
 pub fn quad_convolution(
     cfg: &QuadConvolution,
     image: &Frame<Vec4>,
@@ -102,7 +102,7 @@ pub fn quad_convolution(
     }
 }
 
-/// A pixel as it counts: black and transparent if a component is not finite, or too large for the sum of all.
+/// A pixel with its guards applied: zero in all components if one is not finite, or is too large for the sum.
 fn counted(cfg: &QuadConvolution, seen: Quad<Vec4>) -> Quad<Vec4> {
     match cfg.guards {
         Guards::Inline => {
@@ -115,7 +115,7 @@ fn counted(cfg: &QuadConvolution, seen: Quad<Vec4>) -> Quad<Vec4> {
     }
 }
 
-/// Bound of the sum of all weights' sizes, at least 1.
+/// Upper bound on the sum of the absolute weights, at least 1.
 fn heaviest(cfg: &QuadConvolution) -> f32 {
     let mut sum = 0.0;
     match (cfg.weights, cfg.taps) {
@@ -124,14 +124,14 @@ fn heaviest(cfg: &QuadConvolution) -> f32 {
                 sum += weight.abs();
             }
         }
-        // The plane's slope adds to the weights of taps on one side what it takes from those on the other.
+        // The plane's slope adds to the weights of taps on one side as much as it subtracts on the other.
         (_, Taps::Bilinear) => sum = 4.0,
         _ => {}
     }
     sum.max(1.0)
 }
 
-/// Whether a weight is not 0.
+/// Returns whether any weight is not 0.
 fn any(weights: [f32; 49]) -> bool {
     for weight in weights {
         if weight != 0.0 {
@@ -141,7 +141,7 @@ fn any(weights: [f32; 49]) -> bool {
     false
 }
 
-/// What each lane found for itself, and for the others.
+/// Partial sums of each lane, for itself and for the other lanes.
 struct Sums {
     own: Quad<Vec4>,
     beside: Quad<Vec4>,
@@ -160,8 +160,8 @@ impl Sums {
         }
     }
 
-    /// Horizontal and vertical messages apart (§2.8): what is for the lane across goes beside first, and from there down
-    /// in one message with what is for the lane below.
+    /// Sends horizontal and vertical messages separately (§2.8). The sum for the diagonal lane is first sent sideways, and from
+    /// there down, in one message with the sum for the lane below.
     fn exchanged(self) -> Quad<Vec4> {
         let down = self.below + self.across.swap_horizontal();
         self.own + self.beside.swap_horizontal() + down.swap_vertical()
@@ -175,7 +175,7 @@ fn shared(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Qua
         for i in 0..=cfg.radius {
             let tap = counted(cfg, image.load(pixel + outwards * ivec2(i, j)));
             sums.own += tap * weight(cfg, i, j);
-            // Seen from the other lane it lies one pixel farther out.
+            // For the other lane this pixel lies one pixel farther out.
             if i < cfg.radius {
                 sums.beside += tap * weight(cfg, i + 1, j);
             }
@@ -190,8 +190,8 @@ fn shared(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Qua
     sums.exchanged()
 }
 
-/// Each lane takes its quarter of the taps, and sums them up for each lane with the weight that the plane through all
-/// taps, at that lane's place, gives them.
+/// Each lane takes its quarter of the taps and sums them for every lane. The weight of a tap is that of the plane through all
+/// taps, evaluated at that lane's position.
 fn fitted(cfg: &QuadConvolution, image: &Frame<Vec4>, image_sampler: &Sampler, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let own = pixel.as_vec2() + 0.5;
     let size = image.size().as_vec2();
@@ -204,7 +204,7 @@ fn fitted(cfg: &QuadConvolution, image: &Frame<Vec4>, image_sampler: &Sampler, p
     for j in 0..=cfg.radius / 2 {
         for i in 0..=cfg.radius / 2 {
             let ((x, weight_x), (y, weight_y)) = (pair(cfg, i), pair(cfg, j));
-            // The lane lies half a pixel from the middle.
+            // The lane lies half a pixel from the quad's middle.
             let outwards = quad_vector() * (vec2(x, y) - 0.5);
             let seen = counted(cfg, image.sample(image_sampler, (own + outwards) / size));
             let tap = seen * (weight_x * weight_y);
@@ -218,15 +218,15 @@ fn fitted(cfg: &QuadConvolution, image: &Frame<Vec4>, image_sampler: &Sampler, p
     sums.exchanged()
 }
 
-/// Of two neighbouring columns, or rows, of pixels, the `k`th outwards: where the sampler weighs them as the filter does,
-/// from the middle of the quad, and the sum of their weights.
+/// Position and weight of the `k`th pair of adjacent columns, or rows, outwards from the quad's middle. The sampler weights
+/// the pair at that position as the filter does; the weight is the sum of both.
 fn pair(cfg: &QuadConvolution, k: i32) -> (f32, f32) {
     let (near, far) = (outwards(cfg, 2 * k), outwards(cfg, 2 * k + 1));
     let weight = near + far;
     (2.0 * k as f32 + 0.5 + far / weight, weight)
 }
 
-/// Weight of a column, or row, of pixels, the `k`th outwards from the middle of the quad.
+/// Weight of the `k`th column, or row, of pixels outwards from the middle of the quad.
 fn outwards(cfg: &QuadConvolution, k: i32) -> f32 {
     let n = 2 * cfg.radius + 1;
     match cfg.weights {
@@ -235,7 +235,7 @@ fn outwards(cfg: &QuadConvolution, k: i32) -> f32 {
     }
 }
 
-/// Weight of the pixel that lies `i` and `j` outwards, of each lane.
+/// Weight of the pixel that lies `i` and `j` outwards, for each lane.
 fn weight(cfg: &QuadConvolution, i: i32, j: i32) -> Quad<f32> {
     Quad::new([
         weight_at(cfg, -i, -j),
@@ -257,7 +257,7 @@ fn weight_at(cfg: &QuadConvolution, x: i32, y: i32) -> f32 {
     }
 }
 
-/// Number `k` of row `n` of Pascal's triangle, over the row's sum.
+/// Number `k` of row `n` of Pascal's triangle, divided by the row's sum.
 fn pascal(n: i32, k: i32) -> f32 {
     let mut share = 1.0;
     for step in 0..n {

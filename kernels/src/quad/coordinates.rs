@@ -1,25 +1,25 @@
-//! Coordinates in a shadow map, as filters of quads take them.
+//! Coordinates in a shadow map, with the guards of quad filters.
 
 use crate::prelude::*;
 
-/// Bound of coordinates that count as numbers.
+/// Coordinates of this size and above are treated as non-finite.
 const FARTHEST: f32 = 1.0e20;
 
-/// Share that a lane which does not count has in a quad's mean, 2⁻¹⁰⁰: nothing beside 1, and as good as 1 among its like.
+/// Weight of an excluded lane in a quad's mean, 2⁻¹⁰⁰: negligible beside 1, but the mean of excluded lanes is still defined.
 const NO_SHARE: f32 = 7.888_609e-31;
 
-/// Coordinates of each lane, and its share in what the quad does together.
+/// Guarded coordinates of each lane, and its weight in the quad's mean.
 pub(super) struct Counted {
-    /// Finite, and at most the filter's reach away from the map: no texel of the filter differs.
+    /// Finite, and clamped to the filter's reach around the map. Clamping changes no texel of the filter.
     pub(super) coord: Quad<Vec3>,
-    /// 1, or hardly more than 0.
+    /// 1, or [`NO_SHARE`] for an excluded lane.
     share: Quad<f32>,
 }
 
-/// Coordinates as they count, of a filter that reaches `reach` texels from its place.
+/// Guards the coordinates of a filter that reaches `reach` texels from its position.
 ///
-/// Coordinates of which one is not a number, or 1e20 and more, are 0. Those from which the filter reads the map's border alone are moved to
-/// where it still does. Neither moves the quad's mean place, unless no lane has better ones.
+/// All three coordinates become 0 if one is NaN, or is 1e20 or more. Those for which the filter reads only the map's border
+/// are clamped to where it still does. Neither moves the quad's mean position, unless no lane has better coordinates.
 pub(super) fn counted(shadow: &DepthTexture, coord: Quad<Vec3>, reach: f32) -> Counted {
     let numbers = coord.x().abs().lt(FARTHEST) & coord.y().abs().lt(FARTHEST) & coord.z().abs().lt(FARTHEST);
     let finite = numbers.select(coord, Quad::splat(Vec3::ZERO));
@@ -32,7 +32,7 @@ pub(super) fn counted(shadow: &DepthTexture, coord: Quad<Vec3>, reach: f32) -> C
     }
 }
 
-/// Mean coordinates of the lanes that count, the same in every lane; of all lanes if none counts.
+/// Mean coordinates of the lanes that are not excluded, the same in every lane; of all lanes if all are excluded.
 pub(super) fn mean(counted: &Counted) -> Quad<Vec3> {
     let sums = (counted.coord * counted.share).extend(counted.share).sum();
     sums.truncate() / sums.w()

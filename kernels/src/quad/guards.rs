@@ -1,10 +1,10 @@
-//! The promise by which filters of quads leave out their tests of inputs.
+//! Input tests of quad filters, and the promise that replaces them.
 
-/// Tests of inputs that are no numbers, infinite, or too large.
+/// Tests for inputs that are NaN, infinite, or too large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guards {
-    /// Inputs are tested: the result is finite whatever comes, and a lane with a bad input spoils no other.
+    /// Inputs are tested. The result is always finite, and a lane with a bad input does not affect the others.
     Inline,
-    /// No tests: a promise that inputs are finite and in the ranges that the filter's description states.
+    /// No tests. This is a promise that inputs are finite and in the ranges that the filter's description states.
     None,
 }

@@ -1,10 +1,10 @@
-//! Filters whose work the four pixels of a quad share, after E. Penner, "Shader Amortization using Pixel Quad Message
-//! Passing" (GPU Pro 2, 2011), with its slips mended; the notes on each say which.
+//! Filters that share their work over the four pixels of a quad, based on E. Penner, "Shader Amortization using Pixel Quad
+//! Message Passing" (GPU Pro 2, 2011), with its errors corrected. The documentation of each filter lists the corrections.
 //!
-//! Each takes `pixel: Quad<IVec2>` and gives the colours of the four pixels. What each lane reads, and what it tells the
-//! others, is the filter's own affair: see the notes.
+//! Each takes `pixel: Quad<IVec2>` and returns the colours of the four pixels. The reads of each lane and the messages between
+//! lanes depend on the filter; see its documentation.
 //!
-//! Each gives finite colours whatever it reads, and a lane with a bad input spoils no other; [`guards::Guards`] takes the tests out.
+//! Each returns finite colours for every input. A bad input in one lane affects no other. [`guards::Guards`] omits the tests.
 
 pub mod bilateral;
 pub mod convolution;

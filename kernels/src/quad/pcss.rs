@@ -1,4 +1,4 @@
-//! Shadows that are sharp where they begin: percentage-closer soft shadows, both of their searches split over the quad
+//! Shadows that are sharp at the contact: percentage-closer soft shadows, with both searches shared over the quad
 //! (the chapter's §2.10 names contact hardening).
 
 use super::coordinates::{counted, mean};
@@ -6,44 +6,44 @@ use super::guards::Guards;
 use crate::prelude::*;
 
 options! {
-    /// How a contact-hardening shadow is found.
+    /// Options of the contact-hardening shadow.
     pub struct Pcss {
-        /// Whose reads count.
+        /// Distribution of the reads.
         pub sharing: SearchSharing = SearchSharing::Quad,
-        /// Width in texels in which blockers are looked for.
+        /// Width of the blocker search, in texels.
         pub search: f32 [1.0..=256.0] = 16.0,
-        /// Width in texels of the penumbra for a difference of depths of 1: how large the light is.
+        /// Width of the penumbra, in texels, for a difference in depth of 1: the size of the light.
         pub light: f32 [0.0..=1.0e6] = 400.0,
-        /// The narrowest and the widest penumbra, in texels.
+        /// Narrowest penumbra, in texels.
         pub narrowest: f32 [0.5..=64.0] = 2.0,
-        /// The widest penumbra, in texels.
+        /// Widest penumbra, in texels.
         pub widest: f32 [1.0..=256.0] = 24.0,
-        /// Tests of coordinates that are not finite or far from the map.
+        /// Tests for coordinates that are not finite or far from the map.
         pub guards: Guards = Guards::Inline,
     }
 }
 
-/// Whose reads count.
+/// Distribution of the reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchSharing {
-    /// Each lane reads four depths and takes four comparisons around the quad's mean place.
+    /// Shared: each lane reads four depths and takes four comparisons around the quad's mean position.
     Quad,
-    /// Each pixel reads sixteen of each around its own.
+    /// Not shared: each pixel reads sixteen depths and takes sixteen comparisons around its own position.
     Alone,
 }
 
-/// How much light comes to each pixel of a quad, 0 to 1, in every component.
+/// Light on each pixel of a quad, 0 to 1, in every component.
 ///
 /// Of sixteen depths in the search's width, those nearer to the light than the pixel are its blockers. Their mean distance
-/// gives the penumbra, in which sixteen comparisons are taken. `coord` is interpolated: a place in the shadow map, 0 to 1,
-/// and the depth to compare; depths are linear, as of a distant light.
+/// determines the penumbra, in which sixteen comparisons are taken. `coord` is interpolated: a position in the shadow map, 0 to
+/// 1, and the depth to compare. Depths are linear, as for a directional light.
 ///
-/// The light is a number from 0 to 1 whatever `coord` is. A lane whose coordinates are not finite, or so far from the map that both searches
-/// read its border alone, does not move the quad's mean place. By itself it counts as a place beside the map, and as the map's first corner
-/// with a depth of 0 if its coordinates are not finite. `guards=none` leaves these tests out, as a promise that coordinates are finite and
-/// at most a map's width away from the map.
+/// The light is a number from 0 to 1 for every `coord`. A lane whose coordinates are not finite, or so far from the map that
+/// both searches read only its border, does not move the quad's mean position. Its own result is that of a position beside the
+/// map, or of the map's first corner at depth 0 if its coordinates are not finite. `guards=none` omits these tests; it is a
+/// promise that coordinates are finite and at most a map's width away from the map.
 pub fn pcss(cfg: &Pcss, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
-    // Taps lie at three eighths of a width.
+    // Taps lie at up to three eighths of a width.
     let seen = counted(shadow, coord, 0.375 * cfg.search.max(cfg.widest) + 2.0);
     let (coord, centre) = match cfg.guards {
         Guards::Inline => (seen.coord, mean(&seen)),
@@ -78,7 +78,7 @@ pub fn pcss(cfg: &Pcss, shadow: &DepthTexture, shadow_sampler: &ComparisonSample
     Vec4::ONE * lit
 }
 
-/// What a lane's tap `k` lies away from where one alone would.
+/// Offset of a lane's tap `k` from that of a lane with only one tap.
 fn away(k: usize) -> Vec2 {
     vec2(4.0 * (k % 2) as f32 - 2.0, 4.0 * (k / 2) as f32 - 2.0)
 }
@@ -88,7 +88,7 @@ fn grid(k: usize) -> Vec2 {
     vec2(2.0 * (k % 4) as f32 - 3.0, 2.0 * (k / 4) as f32 - 3.0)
 }
 
-/// Depth of a blocker and 1, or nothing and 0.
+/// A blocker's depth and 1, or zeros if the texel is no blocker.
 fn blocker(cfg: &Pcss, shadow: &DepthTexture, coord: Quad<Vec3>, at: Quad<Vec2>) -> Quad<Vec2> {
     let place = coord.truncate() * shadow.size().as_vec2() + at * (cfg.search / 8.0);
     let depth = shadow.load(place.floor().as_ivec2());
@@ -96,14 +96,14 @@ fn blocker(cfg: &Pcss, shadow: &DepthTexture, coord: Quad<Vec3>, at: Quad<Vec2>)
     blocks.select(Quad::from_xy(depth, 1.0), Quad::splat(Vec2::ZERO))
 }
 
-/// Width of the penumbra in texels, of blockers' summed depths and their number.
+/// Width of the penumbra in texels, from the blockers' summed depths and their number.
 fn penumbra(cfg: &Pcss, found: Quad<Vec2>, depth: Quad<f32>) -> Quad<f32> {
     let distance = depth - found.x() / found.y().max(1.0);
     let width = distance * cfg.light;
-    // A distance of what is infinitely near may be no number: a comparison decides.
+    // The distance of an infinitely near blocker may be NaN. The comparison is false for a NaN.
     let width = width.lt(cfg.widest).select(width, Quad::splat(cfg.widest));
     let width = width.max(cfg.narrowest);
-    // Without a blocker all is light, whatever the width.
+    // Without a blocker everything is lit, whatever the width.
     found.y().gt(0.5).select(width, Quad::splat(cfg.narrowest))
 }
 

@@ -1,57 +1,57 @@
-//! Screen-space ambient occlusion, its taps split over the quad (the chapter's §2.10 names it).
+//! Screen-space ambient occlusion, with taps shared over the quad (the chapter's §2.10 names it).
 
 use super::guards::Guards;
 use super::surface::{DEEPEST, NEAREST};
 use crate::prelude::*;
 
 options! {
-    /// How occlusion is estimated.
+    /// Options of the occlusion.
     pub struct QuadSsao {
-        /// Taps that each lane takes; a pixel is judged by four times as many.
+        /// Taps of each lane; a pixel is estimated from four times as many.
         pub taps: i32 [1..=16] = 4,
-        /// Whose taps count.
+        /// Distribution of the taps.
         pub sharing: Sharing = Sharing::Quad,
-        /// How far away what occludes may be, in the unit of depth.
+        /// Distance within which surfaces occlude, in the unit of depth.
         pub radius: f32 [1.0e-3..=1.0e4] = 0.5,
-        /// Cosine to the normal below which nothing occludes: hides the steps of depth.
+        /// Cosine to the normal below which nothing occludes. Hides the quantisation of depth.
         pub bias: f32 [0.0..=1.0] = 0.05,
-        /// How much darker than measured.
+        /// Factor on the occlusion.
         pub strength: f32 [0.0..=10.0] = 2.0,
         /// Width of a pixel at depth 1.
         pub pixel_angle: f32 [1.0e-6..=1.0] = 0.005,
-        /// Difference of depths, over the radius, at which another lane's taps count for exp(-1/2).
+        /// Difference in depth, relative to the radius, at which the weight of another lane's taps has fallen to exp(-1/2).
         pub depth_sigma: f32 [1.0e-3..=1.0e3] = 0.2,
-        /// Tests of depths and normals that are not finite.
+        /// Tests for depths and normals that are not finite.
         pub guards: Guards = Guards::Inline,
     }
 }
 
-/// Whose taps count.
+/// Distribution of the taps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// Those of all lanes whose surface is near.
+    /// Shared: those of all lanes with a nearby surface.
     Quad,
-    /// Each pixel's own alone: all of them.
+    /// Not shared: each pixel takes all taps itself.
     Alone,
 }
 
-/// The longest way of a tap on the screen, in pixels: keeps reads near each other.
+/// Longest distance of a tap on the screen, in pixels. Keeps reads close together.
 const LONGEST: f32 = 48.0;
 
-/// Angle from tap to tap: the golden one, which spreads any number of them.
+/// Angle between consecutive taps: the golden angle, which spreads any number of them evenly.
 const TURN: f32 = 2.399_963_2;
 
-/// How much light comes to each pixel of a quad from around, 0 to 1, in every component.
+/// Ambient light on each pixel of a quad, 0 to 1, in every component.
 ///
-/// Tap `k` of all lies on a spiral around the pixel; lane `l` takes those with `k % 4 == l`. What a lane finds is told to
-/// the others, which take it at the weight of a Gaussian of their distance in depth: nothing goes from one surface to another.
+/// Tap `k` of all lies on a spiral around the pixel; lane `l` takes those with `k % 4 == l`. A lane sends its result to
+/// the others, which weight it by a Gaussian of the difference in depth: nothing crosses from one surface to another.
 ///
-/// `depth` is along the view; `normal` is of unit length in the view's frame: x right, y down, z away.
+/// `depth` is along the view. `normal` is of unit length in the view's frame: x right, y down, z away.
 ///
-/// The light is a number from 0 to 1 whatever the inputs are. A depth that is not above 1e-30 and below 1e30, the infinite one of a sky among
-/// them, is of no surface: nothing occludes that pixel, nor does it occlude others. Taps that are not finite occlude nothing, and a pixel
-/// whose normal is not finite is not occluded; both count as such for the quad's other lanes. A lane tells at most 1. `guards=none` leaves
-/// these tests out, as a promise that depths and normals are finite and depths positive.
+/// The light is a number from 0 to 1 for every input. A depth that is not above 1e-30 and below 1e30, such as the infinite depth
+/// of a sky, is no surface: it neither occludes nor is occluded. Taps that are not finite do not occlude, and a pixel whose
+/// normal is not finite is not occluded; the quad's other lanes treat them alike. A lane sends at most 1. `guards=none` omits
+/// these tests; it is a promise that depths and normals are finite and depths positive.
 pub fn quad_ssao(
     cfg: &QuadSsao,
     depth: &Frame<f32>,
@@ -61,7 +61,7 @@ pub fn quad_ssao(
 ) -> Quad<Vec4> {
     let seen = depth.load(pixel);
     let is_surface = seen.gt(NEAREST) & seen.lt(DEEPEST);
-    // What is no surface lies far away, and tells a depth of 0, which no transport rounds.
+    // A pixel without a surface is far away, and sends a depth of 0, which no transport rounds.
     let (z, told) = match cfg.guards {
         Guards::Inline => (
             is_surface.select(seen, Quad::splat(DEEPEST)),
@@ -110,7 +110,7 @@ pub fn quad_ssao(
     Vec4::ONE * saturate(1.0 - occluded * cfg.strength)
 }
 
-/// Weight of another lane's occlusion, of the smaller depth and of the distance in units of its sigma.
+/// Weight of another lane's occlusion. `smaller` is the smaller of both depths; `away` is their difference in sigmas.
 fn near(cfg: &QuadSsao, smaller: Quad<f32>, away: Quad<f32>) -> Quad<f32> {
     let weight = (away * away * (-0.5 * std::f32::consts::LOG2_E)).exp2();
     match cfg.guards {
@@ -119,26 +119,26 @@ fn near(cfg: &QuadSsao, smaller: Quad<f32>, away: Quad<f32>) -> Quad<f32> {
     }
 }
 
-/// Occlusion that is told, from 0 to 1.
+/// Occlusion to send, from 0 to 1.
 fn share(cfg: &QuadSsao, occluded: Quad<f32>) -> Quad<f32> {
     match cfg.guards {
-        // Of a normal that is no number nothing is told.
+        // A NaN normal sends 0.
         Guards::Inline => occluded.gt(0.0).select(occluded.min(1.0), Quad::splat(0.0)),
         Guards::None => occluded,
     }
 }
 
-/// What a pixel's taps start from.
+/// Starting point of a pixel's taps.
 struct Place {
     pixel: Quad<IVec2>,
     middle: Vec2,
     from: Quad<Vec3>,
     normal: Quad<Vec3>,
-    /// The radius on the screen, in pixels.
+    /// Radius on the screen, in pixels.
     reach: Quad<f32>,
 }
 
-/// Where in the view a pixel lies at a depth.
+/// Position of a pixel in view space at depth `z`.
 fn position(cfg: &QuadSsao, pixel: Quad<IVec2>, middle: Vec2, z: Quad<f32>) -> Quad<Vec3> {
     ((pixel.as_vec2() + 0.5 - middle) * (z * cfg.pixel_angle)).extend(z)
 }
@@ -150,7 +150,7 @@ fn spiral(cfg: &QuadSsao, k: i32) -> [f32; 2] {
     [distance * angle.cos(), distance * angle.sin()]
 }
 
-/// How much the surface at the end of a way hides, 0 to 1.
+/// Occlusion by the surface at the end of `way`, 0 to 1.
 fn occlusion(cfg: &QuadSsao, depth: &Frame<f32>, place: &Place, way: Quad<Vec2>) -> Quad<f32> {
     let tap = place.pixel + (way * place.reach + 0.5).floor().as_ivec2();
     let to = position(cfg, tap, place.middle, depth.load(tap)) - place.from;
@@ -159,7 +159,7 @@ fn occlusion(cfg: &QuadSsao, depth: &Frame<f32>, place: &Place, way: Quad<Vec2>)
     let near = 1.0 - squared / (cfg.radius * cfg.radius);
     let facing = cosine - cfg.bias;
     match cfg.guards {
-        // Of an infinite way and of a normal that is no number nothing is known: both comparisons fail.
+        // Both comparisons are false for an infinite way and for a NaN normal, so that nothing occludes.
         Guards::Inline => {
             let occludes = squared.lt(cfg.radius * cfg.radius) & facing.gt(0.0);
             occludes.select(facing * near, Quad::splat(0.0))

@@ -1,31 +1,31 @@
-//! Cross-bilateral upsampling with one or two reads a pixel (§2.7), and the pass that makes what it reads.
+//! Cross-bilateral upsampling with one or two reads a pixel (§2.7), and the pass that creates its input.
 
 use super::surface::{DEEPEST, bounded, is_bright, is_bright_color, no_surface};
 use crate::prelude::*;
 
 options! {
-    /// How an image of low resolution is brought to the frame's.
+    /// Options of the upsampling.
     pub struct Upsampling {
-        /// Pixels of the frame to one of low resolution, across and down.
+        /// Pixels of the frame per low-resolution pixel, across and down.
         pub factor: Factor = Factor::Twice,
-        /// What of the low resolution is read, and by whom.
+        /// Reads of the low-resolution images.
         pub reads: Reads = Reads::Packed,
-        /// What is brought up.
+        /// Components to upsample.
         pub payload: Payload = Payload::Color,
-        /// How texels are weighed by their distance on the screen.
+        /// Weights of texels by their distance on the screen.
         pub screen: Screen = Screen::Tent,
-        /// Distance on the screen, in texels of low resolution, at which a weight has fallen to exp(-1/2); of `gaussian` alone.
+        /// Distance on the screen, in low-resolution texels, at which a weight has fallen to exp(-1/2). `screen=gaussian` only.
         pub screen_sigma: f32 [0.1..=10.0] = 0.5,
-        /// Whether normals tell surfaces apart too; not of `packed`, which has no room for them.
+        /// Comparison of normals as well as depths. Not with `reads=packed`, which has no room for normals.
         pub normals: bool = false,
-        /// Difference of depths, in their unit, at which a weight has fallen to exp(-1/2).
+        /// Difference in depth, in the unit of depth, at which a weight has fallen to exp(-1/2).
         pub depth_sigma: f32 [1.0e-6..=1.0e6] = 0.1,
-        /// One less the cosine between normals at which a weight has fallen to exp(-1/2).
+        /// 1 minus the cosine between normals at which a weight has fallen to exp(-1/2).
         pub normal_sigma: f32 [1.0e-3..=2.0] = 0.1,
     }
 }
 
-/// Pixels of the frame to one of low resolution, across and down.
+/// Pixels of the frame per low-resolution pixel, across and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Factor {
     /// 2.
@@ -34,58 +34,58 @@ pub enum Factor {
     FourTimes,
 }
 
-/// What of the low resolution is read, and by whom.
+/// Reads of the low-resolution images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reads {
-    /// Each lane one texel of `low`, whose fourth component is its depth: one read.
+    /// Each lane reads one texel of `low`, whose fourth component is its depth: one read.
     Packed,
-    /// Each lane one texel of `low` and one of `low_surface`: two reads.
+    /// Each lane reads one texel of `low` and one of `low_surface`: two reads.
     Apart,
-    /// Each pixel all four texels of both for itself: eight reads and no message.
+    /// Each pixel reads all four texels of both by itself: eight reads and no message.
     Naive,
 }
 
-/// What is brought up.
+/// Components to upsample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
-    /// The first component of `low`, such as ambient occlusion: shorter messages.
+    /// First component of `low`, such as ambient occlusion. Messages are shorter.
     Scalar,
-    /// All components of `low`; of `packed`, three.
+    /// All components of `low`; with `reads=packed`, three.
     Color,
 }
 
-/// How texels are weighed by their distance on the screen.
+/// Weights of texels by their distance on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
-    /// A tent on each axis, as bilinear filtering has it: what lies a texel away has no weight.
+    /// A tent on each axis, as in bilinear filtering: a texel at a distance of one texel has no weight.
     Tent,
-    /// A Gaussian, as in the depth.
+    /// A Gaussian, as for the depth.
     Gaussian,
 }
 
-/// Below this sum of weights none of the four texels is of the pixel's surface.
+/// For a sum of weights below this, none of the four texels shows the pixel's surface.
 const SMALLEST: f32 = 1.0e-20;
 
-/// A texel of low resolution, as each lane has heard of it.
+/// A low-resolution texel, as received by each lane.
 #[derive(Clone, Copy)]
 struct Tap {
     color: Quad<Vec4>,
     depth: Quad<f32>,
     normal: Quad<Vec3>,
-    /// Its weight by its distance on the screen.
+    /// Weight by distance on the screen.
     screen: Quad<f32>,
 }
 
-/// Colours of a quad, each from the four texels of `low` around it: those near on the screen (`screen`) and of a like
-/// surface (a Gaussian of the difference in depth, and of normals). Where none is of a like surface, the texel with the
-/// nearest depth.
+/// Colours of a quad, each from the nearest four texels of `low`: those near on the screen (`screen`) and of a
+/// similar surface (a Gaussian of the difference in depth, and of normals). If none is of a similar surface, the texel with the
+/// nearest depth is used.
 ///
-/// `low` is as [`downsampling`] makes it: its texel n stands for the corner at 2n (4n), half a pixel off, so that a quad's
+/// `low` is created by [`downsampling`]: its texel n represents the corner at 2n (4n), half a pixel off, so that a quad's
 /// pixels all have the same four texels around them and each lane reads one. It has ceil(W/2) + 1 columns and
-/// ceil(H/2) + 1 rows (of 4: ceil(W/4) + 1). `low_surface` holds normals and, fourth, depths.
+/// ceil(H/2) + 1 rows (with a factor of 4: ceil(W/4) + 1). `low_surface` contains normals and, as the fourth component, depths.
 ///
-/// The result is finite whatever the inputs are. A texel with a colour that is not finite, or of 1.5e38 and more, is black and farther from
-/// every depth than any other. A depth that is not a number, or of 1e30 and more, counts as 1e30. A normal that is not a number tells nothing.
+/// The result is finite for every input. A texel with a colour that is not finite, or is 1.5e38 or more, is black and farther
+/// from every depth than any other. A depth that is NaN, or is 1e30 or more, counts as 1e30. A NaN normal is ignored.
 pub fn quad_upsampling(
     cfg: &Upsampling,
     low: &Texture<Vec4>,
@@ -100,7 +100,7 @@ pub fn quad_upsampling(
     );
     let factor = cfg.factor.pixels();
     let corner = pixel / factor;
-    // Share of the texels on the right and below.
+    // Share of the texels on the right and at the bottom.
     let share = ((pixel - corner * factor).as_vec2() + 0.5) / factor as f32;
     let own_depth = bounded(depth.load(pixel));
     let own_normal = if cfg.compares_normals() {
@@ -122,7 +122,7 @@ pub fn quad_upsampling(
         let mut exponent = z * z;
         if cfg.compares_normals() {
             let n = (1.0 - taps[k].normal.dot(own_normal)) / cfg.normal_sigma;
-            // A normal that is not a number tells nothing.
+            // A NaN normal is ignored.
             exponent += (n * n).ge(0.0).select(n * n, Quad::splat(0.0));
         }
         let weight = tally("weight_evaluations", taps[k].screen * (exponent * HALF_LOG2_E).exp2());
@@ -136,7 +136,7 @@ pub fn quad_upsampling(
             fallback = nearer.select(taps[k].color, fallback);
         }
     }
-    // Differences from one texel: of four alike nothing is left but that.
+    // Differences from one texel: for four equal texels nothing else remains.
     let scale = 1.0 / total.max(SMALLEST);
     let mut color = taps[0].color;
     for k in 1..4 {
@@ -145,10 +145,10 @@ pub fn quad_upsampling(
     total.gt(SMALLEST).select(color, fallback)
 }
 
-/// exp(-x / 2) is exp2(x times this).
+/// Factor such that exp(-x / 2) is exp2(x * factor).
 const HALF_LOG2_E: f32 = -0.5 * std::f32::consts::LOG2_E;
 
-/// The texel that each lane reads, and those that the others do.
+/// The texel read by each lane, and those read by the other lanes.
 fn heard(
     cfg: &Upsampling,
     low: &Texture<Vec4>,
@@ -162,7 +162,7 @@ fn heard(
         Reads::Packed => counts.select(own.truncate().extend(bounded(own.w())), no_surface()),
         _ => counts.select(own, Quad::splat(Vec4::ZERO)),
     };
-    // The lane's own texel lies in its own direction; for the others the weights are flipped.
+    // Each lane's own texel lies in the lane's own direction. For the other texels the weights are flipped.
     let near = match cfg.factor {
         Factor::Twice => Quad::splat(vec2(0.75, 0.75)),
         Factor::FourTimes => {
@@ -237,7 +237,7 @@ fn heard(
     taps
 }
 
-/// All four texels, read by each pixel for itself.
+/// All four texels, read by each pixel itself.
 fn around(
     cfg: &Upsampling,
     low: &Texture<Vec4>,
@@ -273,7 +273,7 @@ fn around(
 }
 
 impl Upsampling {
-    /// Whether a texel of low resolution has a colour that may count: what is brought up is finite.
+    /// Returns whether a low-resolution texel has a finite colour in the upsampled components.
     fn counts(&self, texel: Quad<Vec4>) -> Quad<bool> {
         match self.payload {
             Payload::Scalar => is_bright(texel.x()),
@@ -287,7 +287,7 @@ impl Upsampling {
         }
     }
 
-    /// The weights on each axis of a texel that lies 1 - `near` away.
+    /// Weights on each axis of a texel at a distance of 1 - `near`.
     fn on_screen(&self, near: Quad<Vec2>) -> Quad<Vec2> {
         match self.screen {
             Screen::Tent => near,
@@ -313,19 +313,19 @@ impl Factor {
 }
 
 options! {
-    /// How an image is brought to a low resolution.
+    /// Options of the downsampling.
     pub struct Downsampling {
-        /// Pixels of the image to one of low resolution, across and down.
+        /// Pixels of the image per low-resolution pixel, across and down.
         pub factor: Factor = Factor::Twice,
-        /// What is written.
+        /// Components to write.
         pub gives: Gives = Gives::Packed,
     }
 }
 
-/// What is written.
+/// Components to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gives {
-    /// The colour's first three components and the depth.
+    /// The first three components of the colour, and the depth.
     Packed,
     /// The colour.
     Color,
@@ -333,14 +333,14 @@ pub enum Gives {
     Surface,
 }
 
-/// The texel of low resolution that stands for the corner at twice (four times) `pixel`: of the 2×2 (4×4) pixels around
+/// Low-resolution texel for the corner at twice (four times) `pixel`: of the 2×2 (4×4) pixels around
 /// that corner, the one nearest to the viewer, whose colour, normal and depth stay together.
 ///
-/// The frame is the image of low resolution, half a pixel off that of the full one, so that it needs a column and a row
-/// more: ceil(W/2) + 1 by ceil(H/2) + 1 (of 4: ceil(W/4) + 1). Beyond the image's border lie its border's pixels.
+/// The output frame is the low-resolution image, half a pixel off the full one, so that it needs one more column and row:
+/// ceil(W/2) + 1 by ceil(H/2) + 1 (with a factor of 4: ceil(W/4) + 1). Reads beyond the border return the border's pixels.
 ///
-/// A depth that is not a number, or of 1e30 and more on either side, is the farthest, and 1e30 is written where no other is there. Colours and
-/// normals are written as they are: [`quad_upsampling`] tests them.
+/// A depth that is NaN, or has a magnitude of 1e30 or more, is the farthest; 1e30 is written if there is no other. Colours and
+/// normals are written unchanged: [`quad_upsampling`] tests them.
 pub fn downsampling(
     cfg: &Downsampling,
     image: &Texture<Vec4>,

@@ -1,4 +1,4 @@
-//! Shading a few pixels once more: at a geometry sample whose surface no shading sample around shows.
+//! Extra shading for a few pixels, at a geometry sample whose surface no shading sample around it shows.
 
 use super::Inputs;
 use super::gbuffer::{GBuffer, surface};
@@ -9,26 +9,26 @@ use super::placed::shaded_place;
 use super::view::View;
 use crate::prelude::*;
 
-/// What the kernel looks at.
+/// Inputs of the kernel.
 struct Seen<'a> {
     gbuffer: &'a GBuffer,
     view: &'a View,
-    /// Of shading=placed.
+    /// Read with shading=placed only.
     place: &'a Frame<u32>,
     pixel: IVec2,
 }
 
-/// Where `pixel` is to be shaded once more: the number of a geometry sample, or the number of samples where it is not. What it
-/// gives is the image `extra` of the filter.
+/// Extra shading sample of `pixel`: the index of a geometry sample, or the number of samples if there is none. The output is the
+/// image `extra` of the filter.
 ///
-/// A pixel is listed with its first sample that differs by more than `search_threshold` from all shading samples of the nine pixels
-/// around. Where x + y is odd, what a neighbour with an even sum wants counts as shaded, too: one surface is not shaded twice. Beyond
-/// the border the nearest pixel is repeated.
+/// A pixel is listed with its first sample that differs by more than `search_threshold` from all shading samples of the nine
+/// pixels around it. Where x + y is odd, the samples requested by neighbours with an even sum count as shaded, so that no surface
+/// shaded twice. Beyond the border the nearest pixel is repeated.
 ///
-/// `extra_list` holds for each that is listed its pixel, as x + 65536 y, and the number of its sample. As many as it has room for
-/// are listed and no more: its length is the budget. Which these are where it is too short, the order decides in which pixels come.
-/// `extra_counts` are four numbers, 0, 1, 1, 0 before: of workgroups of 64 to dispatch for the list in x, y and z, then of pixels
-/// that wanted to be listed.
+/// `extra_list` holds for each listed pixel its coordinates, as x + 65536 y, and the index of its sample. Its length is the
+/// budget: pixels beyond it are not listed. If it is too short, the order of the pixels determines which ones are listed.
+/// `extra_counts` are four numbers, initially 0, 1, 1, 0: the number of workgroups of 64 to dispatch for the list in x, y and z,
+/// then the number of pixels that requested a sample.
 pub fn sraa_extra(
     cfg: &Sraa,
     gbuffer: &GBuffer,
@@ -65,7 +65,7 @@ pub fn sraa_extra(
     given as u32
 }
 
-/// Whether a geometry sample of the pixel differs from its own shading sample.
+/// Returns whether any geometry sample of the pixel differs from its own shading sample.
 fn differs(cfg: &Sraa, seen: &Seen) -> bool {
     let own = shading_sample(cfg, seen, IVec2::ZERO);
     let mut largest = 0.0f32;
@@ -76,7 +76,7 @@ fn differs(cfg: &Sraa, seen: &Seen) -> bool {
     largest > cfg.search_threshold
 }
 
-/// Which sample the pixel wants to have shaded, or the number of samples. Few pixels come here: its loops stay loops.
+/// Sample that the pixel requests, or the number of samples. Few pixels reach this, so its loops are left in the shader.
 #[cfg_attr(false, unroll(none))]
 fn wanted(cfg: &Sraa, seen: &Seen) -> usize {
     let first = first_hidden(cfg, seen, IVec2::ZERO);
@@ -84,7 +84,7 @@ fn wanted(cfg: &Sraa, seen: &Seen) -> usize {
     if even || first == cfg.samples() {
         return first;
     }
-    // What the four pixels beside want, whose x + y are even.
+    // Samples requested by the four adjacent pixels, whose x + y are even.
     let mut beside = [0; 4];
     for k in 0..4 {
         beside[k] = first_hidden(cfg, seen, neighbour(2 * k + 1, 3));
@@ -98,7 +98,7 @@ fn wanted(cfg: &Sraa, seen: &Seen) -> usize {
     cfg.samples()
 }
 
-/// Whether one of the four pixels beside wants to have the surface of `sample` shaded.
+/// Returns whether one of the four adjacent pixels requests the surface of `sample`.
 fn is_beside(cfg: &Sraa, seen: &Seen, sample: &Sample, wanted: &[usize; 4]) -> bool {
     let mut beside = false;
     for k in 0..4 {
@@ -111,7 +111,7 @@ fn is_beside(cfg: &Sraa, seen: &Seen, sample: &Sample, wanted: &[usize; 4]) -> b
     beside
 }
 
-/// The first geometry sample of the pixel at `pixel` whose surface no shading sample around that one shows, or the number of
+/// Index of the pixel's first geometry sample whose surface no shading sample around it shows, or the number of
 /// samples.
 fn first_hidden(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> usize {
     for sample in 0..cfg.samples() {
@@ -122,7 +122,7 @@ fn first_hidden(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> usize {
     cfg.samples()
 }
 
-/// Whether no shading sample of the nine pixels around that of a geometry sample shows its surface.
+/// Returns whether a geometry sample's surface is missing from the shading samples of the nine pixels around it.
 fn is_unseen(cfg: &Sraa, seen: &Seen, at: Place) -> bool {
     let sample = sampled(cfg, seen, at);
     let mut nearest = FAR;
@@ -133,7 +133,7 @@ fn is_unseen(cfg: &Sraa, seen: &Seen, at: Place) -> bool {
     nearest > cfg.search_threshold
 }
 
-/// Where the pixel at `pixel` is shaded.
+/// Position of the shading sample of the pixel at `pixel`.
 fn shading_sample(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> Place {
     let tap = match cfg.shading {
         Shading::Centre | Shading::Placed => cfg.centre(pixel),
@@ -142,13 +142,13 @@ fn shading_sample(cfg: &Sraa, seen: &Seen, pixel: IVec2) -> Place {
     shaded_place(cfg, seen.place, seen.pixel, tap)
 }
 
-/// What is seen at a geometry sample.
+/// Surface at a geometry sample.
 fn sampled(cfg: &Sraa, seen: &Seen, at: Place) -> Sample {
     let surface = surface(cfg, seen.gbuffer, seen.view, seen.pixel, at);
     Sample::new(cfg, seen.view, surface, seen.pixel, at.at)
 }
 
-/// How different the surface at a tap is from a sample's.
+/// Difference between the surface at a tap and that of a sample.
 fn apart(cfg: &Sraa, seen: &Seen, sample: &Sample, tap: Place) -> f32 {
     distance(
         cfg,
@@ -158,14 +158,14 @@ fn apart(cfg: &Sraa, seen: &Seen, sample: &Sample, tap: Place) -> f32 {
     )
 }
 
-/// The further shading sample of a pixel.
+/// Extra shading sample of a pixel.
 pub(super) struct Further {
     pub(super) place: Place,
-    /// Whether there is one.
+    /// `true` if the pixel has one.
     pub(super) is_there: bool,
 }
 
-/// That of the pixel at `pixel`.
+/// Extra shading sample of the pixel at `pixel`.
 pub(super) fn extra_tap(cfg: &Sraa, inputs: &Inputs, pixel: IVec2) -> Further {
     let samples = cfg.samples() as u32;
     let sample = inputs.colors.extra.load(inputs.pixel + pixel);
@@ -179,7 +179,7 @@ pub(super) fn extra_tap(cfg: &Sraa, inputs: &Inputs, pixel: IVec2) -> Further {
 }
 
 impl Sraa {
-    /// Refuses what further shading samples have no part in.
+    /// Panics if the options do not permit extra shading samples.
     pub(super) fn check_extra(&self) {
         if self.extra {
             self.check_shaded_once();

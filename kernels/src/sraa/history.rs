@@ -1,9 +1,9 @@
-//! Shading samples of earlier frames as further taps: weighed by surface and by distance as those of this frame are.
+//! Shading samples of earlier frames as additional taps, weighted by surface and by distance like those of this frame.
 //!
-//! An image of motion says where in an earlier frame the surface of a pixel was. The shading samples around that place come along with
-//! it: each is a tap at a place of its own near the pixel, with the surface that was seen there and its colour. If frames are shaded
-//! at different places of their pixels, together they have seen what supersampling would. A tap whose surface is not the sample's weighs
-//! nothing, so that what was hidden, or has moved away, leaves no trace.
+//! A motion image states the earlier position of each pixel's surface. The shading samples around that position are carried
+//! along: each is a tap at its own position near the pixel, with the surface that it showed and its colour. If frames are
+//! shaded at different positions in their pixels, together they approach supersampling. A tap on another surface than the
+//! sample's has no weight, so that surfaces that were hidden, or have moved away, leave no trace.
 
 use super::demodulate::{Demodulate, Paint};
 use super::gbuffer::{DEEPEST, Depth, Normals, Surface};
@@ -14,28 +14,28 @@ use super::search::Sum;
 use super::{Inputs, falloff, steepness};
 use crate::prelude::*;
 
-/// Frames gone by, of as many layers as the option `history` says, in any order. Where nothing is known, as outside the picture, a
-/// layer's motion may be not a number: then nothing is taken of it.
+/// Earlier frames: as many layers as the option `history`, in any order. Where nothing is known, such as outside of the picture,
+/// a layer's motion may be NaN; the layer is then ignored.
 pub struct History {
-    /// Colours of the shading samples of each frame, one a pixel, as `color` has them; of demodulate=albedo light: what is left of the
-    /// colour without `rest`, divided by an albedo of at least `albedo_floor`.
+    /// Colours of the shading samples of each frame, one a pixel, encoded like `color`. With demodulate=albedo: light, which
+    /// is the colour without `rest`, divided by an albedo of at least `albedo_floor`.
     pub history_color: FrameLayers<Vec4>,
-    /// Of demodulate with rest=true: `rest` of each frame.
+    /// With demodulate and rest=true: `rest` of each frame.
     pub history_rest: FrameLayers<Vec4>,
-    /// What was seen where each was shaded: the unit normal, and in the fourth component linear depth, infinite where there is no
+    /// Surface at each shading sample: the unit normal, and in the fourth component linear depth, infinite where there is no
     /// geometry.
     pub history_surface: FrameLayers<Vec4>,
-    /// Where what a pixel shows at its shading sample lay in the raster of the earlier frame, in which pixels have their centres where
-    /// they were shaded, less where it lies now, in the raster without `jitter`: in pixels, y down. In the third component by how
-    /// much linear depth was more than now. Of a camera that stands still, the `jitter` of the earlier frame with the opposite sign.
+    /// Position, in the earlier frame's raster, of the surface at each pixel's shading sample, minus its current position,
+    /// in pixels, y down. The earlier raster has its pixel centres at the shading samples; the current one excludes `jitter`.
+    /// The third component is by how much larger linear depth was. For a static camera: the earlier frame's `jitter`, negated.
     pub history_motion: FrameLayers<Vec4>,
-    /// Where in its pixel this frame is shaded, from the centre, in pixels, y down; each axis in -0.5..=0.5. Its geometry there is that
-    /// of the centre.
+    /// Position of this frame's shading samples from the pixel centre, in pixels, y down; each axis in -0.5..=0.5. The geometry
+    /// there is that of the centre.
     pub jitter: Vec2,
 }
 
 impl History {
-    /// No frames: single texels of zero, to be replaced by what the option needs.
+    /// No frames: single texels of zero, to be replaced by the inputs that the option needs.
     pub fn unread() -> History {
         let layers = || FrameLayers::new(vec![Frame::new(UVec2::ONE, vec![Vec4::ZERO])]);
         History {
@@ -48,15 +48,15 @@ impl History {
     }
 }
 
-/// What this frame's most similar tap weighs at least, as a binary logarithm: less than any tap of the sample's own surface, and more
-/// than any of another's.
+/// Lower bound on the weight of this frame's most similar tap, as a binary logarithm: smaller than the weight of any tap on the
+/// sample's own surface, and larger than that of any tap on another.
 const FAINTEST: f32 = -40.0;
 
-/// No surface moves farther between frames, in pixels.
+/// Upper bound on a surface's motion between frames, in pixels.
 const FARTHEST: f32 = 16384.0;
 
-/// How much the differences of this frame's taps are shifted by before they are weighed, of which `nearest` is the smallest: with
-/// earlier frames only so far that some tap counts where nobody has seen the surface.
+/// Shift of the differences of this frame's taps before they are weighted. `nearest` is the smallest difference. With earlier
+/// frames, the shift is only as large as needed for some tap to count where no frame has shown the surface.
 pub(super) fn shift(cfg: &Sraa, nearest: f32) -> f32 {
     if cfg.history == 0 {
         nearest
@@ -65,7 +65,7 @@ pub(super) fn shift(cfg: &Sraa, nearest: f32) -> f32 {
     }
 }
 
-/// Where tap `tap` of this frame is shaded, of a square of `side` × `side` pixels.
+/// Position of tap `tap` of this frame, in a square of `side` × `side` pixels.
 pub(super) fn own_tap(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Place {
     let tap = cfg.tap(tap, side);
     if cfg.history == 0 {
@@ -78,15 +78,15 @@ pub(super) fn own_tap(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> P
     }
 }
 
-/// What earlier frames give a geometry sample.
+/// Contribution of earlier frames to a geometry sample.
 pub(super) struct Past {
-    /// Of the colours of their shading samples.
+    /// Sum of the colours of their shading samples.
     pub(super) sum: Sum,
-    /// Difference of the most similar one within reach.
+    /// Difference of the most similar shading sample within reach.
     pub(super) nearest: f32,
 }
 
-/// The shading samples of earlier frames for a geometry sample with a paint of its `own`.
+/// Sums the shading samples of earlier frames for a geometry sample with the paint `own`.
 pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Past {
     let mut past = Past {
         sum: Sum::NOTHING,
@@ -95,7 +95,7 @@ pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sam
     for frame in 0..cfg.history as usize {
         for k in 0..SIDE * SIDE {
             let tap = earlier_tap(cfg, inputs, place, frame, k, SIDE);
-            // Normals that are not of length 1 may be nearer than the same: nothing weighs more than 1.
+            // Normals that are not of length 1 can yield a negative difference. No tap may weigh more than 1.
             let apart = distance(cfg, centre, &tap.seen, tap.place.at).max(0.0);
             let near = falloff(cfg, place, tap.place);
             let w = near * (-steepness(cfg) * apart).exp2();
@@ -111,22 +111,22 @@ pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sam
 
 /// A shading sample of an earlier frame.
 pub(super) struct Earlier {
-    /// Its pixel then.
+    /// Pixel in the earlier frame.
     there: IVec2,
-    /// Where it is now.
+    /// Position in this frame.
     pub(super) place: Place,
-    /// What it shows.
+    /// Surface at the sample.
     pub(super) seen: Surface,
-    /// Whether there is one.
+    /// `true` if there is such a sample.
     pub(super) is_there: bool,
 }
 
-/// Shading sample `k` of the `side` × `side` ones around where the pixel's surface was in an earlier frame.
+/// Shading sample `k` of the `side` × `side` ones around the earlier position of the pixel's surface.
 pub(super) fn earlier_tap(cfg: &Sraa, inputs: &Inputs, place: Place, frame: usize, k: usize, side: usize) -> Earlier {
     let moved = inputs.history.history_motion.load(inputs.pixel, frame);
     let known = moved.x.abs() < FARTHEST && moved.y.abs() < FARTHEST;
     let motion = if known { moved.xy() } else { Vec2::ZERO };
-    // The shading sample to the upper left of where the surface was, or as many farther as the square needs.
+    // The shading sample to the upper left of the earlier position, or as much farther out as the square needs.
     let first = motion.floor();
     let aside = 1 - (side / 2) as i32;
     let step = ivec2((k % side) as i32 + aside, (k / side) as i32 + aside);
@@ -143,7 +143,7 @@ pub(super) fn earlier_tap(cfg: &Sraa, inputs: &Inputs, place: Place, frame: usiz
     }
 }
 
-/// The colour of a shading sample of an earlier frame, on the paint of a geometry sample.
+/// Colour of a shading sample of an earlier frame, with the paint of a geometry sample.
 pub(super) fn remembered_color(cfg: &Sraa, inputs: &Inputs, own: &Paint, tap: &Earlier, frame: usize) -> Vec4 {
     let color = inputs.history.history_color.load(tap.there, frame);
     match cfg.demodulate {
@@ -159,18 +159,18 @@ pub(super) fn remembered_color(cfg: &Sraa, inputs: &Inputs, own: &Paint, tap: &E
     }
 }
 
-/// Shading samples of a frame on each axis: those around the pixel.
+/// Number of shading samples of a frame on each axis: those around the pixel.
 const SIDE: usize = 2;
 
 fn is_inside(pixel: IVec2, size: IVec2) -> bool {
     pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y
 }
 
-/// The surface in a texel of an earlier frame, as it is compared with those of this one; `deeper` is by how much it was deeper then.
+/// Surface in a texel of an earlier frame, comparable with those of this one. `deeper` is by how much larger its depth was then.
 fn seen(cfg: &Sraa, inputs: &Inputs, texel: Vec4, deeper: f32) -> Surface {
     let depth = match cfg.depth {
         Depth::Linear | Depth::ReversedInfinite => texel.w - deeper,
-        // The sky, infinite there, is as deep as the far plane in this frame.
+        // The sky, infinite in the texel, has the depth of the far plane in this frame.
         Depth::Perspective | Depth::Reversed => nearer(cfg, texel.w - deeper, inputs.view.far),
     };
     Surface {
@@ -191,7 +191,7 @@ fn seen(cfg: &Sraa, inputs: &Inputs, texel: Vec4, deeper: f32) -> Surface {
     }
 }
 
-/// The smaller of the two; if the first is not a number, the second.
+/// The smaller of the two; the second if the first is NaN.
 fn nearer(cfg: &Sraa, depth: f32, far: f32) -> f32 {
     match cfg.guards {
         Guards::Fallback | Guards::None => depth.min(far),
@@ -206,7 +206,7 @@ fn nearer(cfg: &Sraa, depth: f32, far: f32) -> f32 {
 }
 
 impl Sraa {
-    /// Refuses what earlier frames have no part in.
+    /// Panics if the options do not permit earlier frames.
     pub(super) fn check_history(&self) {
         if self.history != 0 {
             assert!(

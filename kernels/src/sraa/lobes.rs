@@ -1,4 +1,4 @@
-//! Filters of samples with lobes below zero: beside a very bright sample they would give what no sample has, far below zero.
+//! Filters of samples with negative lobes. Beside a very bright sample they would overshoot, far below zero.
 
 use super::Inputs;
 use super::colors::color;
@@ -6,14 +6,14 @@ use super::demodulate::{Demodulate, may_count};
 use super::options::{Resolve, Sraa};
 use crate::prelude::*;
 
-/// A tap of which there is less in the samples does not count among their colours.
+/// A tap with a smaller share in the samples does not count among their colours.
 const LEAST_USED: f32 = 1.0e-6;
 
-/// More than any colour.
+/// Larger than any colour.
 const BEYOND: f32 = 3.0e38;
 
-/// `found` with each component within the range of the taps' colours of which there is something in the samples. Light that is painted
-/// anew may be brighter than any tap: there only what is below zero becomes zero.
+/// Clamps each component of `found` to the range of the taps' colours that have a share in the samples. Repainted light may be
+/// brighter than any tap; there, only negative components become zero.
 pub(super) fn within_range<const TAPS: usize>(
     cfg: &Sraa,
     inputs: &Inputs,
@@ -37,7 +37,7 @@ pub(super) fn within_range<const TAPS: usize>(
                 most = most.max(shaded);
             }
         }
-        // Where no tap counts, or the pixel is not finite, it stays as it is.
+        // If no tap counts, or the pixel is not finite, the pixel is unchanged.
         if found.is_finite() && least.x <= most.x {
             clamped(found, least, most)
         } else {
@@ -46,7 +46,7 @@ pub(super) fn within_range<const TAPS: usize>(
     }
 }
 
-/// Each component from `least` to `most`; what is not a number stays so.
+/// Clamps each component to `least` and `most`; a NaN stays a NaN.
 fn clamped(found: Vec4, least: Vec4, most: Vec4) -> Vec4 {
     vec4(
         kept_within(found.x, least.x, most.x),
@@ -67,7 +67,7 @@ fn kept_within(found: f32, least: f32, most: f32) -> f32 {
 }
 
 impl Sraa {
-    /// Whether some samples count less than nothing.
+    /// Returns whether some samples have a negative weight.
     pub(super) fn has_lobes(&self) -> bool {
         match self.resolve {
             Resolve::Mitchell | Resolve::Lanczos => true,

@@ -1,4 +1,4 @@
-//! Shading where geometry asks for it: one sample a pixel still, but not always at its centre.
+//! Shading placed by geometry: still one sample a pixel, but not always at its centre.
 
 use super::gbuffer::{GBuffer, surface};
 use super::metric::{FAR, Sample, distance};
@@ -7,11 +7,11 @@ use super::pattern::{Place, Shading, neighbour};
 use super::view::View;
 use crate::prelude::*;
 
-/// Where `pixel` is to be shaded: the number of a geometry sample, or the number of samples for the pixel's centre.
+/// Shading sample of `pixel`: the index of a geometry sample, or the number of samples for the pixel's centre.
 ///
-/// A surface that lies at some geometry sample but at no pixel's centre around it has no colour that a filter could borrow.
-/// There the pixel is shaded at that sample. Its centre's surface must lie at the centre of a neighbour that stays, and of a
-/// pixel and its four neighbours only one may move: those whose x and y have an even sum.
+/// A surface that appears at some geometry sample but at no pixel centre around it has no colour for the filter to borrow. The
+/// pixel is then shaded at that sample. The surface at its centre must also be at the centre of a neighbour that does not move.
+/// Of a pixel and its four neighbours only one may move: the one whose x and y have an even sum.
 pub fn sraa_place(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2) -> u32 {
     cfg.check();
     let own = centre(cfg, gbuffer, view, pixel, IVec2::ZERO);
@@ -24,7 +24,7 @@ pub fn sraa_place(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2) -> u
     place as u32
 }
 
-/// Whether a geometry sample of the pixel lies on another surface than its centre.
+/// Returns whether any geometry sample of the pixel is on a different surface than its centre.
 fn varies(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, own: &Sample) -> bool {
     let mut largest = 0.0f32;
     for sample in 0..cfg.samples() {
@@ -35,8 +35,8 @@ fn varies(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, own: &Sample
     largest > cfg.unseen
 }
 
-/// The first geometry sample whose surface lies at no centre around, if the pixel may be shaded there; else its centre. Few
-/// pixels come here, and one of four samples as well as one of sixteen: its loops stay loops.
+/// The first geometry sample whose surface is at no centre around, if the pixel may be shaded there; else its centre. Few
+/// pixels reach this, with four samples as with sixteen, so its loops are left in the shader.
 #[cfg_attr(false, unroll(none))]
 fn first_unseen(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, own: &Sample) -> usize {
     let mut nearest = FAR;
@@ -62,20 +62,20 @@ fn first_unseen(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, own: &
     cfg.samples()
 }
 
-/// How different the surface at the centre of the pixel at `at` is from a sample's.
+/// Difference between the surface at the centre of the pixel at `at` and that of a sample.
 fn from_centre(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, sample: &Sample, at: IVec2) -> f32 {
     let place = cfg.centre(at);
     distance(cfg, sample, &surface(cfg, gbuffer, view, pixel, place), place.at)
 }
 
-/// What is seen at the centre of the pixel at `at`.
+/// Surface at the centre of the pixel at `at`.
 fn centre(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, at: IVec2) -> Sample {
     let place = cfg.centre(at);
     Sample::new(cfg, view, surface(cfg, gbuffer, view, pixel, place), pixel, place.at)
 }
 
-/// Where the shading sample `tap` lies: where the image says, if it does. Its weight by distance is that of its pixel's centre
-/// all the same: those that are moved are to reach as far as the others.
+/// Position of the shading sample `tap`: from the image, if it moves the sample. The distance for its weight remains that of the
+/// pixel's centre, so that moved samples reach as far as the others.
 pub(super) fn shaded_place(cfg: &Sraa, place: &Frame<u32>, pixel: IVec2, tap: Place) -> Place {
     match cfg.shading {
         Shading::Placed if !tap.extra => {

@@ -1,4 +1,4 @@
-//! Where no tap shows a sample's surface: a search farther away, and less light from dark surfaces.
+//! Samples whose surface no tap shows: a wider search, and less light from dark surfaces.
 
 use super::colors::is_kept;
 use super::demodulate::{Paint, paint, repainted};
@@ -10,10 +10,10 @@ use super::pattern::{Place, neighbour};
 use super::{Inputs, difference, falloff, geometry_sample, least, steepness};
 use crate::prelude::*;
 
-/// What unseen samples, or earlier frames, add to the pixel.
+/// Contribution of unseen samples, or of earlier frames, to the pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Searched {
-    /// Sum of their colours, each by its share in the pixel.
+    /// Sum of their colours, each weighted by its share in the pixel.
     pub(super) color: Vec4,
     /// Sum of their shares.
     pub(super) share: f32,
@@ -26,13 +26,13 @@ impl Searched {
     };
 }
 
-/// Colours that are added up.
+/// Weighted sum of colours.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sum {
     pub(super) color: Vec4,
-    /// Of the colours that count.
+    /// Sum of the weights of the colours that count.
     pub(super) kept: f32,
-    /// Of all.
+    /// Sum of all weights.
     pub(super) weight: f32,
 }
 
@@ -64,7 +64,7 @@ impl Sum {
     }
 }
 
-/// The colours of the samples whose bits are set in `unseen`.
+/// Returns the contribution of the samples whose bits are set in `unseen`.
 pub(super) fn searched(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
     if cfg.sets_apart() {
         #[cfg_attr(false, branch)]
@@ -78,7 +78,7 @@ pub(super) fn searched(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
     }
 }
 
-/// Few pixels come here: its loops stay loops.
+/// Few pixels reach this, so its loops are left in the shader.
 #[cfg_attr(false, unroll(none))]
 fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
     let mut all = Searched::NOTHING;
@@ -102,7 +102,7 @@ fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
     all
 }
 
-/// The colours of the taps that show the sample's own surface, if any do.
+/// Sums the colours of the taps that show the sample's own surface, if there are any.
 fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Sum {
     let side = match cfg.search {
         Search::None => 3,
@@ -125,7 +125,7 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pai
             }
         }
     }
-    // As far around where the pixel's surface was in earlier frames.
+    // Equally far around the earlier positions of the pixel's surface.
     let side = match cfg.search {
         Search::None => 0,
         Search::Five | Search::Seven => side - 1,
@@ -143,7 +143,7 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pai
     sum
 }
 
-/// What the sample would be without a search and without earlier frames, but that dark surfaces give less light.
+/// Sums the colours as if there were no search and no earlier frames, but with less light from dark surfaces.
 fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Sum {
     let side = cfg.side();
     let mut nearest = FAR;
@@ -170,7 +170,7 @@ fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pain
     sum
 }
 
-/// Weight of a tap that is found, by distance on the screen: a Gaussian with a standard deviation of a pixel.
+/// Weight of a tap found by the search, by distance on the screen: a Gaussian with a standard deviation of one pixel.
 fn spread(sample: Place, tap: Place) -> f32 {
     let away = tap.at - sample.at;
     (-0.5 * away.dot(away)).exp()

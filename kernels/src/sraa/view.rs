@@ -1,42 +1,42 @@
-//! What the scene was seen with. A shader binds only what its metric and its encoding of depth need.
+//! Camera of the scene. A shader binds only the fields that its metric and its encoding of depth need.
 
 use super::gbuffer::Depth;
 use super::metric::Difference;
 use super::options::Sraa;
 use crate::prelude::*;
 
-/// How the camera projects.
+/// Projection of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Projection {
-    /// From an eye: what is farther away looks smaller.
+    /// From an eye: distant objects look smaller.
     Perspective,
-    /// Along one direction (orthographic): everything looks as large as it is.
+    /// Along one direction (orthographic): the size of objects does not depend on their distance.
     Parallel,
 }
 
-/// Rays through the pixels, planes of the projection.
+/// Rays through the pixels, and planes of the projection.
 ///
-/// A ray is the way from the eye to linear depth 1, in the space that normals are in: view space, or the world's. The ray
+/// A ray runs from the eye to linear depth 1, in the space of the normals: view space or world space. The ray
 /// through the centre of pixel (x, y) is `ray_corner + (x + 0.5) * ray_right + (y + 0.5) * ray_down`.
 pub struct View {
-    /// The ray through the upper left corner of the image. Of metric=planes-normals.
+    /// Ray through the upper left corner of the image. For metric=planes-normals.
     pub ray_corner: Vec3,
-    /// How a ray differs from that through the pixel to the left; of projection=parallel how far apart the two are.
+    /// Difference between a ray and that through the pixel to the left. With projection=parallel: the distance between the two.
     pub ray_right: Vec3,
-    /// How a ray differs from that through the pixel above; of projection=parallel how far apart the two are.
+    /// Difference between a ray and that through the pixel above. With projection=parallel: the distance between the two.
     pub ray_down: Vec3,
-    /// Of projection=parallel: the way along each ray from linear depth 0 to 1.
+    /// With projection=parallel: the vector along each ray from linear depth 0 to 1.
     pub ray_forward: Vec3,
-    /// Where the inputs' upper left pixel lies in the image: (0, 0), or where a tile begins.
+    /// Position of the inputs' upper left pixel in the image: (0, 0), or the origin of a tile.
     pub origin: IVec2,
-    /// Distance of the near plane, in scene units. Of encoded depth.
+    /// Distance of the near plane, in scene units. For encoded depth.
     pub near: f32,
-    /// Distance of the far plane, in scene units. Of encoded depth.
+    /// Distance of the far plane, in scene units. For encoded depth.
     pub far: f32,
 }
 
 impl View {
-    /// The ray through the centre of a pixel of the inputs.
+    /// Ray through the centre of a pixel of the inputs.
     pub(super) fn ray(&self, pixel: IVec2) -> Vec3 {
         let place = (pixel + self.origin).as_vec2() + 0.5;
         self.ray_corner + place.x * self.ray_right + place.y * self.ray_down
@@ -44,7 +44,7 @@ impl View {
 }
 
 impl Sraa {
-    /// Refuses what only a perspective has.
+    /// Panics if the options require a perspective projection.
     pub(super) fn check_projection(&self) {
         if self.projection == Projection::Parallel {
             assert!(

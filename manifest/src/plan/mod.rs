@@ -20,7 +20,8 @@ pub type Text = Cow<'static, str>;
 /// Items of a plan: a constant, or owned by one that was read.
 pub type List<T> = Cow<'static, [T]>;
 
-/// Everything that a pass binds, and where. The generator, or `Plan::from_manifest`, has checked every number in it, except against a device.
+/// Everything that a pass binds, and where. The generator, or `Plan::from_manifest`, has checked every number in it, except
+/// against a device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The kernel's name.
@@ -33,7 +34,7 @@ pub struct Plan {
     pub block: [u32; 2],
     /// Features of the device, by name: `subgroup`, `shader-f16`.
     pub features: List<Text>,
-    /// Resources that the caller gives, in binding order.
+    /// Resources of the caller, in binding order.
     pub inputs: List<InputPlan>,
     /// Values that are set at run time, in binding order.
     pub uniforms: List<UniformPlan>,
@@ -45,7 +46,7 @@ pub struct Plan {
     pub outputs: List<OutputPlan>,
 }
 
-/// A resource that the caller gives by name.
+/// A resource that the caller binds by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputPlan {
     /// Name in the kernel's source.
@@ -128,7 +129,7 @@ pub struct FieldPlan {
 }
 
 impl FieldPlan {
-    /// The name that the kernel's source has for the value: that of the whole.
+    /// Returns the value's name in the kernel's source; for a part, the name of the whole.
     pub fn source_name(&self) -> &str {
         self.part.as_ref().map_or(&self.name, |part| &part.of)
     }
@@ -186,7 +187,7 @@ impl Plan {
         named.map(|output| output.name.to_string())
     }
 
-    /// The structs of values set at run time, that of the region among them.
+    /// Returns the structs of runtime values, including that of the region.
     pub fn uniform_structs(&self) -> impl Iterator<Item = &UniformPlan> {
         self.uniforms.iter().chain(&self.region)
     }

@@ -6,7 +6,7 @@ use crate::{
     region_fields,
 };
 
-/// A manifest that contradicts itself, or asks for something that no shader of the generator needs.
+/// A manifest that contradicts itself, or describes something that no shader of the generator needs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}")]
 pub struct Contradiction {

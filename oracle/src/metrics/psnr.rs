@@ -37,7 +37,7 @@ pub fn mse_where(test: &Frame<Vec4>, reference: &Frame<Vec4>, mask: impl Fn(usiz
     sum / count as f64
 }
 
-/// The error that one pixel in a thousand exceeds, 0 to 1: the root of the mean square of what red, green and blue are off.
+/// Returns the error that one pixel in a thousand exceeds, 0 to 1: the root mean square over red, green and blue.
 pub fn worst_error(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
     let squared = texel_pairs(test, reference).map(|(test, reference)| squared_error(test, reference) / 3.0);
     let mut squared: Vec<f64> = squared.collect();

@@ -35,7 +35,7 @@ pub fn ssim(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
         .collect();
     let mut sum = rows.iter().sum::<f64>();
     let (inner_width, inner_height) = (width - across.len() + 1, height - down.len() + 1);
-    // The window around a pixel that is not finite has nothing of what it should.
+    // A window around a non-finite pixel counts as completely wrong.
     for index in shown.bad {
         let left = (index % width)
             .checked_sub(across.len() / 2)

@@ -24,11 +24,11 @@ use straightline_scene::inputs::Inputs;
 pub struct Rounding {
     /// Most that a rounded number is off, as a share of it: half the distance of neighbours.
     pub unit: f64,
-    /// Most that a number read is off, as a share of it: 0 where inputs are held in as many bits.
+    /// Maximum relative error of a number that is read: 0 if inputs have the same precision.
     pub read: f64,
-    /// The smallest normal number: what is below may be 0.
+    /// The smallest normal number; smaller ones may become 0.
     pub smallest: f64,
-    /// The largest number: what is beyond is infinite.
+    /// The largest number; larger ones become infinite.
     pub largest: f64,
     /// ULP that exp2 may be off at 0.
     pub exponential: f64,
@@ -59,7 +59,7 @@ impl Rounding {
     }
 }
 
-/// Numbers that may be what a computation finds.
+/// Range of the possible results of a computation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Range {
     low: f64,
@@ -71,7 +71,7 @@ impl Range {
     fn around(value: f64, off: f64) -> Range {
         let far = clamp_difference(f64::INFINITY);
         match (value.is_nan(), off.is_nan()) {
-            // Of what is read as no number, in any precision.
+            // The input is NaN, in any precision.
             (true, _) => Range { low: far, high: far },
             (false, true) => Range { low: 0.0, high: far },
             (false, false) => Range {
@@ -89,7 +89,7 @@ impl Range {
     }
 }
 
-/// A colour with its share in a mean: what it is by definition, and the most that the share may be off.
+/// A colour with its share in a mean: by definition, and with the maximum error of the share.
 pub struct Share {
     /// Red, green, blue and alpha, by definition.
     pub color: [f64; 4],
@@ -146,7 +146,7 @@ pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
     }
     // Products, their sum in any order, the sum of weights, a quotient; and colours as they are read.
     let arithmetic = (2.0 * count + 12.0) * rounding.unit + rounding.read;
-    // A sum that grows beyond the largest number is infinite; what cannot even be read is left out of a mean.
+    // A sum beyond the largest number is infinite; a value that cannot even be read is left out of a mean.
     if brightest * (1.0 + arithmetic) > rounding.largest && (rounding.read == 0.0 || !normalised) {
         return f64::INFINITY;
     }
@@ -160,13 +160,13 @@ pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
 }
 
 /// Most that any component of every pixel may be off, row by row, in whatever a shader with these options makes of these
-/// inputs; see [`resolve_sraa`](super::resolve_sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is left,
-/// nor where a quotient may overflow: infinity.
+/// inputs; see [`resolve_sraa`](super::resolve_sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is
+/// left, nor where a quotient may overflow: infinity.
 ///
 /// # Errors
 ///
-/// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit; [`OracleError::BadValue`] with
-/// earlier frames.
+/// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit;
+/// [`OracleError::BadValue`] with earlier frames.
 pub fn bound_sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> Result<Vec<f64>, OracleError> {
     if params.history > 0 {
         return Err(OracleError::BadValue {
@@ -184,7 +184,7 @@ pub fn bound_sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> 
         .collect())
 }
 
-/// A tap with what its difference may be.
+/// A tap with the range of its difference.
 struct Reach {
     falloff: f64,
     /// Most that the falloff is off, as a share of it.
@@ -342,7 +342,8 @@ impl Definition<'_> {
         let (rs, rt) = (reading(at), reading(tap));
         let two = matches!(self.params.metric, Metric::PlanesNormals | Metric::DepthNormals);
         let is_nan = |point: &Point, read: &Reading| read.is_nan || point.normal.iter().any(|axis| axis.is_nan());
-        // `max` of the two differences may drop what is not a number, and `min` of a depth and the sky's keeps what is far below 0.
+        // `max` of the two differences may drop what is not a number, and `min` of a depth and the sky's keeps what is far
+        // below 0.
         let may_be_dropped = two && (is_nan(&s, &rs) || is_nan(&t, &rt));
         if self.params.escapes && (may_be_dropped || rs.is_below || rt.is_below) {
             return Range {
@@ -423,7 +424,7 @@ impl Definition<'_> {
             let aside: f64 = (0..3)
                 .map(|axis| (t.base[axis] - s.base[axis] + t.ray[axis] - s.ray[axis]) * s.normal[axis])
                 .sum();
-            // Of a parallel projection it is the same at any depth.
+            // In a parallel projection it is the same at any depth.
             let (far, far_off) = match self.params.projection {
                 Projection::Perspective => (s.depth.abs(), rs.depth * s.depth.abs()),
                 Projection::Parallel => (1.0, 0.0),

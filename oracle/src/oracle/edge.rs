@@ -187,7 +187,7 @@ impl TabulaRasa {
     }
 }
 
-/// At most 10³⁰, by definition of both filters; what is infinite or not a number is as deep.
+/// Clamps a depth to 10³⁰, by definition of both filters; infinities and NaN get the same depth.
 fn clamp_depth(depth: f64) -> f64 {
     let deepest = f64::from(1.0e30_f32);
     if depth.abs() < deepest { depth } else { deepest }
@@ -196,7 +196,7 @@ fn clamp_depth(depth: f64) -> f64 {
 /// The least depth whose reciprocal is taken.
 const NEAREST: f64 = 1.0e-30;
 
-/// A margin; of what is not a number, which is decided in any precision, an infinite one.
+/// Returns a margin; for NaN, which every precision decides alike, an infinite one.
 fn decided_margin(margin: f64) -> f64 {
     if margin.is_nan() { f64::INFINITY } else { margin }
 }

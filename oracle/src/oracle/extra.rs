@@ -36,7 +36,7 @@ impl Definition<'_> {
         Placed { sample, sure }
     }
 
-    /// Returns whether no pixel around that of a geometry sample is shaded on its surface.
+    /// Returns whether no nearby pixel is shaded on the surface of a geometry sample.
     fn is_unseen(&self, pixel: [i32; 2], at: ([i32; 2], usize), sure: &mut bool) -> bool {
         let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
         let nearest = around.map(|step| {

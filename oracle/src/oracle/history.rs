@@ -69,8 +69,8 @@ impl<'a> History<'a> {
 }
 
 impl Definition<'_> {
-    /// Shading samples of earlier frames that have come within `reach` pixels of the one that is filtered, and near enough to its sample
-    /// `at` for a `falloff`.
+    /// Shading samples of earlier frames that have come within `reach` pixels of the one that is filtered, and near enough
+    /// to its sample `at` for a `falloff`.
     pub(super) fn earlier_taps(
         &self,
         pixel: [i32; 2],
@@ -120,7 +120,8 @@ impl Definition<'_> {
         taps
     }
 
-    /// The colour of an earlier frame's shading sample, which is light where paint is known, on the paint of the geometry sample `at`.
+    /// The colour of an earlier frame's shading sample, which is light where paint is known, on the paint of the geometry
+    /// sample `at`.
     fn repaint_earlier(
         &self,
         frame: &Earlier,

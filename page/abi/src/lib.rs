@@ -1,5 +1,5 @@
-//! Messages between the web page and its WebAssembly modules: four bytes of length (little endian), as much JSON, then bytes. And how the
-//! page's worker calls: it asks for room, writes its message there, and calls.
+//! Messages between the web page and its WebAssembly modules: four bytes of length (little endian), as much JSON, then
+//! bytes. And how the page's worker calls: it asks for room, writes its message there, and calls.
 
 use serde_json::Value;
 
@@ -42,8 +42,8 @@ impl Message {
     }
 }
 
-/// Exports to the page's worker, on WebAssembly, a function of a crate that answers a message: `&[u8]` to `Vec<u8>`. No pointer is
-/// followed here: the host reads and writes the module's memory itself.
+/// Exports to the page's worker, on WebAssembly, a function of a crate that answers a message: `&[u8]` to `Vec<u8>`. No
+/// pointer is followed here: the host reads and writes the module's memory itself.
 #[macro_export]
 macro_rules! export {
     ($answer:path) => {
@@ -58,7 +58,7 @@ macro_rules! export {
                 static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
             }
 
-            /// Room for a message of so many bytes. Returns its address.
+            /// Reserves room for a message of `length` bytes. Returns its address.
             #[unsafe(no_mangle)]
             extern "C" fn request(length: usize) -> usize {
                 REQUEST.with_borrow_mut(|request| {

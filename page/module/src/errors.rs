@@ -3,7 +3,7 @@
 use serde::Serialize;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
 
-/// Why nothing was made.
+/// Reason why nothing was produced.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Refusal {
     /// All of it, as a terminal would have it.
@@ -25,7 +25,7 @@ pub struct Error {
     pub place: Option<Place>,
     /// Other places that matter.
     pub others: Vec<(Place, String)>,
-    /// Why it is so.
+    /// Reasons.
     pub notes: Vec<String>,
     /// Suggestion of other code.
     pub help: Option<String>,

@@ -1,8 +1,8 @@
 //! The generator as a web page calls it: a request in JSON, and where it needs them bytes, in; an answer in JSON, and where
 //! it has them bytes, out.
 //!
-//! Everything here runs natively too, which is how it is tested; only what `export!` makes is of WebAssembly. A module holds one page's
-//! state: the kernels it has read and compiled lately, the visitor's picture, the traced scene.
+//! Everything here runs natively too, which is how it is tested; only what `export!` makes is of WebAssembly. A module
+//! holds one page's state: the kernels it has read and compiled lately, the visitor's picture, the traced scene.
 
 mod catalogue;
 mod compiled;

@@ -8,7 +8,7 @@ use crate::texels::Picture;
 use std::sync::Arc;
 use straightline_codegen::{Compiled, Kernel, Manifest};
 
-/// Kernels and compiled forms that are kept: as many as a page shows, and one more that is being edited.
+/// Maximum number of cached kernels and compiled forms: as many as a page shows, and one being edited.
 const KEPT: usize = 6;
 
 /// Most pixels of a visitor's picture.

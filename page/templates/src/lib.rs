@@ -1,5 +1,5 @@
-//! The templates of engines as the web page calls them: what the generator tells of a kernel (`page/module`) in, the files of a folder out,
-//! both as JSON. It is a module of its own, so that only those who take a folder load it.
+//! The templates of engines as the web page calls them: what the generator tells of a kernel (`page/module`) in, the files
+//! of a folder out, both as JSON. It is a module of its own, so that only those who take a folder load it.
 
 use serde::Deserialize;
 use serde_json::{Map, Value, json};

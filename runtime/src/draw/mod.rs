@@ -74,17 +74,17 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// The fragment shader `shader` behind the vertex shader of `options`. All that does not depend on
-    /// what is read is checked here: that the vertex shader returns each varying at its location and of its type, the formats of
-    /// vertices, the states of the pipeline.
+    /// Combines the fragment shader `shader` with the vertex shader of `options`. Checks everything that does not depend on
+    /// the inputs: each varying's location and type in the vertex shader, the formats of vertices, the states of the
+    /// pipeline.
     ///
     /// # Errors
     ///
-    /// Those of [`Pass::from_shader`](crate::Pass::from_shader); [`Error::VertexShader`] for a vertex shader that does not compile;
-    /// [`Error::Pipeline`] for a shader of another stage or for regions, a bind group that the kernel has itself, a varying that
-    /// the vertex shader does not return or returns otherwise, and whatever else wgpu holds against the pipeline. With the feature
-    /// `manifest`, such a varying is an [`Error::Varying`], by name, and a vertex shader without the entry point an
-    /// [`Error::VertexShader`].
+    /// Those of [`Pass::from_shader`](crate::Pass::from_shader); [`Error::VertexShader`] for a vertex shader that does not
+    /// compile; [`Error::Pipeline`] for a shader of another stage or for regions, a bind group that the kernel uses itself,
+    /// a varying that the vertex shader does not return or returns with another type, and any other error of wgpu about the
+    /// pipeline. With the feature `manifest`, such a varying is an [`Error::Varying`], by name, and a vertex shader without
+    /// the entry point an [`Error::VertexShader`].
     pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &DrawOptions<'_>) -> Result<Self, Error> {
         let plan = shader.plan.clone();
         check_drawable(&plan)?;
@@ -128,18 +128,19 @@ impl Draw {
         self.plan.inputs.iter().map(|input| input.name.as_ref())
     }
 
-    /// Names of what the kernel gives, with the format that the render pass must have for each, in the order of its colour
-    /// attachments.
+    /// Returns the names of the kernel's outputs with the format that the render pass must have for each, in the order of
+    /// its colour attachments.
     pub fn targets(&self) -> impl ExactSizeIterator<Item = (&str, TextureFormat)> {
         let names = self.plan.outputs.iter().map(|output| output.name.as_ref());
         names.zip(self.formats.iter().copied())
     }
 
-    /// The pipeline with what the kernel reads, `inputs`, given by name as to [`Pass::bind`](crate::Pass::bind). Uniforms start from
-    /// the manifest's defaults.
+    /// Binds the pipeline to the kernel's inputs, `inputs`, by name as for [`Pass::bind`](crate::Pass::bind). Uniforms
+    /// start from the manifest's defaults.
     ///
-    /// Textures that are read at the pixel have one size: that of the render pass, which is not known here. Nor is what else the
-    /// render pass writes: that an input is one of its attachments, wgpu says when the caller's encoder is finished.
+    /// Textures that are read at the pixel must all have the size of the render pass, which is not known here. The render
+    /// pass's attachments are not known either: if one of them is an input, wgpu reports that when the caller's encoder is
+    /// finished.
     ///
     /// # Errors
     ///
@@ -148,12 +149,13 @@ impl Draw {
         self.bind_with(inputs, &BindOptions::default())
     }
 
-    /// [`bind`](Self::bind) with other uniforms than the manifest's.
+    /// Binds as [`bind`](Self::bind), with other uniforms than the manifest's defaults.
     ///
     /// # Errors
     ///
     /// Those of [`bind`](Self::bind); [`Error::UnknownUniform`], [`Error::UniformType`], [`Error::NoUniforms`] and
-    /// [`Error::UniformSize`]; and [`Error::Region`] for a rectangle, which the caller's scissor and triangles say.
+    /// [`Error::UniformSize`]; and [`Error::Region`] for a rectangle, which the caller sets by scissor and triangles
+    /// instead.
     pub fn bind_with<'r, R: Into<Resource<'r>> + Copy>(
         &self,
         inputs: &[(&str, R)],
@@ -187,7 +189,7 @@ impl Draw {
     }
 }
 
-/// Refuses what no triangles are drawn with.
+/// Rejects shaders that cannot be drawn with triangles.
 fn check_drawable(plan: &Plan) -> Result<(), Error> {
     let refused = |description: &str| {
         Err(Error::Pipeline {
@@ -207,8 +209,8 @@ fn check_drawable(plan: &Plan) -> Result<(), Error> {
     }
 }
 
-/// A [`Draw`] with what it reads, to be set in a render pass of the caller's as often as wanted. It keeps what it binds alive, has
-/// no lifetime, and can be shared between threads.
+/// A [`Draw`] with its inputs, to be set in a render pass of the caller's any number of times. It keeps its resources
+/// alive, has no lifetime, and can be shared between threads.
 #[derive(Debug)]
 pub struct BoundDraw {
     plan: Arc<Plan>,
@@ -223,8 +225,8 @@ impl BoundDraw {
         &self.plan.kernel
     }
 
-    /// Sets the pipeline and the kernel's bind groups in `pass`. What the vertex shader reads, its own bind groups and vertex buffers,
-    /// and the draw calls are the caller's. It cannot fail, and allocates nothing of its own.
+    /// Sets the pipeline and the kernel's bind groups in `pass`. What the vertex shader reads, its own bind groups and
+    /// vertex buffers, and the draw calls are the caller's. It cannot fail, and allocates nothing of its own.
     pub fn set(&self, pass: &mut RenderPass<'_>) {
         pass.set_pipeline(&self.pipeline);
         for (index, group) in &self.groups {

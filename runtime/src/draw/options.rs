@@ -47,12 +47,12 @@ pub struct DrawOptions<'a> {
 }
 
 impl<'a> DrawOptions<'a> {
-    /// Behind the function `entry_point` of the WGSL `text`.
+    /// Creates options with the function `entry_point` of the WGSL `text` as vertex shader.
     pub fn new(text: &'a str, entry_point: &'a str) -> Self {
         Self::behind(VertexShader::Wgsl { text, entry_point })
     }
 
-    /// Behind any vertex shader.
+    /// Creates options with any vertex shader.
     pub fn behind(vertex: VertexShader<'a>) -> Self {
         DrawOptions {
             vertex,
@@ -72,8 +72,8 @@ impl<'a> DrawOptions<'a> {
         self
     }
 
-    /// A bind group that the vertex shader reads, which the caller sets itself. The kernel's own is group 0, unless it was generated
-    /// with another number (`--group`).
+    /// A bind group that the vertex shader reads, which the caller sets itself. The kernel's own is group 0, unless it was
+    /// generated with another number (`--group`).
     pub fn group(mut self, index: u32, layout: &'a BindGroupLayout) -> Self {
         self.groups.push((index, layout));
         self
@@ -91,13 +91,13 @@ impl<'a> DrawOptions<'a> {
         self
     }
 
-    /// For a render pass with several samples a pixel. The kernel still runs once a pixel.
+    /// Sets the multisampling of the render pass. The kernel still runs once a pixel.
     pub fn multisample(mut self, state: MultisampleState) -> Self {
         self.multisample = state;
         self
     }
 
-    /// Sets how each colour is blended with the target's: multiplied, say, for light.
+    /// Sets the blending of each colour with the target, such as multiplication for light.
     pub fn blend(mut self, blend: BlendState) -> Self {
         self.blend = Some(blend);
         self

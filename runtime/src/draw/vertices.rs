@@ -1,4 +1,4 @@
-//! The module of a vertex shader, which returns what a kernel has interpolated.
+//! The module of a vertex shader, which outputs a kernel's interpolated values.
 
 use super::VertexShader;
 use crate::error::{Error, Names};
@@ -7,7 +7,7 @@ use crate::plan::Plan;
 use straightline_manifest::plan::VaryingPlan;
 use wgpu::{Device, ShaderModule};
 
-/// The module of the vertex shader, whose text gives all varyings of `plan`.
+/// Creates the module of the vertex shader, whose text must output all varyings of `plan`.
 pub(super) fn vertex_module(device: &Device, plan: &Plan, vertex: &VertexShader<'_>) -> Result<ShaderModule, Error> {
     let (text, entry_point) = match *vertex {
         VertexShader::Wgsl { text, entry_point } => (text, entry_point),
@@ -27,7 +27,7 @@ pub(super) fn vertex_module(device: &Device, plan: &Plan, vertex: &VertexShader<
     })
 }
 
-/// Names what the vertex shader lacks, before wgpu finds it.
+/// Reports what the vertex shader lacks, before wgpu does.
 #[cfg(feature = "manifest")]
 fn check_text(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
     use straightline_reflect::VertexProblem;
@@ -51,7 +51,7 @@ fn check_text(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
     })
 }
 
-/// An error of a pipeline; where only wgpu has looked into the vertex shader, with what the kernel takes of it.
+/// Returns an error of a pipeline. If only wgpu has inspected the vertex shader, the error lists the kernel's varyings.
 pub(super) fn explain_error(error: Error, plan: &Plan, vertex: &VertexShader<'_>) -> Error {
     let checked = cfg!(feature = "manifest") && matches!(vertex, VertexShader::Wgsl { .. });
     match error {

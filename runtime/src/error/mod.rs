@@ -1,4 +1,4 @@
-//! Everything that can go wrong, as values that name the thing, the place and what to do.
+//! All errors, as values that name the item, the place and the remedy.
 
 mod problem;
 
@@ -8,7 +8,7 @@ use wgpu::TextureFormat;
 
 pub use problem::{BufferProblem, SamplerProblem, ViewProblem};
 
-/// Why a pass could not be made, set or recorded.
+/// Reason why a pass could not be created, set or recorded.
 ///
 /// Nothing has been recorded into the caller's encoder when one of these is returned.
 #[derive(Debug, thiserror::Error)]
@@ -19,7 +19,7 @@ pub enum Error {
     #[error(transparent)]
     Manifest(#[from] straightline_manifest::Error),
 
-    /// The manifest contradicts itself or asks for something that no shader of this generator needs.
+    /// The manifest contradicts itself or describes something that no shader of this generator needs.
     #[error("manifest of `{kernel}`: {place}: {problem}; generate the shader and its manifest again")]
     BadManifest {
         /// The kernel's name.
@@ -39,7 +39,7 @@ pub enum Error {
         problem: String,
     },
 
-    /// The WGSL text is another one than the manifest was written with: edited, or of another run of the generator.
+    /// The WGSL text differs from the one that the manifest was written for: edited, or from another run of the generator.
     #[error(
         "shader of `{kernel}` is not the text that its manifest was written with: hash {found}, where the manifest has {wanted}; use the \
          two files of one generator run, or take `hashes` out of the manifest of a text that you changed"
@@ -49,7 +49,7 @@ pub enum Error {
         kernel: String,
         /// The manifest's hash of the text.
         wanted: String,
-        /// That of the text given.
+        /// Hash of the given text.
         found: String,
     },
 
@@ -80,7 +80,7 @@ pub enum Error {
         description: String,
     },
 
-    /// The caller's vertex shader, behind which a kernel was to be drawn, does not compile or has no such entry point.
+    /// The caller's vertex shader does not compile or has no such entry point.
     #[error("the vertex shader that `{kernel}` is to be drawn behind was refused: {description}")]
     VertexShader {
         /// The kernel's name.
@@ -89,7 +89,7 @@ pub enum Error {
         description: String,
     },
 
-    /// The caller's vertex shader does not give what a kernel has interpolated.
+    /// The caller's vertex shader does not output the kernel's interpolated values.
     #[error("`{kernel}` takes `{name}`, {ty} at location {location}, {problem}")]
     Varying {
         /// The kernel's name.
@@ -111,7 +111,7 @@ pub enum Error {
         kernel: String,
         /// The format asked for.
         format: TextureFormat,
-        /// Why not, and what to use.
+        /// Reason, and the remedy.
         reason: String,
     },
 
@@ -232,12 +232,12 @@ pub enum Error {
         problem: BufferProblem,
     },
 
-    /// A kernel that gives several values was given one target.
+    /// A kernel with several outputs was given one target.
     #[error("`{kernel}` writes {known}: give each its target by name, as in `&[(\"{}\", &view), ...]`", .known.0.first().map_or("", String::as_str))]
     TargetNames {
         /// The kernel's name.
         kernel: String,
-        /// All values that the kernel gives.
+        /// All outputs of the kernel.
         known: Names,
     },
 
@@ -248,7 +248,7 @@ pub enum Error {
         kernel: String,
         /// The target.
         name: String,
-        /// All values that the kernel gives.
+        /// All outputs of the kernel.
         known: Names,
     },
 
@@ -259,7 +259,7 @@ pub enum Error {
         kernel: String,
         /// The name that was given.
         name: String,
-        /// All values that the kernel gives.
+        /// All outputs of the kernel.
         known: Names,
     },
 
@@ -277,13 +277,13 @@ pub enum Error {
     Target {
         /// The kernel's name.
         kernel: String,
-        /// The target, where the kernel has several and it is known which is meant.
+        /// The target, if the kernel has several and the wrong one is known.
         name: Option<String>,
         /// Problem of the view.
         problem: ViewProblem,
     },
 
-    /// Each resource is fit by itself, but wgpu refuses this combination of them.
+    /// Each resource is valid on its own, but wgpu rejects this combination.
     #[error("`{kernel}` cannot run on these resources together: {description}")]
     Combination {
         /// The kernel's name.
@@ -299,7 +299,7 @@ pub enum Error {
         kernel: String,
         /// The rectangle.
         region: Region,
-        /// Why not, and what to do.
+        /// Reason, and the remedy.
         problem: String,
     },
 

@@ -5,8 +5,8 @@ use wgpu::TextureFormat;
 
 /// Reason why a texture view cannot be bound.
 ///
-/// wgpu tells a view's texture but not which part of it the view shows. Sizes, layers and formats are therefore
-/// those of the texture; what only the view knows is asked of wgpu, and its answer is [`ViewProblem::Refused`].
+/// wgpu exposes a view's texture but not the part of it that the view shows. Sizes, layers and formats are therefore those
+/// of the texture; everything else is left to wgpu's check, whose error becomes [`ViewProblem::Refused`].
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewProblem {
@@ -128,7 +128,7 @@ pub enum ViewProblem {
         /// The constant of [`wgpu::TextureUsages`].
         missing: &'static str,
     },
-    /// Of another size than the first target.
+    /// Size different from the first target's.
     #[error("is {}x{}, but the first target is {}x{}: all targets have one size", .size[0], .size[1], .first[0], .first[1])]
     TargetSize {
         /// Width and height of the target.
@@ -145,7 +145,7 @@ pub enum ViewProblem {
     /// Image both read and written.
     #[error("is the target itself, which cannot be read while it is written: use two textures")]
     IsTarget,
-    /// Larger than one dispatch can cover with the device's limits.
+    /// Larger than one dispatch can cover within the device's limits.
     #[error(
         "is {size} texels along one side, but the device dispatches at most {max}: raise `max_compute_workgroups_per_dimension`"
     )]
@@ -165,11 +165,11 @@ pub enum ViewProblem {
 
 /// Reason why a sampler cannot be bound.
 ///
-/// wgpu does not tell what a sampler was made for; it is asked to bind the sampler, and its answer is read.
+/// wgpu does not expose a sampler's kind; the sampler is bound on trial, and the error is read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SamplerProblem {
-    /// Compares where it is to filter, or the other way round.
+    /// A comparison sampler where a filtering one is needed, or vice versa.
     #[error("{}", sampler_type_advice(*.needed))]
     Type {
         /// Sampler type that the kernel needs.
@@ -193,7 +193,7 @@ pub enum BufferProblem {
         /// The constant of [`wgpu::BufferUsages`].
         missing: &'static str,
     },
-    /// Holds not even one element.
+    /// Too small for a single element.
     #[error("the buffer has {size} bytes, but one element takes {stride}: give it at least one element")]
     TooSmall {
         /// Bytes of the buffer.
@@ -211,7 +211,7 @@ pub enum BufferProblem {
         /// Bytes that the device can bind.
         max: u64,
     },
-    /// Of a size that cannot be bound whole.
+    /// A size that cannot be bound as a whole.
     #[error("the buffer has {size} bytes, not a multiple of 4: round its size up")]
     Unaligned {
         /// Bytes of the buffer.

@@ -1,4 +1,4 @@
-//! Checks the caller's resources against what a shader reads and writes, before wgpu sees them.
+//! Checks of the caller's resources against a shader's reads and writes, before wgpu sees them.
 
 mod target;
 mod texture;
@@ -107,7 +107,7 @@ pub(crate) fn check_inputs(
                     Error::InputBuffer { kernel, name, problem }
                 })?;
             }
-            // Of a sampler, wgpu tells nothing; whether it is fit shows when it is bound.
+            // wgpu exposes nothing about a sampler; it is checked when it is bound.
             _ => {}
         }
     }
@@ -157,7 +157,8 @@ fn check_buffer(plan: &BufferPlan, abilities: &Abilities, buffer: &Buffer) -> Re
     Ok(())
 }
 
-/// The first input that is of a target's texture, and which target that is. Whether it shows the same part of it, only wgpu knows.
+/// The first input that is of a target's texture, and which target that is. Whether it shows the same part of it, only wgpu
+/// knows.
 pub(crate) fn find_shared<'p, 't>(
     plan: &'p Plan,
     resources: &[Resource<'_>],

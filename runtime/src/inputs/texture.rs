@@ -1,4 +1,4 @@
-//! Checks textures that are read, and what inputs and target have in common.
+//! Checks of textures, and of constraints between inputs and target.
 
 use super::Abilities;
 use crate::error::ViewProblem;
@@ -94,8 +94,8 @@ pub(super) fn check_usage(texture: &Texture, usage: TextureUsages, missing: &'st
     }
 }
 
-/// Float, normalised and depth formats read as floats. Of a combined depth-stencil format the view must select the
-/// depth; that is asked of wgpu when the view is bound.
+/// Checks for float, normalised and depth formats, which are read as floats. For a combined depth-stencil format the view
+/// must select the depth; wgpu checks that when the view is bound.
 fn check_float(format: TextureFormat) -> Result<(), ViewProblem> {
     match format.sample_type(Some(TextureAspect::DepthOnly), None) {
         Some(TextureSampleType::Float { .. } | TextureSampleType::Depth) => Ok(()),
@@ -119,7 +119,7 @@ fn check_integer(format: TextureFormat, needed: TextureSampleType) -> Result<(),
     }
 }
 
-/// Components that a read yields. Of a depth texture, combined with stencil or not, only the first is defined.
+/// Returns the components that a read yields. For a depth texture, combined with stencil or not, only the first is defined.
 fn component_count(format: TextureFormat) -> u8 {
     if format.has_depth_aspect() {
         1

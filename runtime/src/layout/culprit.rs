@@ -8,8 +8,8 @@ use crate::plan::{InputKind, Plan, TexturePlan};
 use straightline_manifest::{Dimension, SamplerType};
 use wgpu::{BindGroupLayoutEntry, BindingResource, BindingType, ShaderStages};
 
-/// Binds each resource alone, and where one is refused, tries the other type that it could be of, to tell a wrong
-/// type from anything else. `whole` is what wgpu said of all of them together.
+/// Binds each resource alone. If one is rejected, tries the other possible type, to distinguish a wrong type from other
+/// errors. `whole` is wgpu's error for all of them together.
 pub(super) fn find_culprit(
     device: &wgpu::Device,
     plan: &Plan,
@@ -57,7 +57,7 @@ pub(super) fn find_culprit(
     }
 }
 
-/// `fits` tells whether the view can be bound as a type.
+/// Returns the problem of a view; `fits` returns whether the view can be bound as a type.
 fn view_problem(texture: &TexturePlan, description: String, fits: impl Fn(BindingType) -> bool) -> ViewProblem {
     // Views of multisampled textures, and of volumes, are of one dimension only.
     let others = [
@@ -84,7 +84,7 @@ fn view_problem(texture: &TexturePlan, description: String, fits: impl Fn(Bindin
     }
 }
 
-/// `fits` tells whether the sampler can be bound as a type.
+/// Returns the problem of a sampler; `fits` returns whether the sampler can be bound as a type.
 fn sampler_problem(needed: SamplerType, description: String, fits: impl Fn(BindingType) -> bool) -> SamplerProblem {
     let other = match needed {
         SamplerType::Filtering => [SamplerType::Comparison; 2],

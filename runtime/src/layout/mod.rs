@@ -29,7 +29,7 @@ struct Group {
 pub(crate) type BoundGroup = (u32, wgpu::BindGroup);
 
 impl Layout {
-    /// Makes the layouts that `plan` asks for.
+    /// Creates the layouts for `plan`.
     pub(crate) fn new(device: &wgpu::Device, plan: &Plan) -> Result<Self, Error> {
         Self::with_groups(device, plan, &[])
     }
@@ -204,7 +204,7 @@ fn binding_type(kind: &InputKind) -> BindingType {
                 read_only: !buffer.written,
             },
             has_dynamic_offset: false,
-            // Of an empty array, even a read that is clamped into it would have nothing to yield.
+            // In an empty array, even a clamped read would have no element.
             min_binding_size: wgpu::BufferSize::new(u64::from(buffer.stride)),
         },
     }

@@ -82,6 +82,6 @@ fn without_bounds_on_loops(
         force_loop_bounding: false,
         ..wgpu::ShaderRuntimeChecks::checked()
     };
-    // SAFETY: the only check that is left out is that of loops, and each of them ends: a `Shader` holds a text and its proof together.
+    // SAFETY: only the check of loops is omitted, and each loop ends: a `Shader` holds a text and its proof together.
     unsafe { device.create_shader_module_trusted(descriptor, checks) }
 }

@@ -8,15 +8,14 @@ use crate::{Error, Pass, PassOptions};
 use straightline_manifest::Manifest;
 use wgpu::{Device, ShaderModule};
 
-/// A module of words that nothing checks: the caller of [`Pass::from_spirv`] has promised that they are what the manifest
-/// describes.
+/// Creates a module of unchecked words: the caller of [`Pass::from_spirv`] has promised that the manifest describes them.
 #[allow(unsafe_code)]
 pub(super) fn create_unchecked(device: &Device, plan: &Plan, words: &[u32]) -> ShaderModule {
     let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
         label: Some(&plan.kernel),
         entry_points: vec![wgpu::PassthroughShaderEntryPoint {
             name: plan.entry_point.as_ref().into(),
-            // Only Metal asks for it.
+            // Only Metal needs it.
             workgroup_size: (1, 1, 1),
         }]
         .into(),
@@ -37,13 +36,13 @@ impl Pass {
     ///
     /// # Errors
     ///
-    /// [`Error::Pipeline`] if they do; [`Error::MissingFeature`] if the device was created without `PASSTHROUGH_SHADERS`; otherwise those of
-    /// [`with_options`](Self::with_options) but for [`Error::Mismatch`] and [`Error::UnboundedLoop`].
+    /// [`Error::Pipeline`] if they do; [`Error::MissingFeature`] if the device was created without `PASSTHROUGH_SHADERS`;
+    /// otherwise those of [`with_options`](Self::with_options) but for [`Error::Mismatch`] and [`Error::UnboundedLoop`].
     ///
     /// # Safety
     ///
-    /// `words` must be a valid module for Vulkan with the manifest's entry point, stage, workgroup size and bindings. It must
-    /// not read or write outside of what is bound, and each of its loops must end.
+    /// `words` must be a valid module for Vulkan with the manifest's entry point, stage, workgroup size and bindings. It
+    /// must not read or write outside of what is bound, and each of its loops must end.
     #[allow(unsafe_code)]
     pub unsafe fn from_spirv(
         device: &Device,

@@ -1,8 +1,8 @@
 //! Communication within the pixel quads of a device.
 //!
-//! Shaders whose lanes send messages rest on what graphics interfaces leave open: where quads lie, that all four lanes
-//! run, and, for messages by derivatives, that both rows and both columns of a quad are looked at. [`Quads::detect`]
-//! draws a few pixels that show it.
+//! Shaders whose lanes communicate depend on behaviour that graphics interfaces leave unspecified: the position of quads,
+//! the execution of all four lanes, and, for derivatives, the use of both rows and both columns of a quad.
+//! [`Quads::detect`] draws a few pixels to test these.
 
 use crate::Error;
 use crate::guard::run_guarded;
@@ -20,10 +20,10 @@ pub enum QuadTransport {
 /// Derivatives that the probe of quads uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DerivativeControl {
-    /// `dpdxFine` and `dpdyFine`, as emitted shaders ask for.
+    /// `dpdxFine` and `dpdyFine`, as in emitted shaders.
     #[default]
     Fine,
-    /// `dpdxCoarse` and `dpdyCoarse`: what a driver without fine ones would give.
+    /// `dpdxCoarse` and `dpdyCoarse`: the behaviour of a driver without fine derivatives.
     Coarse,
 }
 
@@ -96,7 +96,7 @@ impl Quads {
         Quads::detect_with(device, queue, DerivativeControl::Fine)
     }
 
-    /// [`detect`](Self::detect) with other derivatives than emitted shaders ask for.
+    /// [`detect`](Self::detect) with other derivatives than those of emitted shaders.
     ///
     /// # Errors
     ///
@@ -117,11 +117,11 @@ impl Quads {
         Ok(judge_pixels(&bytes, subgroups))
     }
 
-    /// The transport to take: quad operations where they arrive, else fine derivatives.
+    /// Returns the transport to use: quad operations if they work, else fine derivatives.
     ///
     /// # Errors
     ///
-    /// Why there is none, and what to do.
+    /// The reason why there is none, and the remedy.
     pub fn choose(&self) -> Result<QuadTransport, String> {
         let place = match self.origin {
             None => Err("pixels do not agree on where their quads begin".to_owned()),

@@ -1,4 +1,4 @@
-//! The judge on answers that no device at hand gives.
+//! Verdicts on results that no available device produces.
 
 use super::*;
 
@@ -67,7 +67,7 @@ fn kinds_of_derivatives_are_told_apart() {
     }
 }
 
-/// The chapter's test, a mean of a value that one lane has, passes here; each message by itself does not.
+/// The chapter's test, a mean of a value of one lane, passes here, but each swap on its own fails.
 #[test]
 fn a_mean_would_not_have_told() {
     let quads = judge_pixels(&probe_answers([false, true], [0, 0]), false);

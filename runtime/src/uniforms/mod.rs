@@ -134,8 +134,8 @@ fn copy_bytes(block: &mut [u8], offset: u32, bytes: &[u8]) {
     block[offset..offset + bytes.len()].copy_from_slice(bytes);
 }
 
-/// Gives `put` the struct, the offset and the bytes of what `value` is for `name`: a field, or the parts of a matrix or an array that
-/// the shader reads.
+/// Passes struct, offset and bytes of each part of `value` to `put`: a field, or the parts of a matrix or an array that the
+/// shader reads.
 fn place_value(
     plan: &Plan,
     name: &str,

@@ -27,7 +27,7 @@ impl Gpu {
         Self::of(adapter, required_features, required_limits)
     }
 
-    /// Another device of the same adapter. Of another instance, wgpu could not tell its views from this one's.
+    /// Another device of the same adapter. wgpu could not distinguish views of a device from another instance.
     pub fn sibling(&self) -> Self {
         Self::of(self.adapter.clone(), wgpu::Features::empty(), wgpu::Limits::default())
     }

@@ -1,4 +1,4 @@
-//! A crate that includes what its build script wrote depends on nothing that parses.
+//! A crate that includes its build script's output depends on no parser.
 
 use std::collections::BTreeSet;
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! Real dispatches: what comes out is what the shader says, pixel by pixel.
+//! Real dispatches: the output equals the shader's definition, pixel by pixel.
 
 use crate::common;
 

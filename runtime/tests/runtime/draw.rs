@@ -59,8 +59,8 @@ fn pixel([x, y]: [f64; 2]) -> [f64; 2] {
 /// A corner: x, y, depth and w in clip space before the division, and a shade.
 type Corner = [f32; 5];
 
-/// Of a triangle at a pixel's centre, the perspective interpolation of place and shade, and the depth; `None` outside. `near` where
-/// the pixel lies on an edge, as near as a driver may round.
+/// Of a triangle at a pixel's centre, the perspective interpolation of place and shade, and the depth; `None` outside.
+/// `near` where the pixel lies on an edge, as near as a driver may round.
 fn defined(triangle: &[Corner; 3], at: [u32; 2]) -> Option<([f64; 4], f64, bool)> {
     let points = triangle.map(|[x, y, _, w, _]| pixel([f64::from(x / w), f64::from(y / w)]));
     let centre = at.map(|k| f64::from(k) + 0.5);
@@ -91,7 +91,7 @@ const TRIANGLES: [[Corner; 3]; 2] = [
         [1.6, -1.4, 1.2, 2.0, 0.9],
         [-0.3, 2.4, 0.6, 3.0, 0.5],
     ],
-    // Before the one and behind the other end of the first.
+    // In front of the first triangle at one end, and behind it at the other.
     [
         [-0.6, 0.9, 0.9, 1.0, 0.3],
         [0.9, 0.7, 0.2, 1.0, 0.7],
@@ -319,7 +319,7 @@ fn vertex_shaders_that_do_not_fit_are_named() {
             "no entry point `korner` of stage vertex; of that stage it has `corner` and `flat_corner`",
         ),
         (VERTICES, "fill", "no entry point `fill` of stage vertex"),
-        // Parses, but gives no position.
+        // Parses, but outputs no position.
         (
             "struct C { @location(0) place: vec2f, @location(1) shade: f32 } @vertex fn corner() -> C { return C(); }",
             "corner",
@@ -396,7 +396,7 @@ fn pipelines_that_cannot_be_are_named() {
     let compute = COPY.emit(common::Stage::Compute);
     let (_, message) = refusal(&gpu, (&compute.manifest, &compute.wgsl), &plain());
     assert!(message.contains("it is a compute shader"), "{message}");
-    // A pass has no triangles, and says what has.
+    // A pass has no triangles, and names what has.
     let error = Pass::from_json(&gpu.device, &manifest, &wgsl).expect_err("a refusal");
     assert!(
         error.to_string().contains("draw your triangles with it by `Draw`"),

@@ -1,4 +1,4 @@
-//! Unfit samplers, buffers and textures, and manifests that ask for such, are errors that name them.
+//! Unsuitable samplers, buffers and textures, and manifests that need such, cause errors that name them.
 
 use crate::common;
 
@@ -17,7 +17,7 @@ fn pass(gpu: &Gpu, kernel: &Kernel, stage: Stage) -> Pass {
     Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass")
 }
 
-/// Binds what must be refused.
+/// Binds resources that must be rejected.
 fn refuse(gpu: &Gpu, pass: &Pass, inputs: &[(&str, Resource)]) -> Error {
     let target = view(&gpu.target(SIZE));
     let error = pass.bind(inputs, &target).expect_err("a refusal");
@@ -322,8 +322,8 @@ fn buffers_that_cannot_be_bound() {
     }
 }
 
-/// A buffer that is written and bound twice is an error of `bind`; wgpu would refuse the caller's encoder. One that is only read may be
-/// bound as often as one likes.
+/// A buffer that is written and bound twice is an error of `bind`; wgpu would refuse the caller's encoder. One that is only
+/// read may be bound as often as one likes.
 #[test]
 fn buffers_that_are_written_and_bound_twice() {
     let gpu = Gpu::new();

@@ -13,7 +13,7 @@ fn pass(gpu: &Gpu, kernel: &Kernel, stage: Stage) -> Pass {
     Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass")
 }
 
-/// Binds what must be refused.
+/// Binds resources that must be rejected.
 fn refuse(pass: &Pass, inputs: &[(&str, &TextureView)], target: &TextureView) -> Error {
     let error = pass.bind(inputs, target).expect_err("a refusal");
     assert!(error.to_string().contains(&format!("`{}`", pass.kernel())), "{error}");

@@ -23,8 +23,8 @@ pub enum ShadingSample {
     Samples(Vec<usize>),
     /// At the pixel's centre: `"centre"`. The geometry there is one more layer, the last.
     Centre,
-    /// In each pixel where `place.exr` says, at a geometry sample or at the pixel's centre: `"placed"`. The geometry at the centre
-    /// is one more layer, the last.
+    /// In each pixel where `place.exr` says, at a geometry sample or at the pixel's centre: `"placed"`. The geometry at the
+    /// centre is one more layer, the last.
     Placed,
 }
 
@@ -43,9 +43,9 @@ pub enum NormalSpace {
 }
 
 impl NormalSpace {
-    /// The rays of a camera through a picture of `size` pixels, in this space: from the eye to depth 1 through the upper left
-    /// corner, and how they change from pixel to pixel to the right and down. Of a parallel projection the first is the way to depth 1 along
-    /// all rays, and the others are the ways from ray to ray.
+    /// The rays of a camera through a picture of `size` pixels, in this space: from the eye to depth 1 through the upper
+    /// left corner, and how they change from pixel to pixel to the right and down. Of a parallel projection the first is
+    /// the way to depth 1 along all rays, and the others are the ways from ray to ray.
     pub fn rays(self, camera: &Camera, size: UVec2) -> [Vec3; 3] {
         let extent = camera.half_extent(size);
         let step = 2.0 * extent / size.as_vec2();

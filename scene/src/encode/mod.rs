@@ -1,9 +1,9 @@
 //! G-buffers in other formats: what a renderer that stores depth and normals in fewer bits would hand to a filter.
 //!
-//! A capture has linear depth and unit normals in whole floats. [`encode_depths`] and [`encode_normals`] make of them what a texture of
-//! another format reads as, in the numbers that a shader gets from a load: 0 to 1 where the format is normalised
-//! (`unorm`). How each is read back, [`DepthEncoding::decode`] and [`NormalEncoding::decode`], is its definition, in
-//! double precision; tests compare kernels with that.
+//! A capture has linear depth and unit normals in whole floats. [`encode_depths`] and [`encode_normals`] make of them what
+//! a texture of another format reads as, in the numbers that a shader gets from a load: 0 to 1 where the format is
+//! normalised (`unorm`). How each is read back, [`DepthEncoding::decode`] and [`NormalEncoding::decode`], is its
+//! definition, in double precision; tests compare kernels with that.
 
 mod depth;
 mod normal;

@@ -10,7 +10,7 @@ use straightline_kernels::OptionValues;
 /// Depth in steps that count as differences of surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coarse {
-    /// Share of the samples on even ground whose depth is off its plane by what counts as more than `threshold`.
+    /// Share of the samples on even ground whose depth differs from its plane by more than `threshold`.
     pub share: f64,
     /// The smallest threshold of the options.
     pub threshold: f64,
@@ -110,7 +110,7 @@ fn off_planes(capture: &Capture, layers: &[Vec<f64>]) -> Vec<(f64, f64)> {
     off
 }
 
-/// The least difference that changes what a filter does, and the option that says so.
+/// Returns the smallest difference that changes a filter's decision, and its option.
 fn smallest_threshold(options: &OptionValues, number: impl Fn(&str, f64) -> f64) -> (&'static str, f64) {
     let mut all = vec![("tau", 1.0 / number("tau", 500.0).max(1.0e-30))];
     if choice_or_default(options, "mask", "none") != "none" {

@@ -4,7 +4,7 @@ use crate::capture::Capture;
 use crate::scene::SKY_DEPTH;
 use glam::{UVec2, Vec2};
 
-/// A way in which sample offsets are stated that is not that of captures.
+/// Convention of sample offsets that differs from that of captures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Misplaced {
     /// y points up.

@@ -22,9 +22,9 @@ const FEWER: f64 = 2.0;
 /// of their change.
 const EVEN: [f32; 2] = [1.0e-4, 0.01];
 
-/// Refuses normals that are off the planes of the depths in the space that the capture says, and far less so in the other one. Normals
-/// that are as far off in both, such as those of bumps, tell nothing, and so do those of a camera that is not turned: then it makes no
-/// difference.
+/// Refuses normals that are off the planes of the depths in the space that the capture says, and far less so in the other
+/// one. Normals that are as far off in both, such as those of bumps, tell nothing, and so do those of a camera that is not
+/// turned: then it makes no difference.
 pub(super) fn check_normal_space(capture: &Capture) -> Result<(), GBufferError> {
     let stated = capture.normal_space;
     let Some(off) = off_planes(capture) else {
@@ -45,8 +45,8 @@ pub(super) fn check_normal_space(capture: &Capture) -> Result<(), GBufferError> 
     }
 }
 
-/// Share of the normals on even ground that stand off the planes of the depths, if it is so large that normals must be those of shading,
-/// bent by a map.
+/// Share of the normals on even ground that stand off the planes of the depths, if it is so large that normals must be
+/// those of shading, bent by a map.
 pub fn bent_normals(capture: &Capture) -> Option<f64> {
     let off = off_planes(capture)?;
     let own = match capture.normal_space {
@@ -61,8 +61,8 @@ pub fn has_planes(capture: &Capture) -> bool {
     capture.camera.is_some() && capture.normal.is_some() && check_normal_space(capture).is_ok()
 }
 
-/// Share of the normals on even ground that are off the planes that depths make, were they in view space, and in the world's; `None`
-/// without normals or camera, or where nothing is even.
+/// Share of the normals on even ground that are off the planes that depths make, were they in view space, and in the
+/// world's; `None` without normals or camera, or where nothing is even.
 fn off_planes(capture: &Capture) -> Option<[f64; 2]> {
     let camera = capture.camera?;
     let [first, right, down] = NormalSpace::View.rays(&camera, capture.size);

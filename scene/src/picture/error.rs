@@ -1,10 +1,10 @@
-//! Why a picture could not be read or written.
+//! Errors of reading and writing pictures.
 
 use glam::UVec2;
 use std::io;
 use std::path::PathBuf;
 
-/// Why a picture could not be read or written. Each names the file, and the layer where there is one.
+/// Reason why a picture could not be read or written. Each names the file, and the layer if there is one.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The operating system refused.

@@ -242,7 +242,7 @@ impl Source {
         found
     }
 
-    /// Names of parts, and what stands before the last dot in names of channels.
+    /// Returns the names of parts, and the prefixes of channel names before the last dot.
     pub(crate) fn layer_names(&self) -> Vec<String> {
         let mut names = Vec::new();
         for header in self.reader.headers() {

@@ -25,7 +25,7 @@ pub use lut::{read_cube, slice_strip};
 /// Widest and tallest picture that is read or written, in pixels.
 pub const MAX_SIDE: u32 = 16_384;
 
-/// Most pixels of a picture that is read or written; 8K video has half as many.
+/// Maximum number of pixels of a picture; 8K video has half as many.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
 /// Extensions that [`read_picture`] and [`write_picture()`] know.
@@ -118,8 +118,8 @@ pub fn read_picture(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     }
 }
 
-/// Reads a picture like [`read_picture`], but takes the numbers of a PNG as they are, 0 to 1: as of data, such as depths and normals,
-/// not of colours.
+/// Reads a picture like [`read_picture`], but takes the numbers of a PNG as they are, 0 to 1: as of data, such as depths
+/// and normals, not of colours.
 ///
 /// # Errors
 ///

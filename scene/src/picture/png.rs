@@ -127,7 +127,7 @@ impl Stored {
     }
 }
 
-/// Clamped, with 0 for what is not a number. Alpha is linear.
+/// Clamped; NaN becomes 0. Alpha is linear.
 pub(super) fn to_srgb8(texel: Vec4) -> [u8; 4] {
     // A cast from float to integer saturates, and takes NaN to 0.
     let byte = |value: f32| (value * 255.0).round() as u8;

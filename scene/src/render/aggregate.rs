@@ -1,8 +1,9 @@
-//! Aggregate G-buffer antialiasing (Crassin, McGuire, Fatahalian and Lefohn 2015): what became of shading less often than geometry is
-//! sampled, for deferred renderers.
+//! Aggregate G-buffer antialiasing (Crassin, McGuire, Fatahalian and Lefohn 2015): what became of shading less often than
+//! geometry is sampled, for deferred renderers.
 //!
-//! The samples of a pixel are gathered into at most two aggregates, each is shaded once, by the means of its samples' attributes,
-//! and counts by how many samples it has. Of the publication this lacks the moments that widen the highlights of averaged normals.
+//! The samples of a pixel are gathered into at most two aggregates, each is shaded once, by the means of its samples'
+//! attributes, and counts by how many samples it has. Of the publication this lacks the moments that widen the highlights
+//! of averaged normals.
 
 use super::shade::Surface;
 use super::{RenderError, Renderer, check_offsets};

@@ -5,8 +5,8 @@ use crate::capture::{Capture, ShadingSample};
 use glam::{UVec2, Vec2, Vec4, uvec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
-/// Gives a capture of what `renderer` draws the albedo of every layer of its geometry, with the sun's share in alpha, and, if it is shaded
-/// once a pixel, the direct light there and what does not follow the albedo.
+/// Gives a capture of what `renderer` draws the albedo of every layer of its geometry, with the sun's share in alpha, and,
+/// if it is shaded once a pixel, the direct light there and what does not follow the albedo.
 ///
 /// # Errors
 ///

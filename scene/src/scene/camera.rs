@@ -18,8 +18,8 @@ pub struct Camera {
     /// Angle between the picture's upper and lower edge in radians, above 0 and below π; of no meaning with `parallel_height`.
     #[serde(default)]
     pub vertical_fov: f32,
-    /// Of a parallel (orthographic) projection: the distance between the picture's upper and lower edge in scene units, above 0. Captures
-    /// may have such a camera, scenes not.
+    /// Of a parallel (orthographic) projection: the distance between the picture's upper and lower edge in scene units,
+    /// above 0. Captures may have such a camera, scenes not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parallel_height: Option<f32>,
     /// Linear depth before which nothing is drawn, in scene units, above 0.

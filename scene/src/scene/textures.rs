@@ -31,8 +31,8 @@ pub struct Image {
 const MOST: usize = 1 << 26;
 
 impl Textures {
-    /// Adds an image of `size` texels of sRGB and alpha, row by row, with its smaller levels. The number of its first texel and of
-    /// its levels.
+    /// Adds an image of `size` texels of sRGB and alpha, row by row, with its smaller levels. The number of its first texel
+    /// and of its levels.
     ///
     /// # Errors
     ///

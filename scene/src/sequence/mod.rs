@@ -1,7 +1,7 @@
 //! Pictures in time: what a filter reads of the frames before, with where all that is seen has moved since.
 //!
-//! A [`Moment`] is one frame, shaded once a pixel at a place of its own. Of two moments whose scenes differ in where their vertices
-//! and their cameras are, [`motion_vectors`] says where each pixel's surface was.
+//! A [`Moment`] is one frame, shaded once a pixel at a place of its own. Of two moments whose scenes differ in where their
+//! vertices and their cameras are, [`motion_vectors`] says where each pixel's surface was.
 
 use crate::capture::{Capture, ShadingSample};
 use crate::inputs::Inputs;
@@ -32,8 +32,8 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// A scene shaded once a pixel, `jitter` from its centre or, if `shading` is [`ShadingSample::Placed`], at one of `samples` where
-    /// geometry asks for it. What its capture has as geometry of the centre is that at `jitter`.
+    /// A scene shaded once a pixel, `jitter` from its centre or, if `shading` is [`ShadingSample::Placed`], at one of
+    /// `samples` where geometry asks for it. What its capture has as geometry of the centre is that at `jitter`.
     ///
     /// # Errors
     ///

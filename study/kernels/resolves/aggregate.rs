@@ -1,21 +1,21 @@
 //! Aggregate G-buffer antialiasing (Crassin, McGuire, Fatahalian and Lefohn 2015), before and after its shading:
-//! `scene/src/render/aggregate.rs` says what it does.
+//! `scene/src/render/aggregate.rs` describes the method.
 
 use straightline_kernels::prelude::*;
 
-/// Samples that differ by less are of one aggregate.
+/// Difference below which samples belong to one aggregate.
 const ALIKE: f32 = 0.1;
 
 /// Depth of the sky.
 const SKY: f32 = 1.0e6;
 
-/// How much samples differ that cannot be averaged.
+/// Difference between samples that cannot be averaged.
 const APART: f32 = 1.0e30;
 
-/// The number that the sky's material has here.
+/// Material number of the sky in this kernel.
 const SKY_MATERIAL: f32 = -1.0;
 
-/// The samples of `latin16`, in sixteenths of a pixel, each half a one less than it is.
+/// Samples of `latin16`, in sixteenths of a pixel, each minus a half to make it an integer.
 const LATIN16: [IVec2; 16] = [
     ivec2(1, 1),
     ivec2(2, 5),
@@ -35,26 +35,26 @@ const LATIN16: [IVec2; 16] = [
     ivec2(7, -4),
 ];
 
-/// The samples of a pixel, a layer each.
+/// Samples of a pixel, one layer each.
 pub struct GBuffer {
     /// Normal, and depth along the view.
     pub geometry: FrameLayers<Vec4>,
-    /// Colour that is reflected, and the material's number.
+    /// Albedo and material number.
     pub paint: FrameLayers<Vec4>,
 }
 
-/// The aggregates of a pixel.
+/// Aggregates of a pixel.
 pub struct Aggregates {
-    /// Normal as two coordinates of an octahedron, depth, and how many samples it has.
+    /// Normal in two octahedral coordinates, depth, and number of samples.
     pub geometry_0: Vec4,
-    /// Colour that is reflected; the material's number, and 16 times where in the pixel it is shaded, x and 256 y in 255ths.
+    /// Albedo; the material number; and 16 times the shading position in the pixel, x and 256 y in 255ths.
     pub paint_0: Vec4,
-    /// The second, of no samples where all are alike.
+    /// The second aggregate, without samples if all samples are alike.
     pub geometry_1: Vec4,
     pub paint_1: Vec4,
 }
 
-/// The aggregates of the samples of `latin4`.
+/// Aggregates of the samples of `latin4`.
 pub fn aggregate4(samples: &GBuffer, pixel: IVec2) -> Aggregates {
     let places = [
         vec2(-0.125, -0.375),
@@ -65,13 +65,13 @@ pub fn aggregate4(samples: &GBuffer, pixel: IVec2) -> Aggregates {
     aggregates::<4>(samples, places, pixel)
 }
 
-/// The aggregates of those of `latin16`.
+/// Aggregates of the samples of `latin16`.
 pub fn aggregate16(samples: &GBuffer, pixel: IVec2) -> Aggregates {
     let places = LATIN16.map(|place| (place.as_vec2() + 0.5) / 16.0);
     aggregates::<16>(samples, places, pixel)
 }
 
-/// The colour of `pixel`: those of its aggregates, a layer of `colors` each, by how many samples they have.
+/// Colour of `pixel`: those of its aggregates, a layer of `colors` each, weighted by their number of samples.
 pub fn aggregated(geometry_0: &Frame<Vec4>, geometry_1: &Frame<Vec4>, colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     let first = geometry_0.load(pixel).w;
     let second = geometry_1.load(pixel).w;
@@ -87,7 +87,7 @@ struct Sample {
     normal: Vec3,
     depth: f32,
     color: Vec3,
-    /// Its number, or that of the sky.
+    /// Material number, or that of the sky.
     material: f32,
 }
 
@@ -102,7 +102,7 @@ fn sample(samples: &GBuffer, pixel: IVec2, k: usize) -> Sample {
     }
 }
 
-/// How much two samples differ.
+/// Difference between two samples.
 fn apart(a: &Sample, b: &Sample) -> f32 {
     let turned = 1.0 - a.normal.dot(b.normal);
     let step = (a.depth - b.depth).abs() / a.depth.min(b.depth);
@@ -117,7 +117,7 @@ fn apart(a: &Sample, b: &Sample) -> f32 {
 
 fn aggregates<const N: usize>(samples: &GBuffer, places: [Vec2; N], pixel: IVec2) -> Aggregates {
     let seen: [Sample; N] = std::array::from_fn(|k| sample(samples, pixel, k));
-    // The two that differ most, if those are not alike.
+    // The two samples that differ most, if they are not alike.
     let mut most = ALIKE;
     let mut pair = (0, 0);
     for i in 1..N {
@@ -143,7 +143,7 @@ fn aggregates<const N: usize>(samples: &GBuffer, places: [Vec2; N], pixel: IVec2
     }
 }
 
-/// Means of those samples of a group that are of the material most of them have.
+/// Means of the samples in a group that have its most frequent material.
 fn mean<const N: usize>(seen: &[Sample; N], places: [Vec2; N], is_of: [bool; N]) -> (Vec4, Vec4) {
     let mut members = 0u32;
     let mut most = 0u32;
@@ -183,7 +183,7 @@ fn mean<const N: usize>(seen: &[Sample; N], places: [Vec2; N], is_of: [bool; N])
     )
 }
 
-/// A unit vector as two coordinates of -1 to 1 (Cigolle et al. 2014).
+/// Octahedral coordinates of a unit vector, -1 to 1 (Cigolle et al. 2014).
 fn unfolded(unit: Vec3) -> Vec2 {
     let square = unit.truncate() / (unit.x.abs() + unit.y.abs() + unit.z.abs());
     let turned = (1.0 - vec2(square.y, square.x).abs()) * vec2(sign(square.x), sign(square.y));

@@ -1,18 +1,18 @@
-//! Deferred multisampling that looks for edges: where all samples of a pixel see one surface, its first is shaded, else all are.
-//! What one surface is, `study/src/quality/surfaces.rs` says.
+//! Deferred multisampling with edge detection: where all samples of a pixel see one surface, its first is shaded, else all are.
+//! `study/src/quality/surfaces.rs` defines one surface.
 
 use straightline_kernels::prelude::*;
 
-/// Cosine of the angle between two normals of one surface: ten degrees.
+/// Cosine of the largest angle between two normals of one surface: ten degrees.
 const ALIKE: f32 = 0.984_8;
 
-/// How far a point may lie off a plane, in pixels.
+/// Largest distance of a point from a plane, in pixels.
 const OFF_PLANE: f32 = 0.1;
 
 /// Depth of the sky.
 const SKY: f32 = 1.0e6;
 
-/// The samples of `latin4`, from the pixel's centre.
+/// Samples of `latin4`, from the pixel's centre.
 const SAMPLES: [Vec2; 4] = [
     vec2(-0.125, -0.375),
     vec2(0.375, -0.125),
@@ -20,7 +20,7 @@ const SAMPLES: [Vec2; 4] = [
     vec2(0.125, 0.375),
 ];
 
-/// The geometry of the samples, a layer each, and how rays go through the pixels: at the picture's corner, and a pixel to the
+/// Geometry of the samples, one layer each, and the rays through the pixels: at the picture's corner, and a pixel to the
 /// right and down.
 pub struct Geometry {
     pub depth: FrameLayers<f32>,
@@ -36,7 +36,7 @@ struct Point {
     position: Vec3,
 }
 
-/// Colour of `pixel` of the colours of its samples, a layer each.
+/// Colour of `pixel` from the colours of its samples, one layer each.
 pub fn classified(geometry: &Geometry, colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     let first = point(geometry, pixel, 0);
     let reach = OFF_PLANE * geometry.ray_down.length();
@@ -62,7 +62,7 @@ fn point(geometry: &Geometry, pixel: IVec2, sample: usize) -> Point {
     }
 }
 
-/// Whether each point lies on the other's tangent plane, and the planes are turned alike; the sky is one surface.
+/// Returns whether each point is on the other's tangent plane and the normals are alike. The sky is one surface.
 fn is_same(a: &Point, b: &Point, reach: f32) -> bool {
     let way = b.position - a.position;
     let off = way.dot(a.normal).abs().max(way.dot(b.normal).abs());

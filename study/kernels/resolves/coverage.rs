@@ -1,9 +1,9 @@
-//! Coverage sampling: sixteen samples of a pixel say whose of four stored colours they have.
+//! Coverage sampling: each of a pixel's sixteen samples selects one of four stored colours.
 
 use straightline_kernels::prelude::*;
 
-/// Colour of `pixel`: the mean of the stored colours, a layer of `colors` each, by how many samples have them. A sample has four bits
-/// of `codes`, from the lowest of `x` on: the layer, or 15 where it sees none of the stored surfaces.
+/// Colour of `pixel`: the mean of the stored colours, a layer of `colors` each, weighted by their number of samples. A sample
+/// has four bits of `codes`, from the lowest of `x` on: the layer, or 15 if it sees none of the stored surfaces.
 pub fn coverage(codes: &Frame<UVec2>, colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     let words = codes.load(pixel);
     let mut counts = [0u32; 4];

@@ -1,15 +1,15 @@
-//! The directionally adaptive filter (Iourcha, Yang and Pomianowski 2009): its line of thought is told where it is defined in
-//! f64, `study/src/baselines/directional.rs`.
+//! The directionally adaptive filter (Iourcha, Yang and Pomianowski 2009). Its definition in f64 explains the reasoning:
+//! `study/src/baselines/directional.rs`.
 
 use straightline_kernels::prelude::*;
 
-/// The least difference of luma that is an edge: a step of 8 bits.
+/// Smallest difference of luma that is an edge: a step of 8 bits.
 const EDGE: f32 = 1.0 / 255.0;
 
-/// The share of the variance that a plane must explain.
+/// Share of the variance that a plane must explain.
 const EXPLAINED: f32 = 0.5;
 
-/// The samples of `latin4`, from the pixel's centre: their mean.
+/// Samples of `latin4`, from the pixel's centre, which is their mean.
 const SAMPLES: [Vec2; 4] = [
     vec2(-0.125, -0.375),
     vec2(0.375, -0.125),
@@ -17,7 +17,7 @@ const SAMPLES: [Vec2; 4] = [
     vec2(0.125, 0.375),
 ];
 
-/// Resolved colour of `pixel` from the samples of 3x3 pixels, linear, a layer of `colors` each.
+/// Resolves the colour of `pixel` from the samples of 3×3 pixels, linear, a layer of `colors` each.
 pub fn directional(colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     let mut even = Vec4::ZERO;
     let mut dark = 1.0f32;
@@ -29,7 +29,7 @@ pub fn directional(colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
         dark = dark.min(luma);
         bright = bright.max(luma);
     }
-    // Most pixels are even.
+    // Most pixels are uniform.
     #[cfg_attr(false, branch)]
     let resolved = if bright - dark < EDGE {
         even
@@ -39,7 +39,7 @@ pub fn directional(colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     resolved
 }
 
-/// The colour of a pixel whose samples differ; `even` where no plane explains the picture around.
+/// Colour of a pixel whose samples differ; `even` where no plane fits the picture around it.
 fn along_the_edge(colors: &FrameLayers<Vec4>, pixel: IVec2, even: Vec4) -> Vec4 {
     let mut around = [Vec4::ZERO; 36];
     let mut lumas = [0.0; 36];
@@ -49,7 +49,7 @@ fn along_the_edge(colors: &FrameLayers<Vec4>, pixel: IVec2, even: Vec4) -> Vec4 
         lumas[k] = luma(around[k]);
         mean += lumas[k] / 36.0;
     }
-    // The best plane. The places lie alike around every pixel, so that what only they make up is a constant.
+    // The best-fitting plane. The layout of the samples is the same around every pixel, so that terms of it alone are constants.
     let mut squares = Mat2::ZERO;
     let mut moment = Vec2::ZERO;
     let mut variance = 0.0;
@@ -76,24 +76,24 @@ fn along_the_edge(colors: &FrameLayers<Vec4>, pixel: IVec2, even: Vec4) -> Vec4 
     sum / total
 }
 
-/// The pixel that the sample `k` of all around is in.
+/// Pixel of sample `k` of all samples around.
 fn neighbour(k: usize) -> IVec2 {
     ivec2((k / 4 % 3) as i32 - 1, (k / 12) as i32 - 1)
 }
 
-/// Where it lies.
+/// Position of sample `k`.
 fn place(k: usize) -> Vec2 {
     neighbour(k).as_vec2() + SAMPLES[k % 4]
 }
 
-/// Luma of the picture that a display is sent.
+/// Luma of the display-encoded picture.
 fn luma(linear: Vec4) -> f32 {
     let c = linear.truncate().clamp(Vec3::ZERO, Vec3::ONE);
     let shown = vec3(encoded(c.x), encoded(c.y), encoded(c.z));
     shown.dot(vec3(0.2126, 0.7152, 0.0722))
 }
 
-/// sRGB of a linear value, 0 to 1.
+/// Encodes a linear value as sRGB, 0 to 1.
 fn encoded(c: f32) -> f32 {
     if c <= 0.003_130_8 {
         12.92 * c
@@ -102,9 +102,9 @@ fn encoded(c: f32) -> f32 {
     }
 }
 
-/// How long the line through `place` in the direction `along` runs through the pixel around the origin.
+/// Length of the line through `place` in the direction `along` within the pixel around the origin.
 fn chord(place: Vec2, along: Vec2) -> f32 {
-    // A line along an axis is as one that leans by so little that it leaves the pixel at its far ends.
+    // An axis-parallel line is tilted so little that it leaves the pixel at its far ends.
     let steep = along.abs().cmplt(Vec2::splat(1.0e-6));
     let inverse = 1.0 / Vec2::select(steep, Vec2::splat(1.0e-6), along);
     let one = (-0.5 - place) * inverse;

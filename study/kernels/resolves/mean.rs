@@ -1,13 +1,13 @@
-//! The mean of the samples of a pixel, as supersampling and multisampling resolve them.
+//! The mean of a pixel's samples, as in the resolve of supersampling and multisampling.
 
 use straightline_kernels::prelude::*;
 
-/// Of four, a layer of `colors` each.
+/// Mean of four samples, a layer of `colors` each.
 pub fn mean4(colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     mean::<4>(colors, pixel)
 }
 
-/// Of sixteen.
+/// Mean of sixteen samples.
 pub fn mean16(colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
     mean::<16>(colors, pixel)
 }

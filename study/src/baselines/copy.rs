@@ -1,4 +1,4 @@
-//! Textures copied by drawing them.
+//! Copies of textures, made by drawing them.
 
 use straightline_bench::execute::Bench;
 use wgpu::TextureFormat;

@@ -1,13 +1,13 @@
-//! The directionally adaptive filter (Iourcha, Yang, Pomianowski 2009, "A Directionally Adaptive Edge Anti-Aliasing Filter"), on
-//! the CPU, after its publication.
+//! The directionally adaptive filter (Iourcha, Yang, Pomianowski 2009, "A Directionally Adaptive Edge Anti-Aliasing
+//! Filter"), on the CPU, after its publication.
 //!
-//! It resolves a multisampled picture. Where the samples of a pixel differ, the picture around is taken to change in one direction
-//! only: that of the plane which fits the luma of the samples of 3×3 pixels best. All samples on a line across that direction then
-//! have one colour, so each counts as long as its line runs through the pixel. Where the plane fits badly, as at corners and in
-//! texture, and where the pixel is even, the pixel is the mean of its own samples.
+//! It resolves a multisampled picture. Where the samples of a pixel differ, the picture around is taken to change in one
+//! direction only: that of the plane which fits the luma of the samples of 3×3 pixels best. All samples on a line across
+//! that direction then have one colour, so each counts as long as its line runs through the pixel. Where the plane fits
+//! badly, as at corners and in texture, and where the pixel is even, the pixel is the mean of its own samples.
 //!
-//! The publication leaves open how badly; here a plane must explain half of the variance. Its samples' luma is that of the picture a
-//! display is sent, and colours are blended as light.
+//! The publication leaves open how badly; here a plane must explain half of the variance. Its samples' luma is that of the
+//! picture a display is sent, and colours are blended as light.
 
 use glam::{DMat2, DVec2, UVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
@@ -20,8 +20,8 @@ const EDGE: f64 = 1.0 / 255.0;
 /// The share of the variance that a plane must explain.
 const EXPLAINED: f64 = 0.5;
 
-/// The picture that the filter resolves: `samples` has the colours of each sample, linear, which lies at its offset from the pixel's
-/// centre, in pixels, y down.
+/// Resolves a picture. `samples` holds the linear colours of each sample, which lies at its offset from the pixel's centre,
+/// in pixels, y down.
 pub fn resolve_directional(samples: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
     let size = samples.first().map_or(UVec2::ZERO, Frame::size);
     let lumas: Vec<Frame<f32>> = samples.iter().map(luma_frame).collect();
@@ -62,7 +62,7 @@ fn uvec2_at(k: u32, size: UVec2) -> UVec2 {
     UVec2::new(k % size.x, k / size.x)
 }
 
-/// Luma of the picture that a display is sent.
+/// Returns the luma of the picture as sent to a display.
 fn luma_frame(linear: &Frame<Vec4>) -> Frame<f32> {
     let shown = |texel: &Vec4| {
         let [r, g, b] = texel
@@ -74,7 +74,7 @@ fn luma_frame(linear: &Frame<Vec4>) -> Frame<f32> {
     Frame::new(linear.size(), linear.texels().iter().map(shown).collect())
 }
 
-/// The direction in which the picture does not change, if the plane that fits the values at the places explains them well enough.
+/// Returns the direction in which the picture does not change, if the plane fitted to the values explains them well enough.
 fn isoline_direction(values: &[(DVec2, f64)]) -> Option<DVec2> {
     let count = values.len() as f64;
     let middle = values.iter().map(|(place, _)| *place).sum::<DVec2>() / count;
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
     use glam::dvec2;
 
-    /// Counted in small steps.
+    /// Counts the chord's length in small steps.
     #[test]
     fn a_chord_is_as_long_as_the_line_is_inside() {
         for k in 0..200 {
@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(isoline_direction(&noise), None);
     }
 
-    /// A straight edge: nearer to how much of each pixel it covers than the mean of the samples is.
+    /// The filtered straight edge is closer to the coverage of each pixel than the mean of the samples.
     #[test]
     fn straight_edges_have_more_steps_than_samples() {
         let offsets = straightline_scene::gbuffer::pattern_offsets("latin4").expect("a pattern");

@@ -1,4 +1,4 @@
-//! FXAA, one of the ten filters; carried along so that it is there wherever the program runs.
+//! FXAA, one of the ten filters; embedded, so that it is available wherever the program runs.
 
 use straightline_codegen::Kernel;
 use straightline_kernels::filters::FXAA;

@@ -1,25 +1,26 @@
 //! MLAA (Reshetov 2009, "Morphological Antialiasing"), on the CPU, after its publication.
 //!
-//! Two pixels that differ in a colour by sixteen steps of 255 have an edge between them. A run of edges between two rows is a separation
-//! line; the edges that meet its ends at right angles make it a Z (one up, one down), a U (both to the same side) or an L (at one end only).
-//! The silhouette is taken to go from the middle of such an edge to the middle of the line, in an L to its far end; each pixel that it
-//! cuts takes the colour across the line for the area that it loses. Columns are treated as rows.
+//! Two pixels that differ in a colour by sixteen steps of 255 have an edge between them. A run of edges between two rows is
+//! a separation line; the edges that meet its ends at right angles make it a Z (one up, one down), a U (both to the same
+//! side) or an L (at one end only). The silhouette is taken to go from the middle of such an edge to the middle of the
+//! line, in an L to its far end; each pixel that it cuts takes the colour across the line for the area that it loses.
+//! Columns are treated as rows.
 //!
-//! The paper moves the ends of the silhouette from the middle of the edges so that blended colours of many-coloured pictures go on
-//! beyond them; here they stay in the middle, as it has them for two colours. Ends at which edges meet to both sides are no end of
-//! a shape.
+//! The paper moves the ends of the silhouette from the middle of the edges so that blended colours of many-coloured
+//! pictures go on beyond them; here they stay in the middle, as it has them for two colours. Ends at which edges meet to
+//! both sides are no end of a shape.
 
 use glam::{UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 
-/// The least difference of a colour that is an edge: a step of the upper four of eight bits.
+/// Smallest difference of a colour that counts as an edge: a step of the upper four of eight bits.
 const EDGE: f32 = 16.0 / 255.0;
 
 /// A rounding less than a step of 8 bits.
 const ROUNDING: f32 = 1.0e-4;
 
-/// The picture antialiased: numbers as a display is sent them, each in 0..=1. Alpha stays.
+/// Returns the antialiased picture. Colours are as sent to a display, each in 0..=1; alpha is unchanged.
 pub fn apply_mlaa(picture: &Frame<Vec4>) -> Frame<Vec4> {
     let UVec2 { x: width, y: height } = picture.size();
     let (width, height) = (width as usize, height as usize);
@@ -56,15 +57,15 @@ pub fn apply_mlaa(picture: &Frame<Vec4>) -> Frame<Vec4> {
 #[derive(Clone, Copy)]
 struct Grid<'a> {
     colors: &'a [Vec3],
-    /// Pixels of a row, and rows.
+    /// Number of pixels in a row, and number of rows.
     along: usize,
     across: usize,
-    /// From a pixel to the next in its row, and to that in the next row.
+    /// Offsets to the next pixel of a row, and to the next row.
     step: usize,
     stride: usize,
 }
 
-/// Edge at a right angle that meets the end of a separation line.
+/// Edge at a right angle to a separation line, at its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
     /// On the side of the row before the line.
@@ -84,13 +85,13 @@ impl Grid<'_> {
         (self.colors[a] - self.colors[b]).abs().max_element() >= EDGE - ROUNDING
     }
 
-    /// Every pixel that a silhouette cuts, the one across the separation line, and the area that changes hands.
+    /// Returns every pixel that a silhouette cuts, the pixel across the separation line, and the exchanged area.
     fn find_blends(&self) -> Vec<(usize, usize, f32)> {
         let lines = (0..self.across.saturating_sub(1)).into_par_iter();
         lines.flat_map_iter(|row| self.of_line(row)).collect()
     }
 
-    /// Blends of the separation lines between a row and the next.
+    /// Returns the blends of the separation lines between a row and the next.
     fn of_line(&self, row: usize) -> Vec<(usize, usize, f32)> {
         let is_edge = |k: usize| self.has_edge(self.at(row, k), self.at(row + 1, k));
         let mut found = Vec::new();
@@ -108,7 +109,7 @@ impl Grid<'_> {
         found
     }
 
-    /// Blends of the line between pixels `first..end` of a row and the next.
+    /// Collects the blends of the line between pixels `first..end` of a row and the next.
     fn of_run(&self, row: usize, first: usize, end: usize, found: &mut Vec<(usize, usize, f32)>) {
         let ends = [self.line_end(row, first), self.line_end(row, end)];
         let length = (end - first) as f32;
@@ -147,7 +148,8 @@ impl Grid<'_> {
     }
 }
 
-/// Area below a silhouette that falls from one half to zero over `whole` pixels, in the pixel that begins after `start` of them.
+/// Returns the area below a silhouette that falls from one half to zero over `whole` pixels, in the pixel that begins after
+/// `start` of them.
 fn cut_area(start: f32, whole: f32) -> f32 {
     let end = (start + 1.0).min(whole);
     if end <= start {
@@ -183,8 +185,8 @@ mod tests {
         Frame::new(uvec2(size.y, size.x), texels.collect())
     }
 
-    /// Down by one in four pixels, through the middles of the steps. The line between rows is a Z of four pixels, whose silhouette
-    /// takes 3/8 and 1/8 of the pixels at either end; so are the steps, of one pixel, with 1/8 to either side.
+    /// Down by one in four pixels, through the middles of the steps. The line between rows is a Z of four pixels, whose
+    /// silhouette takes 3/8 and 1/8 of the pixels at either end; so are the steps, of one pixel, with 1/8 to either side.
     #[test]
     fn stairs_are_zs() {
         let stairs = picture(&["############", "....########", "........####", "............"]);

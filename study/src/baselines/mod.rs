@@ -1,4 +1,4 @@
-//! Foreign baselines for SRAA: filters that look at the picture alone, or at its samples.
+//! Baselines from outside for SRAA: filters of the picture alone, or of its samples.
 
 mod copy;
 mod directional;

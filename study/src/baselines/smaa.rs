@@ -12,11 +12,11 @@ use straightline_manifest::{Dimension, SampleType};
 use straightline_scene::render::{RenderError, with_error_scope};
 use wgpu::TextureFormat;
 
-/// Of the picture that it reads and the one that it writes: more than 8 bits, so that rounding is no part of its error, and
-/// to be filtered on every device.
+/// Format of the input and output pictures: more than 8 bits, so that rounding adds no error, and filterable on every
+/// device.
 const FORMAT: TextureFormat = TextureFormat::Rgba16Float;
 
-/// Bytes a pixel of the textures between its passes: edges in rg8unorm, weights in rgba8unorm.
+/// Bytes per pixel of the textures between the passes: edges in rg8unorm, weights in rgba8unorm.
 const BETWEEN: u64 = 2 + 4;
 
 /// SMAA on pictures of one size.
@@ -30,7 +30,7 @@ pub struct Smaa {
 }
 
 impl Smaa {
-    /// Makes the passes on the bench's device, for pictures of `size` pixels.
+    /// Creates the passes on the bench's device, for pictures of `size` pixels.
     ///
     /// # Errors
     ///
@@ -66,7 +66,7 @@ impl Smaa {
         made.map_err(of_device)
     }
 
-    /// The picture antialiased; both linear.
+    /// Returns the antialiased picture; input and output are linear.
     ///
     /// # Errors
     ///
@@ -108,7 +108,7 @@ impl Smaa {
         }
     }
 
-    /// Bytes that it reads and writes: picture, edges, weights, output.
+    /// Returns the bytes that the passes read and write: picture, edges, weights, output.
     pub fn traffic_bytes(&self) -> u64 {
         let texels = u64::from(self.output.width()) * u64::from(self.output.height());
         2 * texture_bytes(&self.output) + BETWEEN * texels
@@ -171,7 +171,7 @@ fn between_stamps(bench: &Bench, submit: impl FnOnce()) -> Result<Duration, Exec
     let doing = "timing SMAA";
     let (sender, receiver) = mpsc::channel();
     read.map_async(wgpu::MapMode::Read, .., move |result| {
-        // The receiver is gone only if waiting failed, and then the result is of no use.
+        // Sending fails only if waiting failed, and then the result is of no use.
         let _ = sender.send(result);
     });
     bench.wait()?;

@@ -9,17 +9,17 @@ use glam::{Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture::srgb;
 
-/// Transfer function of the picture that a filter is given.
+/// Transfer function of a filter's input picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// sRGB values: even steps for the eye.
+    /// sRGB values, perceptually even.
     Srgb,
-    /// Light.
+    /// Linear light.
     Linear,
 }
 
 impl Transfer {
-    /// A linear picture as the filter takes it, each number in 0..=1. What is not a number becomes 0.
+    /// Encodes a linear picture for the filter, each number in 0..=1. NaN becomes 0.
     pub fn encode_picture(self, linear: &Frame<Vec4>) -> Frame<Vec4> {
         map_colors(linear, |color| {
             let shown = color.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
@@ -30,7 +30,7 @@ impl Transfer {
         })
     }
 
-    /// Makes a filter's result linear again.
+    /// Decodes a filter's result to linear light.
     pub fn decode_picture(self, filtered: &Frame<Vec4>) -> Frame<Vec4> {
         match self {
             Transfer::Srgb => map_colors(filtered, |color| color.map(|v| srgb::to_linear(v.clamp(0.0, 1.0)))),

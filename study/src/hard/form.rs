@@ -1,4 +1,4 @@
-//! Kernels that hard cases are run with, and their options.
+//! Kernels for hard cases, and their options.
 
 use super::HardError;
 use super::case::Case;
@@ -7,7 +7,7 @@ use straightline_codegen::Math;
 use straightline_kernels::{HalfPrecision, OptionText, OptionValues};
 use straightline_scene::render::PlacedBy;
 
-/// Inputs of a kernel, and the definition that judges it.
+/// Inputs of a kernel, and the definition that it is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// SRAA.
@@ -39,18 +39,19 @@ pub struct Form {
     pub kernel: String,
     /// Inputs and definition of the kernel.
     pub family: Family,
-    /// Options that are not the default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
-    /// Algebra that is done.
+    /// Mathematics policy of the form.
     pub math: Math,
-    /// True if the form promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
+    /// `true` if the form promises a finite picture within bounds: all do except those that keep errors of the printed
+    /// listing.
     pub promises: bool,
-    /// True if the form runs cases that set options.
+    /// `true` if the form runs cases that set options.
     pub takes_options: bool,
 }
 
-/// Options that reproduce the paper's listing, but for the order in which it takes its arguments: shading at the first of
-/// 2×2 samples, no falloff, weights divided by their sum whatever that is, colours as they come.
+/// Options that reproduce the paper's listing, except for the order of its arguments: shading at the first of 2×2 samples,
+/// no falloff, weights divided by their sum even if it is 0, colours used unchecked.
 pub const PAPER: &[(&str, &str)] = &[
     ("pattern", "ordered4"),
     ("shading", "sample0"),
@@ -59,7 +60,7 @@ pub const PAPER: &[(&str, &str)] = &[
     ("non-finite", "spread"),
 ];
 
-/// Shading at samples and centres in turn, and a search.
+/// Shading alternately at samples and centres, and a search.
 const PLACED: &[(&str, &str)] = &[
     ("shading", "placed"),
     ("difference", "relative"),
@@ -67,7 +68,7 @@ const PLACED: &[(&str, &str)] = &[
     ("search", "seven"),
 ];
 
-/// Placed shading by planes with a smaller search, and the colour kept of pixels whose samples show one plane.
+/// Shading placed by planes with a smaller search; pixels whose samples show one plane keep their colour.
 const KEPT_EVEN: &[(&str, &str)] = &[
     ("shading", "placed"),
     ("search", "five"),
@@ -103,7 +104,7 @@ impl Form {
         self
     }
 
-    /// Every form that is studied.
+    /// Returns every studied form.
     pub fn all() -> Vec<Form> {
         use Family::*;
         vec![
@@ -192,7 +193,7 @@ impl Form {
         ]
     }
 
-    /// A built-in kernel with options, if it is of a family that is studied.
+    /// Returns a built-in kernel with options, if its family is studied.
     pub fn from_kernel(kernel: &str, options: &[OptionText]) -> Option<Form> {
         let family = Family::ALL.into_iter().find(|family| family.kernel_name() == kernel)?;
         let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
@@ -204,7 +205,7 @@ impl Form {
         })
     }
 
-    /// The options that it has in a case; `None` if the case is not for it.
+    /// Returns the form's options in a case; `None` if the case does not apply to it.
     pub fn in_case(&self, case: &Case) -> Option<Vec<OptionText>> {
         if case.coord.is_some() && !self.family.reads_shadows() {
             return None;
@@ -225,11 +226,11 @@ impl Form {
         }
     }
 
-    /// Values of all of its kernel's options under `settings`.
+    /// Returns the values of all of the kernel's options under `settings`.
     ///
     /// # Errors
     ///
-    /// [`HardError::Kernel`] if the kernel does not take them.
+    /// [`HardError::Kernel`] if the kernel does not accept them.
     pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, HardError> {
         let values = load_builtin(&self.kernel).and_then(|kernel| kernel.option_values(settings));
         values.map_err(|errors| HardError::Kernel {
@@ -239,7 +240,7 @@ impl Form {
     }
 }
 
-/// A kernel's choice, or `default` of a kernel without such an option.
+/// Returns the value of a choice, or `default` for a kernel without that option.
 pub fn choice_or<'a>(options: &'a OptionValues, name: &str, default: &'a str) -> &'a str {
     options.choice(name).unwrap_or(default)
 }
@@ -262,7 +263,7 @@ impl Family {
         matches!(self, Family::Pcf | Family::Pcss)
     }
 
-    /// Returns whether the family gives light from 0 to 1, and no colours.
+    /// Returns whether the family outputs light from 0 to 1 instead of colours.
     pub fn gives_light(self) -> bool {
         self.reads_shadows() || self == Family::Ssao
     }
@@ -272,7 +273,7 @@ impl Family {
         !matches!(self, Family::Sraa | Family::Stalker | Family::TabulaRasa)
     }
 
-    /// The name of the built-in kernel.
+    /// Returns the name of the built-in kernel.
     pub fn kernel_name(self) -> &'static str {
         match self {
             Family::Sraa => "sraa",
@@ -288,7 +289,7 @@ impl Family {
     }
 }
 
-/// Texels on an axis of a filter of shadow maps.
+/// Returns the width of a shadow filter, in texels.
 pub fn shadow_filter_width(options: &OptionValues) -> i64 {
     match choice_or(options, "width", "eight") {
         "four" => 4,

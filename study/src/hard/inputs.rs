@@ -1,4 +1,4 @@
-//! A case as the images and numbers that a kernel reads.
+//! Conversion of a case to the images and numbers that a kernel reads.
 
 use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
@@ -10,15 +10,15 @@ use straightline_kernels::{OptionValue, OptionValues};
 use straightline_oracle::oracle::{self, Shading, SraaParams};
 use straightline_scene::encode::{self, DepthEncoding, NormalEncoding};
 
-/// Inputs of a form in a case, and the numbers of its definition.
+/// Inputs of a form in a case, and the parameters of its definition.
 pub struct Reads {
     /// Images and uniforms.
     pub inputs: Inputs,
-    /// Of SRAA, the definition's numbers.
+    /// Parameters of SRAA's definition.
     pub params: Option<SraaParams>,
 }
 
-/// Makes the inputs of a form with `options` in a case.
+/// Builds the inputs of a form with `options` in a case.
 pub fn build_reads(case: &Case, form: &Form, options: &OptionValues) -> Result<Reads, HardError> {
     let inputs = match form.family {
         Family::Sraa => {
@@ -66,7 +66,7 @@ pub fn build_reads(case: &Case, form: &Form, options: &OptionValues) -> Result<R
     Ok(Reads { inputs, params: None })
 }
 
-/// The definition's numbers: those that are uniforms as the case gives them.
+/// Returns the definition's parameters, with uniforms set by the case.
 fn sraa_params(case: &Case, options: &OptionValues) -> Result<SraaParams, OracleFailure> {
     let mut params = SraaParams::default();
     for (name, value) in options {
@@ -116,7 +116,7 @@ fn sraa_inputs(case: &Case, params: &SraaParams) -> Inputs {
         .with_uniform("tau", &[params.tau])
         .with_uniform("depth_scale", &[params.depth_scale]);
     if params.shading == Shading::Placed {
-        // No two neighbours at the same sample.
+        // No two neighbours have the same sample.
         let layer = |pixel: UVec2| ((3 * pixel.x + 7 * pixel.y) % places.len() as u32) as usize;
         let shaded = image_from_fn(case.size, |pixel| {
             let (offset, sample) = places[layer(pixel)];
@@ -150,10 +150,10 @@ fn map_layers<A: Copy, B: Copy>(stack: &FrameLayers<A>, of: impl Fn(A) -> B) -> 
     FrameLayers::new(stack.layers().iter().map(layer).collect())
 }
 
-/// A linear depth as a texture holds it.
+/// Encodes a linear depth for a texture.
 fn encode_depth(case: &Case, encoding: oracle::Depth, depth: f32) -> f32 {
     let ([near, far], depth) = (case.planes.map(f64::from), f64::from(depth));
-    // The definitions' products of infinities are no numbers.
+    // The definitions' products with infinities are NaN.
     let endless = far.is_infinite() || depth.is_infinite();
     let value = match encoding {
         oracle::Depth::Linear => return depth as f32,
@@ -166,7 +166,7 @@ fn encode_depth(case: &Case, encoding: oracle::Depth, depth: f32) -> f32 {
     case.storage.round(value) as f32
 }
 
-/// A normal as a texture holds it.
+/// Encodes a normal for a texture.
 fn encode_normal(encoding: oracle::Normals, seen: &Seen) -> Vec4 {
     let vector = match seen.normal {
         Normal::Texel(texel) => return texel,
@@ -181,8 +181,8 @@ fn encode_normal(encoding: oracle::Normals, seen: &Seen) -> Vec4 {
     Vec4::new(x as f32, y as f32, z as f32, 1.0)
 }
 
-/// Weights of a cubic B-spline that ends at `half` texels, as `weights=lookup` reads them: of a texel and the next, and the share of the
-/// next.
+/// Returns the weights of a cubic B-spline that ends at `half` texels, for `weights=lookup`: of a texel and the next, and
+/// the share of the next.
 fn cubic_table(half: f32) -> Frame<Vec4> {
     let weight = |distance: f32| match 2.0 * distance.abs() / half {
         x if x < 1.0 => 2.0 / 3.0 - x * x + 0.5 * x * x * x,
@@ -197,7 +197,7 @@ fn cubic_table(half: f32) -> Frame<Vec4> {
     })
 }
 
-/// Returns the normal of a case, without any encoding.
+/// Returns the normal of a case, without encoding.
 fn normal_vector(seen: &Seen) -> Vec3 {
     match seen.normal {
         Normal::Vector(vector) => vector,
@@ -205,7 +205,7 @@ fn normal_vector(seen: &Seen) -> Vec3 {
     }
 }
 
-/// The frame in full, and every corner of 2×2 pixels (or 4×4) as the low resolution.
+/// Returns the frame at full resolution, and the corner of every 2×2 (or 4×4) pixels as the low resolution.
 fn upsampling_inputs(case: &Case, options: &OptionValues) -> Inputs {
     let factor = match choice_or(options, "factor", "twice") {
         "four-times" => 4,

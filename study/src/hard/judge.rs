@@ -1,4 +1,4 @@
-//! Runs one form on one case: computes, compares, judges.
+//! Runs one form on one case, and judges the result.
 
 use super::HardError;
 use super::case::Case;
@@ -15,7 +15,7 @@ use straightline_kernels::OptionText;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
 
-/// A form on a case, with what should come out.
+/// A form on a case, with the expected result.
 pub struct Trial<'a> {
     case: &'a Case,
     form: &'a Form,
@@ -31,7 +31,7 @@ struct Found {
 }
 
 impl<'a> Trial<'a> {
-    /// A form with `options` on a case.
+    /// Creates the trial of a form with `options` on a case.
     pub fn new(case: &'a Case, form: &'a Form, options: Vec<OptionText>) -> Result<Trial<'a>, HardError> {
         let values = form.option_values(&options)?;
         let reads = build_reads(case, form, &values)?;
@@ -45,7 +45,7 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// By every executor that is no device.
+    /// Runs every executor except a device.
     pub fn run_interpreters(&self, compiled: &Compiled, precision: Precision) -> Result<Vec<HardResult>, HardError> {
         let found = match precision {
             Precision::F32 => [
@@ -70,7 +70,7 @@ impl<'a> Trial<'a> {
             .collect()
     }
 
-    /// By a device.
+    /// Runs on a device.
     pub fn run_device(
         &self,
         bench: &Bench,
@@ -162,7 +162,7 @@ impl<'a> Trial<'a> {
         }
         let width = self.case.size.x;
         let born = first_bad.and_then(|k| {
-            // Quads note what happened at their upper left pixel.
+            // Quads record their events at their upper left pixel.
             let at = [k as u32 % width, k as u32 / width];
             let quad = at.map(|axis| axis - axis % 2);
             let non_finite_origin = found
@@ -193,7 +193,8 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// The distance of neighbouring numbers at `x`; at 0 and below the smallest normal number, at that.
+/// Returns the distance of neighbouring numbers at `x`; at 0 and below the smallest normal number, the distance at that
+/// number.
 fn ulp_at(x: f64, precision: Precision) -> f64 {
     let (digits, smallest) = match precision {
         Precision::F32 => (23, f64::from(f32::MIN_POSITIVE)),
@@ -203,7 +204,7 @@ fn ulp_at(x: f64, precision: Precision) -> f64 {
     2.0f64.powi(exponent - digits)
 }
 
-/// A form compiled with the options that it has in a case.
+/// Compiles a form with its options in a case.
 pub fn compile_form(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
     let settings = straightline_codegen::Settings::new()
         .set_all(options.to_vec())

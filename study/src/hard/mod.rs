@@ -1,9 +1,9 @@
 //! Numerical stability: named cases that are hard to compute, kernels in several options, precisions and executors.
 //!
-//! [`run_cases`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by the
-//! interpreter with subnormal numbers flushed, by the interpreter as inexact as WGSL allows, and by the shader that is
-//! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`straightline_oracle::oracle`]) and held to a
-//! bound that follows from an error analysis of the case's inputs ([`straightline_oracle::oracle::bound`]).
+//! [`run_cases`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by
+//! the interpreter with subnormal numbers flushed, by the interpreter as inexact as WGSL allows, and by the shader that is
+//! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`straightline_oracle::oracle`])
+//! and held to a bound that follows from an error analysis of the case's inputs ([`straightline_oracle::oracle::bound`]).
 //!
 //! In `f16` no such bound is useful, because it grows beyond what can be seen as soon as depths are compared; there each
 //! result is held to what can be seen, and [`half_precision_verdict`] says which kernels may compute in it.
@@ -28,12 +28,12 @@ use straightline_bench::execute::ExecuteError;
 use straightline_codegen::diagnostic::Errors;
 use straightline_oracle::oracle::OracleError;
 
-/// Every case.
+/// Returns every case.
 pub fn all_cases() -> Vec<Case> {
     cases::all_cases()
 }
 
-/// The case of a name.
+/// Returns the case of a name.
 ///
 /// # Errors
 ///
@@ -45,7 +45,7 @@ pub fn find_case(name: &str) -> Result<Case, HardError> {
         .ok_or_else(|| HardError::UnknownCase(name.to_owned()))
 }
 
-/// Why hard cases could not be run.
+/// Reason why hard cases could not be run.
 #[derive(Debug, thiserror::Error)]
 pub enum HardError {
     /// There is no such case.
@@ -62,7 +62,7 @@ pub enum HardError {
     Kernel {
         /// Name of the form.
         form: String,
-        /// Why.
+        /// Errors of the kernel.
         errors: Errors,
     },
     /// A kernel could not be run.
@@ -70,9 +70,9 @@ pub enum HardError {
     Execute {
         /// Name of the form.
         form: String,
-        /// On what.
+        /// Name of the case.
         case: String,
-        /// Why.
+        /// Cause of the failure.
         source: Box<ExecuteError>,
     },
     /// The definition cannot be evaluated.

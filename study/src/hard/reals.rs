@@ -1,4 +1,4 @@
-//! Precisions that the interpreter does not have by itself: what devices may do where the specification lets them.
+//! Precisions beyond the interpreter's own, which model the freedom of devices under the specification.
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
@@ -19,7 +19,7 @@ pub struct Flushed<R>(R);
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Loose<R>(R);
 
-/// The smallest normal number of a precision.
+/// Returns the smallest normal number of a precision.
 fn smallest_normal<R: Real>() -> f64 {
     match R::NAME {
         "f16" => 1.0 / 16384.0,
@@ -151,7 +151,7 @@ fn round_loosely<R: Real>(exact: f64, key: u64) -> R {
     if other.to_f64().is_finite() { other } else { nearest }
 }
 
-/// At most `most` units in the last place away; zeros, infinities and NaNs as they are.
+/// Moves a number by at most `most` units in the last place; zeros, infinities and NaNs are unchanged.
 fn nudge_ulps<R: Real>(x: R, most: f64, key: u64) -> R {
     let value = x.to_f64();
     if value == 0.0 || !value.is_finite() {
@@ -164,7 +164,7 @@ fn nudge_ulps<R: Real>(x: R, most: f64, key: u64) -> R {
     if kept { moved } else { x }
 }
 
-/// So many numbers farther from zero.
+/// Returns the number `by` representable steps farther from zero.
 fn step_ulps<R: Real>(x: R, by: i64) -> R {
     let sign = match R::NAME {
         "f16" => 1 << 15,
@@ -179,7 +179,7 @@ fn step_ulps<R: Real>(x: R, by: i64) -> R {
     }
 }
 
-/// A number as good as random (SplitMix64), the same for the same words.
+/// Returns a pseudo-random number (SplitMix64), a function of the words.
 fn hash(words: &[u64]) -> u64 {
     words.iter().fold(0x9e37_79b9_7f4a_7c15, |state, word| {
         let mut z = (state ^ word).wrapping_add(0x9e37_79b9_7f4a_7c15);

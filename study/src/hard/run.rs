@@ -1,4 +1,4 @@
-//! All that was selected, by all executors.
+//! Runs the selected cases, forms and precisions in all executors.
 
 use super::case::Case;
 use super::form::Form;
@@ -27,7 +27,7 @@ pub struct Selection {
 }
 
 impl Default for Selection {
-    /// All.
+    /// Selects everything.
     fn default() -> Self {
         Selection {
             cases: cases::all_cases(),
@@ -40,15 +40,15 @@ impl Default for Selection {
 /// Kernel and options.
 type Key = (String, Vec<OptionText>);
 
-/// A compiled shader, or why the device cannot have it.
+/// A compiled shader, or the reason why the device does not support it.
 type Shader = Result<(Pass, Manifest), String>;
 
-/// Runs what is selected: interpreters, and the device if there is one. What `watch` stops is left out of the record, which
-/// then is not complete.
+/// Runs the selection in the interpreters, and on the device if there is one. If `watch` stops the run, the remaining
+/// results are missing and the record is incomplete.
 ///
 /// # Errors
 ///
-/// If a kernel cannot be compiled or run at all. A result that is bad is no error: it is in the record.
+/// If a kernel cannot be compiled or run at all. A bad result is not an error: it is in the record.
 pub fn run_cases(
     selection: &Selection,
     bench: Option<&Bench>,
@@ -107,7 +107,8 @@ pub fn run_cases(
     })
 }
 
-/// A form on a case in `f32` by every interpreter, held to what another form promises: whether bounds catch the difference.
+/// Runs a form on a case in `f32` by every interpreter, judged by the bounds of another form, to test whether these detect
+/// the difference.
 ///
 /// # Errors
 ///
@@ -117,7 +118,7 @@ pub fn judged_as(case: &Case, form: &Form, promise: &Form) -> Result<Vec<HardRes
     Trial::new(case, promise, promise.options.clone())?.run_interpreters(&compiled, Precision::F32)
 }
 
-/// The forms that a case is for.
+/// Returns the forms that a case applies to.
 pub fn build_trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'a>)>, HardError> {
     let for_it = forms.iter().filter_map(|form| Some((form, form.in_case(case)?)));
     for_it
@@ -128,7 +129,7 @@ pub fn build_trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, T
         .collect()
 }
 
-/// Every form with the options of every case that it is for, compiled once.
+/// Compiles every form with the options of every applicable case, once.
 fn compile_forms(selection: &Selection, progress: &mut dyn Progress) -> Result<BTreeMap<Key, Compiled>, HardError> {
     let mut needed: BTreeMap<Key, &Form> = BTreeMap::new();
     for case in &selection.cases {

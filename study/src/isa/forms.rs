@@ -11,18 +11,18 @@ use straightline_codegen::ir::{Invocation, print};
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Math, ReadOrder, Settings, Share, Stage, Unroll};
 use straightline_kernels::OptionText;
 
-/// A form by one way to SPIR-V.
+/// A form translated to SPIR-V in one way.
 pub struct Spirv {
     pub kind: IsaForm,
     pub path: SpirvPath,
     pub entry: String,
-    /// Scalars alive at once at most, where its text is ours.
+    /// Maximum number of live scalars, for emitted text.
     pub alive: Option<u32>,
-    /// The module, or why there is none.
+    /// The module, or the reason why there is none.
     pub module: Result<Vec<u8>, String>,
 }
 
-/// All forms of a kernel, by naga and, where it is there, by glslang.
+/// Returns all forms of a kernel, translated by naga and, if available, by glslang.
 pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
     let subject = &asking.subject;
     let mut all = Vec::new();
@@ -51,7 +51,7 @@ pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>,
     Ok(all)
 }
 
-/// Translates WGSL that is not ours to SPIR-V by naga.
+/// Translates foreign WGSL to SPIR-V by naga.
 fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
     let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
     let mut validator = naga::valid::Validator::new(Default::default(), Default::default());
@@ -106,7 +106,7 @@ fn compile_form(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, Is
         (IsaForm::ByHand, Err(_)) | (IsaForm::Slang, _) => Ok(None),
         (IsaForm::Block, _) => {
             let block = settings(Unroll::Full, &subject.options).block(2, 2);
-            // Some kernels have no such form, and say so where it is asked for.
+            // Some kernels have no such form, and report that when it is requested.
             Ok(subject.kernel.compile(&block).ok())
         }
         (IsaForm::Fast, _) => {

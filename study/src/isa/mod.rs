@@ -15,11 +15,11 @@ use straightline_isa::{Compiler, Family, IsaError};
 
 pub use subjects::{Asking, further_askings};
 
-/// Why there is no record.
+/// Reason why there is no record.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum IsaStudyError {
-    /// A kernel is not one.
+    /// A kernel is invalid.
     #[error("{name}: {errors}")]
     Kernel {
         /// Name of the kernel.
@@ -27,27 +27,27 @@ pub enum IsaStudyError {
         /// Errors of the kernel.
         errors: Errors,
     },
-    /// A compiler cannot be asked.
+    /// A compiler cannot be run.
     #[error(transparent)]
     Compiler(#[from] IsaError),
 }
 
-/// Compilers and kernels to ask about.
+/// Compilers and kernels of the study.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// Of whose GPUs; of all that the driver compiles for, if none is named.
+    /// GPU families; if empty, all that the driver compiles for.
     pub families: Vec<Family>,
-    /// The program that loads the driver, and what it is called with, so that it calls [`straightline_isa::serve`].
+    /// Program that loads the driver, and its arguments, which make it call [`straightline_isa::serve`].
     pub program: (PathBuf, Vec<String>),
-    /// glslang's program, where GLSL is to go through it too.
+    /// glslang's executable, to compile GLSL as well.
     pub glslang: Option<PathBuf>,
 }
 
-/// Asks the compilers for each family about each form of each kernel. Stopped, it gives what it has.
+/// Compiles each form of each kernel for each family. Returns the results so far if stopped.
 ///
 /// # Errors
 ///
-/// [`IsaStudyError`]; a form that a compiler refuses is part of the record, with the reason.
+/// [`IsaStudyError`]; a form that a compiler rejects is part of the record, with the reason.
 pub fn ask_compilers(
     question: &Question,
     askings: &[Asking],

@@ -1,15 +1,15 @@
-//! Kernels that compilers are asked about beside those of `study loops`.
+//! Kernels to compile in addition to those of `study loops`.
 
 use crate::loops::{Input, Subject};
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors};
 
-/// A kernel that compilers are asked about.
+/// A kernel to compile.
 #[derive(Clone, Debug)]
 pub struct Asking {
     /// The kernel.
     pub subject: Subject,
-    /// The WGSL that Slang's compiler makes of the same work, unrolled; its entry point has the kernel's name.
+    /// WGSL that Slang's compiler generates for the same work, unrolled; its entry point has the kernel's name.
     pub slang: Option<&'static str>,
 }
 
@@ -19,7 +19,7 @@ impl From<Subject> for Asking {
     }
 }
 
-/// The work that was written in Slang too (`study/kernels/rivals/sraa.slang`), but for its pattern.
+/// Options of the work that is also written in Slang (`study/kernels/rivals/sraa.slang`), except its pattern.
 const SAME_WORK: [(&str, &str); 6] = [
     ("shading", "sample0"),
     ("falloff", "none"),
@@ -29,19 +29,19 @@ const SAME_WORK: [(&str, &str); 6] = [
     ("guards", "none"),
 ];
 
-/// Options beyond the paper: shading where geometry asks for it, and a search for surfaces that no tap shows.
+/// Options beyond the paper: shading where geometry needs it, and a search for surfaces that no tap shows.
 const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
 const SEARCHED: (&str, &str) = ("search", "five");
 const PLACED: (&str, &str) = ("shading", "placed");
 
-/// The lines that compute the filter again, with all tests, and their replacement.
+/// Lines that compute the filter again, with all tests, and their replacement.
 const AGAIN: [&str; 2] = [
     "                again::<TAPS, SIDE>(cfg, inputs)\n",
     "                vec4(color.x, color.y, color.z, 0.0)\n",
 ];
 
-/// SRAA of which nothing is computed again, so that what is left is the path that nearly every pixel takes, the test at its end
-/// among it. A compiler that is asked about the whole adds the other path, which it cannot know to be rare.
+/// Returns SRAA without the second computation: only the path that nearly every pixel takes, with the test at its end. For
+/// the whole kernel a compiler counts the other path too, because it cannot know that it is rare.
 fn taken_path_kernel() -> Result<Kernel, Errors> {
     let changed = |what: &str| {
         Errors::from_diagnostic(Diagnostic::new(
@@ -64,11 +64,11 @@ fn taken_path_kernel() -> Result<Kernel, Errors> {
     Ok(others.fold(kernel, |kernel, source| kernel.with_text(source.path, source.text)))
 }
 
-/// SRAA without tests, with what goes beyond the paper, and with as much work as its rival by Slang.
+/// Returns SRAA without tests, with the additions beyond the paper, and with the same work as its rival in Slang.
 ///
 /// # Errors
 ///
-/// The kernel is none.
+/// If a kernel is invalid.
 pub fn further_askings() -> Result<Vec<Asking>, Errors> {
     let of = |kernel: Kernel, name: &str, options: &[(&str, &str)], slang| -> Asking {
         Asking {

@@ -13,22 +13,22 @@ use straightline_codegen::{
 };
 use straightline_runtime::{Pass, PassOptions};
 
-/// A kernel in every form that it has, looped first, and why it does not have the others.
+/// A kernel in every available form, looped first, and the reasons for missing forms.
 pub struct Forms {
-    /// With all loops unrolled; it is among `made`, too.
+    /// The form with all loops unrolled; also contained in `made`.
     pub full: Compiled,
     /// Forms that compile.
     pub made: Vec<(FormKind, Compiled)>,
-    /// Forms that do not exist, with the reason.
+    /// Missing forms, with the reason.
     pub absent: Vec<(FormKind, String)>,
 }
 
 impl Forms {
-    /// Compiles a kernel in every form; `half` says whether the device has half precision.
+    /// Compiles a kernel in every form; `half` is `true` if the device has half precision.
     ///
     /// # Errors
     ///
-    /// If the kernel is not one, looped or unrolled, or what was written by hand is none.
+    /// If the kernel is invalid, looped or unrolled, or its hand-written version is.
     pub fn from_subject(subject: &Subject, half: bool) -> Result<Forms, LoopsError> {
         let settings = |unroll| Settings::new().unroll(unroll).set_all(subject.options.clone());
         let compile = |kernel: &Kernel, settings: &Settings| {
@@ -127,12 +127,12 @@ impl Forms {
     }
 }
 
-/// Texture and buffer reads of one compute invocation.
+/// Returns the number of texture and buffer reads of one compute invocation.
 fn read_count(compiled: &Compiled) -> u32 {
     compiled.in_blocks().counts.reads.values().sum()
 }
 
-/// Returns whether wgpu is to leave loops as they are.
+/// Returns whether wgpu must not bound the loops of a form.
 fn is_unbounded(kind: FormKind) -> bool {
     matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked)
 }
@@ -157,8 +157,8 @@ const BORDER: &str = "if any(pixel >= frame) {";
 /// nothing.
 const INSIDE: &str = "let inside = all(pixel < frame);";
 
-/// Returns the shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
-/// that no picture has are beyond the border, too.
+/// Returns the shader with a unique text, so that no driver has it in a cache: invocations in a column beyond any picture
+/// count as outside the border, too.
 fn make_uncached(emitted: &Emitted) -> Emitted {
     static MADE: AtomicU32 = AtomicU32::new(0);
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
@@ -171,7 +171,7 @@ fn make_uncached(emitted: &Emitted) -> Emitted {
         let inside = format!("let inside = all(pixel < frame) && pixel.x != {column};");
         let text = text.replacen(BORDER, &other, 1).replacen(INSIDE, &inside, 1);
         *wgsl = text.into_bytes();
-        // That of the text as it was.
+        // The hashes are those of the original text.
         unseen.manifest.hashes.clear();
     }
     unseen
@@ -187,18 +187,19 @@ pub struct Ready {
     pub pass: Pass,
     /// Inputs of the shader.
     pub uploaded: Rc<Uploaded>,
-    /// Of each time that the shader was made in a text of its own: what making its pipeline took, and its first frame.
+    /// Creation time of the pipeline and time of the first frame, for each time that the shader was created with a unique
+    /// text.
     pub made: Vec<(Duration, Duration)>,
 }
 
 impl Ready {
-    /// Bytes of SPIR-V.
+    /// Returns the size of the SPIR-V in bytes.
     pub fn spirv_bytes(&self) -> usize {
         self.emitted.files.get(&Target::Spirv).map_or(0, Vec::len)
     }
 
-    /// Milliseconds until the shader was ready: making the pipeline, and what the first frame took longer than a frame of
-    /// `frame_ms` takes. Software drivers compile only then. The median of all times that it was made.
+    /// Returns the milliseconds until the shader was ready: pipeline creation, plus the excess of the first frame over a
+    /// frame of `frame_ms`, because software drivers compile only then. The median over all creations.
     pub fn pipeline_ms(&self, frame_ms: f64) -> f64 {
         let ms = |d: &Duration| d.as_secs_f64() * 1e3;
         let mut all: Vec<f64> = self
@@ -211,7 +212,7 @@ impl Ready {
     }
 }
 
-/// Puts forms of one kernel onto a device; what several of them read is there once.
+/// Uploads the forms of one kernel to a device; shared inputs are uploaded once.
 pub struct Stand<'a> {
     bench: &'a Bench,
     inputs: &'a Inputs,
@@ -219,7 +220,7 @@ pub struct Stand<'a> {
 }
 
 impl<'a> Stand<'a> {
-    /// Nothing on it yet.
+    /// Creates a stand without forms.
     pub fn new(bench: &'a Bench, inputs: &'a Inputs) -> Self {
         Stand {
             bench,
@@ -228,7 +229,7 @@ impl<'a> Stand<'a> {
         }
     }
 
-    /// Emits a form and makes it, before that `times` times in texts that no driver has seen, each up to its first frame.
+    /// Emits and creates a form, after creating it `times` times with unique texts, each up to its first frame.
     ///
     /// # Errors
     ///

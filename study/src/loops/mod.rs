@@ -1,7 +1,7 @@
-//! Unroll against loop: every form of a kernel, what it costs and how wrong it is.
+//! Unrolled against looped: cost and error of every form of a kernel.
 //!
-//! All forms of a kernel are timed in turn, round by round. The speedup of one over the looped form is taken of each
-//! round by itself, so that whatever slows a whole round down cancels.
+//! All forms of a kernel are timed in turn, round by round. The speedup over the looped form is computed within each round,
+//! so that a slowdown of a whole round cancels.
 
 mod forms;
 mod subjects;
@@ -30,25 +30,25 @@ pub struct Setup {
     pub size: UVec2,
     /// Rounds of timing.
     pub rounds: u32,
-    /// A form that is done sooner is run several times in a row for one time.
+    /// Minimum time of one measurement; faster forms are run several times in a row.
     pub least: Duration,
-    /// Number of times that each pipeline is made.
+    /// Number of times that each pipeline is created.
     pub pipelines: u32,
 }
 
 /// Measurements of a kernel.
 #[derive(Clone, Debug)]
 pub struct Studied {
-    /// For the record.
+    /// Record of the forms.
     pub forms: KernelForms,
     /// The kernel's picture, unrolled.
     pub picture: Frame<Vec4>,
 }
 
-/// Why a study could not be made.
+/// Reason why a study failed.
 #[derive(Debug, thiserror::Error)]
 pub enum LoopsError {
-    /// A kernel, or what was written by hand for it, is refused.
+    /// A kernel, or its hand-written version, is invalid.
     #[error("the kernel `{name}` is refused")]
     Kernel {
         /// The kernel's name.
@@ -61,12 +61,12 @@ pub enum LoopsError {
     Form {
         /// The kernel's name.
         name: String,
-        /// The form's, as in the record.
+        /// Name of the form, as in the record.
         form: String,
-        /// Why not.
+        /// Cause of the failure.
         source: Box<LoopsError>,
     },
-    /// Something cannot be run.
+    /// Execution failed.
     #[error(transparent)]
     Execute(#[from] ExecuteError),
     /// There is no such scene.
@@ -75,10 +75,10 @@ pub enum LoopsError {
     /// The scene cannot be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// The scene lacks what the kernel reads.
+    /// The scene lacks an input of the kernel.
     #[error(transparent)]
     GBuffer(#[from] GBufferError),
-    /// The oracle lacks what it reads.
+    /// The oracle lacks an input.
     #[error(transparent)]
     Oracle(#[from] OracleError),
     /// No form was measured.
@@ -86,11 +86,11 @@ pub enum LoopsError {
     Nothing,
 }
 
-/// Measures kernel by kernel. Stopped by `watch`, it gives what has been measured until then.
+/// Measures the kernels one by one. Returns the results so far if `watch` stops the study.
 ///
 /// # Errors
 ///
-/// [`LoopsError`] names the kernel that is refused or cannot be run. Of a form that a kernel does not have the record says why.
+/// [`LoopsError`] names the kernel that is invalid or cannot be run. For a missing form, the record has the reason.
 pub fn study_loops(
     bench: &Bench,
     subjects: &[Subject],

@@ -18,9 +18,9 @@ pub enum Input {
 /// A hand-optimised kernel, with its loops.
 #[derive(Clone, Debug)]
 pub struct ByHand {
-    /// The kernel; it reads what the other reads, by the same names.
+    /// The kernel; it has the other kernel's inputs, under the same names.
     pub kernel: Kernel,
-    /// Options that are not its default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
 }
 
@@ -29,19 +29,19 @@ pub struct ByHand {
 pub struct Subject {
     /// A name for people.
     pub name: String,
-    /// Options that are not the default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
     /// The kernel.
     pub kernel: Kernel,
     /// The hand-optimised kernel, or the reason why there is none.
     pub by_hand: Result<ByHand, String>,
-    /// Inputs that the kernel is run on.
+    /// Inputs of the runs.
     pub input: Input,
-    /// Values of uniforms; those without a default are 1 else.
+    /// Values of uniforms; other uniforms without a default are 1.
     pub uniforms: Vec<(String, Vec<f64>)>,
 }
 
-/// Why nothing was written by hand.
+/// Reason why there is no hand-written version.
 const NOTHING_TO_GAIN: &str = "it reads nothing twice and computes nothing anew in its loops";
 
 /// Hand-optimised versions of some of the ten filters.
@@ -54,7 +54,7 @@ const BY_HAND: [(&str, &str); 6] = [
     ("convolution", include_str!("../../kernels/convolution.rs")),
 ];
 
-/// Kernels that a quick study leaves out: they have no loops, or gain next to nothing.
+/// Kernels omitted from a quick study: they have no loops, or gain next to nothing.
 const NOT_QUICK: [&str; 8] = [
     "stalker",
     "tabula rasa",
@@ -66,11 +66,11 @@ const NOT_QUICK: [&str; 8] = [
     "joint bilateral upsampling",
 ];
 
-/// SRAA in three variants, the edge filters, and the ten of `kernels/filters`; of a quick study, half of them.
+/// Returns SRAA in three variants, the edge filters, and the ten of `kernels/filters`; for a quick study, half of them.
 ///
 /// # Errors
 ///
-/// If a built-in kernel is gone.
+/// If a built-in kernel is missing.
 pub fn list_subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
     let mut all = vec![
         sraa_subject("SRAA 4", &[])?,
@@ -125,7 +125,7 @@ fn sraa_subject(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors>
 }
 
 impl Subject {
-    /// A user's own kernel, and perhaps a hand-optimised version of it.
+    /// Returns the subject for a user's kernel, with an optional hand-optimised version.
     pub fn from_kernel(kernel: Kernel, by_hand: Option<Kernel>) -> Subject {
         let by_hand = by_hand.map(|kernel| ByHand {
             kernel,

@@ -13,7 +13,7 @@ use straightline_scene::scene::Scene;
 /// The scene that SRAA is run on.
 const SCENE: &str = "roof";
 
-/// Makes inputs of one size; a scene is drawn once.
+/// Source of inputs of one size; a scene is drawn once.
 pub struct Truth<'a> {
     bench: &'a Bench,
     size: UVec2,
@@ -21,7 +21,7 @@ pub struct Truth<'a> {
 }
 
 impl<'a> Truth<'a> {
-    /// For pictures of `size`.
+    /// Creates the source for pictures of `size`.
     pub fn new(bench: &'a Bench, size: UVec2) -> Self {
         Truth {
             bench,
@@ -37,7 +37,7 @@ impl<'a> Truth<'a> {
     /// If the scene cannot be drawn.
     pub fn inputs(&mut self, subject: &Subject, full: &Compiled) -> Result<Inputs, LoopsError> {
         match subject.input {
-            // A compute invocation has a whole quad, and reads as a texture what a fragment shader interpolates.
+            // A compute invocation computes a whole quad, and reads from textures what a fragment shader interpolates.
             Input::TestCard => {
                 let mut inputs = test_inputs(&full.in_blocks().graph, self.size);
                 for (name, lanes) in &subject.uniforms {
@@ -70,7 +70,8 @@ impl<'a> Truth<'a> {
     }
 }
 
-/// Names an input for a record: what it is, and of the test card the values of uniforms that were given, or have no default.
+/// Returns the name of an input for a record. For the test card it includes the values of uniforms that were set, or have
+/// no default.
 pub fn input_name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String {
     match subject.input {
         Input::Roof => format!("the scene `{SCENE}`"),
@@ -95,7 +96,7 @@ pub fn input_name(subject: &Subject, full: &Compiled, inputs: &Inputs) -> String
 ///
 /// # Errors
 ///
-/// If something that it reads is missing.
+/// If an input is missing.
 pub fn expected_colors(
     subject: &Subject,
     full: &Compiled,
@@ -118,8 +119,8 @@ pub fn expected_colors(
     }
 }
 
-/// The largest difference of any colour, and the largest but for the thousandth of the pixels that differ most. Of two
-/// numbers of which one alone is finite it is the largest `f64`.
+/// Returns the largest difference of any colour, and the largest without the thousandth of the pixels that differ most. The
+/// difference of a finite and a non-finite number is the largest `f64`.
 pub fn largest_differences(found: &[Vec4], exact: &[Option<[f64; 4]>]) -> (f64, f64) {
     let apart = |a: f64, b: f64| match (a.is_finite(), b.is_finite()) {
         (true, true) => (a - b).abs(),

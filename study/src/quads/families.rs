@@ -1,6 +1,6 @@
-//! The filters that are measured.
+//! Filters of the quad study.
 
-/// A filter: its kernel, and the options of each way to compute it, the first of which shares nothing.
+/// A filter: its kernel, and the options of each variant; the first shares nothing.
 pub struct Family {
     pub name: &'static str,
     pub kernel: &'static str,
@@ -12,11 +12,11 @@ pub struct Family {
 /// Inputs of a filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// A frame: it is full-screen.
+    /// A full-screen frame.
     Frame,
-    /// A frame, and an image of a quarter of its size across and down.
+    /// A frame, and an image at a quarter of its width and height.
     Quarter,
-    /// Places in a shadow map, interpolated over the scene's triangles.
+    /// Positions in a shadow map, interpolated over the scene's triangles.
     Triangles,
 }
 

@@ -9,7 +9,7 @@ use straightline_manifest::Stage;
 use straightline_scene::render::{GpuRenderer, Renderer};
 use straightline_scene::scene::Scene;
 
-/// A rendered frame: its colours with depth, its depths, normals, and the angle of a pixel.
+/// Returns a rendered frame: its colours with depth, its depths, normals, and the angle of a pixel.
 pub fn screen_inputs(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, QuadsError> {
     let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, size)?;
     let color = renderer.draw_shaded(Vec2::ZERO)?;
@@ -32,8 +32,8 @@ pub fn screen_inputs(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs
         .with_uniform("pixel_angle", &[f64::from(angle)]))
 }
 
-/// Adds the inputs of upsampling: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
-/// is taken from that of the full resolution, so that what upsampling loses is seen alone.
+/// Adds the inputs of upsampling: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion is
+/// taken from the full resolution, to isolate the loss of upsampling.
 pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Inputs, QuadsError> {
     let occlusion = compile_filter(
         "quad_ssao",

@@ -1,5 +1,5 @@
-//! Filters of pixel quads on a rendered frame: every way and transport of each, timed in turn, beside the way that shares
-//! nothing (Penner 2011; `docs/quads.md`).
+//! Quad filters on a rendered frame: every variant and transport, timed in turn against the variant that shares nothing
+//! (Penner 2011; `docs/quads.md`).
 
 mod families;
 mod inputs;
@@ -22,13 +22,13 @@ use straightline_scene::render::RenderError;
 use straightline_scene::scene::Scene;
 use subject::Subject;
 
-/// Pixels of a quad.
+/// Width and height of a quad, in pixels.
 const QUAD: [u32; 2] = [2, 2];
 
-/// Pixels of a row of quads that one invocation computes (§2.8).
+/// Width and height of the row of quads that one invocation computes (§2.8), in pixels.
 const ROW: [u32; 2] = [8, 2];
 
-/// Of the intervals of ratios.
+/// Confidence of the intervals of ratios.
 const CONFIDENCE: f64 = 0.95;
 
 /// Setup of a study.
@@ -40,11 +40,11 @@ pub struct Setup {
     pub texels: u32,
     /// Rounds of timing.
     pub rounds: u32,
-    /// Least time that a shader runs for one measurement.
+    /// Minimum time for one measurement of a shader.
     pub least: Duration,
 }
 
-/// Why quads could not be studied.
+/// Reason why the study of quads failed.
 #[derive(Debug, thiserror::Error)]
 pub enum QuadsError {
     /// The frame could not be rendered.
@@ -56,7 +56,7 @@ pub enum QuadsError {
     /// A filter could not be compiled.
     #[error(transparent)]
     Kernel(#[from] Errors),
-    /// The device's quads could not be looked at.
+    /// The layout of the device's quads could not be determined.
     #[error(transparent)]
     Detect(#[from] straightline_runtime::Error),
 }
@@ -64,29 +64,29 @@ pub enum QuadsError {
 /// Measurements, and the pictures that were measured.
 #[derive(Debug)]
 pub struct Studied {
-    /// Every way with its figures.
+    /// Every variant with its measurements.
     pub ways: Vec<QuadWay>,
-    /// Picture of each way, in their order.
+    /// Picture of each variant, in order.
     pub pictures: Vec<Frame<Vec4>>,
     /// The median time of the pass that draws coordinates.
     pub coordinates_ms: f64,
     /// Description of the device's quads.
     pub quads: String,
-    /// The scene as the shadow filters see it.
+    /// Inputs of the shadow filters.
     pub shadowed: Shadowed,
     /// The frame and its occlusion at half the resolution, as the full-screen filters read them.
     pub screen: Inputs,
 }
 
 impl Studied {
-    /// The picture that a way of a filter makes; `None` if there is no such way.
+    /// Returns the picture of a variant; `None` if there is no such variant.
     pub fn picture(&self, filter: &str, way: &str) -> Option<&Frame<Vec4>> {
         let mut ways = self.ways.iter().zip(&self.pictures);
         ways.find(|(of, _)| of.filter == filter && of.way == way)
             .map(|(_, picture)| picture)
     }
 
-    /// The figures under their circumstances.
+    /// Returns the record of the measurements.
     pub fn to_record(&self, circumstances: crate::record::Circumstances) -> QuadsRecord {
         QuadsRecord {
             circumstances,
@@ -98,11 +98,11 @@ impl Studied {
     }
 }
 
-/// Measures every way of every filter, in one run.
+/// Measures every variant of every filter, in one run.
 ///
 /// # Errors
 ///
-/// [`QuadsError`], if the device fails or lacks something.
+/// [`QuadsError`], if the device fails or lacks a feature.
 pub fn study_quads(
     bench: &Bench,
     scene: &Scene,
@@ -150,7 +150,7 @@ pub fn study_quads(
     }
     let coordinates = shadowed.coordinate_pass(bench)?;
     let rounds = time_subjects(bench, setup, &subjects, &coordinates, progress)?;
-    // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
+    // A forward pass only draws the pixels covered by the scene's triangles.
     let drawn = of_triangles.images.iter().find(|(name, _)| name == "coord");
     let covered: Option<Vec<bool>> =
         drawn.map(|(_, layers)| layers[0].texels().iter().map(|place| *place != Vec4::ZERO).collect());
@@ -168,7 +168,8 @@ pub fn study_quads(
     })
 }
 
-/// A way that shares nothing sends nothing: one fragment shader, and one compute shader, stand for it.
+/// Returns the transports to measure. A variant that shares nothing has no communication, so one fragment shader and one
+/// compute shader represent it.
 fn way_transports(way: &str, subgroup: bool) -> Vec<Transport> {
     let alone = way == "naive" || way == "bilinear";
     let fragment = match subgroup {
@@ -184,7 +185,7 @@ fn way_transports(way: &str, subgroup: bool) -> Vec<Transport> {
     }
 }
 
-/// Milliseconds of every round of each subject, and last of the pass that draws coordinates.
+/// Returns the milliseconds of every round of each subject, and last of the pass that draws coordinates.
 fn time_subjects(
     bench: &Bench,
     setup: &Setup,
@@ -212,7 +213,7 @@ fn build_ways(
     coordinates: &[f64],
     covered: Option<&[bool]>,
 ) -> Vec<QuadWay> {
-    // From triangles to picture in every way of a filter: what is dispatched needs the pass that draws coordinates.
+    // Time from triangles to picture in every variant: dispatched variants need the pass that draws coordinates.
     let whole = |k: usize| -> Vec<f64> {
         let needs = subjects[k].family.from == Source::Triangles && subjects[k].stage == Stage::Compute;
         let drawn = coordinates.iter().map(|ms| if needs { *ms } else { 0.0 });
@@ -257,7 +258,7 @@ fn median_or_zero(values: &[f64]) -> f64 {
     median_of(values, CONFIDENCE).map_or(0.0, |of| of.median)
 }
 
-/// Mean and largest difference over all colours, of the pixels that are covered; of all pixels, if nothing says which are. A
+/// Returns the mean and largest difference over all colours of the covered pixels; of all pixels without a coverage. A
 /// pixel in full shadow is covered, and its colour is 0.
 fn color_differences(a: &Frame<Vec4>, b: &Frame<Vec4>, covered: Option<&[bool]>) -> (f64, f64) {
     let pairs = a.texels().iter().zip(b.texels()).enumerate();

@@ -1,4 +1,4 @@
-//! A filter in one way with one transport, ready to run.
+//! A variant of a filter with one transport, ready to run.
 
 use super::families::{Family, Source};
 use super::{QUAD, QuadsError, Setup};
@@ -10,10 +10,10 @@ use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Counts, Stage};
 use straightline_runtime::Pass;
 
-/// Occlusion as far as the scene's walls and steps, dark enough to be judged.
+/// Options that reach as far as the scene's walls and steps, and make the occlusion dark enough to be judged.
 pub const OCCLUSION: [(&str, &str); 3] = [("pixel-angle", "uniform"), ("radius", "1.2"), ("strength", "4")];
 
-/// A way with a transport.
+/// A variant with a transport.
 pub struct Subject {
     pub family: &'static Family,
     pub way: &'static str,
@@ -30,7 +30,8 @@ enum Drawn {
 }
 
 impl Subject {
-    /// Compiles the filter, for blocks of so many pixels where an invocation computes whole blocks, runs it once and keeps its picture.
+    /// Compiles the filter, for blocks of this many pixels if an invocation computes whole blocks, runs it once and keeps
+    /// its picture.
     pub fn new(
         bench: &Bench,
         family: &'static Family,
@@ -77,7 +78,7 @@ impl Subject {
         })
     }
 
-    /// Makes the work that is timed.
+    /// Returns the work to be timed.
     pub fn work<'a>(&'a self, bench: &Bench, setup: &Setup) -> Result<Work<'a>, ExecuteError> {
         match &self.drawn {
             Drawn::Pass(pass, uploaded) => {
@@ -93,7 +94,7 @@ impl Subject {
     }
 }
 
-/// A filter of the catalogue.
+/// Compiles a filter of the catalogue.
 pub fn compile_filter(
     kernel: &str,
     options: &[(&str, &str)],
@@ -104,7 +105,7 @@ pub fn compile_filter(
     let settings = Settings::new()
         .set_all(options)
         .transport(transport)
-        // The quad itself is what the transport `block` computes, or a kernel of pixels one of.
+        // The transport `block` computes the quad itself, as does a kernel of single pixels in blocks.
         .block(
             if block == QUAD { [1, 1] } else { block }[0],
             if block == QUAD { [1, 1] } else { block }[1],

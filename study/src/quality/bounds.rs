@@ -1,4 +1,4 @@
-//! Bounds of filters with one shading sample a pixel, and antialiasing that shades once a surface.
+//! Upper bounds for filters with one shading sample a pixel, and antialiasing that shades each surface once.
 
 use super::classes::seen_around;
 use super::surfaces::{Point, Surfaces};
@@ -7,8 +7,8 @@ use glam::{UVec2, Vec2, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 
-/// As multisampling does it: each sample of a pixel takes the colour of the first sample that sees its surface, so that each
-/// surface is shaded once. `shaded` holds the picture at each sample.
+/// Multisampling: each sample of a pixel takes the colour of the first sample that sees its surface, so that each surface
+/// is shaded once. `shaded` holds the picture at each sample.
 pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
         let colors = (0..shaded.len()).map(|sample| multisampled_frame(surfaces, shaded, pixel, sample).texels()[k]);
@@ -21,7 +21,7 @@ pub fn along_edges(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], offsets: &[V
     resolve_directional(&multisampled_frames(surfaces, shaded), offsets)
 }
 
-/// The colours that a multisampled target has of its samples.
+/// Returns the colours that the samples of a multisampled target have.
 pub fn multisampled_frames(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Vec<Frame<Vec4>> {
     let stored = (0..shaded.len()).map(|sample| {
         each_pixel(surfaces.size(), |pixel, k| {
@@ -43,8 +43,8 @@ fn multisampled_frame<'a>(
     &shaded[first.unwrap_or(sample)]
 }
 
-/// As deferred multisampling does it that looks for edges: a pixel whose samples all see one surface is shaded at the first of
-/// them, any other at every one.
+/// Deferred multisampling with edge detection: a pixel whose samples all see one surface is shaded at the first of them,
+/// any other at every sample.
 pub fn where_edges_are(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
         let first = surfaces.point(pixel, 0);
@@ -54,8 +54,8 @@ pub fn where_edges_are(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame
     })
 }
 
-/// As coverage sampling does it: the colours of `stored` samples are kept, each surface shaded once, and of all others only which of
-/// those surfaces they see. Those that see another surface say nothing.
+/// Coverage sampling: the colours of `stored` samples are kept, each surface shaded once. All other samples only store the
+/// index of their surface among those, or nothing if it is another surface.
 pub fn by_coverage(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], stored: &[usize]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
         let seen = (0..shaded.len()).filter_map(|sample| find_stored_sample(surfaces, stored, pixel, sample));
@@ -71,10 +71,10 @@ pub fn find_stored_sample(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec
     stored.iter().position(is_same)
 }
 
-/// Ideal reconstruction, which knows the right colour of every surface that it can know of: each geometry sample has its own
-/// true colour if one of the 3 x 3 shading samples around saw its surface, else the colour of the shading sample that is
-/// nearest to it in depth and normal. Its gap to supersampling at the same places is the price of surfaces that no shading
-/// sample saw; SRAA's gap to it is the price of borrowed colours.
+/// Ideal reconstruction, which knows the right colour of every surface that it can know of. Each geometry sample has its
+/// own true colour if one of the 3 x 3 shading samples around saw its surface, else the colour of the shading sample that
+/// is nearest to it in depth and normal. Its gap to supersampling at the same positions is the price of surfaces that no
+/// shading sample saw; SRAA's gap to it is the price of borrowed colours.
 ///
 /// `shaded` holds the picture at each sample, `color` at the shading sample.
 pub fn reconstruct_ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4>) -> Frame<Vec4> {
@@ -96,7 +96,7 @@ pub fn reconstruct_ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color:
     })
 }
 
-/// The pixel whose shading sample is most like a point.
+/// Returns the pixel whose shading sample is most similar to a point.
 fn nearest_pixel(point: &Point, around: &[Point]) -> Option<glam::IVec2> {
     let nearest = around
         .iter()

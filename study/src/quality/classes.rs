@@ -1,4 +1,4 @@
-//! Kinds of pixels: where there is geometry to antialias, where there is only shading, and where there is nothing to do.
+//! Classes of pixels: with edges of geometry, with edges of shading only, and without edges.
 
 use super::surfaces::Surfaces;
 use crate::record::Shares;
@@ -7,22 +7,22 @@ use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture::srgb;
 
-/// Least variation of sRGB values over an edge of shading: eight steps of 255.
+/// Smallest variation of sRGB values over an edge of shading: eight steps of 255.
 pub const STEP: f32 = 8.0 / 255.0;
 
 /// Class of each pixel of a picture, row by row from the top.
 #[derive(Clone, Debug, Default)]
 pub struct Classes {
-    /// True if the pixel's samples see more than one surface.
+    /// `true` if the pixel's samples see more than one surface.
     pub geometry: Vec<bool>,
-    /// True if they see one, whose colour varies by more than [`STEP`] over the pixel.
+    /// `true` if they see one surface, whose colour varies by more than [`STEP`] over the pixel.
     pub shading: Vec<bool>,
-    /// True if one of the samples sees a surface that none of the 3 x 3 shading samples around saw.
+    /// `true` if one of the samples sees a surface that none of the 3 x 3 shading samples around saw.
     pub unseen: Vec<bool>,
 }
 
 impl Classes {
-    /// Of the geometry in `surfaces`, and of `varies`, which says whether the shading of a pixel does.
+    /// Classifies pixels by the geometry in `surfaces`, and by `varies`, which is `true` where a pixel's shading varies.
     pub fn new(surfaces: &Surfaces<'_>, varies: &[bool]) -> Classes {
         let size = surfaces.size();
         let found: Vec<(bool, bool)> = (0..size.y)
@@ -47,7 +47,7 @@ impl Classes {
         !self.geometry[pixel] && !self.shading[pixel]
     }
 
-    /// Shares of all pixels.
+    /// Returns the share of each class.
     pub fn shares(&self) -> Shares {
         let all = self.geometry.len().max(1) as f64;
         let share = |class: &[bool]| class.iter().filter(|is| **is).count() as f64 / all;
@@ -84,14 +84,14 @@ pub(super) fn seen_around(surfaces: &Surfaces<'_>, pixel: UVec2) -> Vec<super::s
         .collect()
 }
 
-/// The eight pixels around a pixel.
+/// Returns the offsets of the eight pixels around a pixel.
 pub(super) fn neighbour_offsets() -> impl Iterator<Item = IVec2> {
     (-1..=1)
         .flat_map(|y| (-1..=1).map(move |x| IVec2::new(x, y)))
         .filter(|by| *by != IVec2::ZERO)
 }
 
-/// Returns whether the colours of each pixel vary, of pictures shaded at several places of it.
+/// Returns whether the colours of each pixel vary, for pictures shaded at several positions in it.
 pub fn varies_within(shaded: &[Frame<Vec4>]) -> Vec<bool> {
     let pixels = shaded.first().map_or(0, |frame| frame.texels().len());
     (0..pixels)
@@ -104,8 +104,8 @@ pub fn varies_within(shaded: &[Frame<Vec4>]) -> Vec<bool> {
         .collect()
 }
 
-/// A stand-in where a picture was shaded only once a pixel: whether the colour differs from that of a neighbour above,
-/// below, left or right that sees the same surface.
+/// Approximates [`varies_within`] for a picture shaded once a pixel: `true` if the colour differs from that of a neighbour
+/// above, below, left or right that sees the same surface.
 pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> {
     let size = color.size();
     let at = |p: IVec2| display_color(color.texels()[(p.y * size.x as i32 + p.x) as usize]);
@@ -125,7 +125,7 @@ pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> 
         .collect()
 }
 
-/// As a display shows it.
+/// Returns a colour as displayed.
 fn display_color(color: Vec4) -> Vec3 {
     color.truncate().clamp(Vec3::ZERO, Vec3::ONE).map(srgb::from_linear)
 }

@@ -1,4 +1,4 @@
-//! Why methods could not be compared.
+//! Reasons why methods could not be compared.
 
 use straightline_bench::execute::ExecuteError;
 use straightline_codegen::diagnostic::Errors;
@@ -6,20 +6,20 @@ use straightline_scene::gbuffer::GBufferError;
 use straightline_scene::picture::PictureError;
 use straightline_scene::render::RenderError;
 
-/// Why methods could not be compared.
+/// Reason why methods could not be compared.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum QualityError {
-    /// The study was stopped; [`study_quality`](super::study_quality) makes of this a result that is not complete.
+    /// The study was stopped; [`study_quality`](super::study_quality) turns this into an incomplete result.
     #[error("stopped")]
     Stopped,
-    /// A capture lacks what is needed.
+    /// A capture lacks an input.
     #[error("{0}")]
     Capture(String),
-    /// A method was run on a picture that was not drawn for it: a mistake in this program.
+    /// A method was run on a picture that was not drawn for it: a bug of this program.
     #[error("nothing was drawn for {0}")]
     NotDrawn(String),
-    /// A method was asked for in motion that makes nothing of frames that follow on each other.
+    /// A method was requested in motion that does not support consecutive frames.
     #[error("`{0}` is not compared in motion: SRAA is that shades once a pixel, and supersampling")]
     NotInMotion(String),
     /// The scene could not be drawn.

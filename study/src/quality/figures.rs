@@ -1,4 +1,4 @@
-//! The pictures of the SRAA paper, made again of the built-in scenes.
+//! The pictures of the SRAA paper, reproduced with the built-in scenes.
 
 use super::filters::Filters;
 use super::methods::{Method, list_methods};
@@ -25,7 +25,7 @@ pub struct Figure {
     pub shows: &'static str,
     /// The built-in scene that is drawn.
     pub scene: &'static str,
-    /// Parts beside one another; a reference of 256 samples a pixel is the last, but of [`Pane::Interleaved`].
+    /// Parts side by side. The last is a reference of 256 samples a pixel, except with [`Pane::Interleaved`].
     pub panes: &'static [Pane],
 }
 
@@ -34,13 +34,13 @@ pub struct Figure {
 pub enum Pane {
     /// The picture of a method, by its name in `study error`.
     Method(&'static str),
-    /// Inputs of SRAA, in one large texture: distances, near ones bright, and normals.
+    /// Inputs of SRAA, in one large texture: distances (near is bright) and normals.
     Interleaved,
 }
 
 use Pane::{Interleaved, Method as Of};
 
-/// All of them: the others of the paper are drawings and charts.
+/// All figures; the others of the paper are drawings and charts.
 pub const FIGURES: &[Figure] = &[
     Figure {
         name: "sraa-01",
@@ -109,7 +109,7 @@ pub const FIGURES: &[Figure] = &[
     },
 ];
 
-/// Texels of the detail, across and down.
+/// Width and height of the detail, in texels.
 const DETAIL: u32 = 64;
 
 /// Factor of enlargement.
@@ -120,16 +120,16 @@ const ZOOM: u32 = 5;
 pub struct Made {
     /// The panes side by side under their names.
     pub picture: Frame<Vec4>,
-    /// Of each method: its name, and the ratio of its whole picture to the reference, in dB.
+    /// Name of each method, and the PSNR of its whole picture against the reference, in dB.
     pub psnr: Vec<(String, f64)>,
 }
 
 impl Figure {
-    /// Draws its scene at `size`, and shows where 1x is farthest from the reference.
+    /// Draws the figure's scene at `size`, and shows the detail where 1x has the largest error.
     ///
     /// # Errors
     ///
-    /// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
+    /// [`QualityError`], if something cannot be drawn or run, or `progress` requests a stop.
     pub fn render_panes(&self, bench: &Bench, size: UVec2, progress: &mut dyn Progress) -> Result<Made, QualityError> {
         let listed = self.pane_methods();
         progress.begin(self.name, listed.len() + SIDE as usize);
@@ -168,7 +168,7 @@ impl Figure {
         })
     }
 
-    /// The methods of its panes, in their order; those of geometry alone need a capture too.
+    /// Returns the methods of the panes, in order; panes of geometry need a capture too.
     fn pane_methods(&self) -> Vec<Method> {
         let all = list_methods(false);
         let named = |pane: &Pane| {
@@ -182,7 +182,7 @@ impl Figure {
     }
 }
 
-/// The detail, of which each pixel is 2x2 texels.
+/// Returns the detail, with 2x2 texels for each pixel.
 fn interleave_samples(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, QualityError> {
     let options = load_builtin("sraa")?.option_values(&[("layout".to_owned(), "superresolution".to_owned())])?;
     let inputs = gbuffer::sraa_inputs(capture, &options)?;
@@ -200,7 +200,7 @@ fn interleave_samples(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, Q
         .fold((f32::MAX, f32::MIN), |(low, high), depth| {
             (low.min(*depth), high.max(*depth))
         });
-    // By the logarithm, or what is near would have all the shades.
+    // On a logarithmic scale, or near surfaces would take all the shades.
     let near = |texel: Vec4| {
         let share = (farthest / texel.x.clamp(nearest, farthest)).ln() / (farthest / nearest).ln();
         Vec4::splat(share.powf(2.2)).with_w(1.0)

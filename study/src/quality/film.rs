@@ -1,4 +1,4 @@
-//! Frames of a slow pan, methods side by side, and how wrong what changes from each to the next is: the comparison of the SRAA
+//! Frames of a slow pan with methods side by side, and the error of the change between frames: the comparison of the SRAA
 //! paper's web page.
 
 use super::filters::Filters;
@@ -19,7 +19,7 @@ pub struct Shooting {
     pub size: UVec2,
     /// Number of frames, 2 or more.
     pub frames: u32,
-    /// Pixels that the picture moves from a frame to the next, y down.
+    /// Pixels by which the picture moves from frame to frame, y down.
     pub step: Vec2,
 }
 
@@ -28,8 +28,8 @@ pub struct Shooting {
 pub struct Film {
     /// Each frame: the methods' pictures row by row, then the reference of 64 samples a pixel, at 8 bits of sRGB.
     pub frames: Vec<Frame<Vec4>>,
-    /// For each method, and each frame after the first: the root of the mean squared error of what changed since the last, as
-    /// [`Setup::pan_frames`](super::Setup::pan_frames) averages it.
+    /// For each method and each frame after the first: the root mean squared error of the change since the previous frame,
+    /// as [`Setup::pan_frames`](super::Setup::pan_frames) averages it.
     pub errors: Vec<Vec<f64>>,
 }
 
@@ -37,7 +37,7 @@ pub struct Film {
 ///
 /// # Errors
 ///
-/// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
+/// [`QualityError`], if something cannot be drawn or run, or `progress` requests a stop.
 pub fn film_scene(
     bench: &Bench,
     scene: &Scene,
@@ -63,7 +63,7 @@ pub fn film_scene(
     Ok(Film { frames, errors })
 }
 
-/// Pictures with their names: up to three in a row, more in about as many rows as columns.
+/// Arranges pictures with their names: up to three in one row, more in about as many rows as columns.
 fn tile_pictures(pictures: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
     let columns = match pictures.len() {
         few @ 0..=3 => few.max(1),

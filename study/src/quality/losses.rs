@@ -2,12 +2,12 @@
 
 use crate::record::{Family, MethodErrors, SceneErrors};
 
-/// The differences in dB and in FLIP that are none.
+/// Differences in dB and in FLIP that count as equal.
 const EVEN_DB: f64 = 0.05;
 const EVEN_FLIP: f64 = 0.000_1;
 
-/// Lists methods that SRAA, with default options and each number of samples, loses to: no antialiasing, filters of the picture,
-/// and filters of edges. Returns a sentence for each of those methods, or none.
+/// Lists the methods that beat SRAA with default options, for each number of samples: no antialiasing, picture filters and
+/// edge filters. Returns one sentence for each of those methods.
 pub fn list_losses(scene: &SceneErrors) -> Vec<String> {
     let ours = scene.methods.iter().filter(|m| {
         let variant = m.method.contains(',');

@@ -1,8 +1,8 @@
-//! Methods of antialiasing against references of 256 samples a pixel: how wrong each is and where, what it costs, and what
-//! SRAA is short of.
+//! Antialiasing methods against references of 256 samples a pixel: error by class of pixels, cost, and the causes of SRAA's
+//! gap to supersampling.
 //!
-//! All pictures, the reference among them, are judged as a display shows them: at 8 bits of sRGB ([`picture::at_eight_bits`]),
-//! whatever they were computed in.
+//! All pictures, including the reference, are compared as displayed: at 8 bits of sRGB ([`picture::at_eight_bits`]), in
+//! whatever precision they were computed.
 
 mod bounds;
 mod classes;
@@ -52,9 +52,9 @@ const SIDE: u32 = 16;
 
 /// Scene or capture that methods are compared on.
 pub enum Source {
-    /// A scene, which is drawn.
+    /// A scene to be drawn.
     Scene {
-        /// For people and for the names of files.
+        /// Name for display and for file names.
         name: String,
         /// Purpose of the scene.
         purpose: String,
@@ -63,7 +63,7 @@ pub enum Source {
     },
     /// A capture with a reference.
     Capture {
-        /// For people and for the names of files.
+        /// Name for display and for file names.
         name: String,
         /// The capture.
         capture: Box<Capture>,
@@ -71,7 +71,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// Width and height of its pictures in pixels, where scenes are drawn at `drawn`.
+    /// Returns the width and height of the source's pictures in pixels; scenes are drawn at `drawn`.
     pub fn size(&self, drawn: UVec2) -> UVec2 {
         match self {
             Source::Scene { .. } => drawn,
@@ -83,41 +83,41 @@ impl Source {
 /// Extent of the study.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// Width and height of scenes that are drawn, in pixels.
+    /// Width and height of drawn scenes, in pixels.
     pub size: UVec2,
     /// Rounds of timing.
     pub rounds: u32,
-    /// Fewer methods.
+    /// `true` for a smaller set of methods.
     pub quick: bool,
-    /// Only these of the methods, by their names; all of them if none is named.
+    /// Names of the methods to study; empty for all.
     pub only: Vec<String>,
-    /// Methods of the user's, compared beside the others.
+    /// Additional methods of the user.
     pub own: Vec<Method>,
     /// Frames of the pan; 0 for none.
     pub pan_frames: u32,
-    /// Number of scenes that are panned over, the first ones.
+    /// Number of scenes with a pan, from the first.
     pub pan_scenes: usize,
-    /// True if bloom and tone mapping follow: methods that read geometry or samples come before them, filters of the displayed
-    /// picture after, and some of the former once more after.
+    /// `true` if bloom and tone mapping are applied. Methods that read geometry or samples run before them, filters of the
+    /// displayed picture after; some of the former also run after.
     pub post_processed: bool,
-    /// True if pictures are made.
+    /// `true` if pictures are written.
     pub pictures: bool,
 }
 
 /// Result of the study.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
-    /// Of each source that was finished.
+    /// Errors for each finished source.
     pub scenes: Vec<SceneErrors>,
     /// Devices on which filters were timed.
     pub timed_on: Vec<String>,
     /// Pictures as PNG files, by their paths beside the record: `pictures/SCENE/METHOD.png`.
     pub pictures: BTreeMap<String, Vec<u8>>,
-    /// True if all sources were finished.
+    /// `true` if all sources were finished.
     pub complete: bool,
 }
 
-/// Compares all methods on all sources. What is finished is kept when `progress` says stop.
+/// Compares all methods on all sources. Finished sources are kept if `progress` requests a stop.
 ///
 /// # Errors
 ///
@@ -226,7 +226,7 @@ fn of_capture(
     Ok(errors)
 }
 
-/// Steps of `progress`.
+/// Counts the steps of `progress`.
 fn count_steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
     let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
     let timing = setup.rounds as usize + 1;
@@ -313,7 +313,7 @@ impl Wanted<'_> {
         Ok(errors)
     }
 
-    /// Keeps a picture, and gives its path beside the record.
+    /// Stores a picture, and returns its path beside the record.
     fn keep_picture(&mut self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
         if !self.setup.pictures {
             return Ok(None);
@@ -324,7 +324,7 @@ impl Wanted<'_> {
     }
 }
 
-/// Kinds of pixels, by all geometry that there is.
+/// Classifies pixels by all available geometry.
 fn classify_pixels(shot: &Shot) -> Result<Classes, QualityError> {
     let dense: Vec<&Capture> = match shot.captures.get("latin16") {
         Some(latin16) => std::iter::once(latin16).chain(shot.captures.get("latin4")).collect(),
@@ -356,7 +356,7 @@ fn put_times(errors: &mut SceneErrors, times: &[Option<Times>]) {
     }
 }
 
-/// Ends the study if the progress says so.
+/// Ends the study if `progress` requests a stop.
 fn check_stopped(progress: &dyn Progress) -> Result<(), QualityError> {
     match progress.is_stopped() {
         true => Err(QualityError::Stopped),

@@ -1,4 +1,4 @@
-//! Methods in a still, a pan and a turn, and where something moves: frames that follow on each other, as `history` needs them.
+//! Methods in a still, a pan, a turn and with a moving object: consecutive frames, as `history` needs them.
 
 use super::methods::{Kind, Method, PLACED, RELATIVE, SEARCHED};
 use super::pan::{SIDE, error_frame, mean_square};
@@ -18,14 +18,14 @@ use straightline_scene::scene::{Scene, Vertex};
 use straightline_scene::sequence::{Moment, PLACES};
 use straightline_scene::{gbuffer, picture};
 
-/// Frames before the first that is judged: as many as the longest history.
+/// Number of frames before the first scored one: the longest history.
 pub const BEFORE: usize = 4;
 
 /// Frame in which the board is in the middle of the picture.
 const MIDDLE: f32 = 6.0;
 
 impl Motion {
-    /// A scene as it is in a frame of pictures of `size`.
+    /// Returns the scene in a given frame, for pictures of `size`.
     pub fn scene_at_frame(self, scene: &Scene, size: UVec2, frame: usize) -> Scene {
         let mut scene = scene.clone();
         let camera = &mut scene.camera;
@@ -62,10 +62,10 @@ impl Motion {
     }
 }
 
-/// Three earlier frames, each tap for what lies near it.
+/// Three earlier frames, each tap with the surface near it.
 const REMEMBERED: [(&str, &str); 3] = [("history", "3"), ("falloff", "gaussian"), ("sigma", "0.3")];
 
-/// Returns the methods that are compared in motion by default.
+/// Returns the default methods of the study of motion.
 pub fn methods_in_motion() -> Vec<Method> {
     let mut all = Vec::new();
     for (samples, pattern) in [(4, "latin4"), (16, "latin16")] {
@@ -92,20 +92,20 @@ pub struct Sequence {
     scene: Scene,
     motion: Motion,
     size: UVec2,
-    /// Of the frames that are judged.
+    /// Renderers of the scored frames.
     renderers: Vec<CpuRenderer>,
-    /// Of the same, 64 samples a pixel, at 8 bits.
+    /// References of the scored frames, 64 samples a pixel, at 8 bits.
     references: Vec<Frame<Vec4>>,
-    /// By what methods read: every frame, those before the first that is judged too, if they are read.
+    /// Frames by the inputs that methods read, including those before the first scored one if they are read.
     moments: BTreeMap<String, Vec<Moment>>,
 }
 
 impl Sequence {
-    /// `frames` frames of a scene with their references; a step of the progress for each row of a reference's samples.
+    /// Draws `frames` frames of a scene with their references; one step of progress for each row of a reference's samples.
     ///
     /// # Errors
     ///
-    /// [`QualityError`], if something cannot be drawn, or `progress` says stop.
+    /// [`QualityError`], if something cannot be drawn, or `progress` requests a stop.
     pub fn draw(
         scene: &Scene,
         motion: Motion,
@@ -130,12 +130,12 @@ impl Sequence {
         })
     }
 
-    /// The references of the frames that are judged.
+    /// Returns the references of the scored frames.
     pub fn references(&self) -> &[Frame<Vec4>] {
         &self.references
     }
 
-    /// The pictures that a method makes of the frames that are judged, at 8 bits: supersampling, or SRAA.
+    /// Returns the pictures of the scored frames by one method, at 8 bits: supersampling, or SRAA.
     ///
     /// # Errors
     ///
@@ -164,7 +164,7 @@ impl Sequence {
     ) -> Result<Vec<Frame<Vec4>>, QualityError> {
         let settings = Settings::new().set_all(method.options().to_vec());
         let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
-        // The frame alone has all but what history reads.
+        // A single frame has all inputs except the history's.
         let mut alone = compiled.options.clone();
         let history = alone.number("history").unwrap_or(0.0) as usize;
         alone.remove("history");
@@ -187,7 +187,8 @@ impl Sequence {
         (0..judged).map(picture).collect()
     }
 
-    /// The frames that are judged and those `before` them. Without earlier frames, each is shaded at the centres of its pixels.
+    /// Draws the scored frames and the `before` frames preceding them. Without earlier frames, each is shaded at the
+    /// centres of its pixels.
     fn draw_frames(
         &self,
         method: &Method,
@@ -216,7 +217,7 @@ impl Sequence {
         (BEFORE - before..BEFORE + judged).map(moment).collect()
     }
 
-    /// Scores pictures of the frames that are judged: means over them.
+    /// Scores pictures of the scored frames: means over them.
     pub fn score(&self, method: &Method, pictures: &[Frame<Vec4>]) -> MovedMethod {
         let pairs = || pictures.iter().zip(&self.references);
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
@@ -234,11 +235,11 @@ impl Sequence {
     }
 }
 
-/// Scores each method in a motion; a step of the progress for each row of a reference's samples and for each method.
+/// Scores each method in a motion; one step of progress for each row of a reference's samples and for each method.
 ///
 /// # Errors
 ///
-/// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
+/// [`QualityError`], if something cannot be drawn or run, or `progress` requests a stop.
 pub fn in_motion(
     bench: &Bench,
     (scene, motion): (&Scene, Motion),

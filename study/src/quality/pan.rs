@@ -16,8 +16,8 @@ const STEP: Vec2 = vec2(0.125, 0.0625);
 /// Side of the grid of shading samples of each frame's reference: 64x.
 pub const SIDE: u32 = 8;
 
-/// For each method, the root of the mean squared error of what changes from a frame to the next, in colours clamped to
-/// 0..=1 at 8 bits of sRGB, against what changes in a reference of 64 samples a pixel; `None` for methods that are not watched.
+/// Returns for each method the root mean squared error of the change between frames, compared with a reference of 64
+/// samples a pixel, in colours clamped to 0..=1 at 8 bits of sRGB; `None` for methods that are not measured.
 pub fn measure_pan(
     renderer: &dyn Renderer,
     methods: &[Method],
@@ -42,11 +42,12 @@ pub fn measure_pan(
     Ok(errors)
 }
 
-/// Callback that is given a frame's pictures, and its reference.
+/// Callback that receives a frame's pictures, and its reference.
 pub(super) type See<'a> = dyn FnMut(&[Frame<Vec4>], &Frame<Vec4>) + 'a;
 
-/// For each of the methods `listed`, and each frame after the first, the mean squared error of what changes since the last. The picture
-/// moves by a step from a frame to the next; `see` is shown each frame's pictures and its reference, at 8 bits.
+/// Returns for each of the methods `listed`, and each frame after the first, the mean squared error of the change since the
+/// previous frame. The picture moves by one step per frame; `see` receives each frame's pictures and its reference, at 8
+/// bits.
 pub(super) fn measure_changes(
     renderer: &dyn Renderer,
     methods: &[Method],
@@ -67,7 +68,7 @@ pub(super) fn measure_changes(
             .iter()
             .map(|k| Ok(picture::at_eight_bits(&filters.filter_shot(*k, &shot)?)));
         let shown: Vec<Frame<Vec4>> = shown.collect::<Result<_, QualityError>>()?;
-        // Errors of this frame: changes of these are wrong changes.
+        // Errors of this frame; a change of the error is a wrong change.
         let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| error_frame(picture, &reference)).collect();
         for (changes, (now, before)) in changes.iter_mut().zip(wrong.iter().zip(&before)) {
             changes.push(mean_square(now, before));
@@ -85,13 +86,13 @@ pub(super) fn error_frame(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Fra
     let pairs = picture.texels().iter().zip(reference.texels());
     let texels = pairs.map(|(a, b)| match a.truncate().is_finite() {
         true => (shown(a) - shown(b)).extend(0.0),
-        // Wrong by the whole range.
+        // An error of the whole range.
         false => Vec3::ONE.extend(0.0),
     });
     Frame::new(picture.size(), texels.collect())
 }
 
-/// Over red, green and blue.
+/// Returns the mean squared difference over red, green and blue.
 pub(super) fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
     let pairs = a.texels().iter().zip(b.texels());
     let sum: f64 = pairs.map(|(a, b)| (*a - *b).as_dvec4().length_squared()).sum();

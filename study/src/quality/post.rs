@@ -1,7 +1,7 @@
-//! Post-processing of a shaded picture: bloom, and tone mapping to what a display shows.
+//! Post-processing of a shaded picture: bloom, and tone mapping for display.
 //!
-//! The paper (§1, §3.1) reconstructs before it, where a bright edge is a mean of light. After it, the light has spilt already, and
-//! what is brighter than white has its share of the pixel no more.
+//! The paper (§1, §3.1) reconstructs before it, where a bright edge is a mean of light. After it, the light has already
+//! spread, and colours brighter than white no longer count in proportion to their area.
 
 use super::methods::Method;
 use super::shot::Shot;
@@ -16,7 +16,7 @@ const SIGMA: f32 = 4.0;
 /// Share of the light brighter than white that spills.
 const STRENGTH: f32 = 0.1;
 
-/// Bloom, then tone mapping.
+/// Applies bloom, then tone mapping.
 pub fn post_process(linear: &Frame<Vec4>) -> Frame<Vec4> {
     let bright = map_texels(linear, |_, texel| {
         (texel.truncate() - Vec3::ONE).max(Vec3::ZERO).extend(0.0)
@@ -28,7 +28,7 @@ pub fn post_process(linear: &Frame<Vec4>) -> Frame<Vec4> {
     })
 }
 
-/// Reinhard's curve for luminance, with a white of 4 (Reinhard et al. 2002, equation 4): what is as bright is 1.
+/// Reinhard's curve for luminance, with a white of 4 (Reinhard et al. 2002, equation 4), which maps to 1.
 fn tone_mapped(light: Vec3) -> Vec3 {
     const WHITE: f32 = 4.0;
     let luminance = light.dot(Vec3::new(0.2126, 0.7152, 0.0722));
@@ -70,14 +70,14 @@ impl Shot {
             shaded: shaded
                 .map(|(n, frames)| (*n, frames.iter().map(post_process).collect()))
                 .collect(),
-            // No filter of the displayed picture reads those.
+            // Filters of the displayed picture do not read those.
             extra: BTreeMap::new(),
             aggregated: BTreeMap::new(),
         }
     }
 }
 
-/// Methods in the order that the paper advises against: shading samples that are processed already.
+/// Returns methods in the order that the paper advises against: on processed shading samples.
 pub fn the_other_order() -> Vec<Method> {
     let named = ["SRAA 4", "SRAA 16", "4x", "16x"];
     let all = super::list_methods(true)
@@ -111,7 +111,7 @@ mod tests {
         }
     }
 
-    /// Light that spills is spread and neither made nor lost, away from the border.
+    /// Light that spreads is neither created nor lost, away from the border.
     #[test]
     fn what_spills_is_a_share_of_what_is_too_bright() {
         let size = UVec2::new(41, 41);

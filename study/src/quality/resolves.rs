@@ -1,5 +1,5 @@
-//! Antialiasing by samples that a renderer shades more than once a pixel: its pictures after their definitions, on the processor
-//! (`bounds`, [`straightline_scene::render::render_aggregated`]), and kernels that resolve the same samples on a device, to be timed.
+//! Antialiasing with more than one shading sample a pixel. Pictures follow the definitions, on the CPU (`bounds`,
+//! [`straightline_scene::render::render_aggregated`]); kernels resolve the same samples on a device, for timing.
 
 use super::QualityError;
 use super::bounds::{
@@ -25,7 +25,7 @@ macro_rules! kernel {
     };
 }
 
-/// The picture of a method that is no filter, linear.
+/// Returns the linear picture of a method that is not a filter.
 ///
 /// # Errors
 ///
@@ -49,7 +49,7 @@ pub fn resolve_picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, Qual
     })
 }
 
-/// The passes that resolve a method's samples, one after the other; none where there is one sample.
+/// Returns the passes that resolve a method's samples, in order; empty for a single sample.
 pub fn resolve_kernels(method: &Method) -> Vec<Kernel> {
     match method.kind {
         Kind::Directional => vec![kernel!("directional", "directional")],
@@ -119,7 +119,7 @@ pub fn resolve_inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, Quali
     })
 }
 
-/// Index of the stored colour that each sample has, in four bits: 15 for none.
+/// Returns for each sample the index of its stored colour, in four bits: 15 for none.
 fn sample_codes(surfaces: &Surfaces<'_>) -> Frame<UVec4> {
     let size = surfaces.size();
     let code = |pixel: UVec2, sample: usize| {

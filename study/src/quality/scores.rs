@@ -1,4 +1,4 @@
-//! Errors of a picture, in all and by kinds of pixels; and what SRAA is short of supersampling.
+//! Errors of a picture, in total and by class of pixels; and the gap between SRAA and supersampling.
 
 use super::QualityError;
 use super::bounds::reconstruct_ideal;
@@ -12,7 +12,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_oracle::metrics;
 use straightline_scene::picture;
 
-/// Everything but time, bytes and pictures.
+/// Computes all errors; time, bytes and pictures are left out.
 pub fn score_picture(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, classes: &Classes) -> MethodErrors {
     let of = |class: &dyn Fn(usize) -> bool| where_any(made, reference, class);
     MethodErrors {
@@ -40,13 +40,13 @@ fn capped_psnr(made: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
     metrics::psnr(made, reference).min(MOST_DB)
 }
 
-/// `None` of no pixels.
+/// Returns `None` for a class without pixels.
 fn where_any(made: &Frame<Vec4>, reference: &Frame<Vec4>, class: &dyn Fn(usize) -> bool) -> Option<f64> {
     let found = metrics::psnr_where(made, reference, class);
     (!found.is_nan()).then(|| found.min(MOST_DB))
 }
 
-/// Fills in the share of the gap from no antialiasing to 16x that each method closes, if there is one.
+/// Fills in each method's share of the gap between no antialiasing and 16x that it closes, if there is a gap.
 pub fn share_of_gap(methods: &mut [MethodErrors]) {
     let of = |name: &str| methods.iter().find(|m| m.method == name).map(|m| m.psnr);
     let (Some(plain), Some(best)) = (of("1x"), of("16x")) else {
@@ -59,7 +59,7 @@ pub fn share_of_gap(methods: &mut [MethodErrors]) {
     }
 }
 
-/// Gaps of SRAA with 4 and with 16 samples, whose pictures are given at 8 bits as the reference is, to 4x and 16x.
+/// Measures the gaps of SRAA with 4 and with 16 samples to 4x and 16x; pictures and reference are at 8 bits.
 pub fn measure_gaps(
     shot: &Shot,
     made: [&Frame<Vec4>; 2],

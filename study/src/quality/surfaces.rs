@@ -1,9 +1,9 @@
 //! Samples of a picture that see the same surface.
 //!
 //! Two samples see one surface if their normals are within ten degrees of each other and each point lies on the other's
-//! tangent plane, to within a tenth of a pixel for each pixel that they are apart on the screen. What is only painted
-//! differently is one surface. Without a camera, or with normals of another space than is said, depths must agree to a hundredth of
-//! themselves instead of planes; without normals depth alone counts. The sky is one surface.
+//! tangent plane, to within a tenth of a pixel for each pixel of distance on the screen. A difference in colour alone does
+//! not separate surfaces. Without a camera, or with normals in another space than declared, depths must agree to one per
+//! cent instead; without normals only depth counts. The sky is one surface.
 
 use glam::{IVec2, UVec2, Vec2, Vec3};
 use straightline_kernels::prelude::Frame;
@@ -11,33 +11,33 @@ use straightline_scene::capture::Capture;
 use straightline_scene::gbuffer::has_planes;
 use straightline_scene::scene::SKY_DEPTH;
 
-/// Cosine of the angle between two normals of one surface: ten degrees.
+/// Cosine of the largest angle between two normals of one surface: ten degrees.
 const ALIKE: f32 = 0.984_8;
 
 /// Greatest distance of a point from a plane, in pixels, for each pixel on the screen.
 const OFF_PLANE: f32 = 0.1;
 
-/// Greatest relative difference of two depths of one surface where planes are not known.
+/// Greatest relative difference of two depths of one surface if planes are unknown.
 const OFF_DEPTH: f32 = 0.01;
 
 /// Point that one sample of a pixel sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// On the screen, in pixels.
+    /// Position on the screen, in pixels.
     place: Vec2,
     depth: f32,
     normal: Option<Vec3>,
-    /// From the eye, in the space of normals.
+    /// Position relative to the eye, in the space of normals.
     position: Option<Vec3>,
 }
 
 impl Point {
-    /// The pixel that it is in.
+    /// Returns the pixel that contains the point.
     pub fn pixel(&self) -> UVec2 {
         self.place.as_uvec2()
     }
 
-    /// Returns the difference of another point, in depth or normal, as SRAA's metric `depth-normals` has it.
+    /// Returns the difference to another point, in depth or normal, by SRAA's metric `depth-normals`.
     pub fn difference_to(&self, other: &Point) -> f32 {
         let turned = match (self.normal, other.normal) {
             (Some(a), Some(b)) => 1.0 - a.dot(b),
@@ -53,20 +53,20 @@ struct Layer<'a> {
     normal: Option<&'a Frame<Vec3>>,
 }
 
-/// The geometry of a picture, at all samples of some captures of it.
+/// Geometry of a picture, at all samples of one or more captures of it.
 pub struct Surfaces<'a> {
     size: UVec2,
     layers: Vec<Layer<'a>>,
     /// Layers of the shading samples.
     shaded: Vec<usize>,
-    /// The rays through the pixels in the space of normals, if planes are known: see [`Capture::rays`].
+    /// Rays through the pixels in the space of normals, if planes are known: see [`Capture::rays`].
     rays: Option<[Vec3; 3]>,
-    /// A pixel at depth 1.
+    /// Size of a pixel at depth 1.
     pixel: f32,
 }
 
 impl<'a> Surfaces<'a> {
-    /// Of captures of one view; shading is where the first has it. `None` of no captures.
+    /// Collects captures of one view, with the shading samples of the first. Returns `None` without captures.
     pub fn from_captures(captures: &[&'a Capture]) -> Option<Surfaces<'a>> {
         let first = captures.first()?;
         let mut layers = Vec::new();

@@ -1,36 +1,37 @@
-//! Frames of a pan.
+//! Record of a filmed pan.
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
 
-/// Record of a film: errors in the changes from a frame to the next.
+/// Record of a film: errors of the change between frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilmRecord {
-    /// When, where and how it was made; nothing is timed.
+    /// Time, place and method of the run; nothing is timed.
     #[serde(flatten)]
     pub circumstances: Circumstances,
     /// The scene.
     pub scene: String,
-    /// Pixels that the picture moves from a frame to the next, y down.
+    /// Pixels by which the picture moves from frame to frame, y down.
     pub step: [f32; 2],
-    /// The methods, row by row; behind them in each frame is the reference of 64 samples a pixel.
+    /// The methods, row by row, followed in each frame by the reference of 64 samples a pixel.
     pub methods: Vec<FilmedMethod>,
 }
 
 /// A method that was filmed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilmedMethod {
-    /// A name for people.
+    /// Display name.
     pub method: String,
-    /// Options of its kernel that are not the default.
+    /// Options of its kernel that differ from their defaults.
     pub options: Vec<OptionText>,
-    /// For each frame after the first: the root of the mean squared error of what changed since the last, in colours of 0..=1.
+    /// For each frame after the first: the root mean squared error of the change since the previous frame, in colours of
+    /// 0..=1.
     pub errors: Vec<f64>,
 }
 
 impl FilmedMethod {
-    /// Over all frames: the root of their mean square.
+    /// Returns the root mean square over all frames.
     pub fn rms_error(&self) -> f64 {
         let squares: f64 = self.errors.iter().map(|error| error * error).sum();
         (squares / self.errors.len().max(1) as f64).sqrt()

@@ -1,11 +1,11 @@
-//! Time of a whole frame against its error.
+//! Record of the time of a whole frame against its error.
 
 use super::{Circumstances, Family, Record};
 use serde::{Deserialize, Serialize};
 use straightline_bench::execute::Quartiles;
 use straightline_kernels::OptionText;
 
-/// Passes of a frame of one scene, as `budget --record` writes them beside much else.
+/// Passes of a frame of one scene, as part of the output of `budget --record`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PassTimes {
     /// Circumstances of the timing.
@@ -13,7 +13,7 @@ pub struct PassTimes {
     pub circumstances: Circumstances,
     /// Name of the scene, or the path of a model.
     pub scene: String,
-    /// Every pass that was timed.
+    /// Every timed pass.
     pub passes: Vec<TimedPass>,
 }
 
@@ -35,17 +35,17 @@ pub struct FrameMethod {
     pub method: String,
     /// Kind of method.
     pub family: Family,
-    /// Options of its kernel that are not the default.
+    /// Options of its kernel that differ from their defaults.
     pub options: Vec<OptionText>,
-    /// Milliseconds of drawing geometry, the G-buffer's further samples included: median.
+    /// Median milliseconds to draw geometry, including further samples of the G-buffer.
     pub geometry_ms: f64,
     /// Shading samples a pixel.
     pub shaded: u32,
-    /// Milliseconds of the filter or the box filter; 0 without one: median.
+    /// Median milliseconds of the filter or the box filter; 0 without one.
     pub filter_ms: f64,
-    /// Peak signal-to-noise ratio to 256 samples a pixel, in dB.
+    /// Peak signal-to-noise ratio against 256 samples a pixel, in dB.
     pub psnr: f64,
-    /// Root of the mean squared error, in colours of 0..=1.
+    /// Root mean squared error, in colours of 0..=1.
     pub error: f64,
     /// Bytes of G-buffer, picture and target.
     pub bytes: u64,
@@ -56,16 +56,16 @@ pub struct FrameMethod {
 /// A frame at one cost of shading.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
-    /// Milliseconds in all: the sum of the parts' medians.
+    /// Total milliseconds: the sum of the parts' medians.
     pub ms: f64,
-    /// On the front: no method takes as little time with a smaller error.
+    /// `true` on the front: no method takes as little time with a smaller error.
     pub is_best: bool,
 }
 
 /// Time of a whole frame against its error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRecord {
-    /// Command that made this record of two others.
+    /// Command that combined this record from two others.
     pub command: String,
     /// Circumstances of the passes.
     pub passes: Circumstances,
@@ -73,13 +73,13 @@ pub struct FrameRecord {
     pub errors: Circumstances,
     /// Scene of both.
     pub scene: String,
-    /// Costs of shading one sample of every pixel, in milliseconds, for which frames are put together.
+    /// Costs of shading one sample of every pixel, in milliseconds.
     pub shading_ms: Vec<f64>,
-    /// Cost that the passes had themselves.
+    /// Shading cost of the passes themselves.
     pub own_shading_ms: f64,
     /// Methods, by error.
     pub methods: Vec<FrameMethod>,
-    /// Methods that are left out, with the reasons.
+    /// Omitted methods, with the reasons.
     pub absent: Vec<(String, String)>,
 }
 

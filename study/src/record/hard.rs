@@ -1,4 +1,4 @@
-//! Numerical stability on hard cases.
+//! Record of numerical stability on hard cases.
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
@@ -10,11 +10,11 @@ use straightline_kernels::OptionText;
 pub enum Executor {
     /// The interpreter.
     Interpreter,
-    /// The interpreter, subnormal numbers flushed to zero after every operation.
+    /// The interpreter, with subnormal numbers flushed to zero after every operation.
     InterpreterFlushed,
-    /// The interpreter, as inexact as WGSL lets a device be: every inexact result is rounded up or down as it happens, which is
-    /// how far a compiler's own order of additions and its fused products can move one; functions are off by their whole ULPs;
-    /// subnormal numbers are flushed; of a NaN and a number, `min` and `max` give the NaN.
+    /// The interpreter, as inexact as WGSL permits. Every inexact result is rounded pseudo-randomly up or down, which
+    /// covers a compiler's reordered additions and fused products. Functions are off by their whole ULPs. Subnormal numbers
+    /// are flushed to zero. For a NaN and a number, `min` and `max` return the NaN.
     InterpreterLoose,
     /// The emitted shader on the adapter that the record names.
     Gpu,
@@ -23,47 +23,48 @@ pub enum Executor {
 /// A kernel on a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HardResult {
-    /// The kernel with what distinguishes its options: `sraa default`, `sraa paper`, `stalker`.
+    /// Name of the kernel with its distinguishing options: `sraa default`, `sraa paper`, `stalker`.
     pub kernel: String,
-    /// Options that are not the default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
     /// `f16` or `f32`.
     pub precision: String,
     /// Executor of the run.
     pub executor: Executor,
-    /// Pixels of the output, and how many of them are not finite.
+    /// Number of pixels of the output.
     pub pixels: usize,
-    /// See `pixels`.
+    /// Number of those pixels that are not finite.
     pub non_finite: usize,
-    /// Largest absolute difference to the oracle in `f64`, of pixels that are finite in both; `None` where the oracle has no
-    /// finite answer.
+    /// Largest absolute difference to the oracle in `f64`, over pixels that are finite in both; `None` if the oracle has no
+    /// finite result.
     pub difference: Option<f64>,
     /// Difference in units of the last place of the result's precision, at the oracle's value.
     pub ulps: Option<f64>,
     /// Origin of the first NaN or infinity: source line and operation, by the interpreter.
     pub born: Option<String>,
-    /// The largest absolute difference that this kernel must keep on this case; `None` where it is only watched.
+    /// Largest permitted absolute difference of this kernel on this case; `None` if it is only recorded.
     pub bound: Option<f64>,
-    /// True if the run kept the bound, and is finite where that is required.
+    /// `true` if the run kept the bound, and is finite where that is required.
     pub kept: bool,
-    /// True if the run must be finite and within its bound: in `f32`, all forms but those that keep what was printed.
+    /// `true` if the run must be finite and within its bound: in `f32`, all forms except those that reproduce the printed
+    /// listing.
     pub promised: bool,
-    /// In `f16`, where `bound` is what can be seen: the most that error analysis allows, if there is one.
+    /// In `f16`, where `bound` is the visible difference: the largest error by error analysis, if there is one.
     pub analysed: Option<f64>,
-    /// Why it was not run: the adapter lacks something, or the form is refused.
+    /// Reason why it was not run: the adapter lacks a feature, or the form is rejected.
     pub refused: Option<String>,
 }
 
-/// A case and what became of it.
+/// A case and its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HardCase {
     /// Name, one word or several with hyphens.
     pub name: String,
     /// Description of the difficulty.
     pub about: String,
-    /// True if scenes really have this: what half precision is judged by.
+    /// `true` if the case occurs in real scenes, so that half precision is judged by it.
     pub common: bool,
-    /// All kernels, precisions and executors.
+    /// Results of all kernels, precisions and executors.
     pub results: Vec<HardResult>,
 }
 
@@ -72,21 +73,21 @@ pub struct HardCase {
 pub struct HalfVerdict {
     /// The kernel, as in [`HardResult::kernel`].
     pub kernel: String,
-    /// Options that are not the default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
-    /// The case that it is farthest off in, measured by what can be seen there.
+    /// Case with the largest error relative to the visible difference there.
     pub worst: Option<String>,
     /// Difference in that case; `None` if nothing was finite.
     pub difference: Option<f64>,
-    /// Greatest difference in that case on a device that is as inexact as WGSL allows, which decides nothing.
+    /// Largest difference in that case on a device as inexact as WGSL permits; not used for the verdict.
     pub loosest: Option<f64>,
     /// Least visible difference there: 1/255 of the brightest colour.
     pub limit: Option<f64>,
-    /// Cases that scenes have and in which it is farther off than can be seen, of `cases`.
+    /// Number of common cases with a visible error, of `cases`.
     pub broken: usize,
-    /// See `broken`.
+    /// Number of common cases.
     pub cases: usize,
-    /// Why it is to be refused; `None` if it may.
+    /// Reason for rejecting half precision; `None` if it is acceptable.
     pub reason: Option<String>,
 }
 
@@ -103,7 +104,7 @@ pub struct HardRecord {
 }
 
 impl HardRecord {
-    /// Results that must be finite and within their bounds and are not, each with its case.
+    /// Returns the results that must be finite and within their bounds but are not, each with its case.
     pub fn broken_results(&self) -> impl Iterator<Item = (&HardCase, &HardResult)> {
         let results = self
             .cases
@@ -112,7 +113,7 @@ impl HardRecord {
         results.filter(|(_, r)| r.promised && !r.kept)
     }
 
-    /// Pixels that are not finite, of results that promise that all are and of those that do not, in `f32`.
+    /// Returns the non-finite pixels in `f32`: of results that promise finiteness, and of the others.
     pub fn non_finite(&self) -> [usize; 2] {
         let results = self.cases.iter().flat_map(|case| &case.results);
         let single = results.filter(|r| r.precision == "f32");

@@ -1,4 +1,4 @@
-//! Unroll against loop.
+//! Record of unrolled against looped forms.
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
@@ -9,33 +9,34 @@ use straightline_kernels::OptionText;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FormKind {
-    /// Loops left in the shader, as wgpu compiles them: with a bound on the iterations of each. All others are compared with this.
+    /// Loops left in the shader, as wgpu compiles them: with a bound on the iterations of each. The baseline of all
+    /// comparisons.
     Looped,
     /// Loops left in the shader, without that bound.
     LoopedUnchecked,
-    /// Loops left in the shader, hand-optimised: what is read several times is read once, into arrays.
+    /// Hand-optimised loops: repeated reads are done once, into arrays.
     LoopedByHand,
-    /// Hand-optimised loops without the bound: compilers that unroll loops by themselves can do it then.
+    /// Hand-optimised loops without the bound, so that compilers can unroll them.
     LoopedByHandUnchecked,
-    /// Two rounds in a row.
+    /// Loops left with two iterations in a row.
     Partial2,
-    /// Four rounds in a row.
+    /// Loops left with four iterations in a row.
     Partial4,
-    /// No loop left; each read as often as the source asks for it.
+    /// No loop left; each read as often as the source performs it.
     FullUnshared,
     /// No loop left; each distinct read once.
     Full,
-    /// As `Full`, each invocation computing 2x2 pixels.
+    /// As `Full`, with 2x2 pixels per invocation.
     FullBlock,
-    /// As `Full`, the pixels of a workgroup sharing what they read through its memory.
+    /// As `Full`, with reads shared by the pixels of a workgroup through its memory.
     FullTile,
-    /// As `Full`, four texels read at once where several of them are wanted.
+    /// As `Full`, with gathers: four texels in one read, where several of them are needed.
     FullGather,
-    /// As `Full`, with algebra that may change roundings.
+    /// As `Full`, with mathematics that may change roundings.
     FullFast,
     /// As `Full`, computed in half precision.
     FullHalf,
-    /// The reads and the store of `Full`, and next to no arithmetic between: a lower bound of every form.
+    /// The reads and the store of `Full`, with almost no arithmetic between: a lower bound for every form.
     Floor,
 }
 
@@ -84,7 +85,7 @@ impl FormKind {
 pub struct Form {
     /// Kind of the form.
     pub kind: FormKind,
-    /// Loops that are left.
+    /// Number of loops left.
     pub loops: u32,
     /// Statements of the emitted text.
     pub statements: u32,
@@ -92,38 +93,38 @@ pub struct Form {
     pub reads: u32,
     /// Bytes of SPIR-V as emitted, names included.
     pub spirv_bytes: usize,
-    /// Milliseconds until the shader was ready: making the pipeline, in which are wgpu's translation of the checked shader and
-    /// the driver's compiling, and what the first frame took longer than others. The text is one that no driver has in a
-    /// cache; naga's reading and checking of it is left out.
+    /// Milliseconds until the shader was ready. Includes pipeline creation, with wgpu's translation of the checked shader
+    /// and the driver's compilation, and the excess of the first frame over later ones. The text is unique, so that no
+    /// driver has it in a cache; naga's parsing and validation are excluded.
     pub pipeline_ms: f64,
     /// Time of a frame.
     pub time: Times,
     /// Speedup over `Looped`.
     pub ratio: Ratio,
-    /// Largest difference to the same kernel in `f64` over all but the thousandth of the pixels that differ most; `None`
-    /// for the floor, which computes nothing.
+    /// Largest difference to the same kernel in `f64`, without the thousandth of the pixels that differ most; `None` for
+    /// the floor, which computes nothing.
     pub difference_999: Option<f64>,
-    /// Largest difference of all pixels.
+    /// Largest difference over all pixels.
     pub difference: Option<f64>,
 }
 
 /// A kernel in every form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct KernelForms {
-    /// A name for people: the kernel's, with what distinguishes it.
+    /// Display name: the kernel's, with its distinguishing options.
     pub kernel: String,
-    /// Options that are not the default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
     /// Input of the runs.
     pub input: String,
-    /// Forms of the kernel, `Looped` first. One that a kernel does not have is left out.
+    /// Forms of the kernel, `Looped` first. Missing forms are omitted.
     pub forms: Vec<Form>,
-    /// Forms that there are not, and why.
+    /// Missing forms, with the reasons.
     pub absent: Vec<(FormKind, String)>,
 }
 
 impl KernelForms {
-    /// The form of that kind, if the kernel has it.
+    /// Returns the form of that kind, if the kernel has it.
     pub fn form(&self, kind: FormKind) -> Option<&Form> {
         self.forms.iter().find(|form| form.kind == kind)
     }

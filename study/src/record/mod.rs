@@ -1,4 +1,4 @@
-//! Results of studies, as files: JSON with its circumstances, CSV beside it. `README.md` and the report cite these.
+//! Results of studies as files: JSON with its circumstances, and CSV. `README.md` and the report cite these.
 
 mod film;
 mod frame;
@@ -31,40 +31,41 @@ pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors
 pub use sweep::{Environment, Measured, Shard, SweepRecord, Swept};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};
 
-/// Under which circumstances figures were taken: without these a figure says nothing.
+/// Circumstances of a measurement, without which its numbers have no meaning.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Circumstances {
-    /// The command that takes them again.
+    /// Command that reproduces the measurement.
     pub command: String,
-    /// When it began: RFC 3339, UTC.
+    /// Start of the run: RFC 3339, UTC.
     pub date: String,
     /// Adapter, driver with its version, and backend.
     pub adapter: String,
-    /// What the processor is called, and how many threads it runs: on software drivers it is the GPU.
+    /// Name of the processor and its number of threads. With a software driver, it is also the GPU.
     pub processor: String,
-    /// What times were taken with: `gpu-timestamps` around each pass, or the `wall-clock`.
+    /// Clock that took the times: `gpu-timestamps` around each pass, or the `wall-clock`.
     #[schemars(with = "String")]
     pub clock: Clock,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Rounds of timing; each ran every shader once, in turn.
     pub rounds: u32,
-    /// Whether all was measured that was asked for, or the run was interrupted.
+    /// `true` if everything requested was measured, `false` if the run was interrupted.
     pub complete: bool,
 }
 
-/// Longest record that is read, in bytes.
+/// Maximum size of a record that is read, in bytes.
 const MAX_RECORD: u64 = 1 << 28;
 
-/// A study's result that can be written as JSON and CSV, and be read again.
+/// A study's result that can be written as JSON and CSV, and read back.
 pub trait Record: Serialize + DeserializeOwned {
-    /// Stem of its files' names.
+    /// Stem of the files' names.
     const STEM: &'static str;
 
-    /// Headings of the table, and its rows.
+    /// Returns the headings and rows of the table.
     fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>);
 
-    /// Writes `STEM.json` and `STEM.csv` into `folder`, which is made if it is not there. Each is whole or as it was before.
+    /// Writes `STEM.json` and `STEM.csv` into `folder`, which is created if missing. Each file is either complete or
+    /// unchanged.
     ///
     /// # Errors
     ///
@@ -73,7 +74,7 @@ pub trait Record: Serialize + DeserializeOwned {
         self.write_as(folder, Self::STEM)
     }
 
-    /// [`write`](Self::write), with another stem: for several records of one kind in a folder.
+    /// Writes the record as [`write`](Self::write) with another stem, for several records of one kind in a folder.
     ///
     /// # Errors
     ///
@@ -83,7 +84,7 @@ pub trait Record: Serialize + DeserializeOwned {
         Ok(())
     }
 
-    /// The files of the record by name, with a stem: for a set that is written as a whole.
+    /// Returns the files of the record by name, with a stem, for a set that is written as a whole.
     ///
     /// # Errors
     ///
@@ -98,11 +99,11 @@ pub trait Record: Serialize + DeserializeOwned {
         Ok(BTreeMap::from([(json, text), (csv, self.to_csv().into_bytes())]))
     }
 
-    /// Reads a record from a JSON file, which may be packed ([`read_file`]).
+    /// Reads a record from a JSON file, which may be compressed ([`read_file`]).
     ///
     /// # Errors
     ///
-    /// [`RecordError`] names the file and what is wrong in it.
+    /// [`RecordError`] names the file and the error in it.
     fn read(path: &Path) -> Result<Self, RecordError> {
         let text = read_file(path)?;
         serde_json::from_slice(&text).map_err(|source| RecordError::Json {
@@ -111,7 +112,7 @@ pub trait Record: Serialize + DeserializeOwned {
         })
     }
 
-    /// The table as CSV (RFC 4180).
+    /// Formats the table as CSV (RFC 4180).
     fn to_csv(&self) -> String {
         let quoted = |cell: &str| match cell.contains(['"', ',', '\n']) {
             true => format!("\"{}\"", cell.replace('"', "\"\"")),
@@ -127,7 +128,7 @@ pub trait Record: Serialize + DeserializeOwned {
     }
 }
 
-/// Why a record could not be written or read.
+/// Reason why a record could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
     /// The file cannot be read.
@@ -135,13 +136,13 @@ pub enum RecordError {
     Read {
         /// The record's file.
         path: PathBuf,
-        /// Why.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// The record cannot be written.
     #[error(transparent)]
     Write(#[from] files::WriteError),
-    /// The text is no such record.
+    /// The text is not a record of this kind.
     #[error("`{}` is not a record of this study: {source}; run the study again", path.display())]
     Json {
         /// The record's file.
@@ -151,11 +152,11 @@ pub enum RecordError {
     },
 }
 
-/// Reads the contents of a record's file; a packed one, `.gz`, is unpacked: long records are kept so.
+/// Reads the contents of a record's file; a `.gz` file is decompressed, as long records are stored that way.
 ///
 /// # Errors
 ///
-/// [`RecordError::Read`]; what is longer than 256 MiB, packed or not, is refused.
+/// [`RecordError::Read`], also if the contents are longer than 256 MiB, compressed or not.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, RecordError> {
     let refused = |source| RecordError::Read {
         path: path.to_owned(),
@@ -176,7 +177,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, RecordError> {
     }
 }
 
-/// Name of a value in JSON.
+/// Returns the name of a value in JSON.
 pub(crate) fn json_name(value: &impl Serialize) -> String {
     match serde_json::to_value(value) {
         Ok(serde_json::Value::String(text)) => text,

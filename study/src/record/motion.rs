@@ -1,4 +1,4 @@
-//! Methods in frames that follow on each other.
+//! Record of methods over consecutive frames.
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
@@ -8,21 +8,21 @@ use straightline_kernels::OptionText;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Motion {
-    /// Nothing.
+    /// Nothing moves.
     Still,
-    /// The camera, by 0.7 pixels sideways and 0.2 upwards at its target.
+    /// The camera moves, by 0.7 pixels sideways and 0.2 upwards at its target.
     Pan,
-    /// The camera, about itself: by 0.45 pixels sideways and 0.3 upwards.
+    /// The camera rotates in place: by 0.45 pixels sideways and 0.3 upwards.
     Turn,
-    /// A board before all else, by 3.3 pixels.
+    /// A board in front of everything moves, by 3.3 pixels.
     Board,
 }
 
 impl Motion {
-    /// All of them.
+    /// All motions.
     pub const ALL: [Motion; 4] = [Motion::Still, Motion::Pan, Motion::Turn, Motion::Board];
 
-    /// For people.
+    /// Returns the display name.
     pub fn display_name(self) -> &'static str {
         match self {
             Motion::Still => "still",
@@ -36,10 +36,10 @@ impl Motion {
 /// Errors of methods in motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionRecord {
-    /// When, where and how it was made; nothing is timed.
+    /// Time, place and method of the run; nothing is timed.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// Number of frames that are judged, each against 64 samples a pixel.
+    /// Number of scored frames, each against 64 samples a pixel.
     pub frames: u32,
     /// Each scene in each motion.
     pub scenes: Vec<MovedScene>,
@@ -59,15 +59,15 @@ pub struct MovedScene {
 /// A method in a motion: means over the frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MovedMethod {
-    /// A name for people.
+    /// Display name.
     pub method: String,
-    /// Options of its kernel that are not the default.
+    /// Options of its kernel that differ from their defaults.
     pub options: Vec<OptionText>,
     /// PSNR in dB.
     pub psnr: f64,
     /// Mean FLIP.
     pub flip: f64,
-    /// The root of the mean squared error of what changes from a frame to the next, in colours of 0..=1.
+    /// Root mean squared error of the change between frames, in colours of 0..=1.
     pub flicker: f64,
 }
 

@@ -5,7 +5,7 @@ use crate::sweep::Interval;
 use serde::{Deserialize, Serialize};
 use straightline_manifest::Stage;
 
-/// Filters of pixel quads, each computed in every way by every transport.
+/// Quad filters, in every variant and with every transport.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuadsRecord {
     /// Circumstances.
@@ -13,43 +13,42 @@ pub struct QuadsRecord {
     pub circumstances: Circumstances,
     /// Description of the device's quads, and the transport that they allow.
     pub quads: String,
-    /// The scene's triangles, which shadow filters are drawn with.
+    /// Number of the scene's triangles, with which shadow filters are drawn.
     pub triangles: usize,
-    /// Milliseconds of the pass that draws the coordinates that dispatched shadow filters read: the median of all rounds. It
-    /// is part of those filters' times.
+    /// Median milliseconds of the pass that draws the coordinates for dispatched shadow filters. Included in those filters'
+    /// times.
     pub coordinates_ms: f64,
-    /// Every way, a filter's one after the other; the first of a filter is what others are compared with.
+    /// Every variant, grouped by filter; the first variant of a filter is the baseline of the others.
     pub ways: Vec<QuadWay>,
 }
 
-/// A way to compute a filter.
+/// A variant of a filter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuadWay {
     /// The filter.
     pub filter: String,
-    /// Name of the way: the data that it shares.
+    /// Name of the variant: the data that it shares.
     pub way: String,
     /// Communication of lanes: `none`, or a transport.
     pub transport: String,
     /// Compute or fragment.
     pub stage: Stage,
-    /// True if the filter is drawn with the scene's triangles, or reads what another pass has drawn of them.
+    /// `true` if the filter is drawn with the scene's triangles, or reads the output of another pass that draws them.
     pub forward: bool,
-    /// Reads of textures, of a pixel; of an invocation for four pixels, if it is one.
+    /// Texture reads per pixel, or per invocation if one invocation computes four pixels.
     pub reads: u32,
-    /// Messages of an invocation.
+    /// Quad swaps of an invocation.
     pub messages: u32,
     /// Statements of the shader.
     pub statements: u32,
-    /// Milliseconds: the median of all rounds.
+    /// Median milliseconds over all rounds.
     pub median_ms: f64,
     /// The time of each round.
     pub rounds_ms: Vec<f64>,
-    /// Speedup over the filter's first way, round by round: the median, and the interval in which it lies
-    /// with a probability of 95 %.
+    /// Speedup over the filter's first variant, round by round: the median, and its 95 % confidence interval.
     pub speedup: Interval,
-    /// The mean over all pixels of the largest difference of a colour's components to the filter's first way. In shadow filters,
-    /// over all pixels that triangles cover.
+    /// Mean over all pixels of the largest difference of a colour's components to the filter's first variant. For shadow
+    /// filters, over all pixels that triangles cover.
     pub mean_difference: f64,
     /// The largest such difference.
     pub largest_difference: f64,

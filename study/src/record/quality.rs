@@ -1,4 +1,4 @@
-//! Methods of antialiasing against references.
+//! Record of antialiasing methods against references.
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ pub use straightline_oracle::metrics::MOST_DB;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
-    /// The shaded picture, one shading sample a pixel, as it is.
+    /// The shaded picture with one shading sample a pixel, unfiltered.
     None,
     /// Subpixel reconstruction.
     Sraa,
@@ -25,85 +25,85 @@ pub enum Family {
     Own,
 }
 
-/// Errors of a method on a scene, against 256 samples a pixel, both as a display shows them: at 8 bits of sRGB. PSNR over linear RGB clamped to 0..=1, in dB, at most
-/// [`MOST_DB`]; a class of pixels that the scene has none of has `None`.
+/// Errors of a method on a scene, against 256 samples a pixel, both as displayed: at 8 bits of sRGB. PSNR over linear RGB
+/// clamped to 0..=1, in dB, at most [`MOST_DB`]; `None` for a class without pixels in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MethodErrors {
-    /// A name for people, the same in all scenes.
+    /// Display name, the same in all scenes.
     pub method: String,
     /// Kind of the method.
     pub family: Family,
-    /// Options of its kernel that are not the default.
+    /// Options of its kernel that differ from their defaults.
     pub options: Vec<OptionText>,
-    /// All pixels.
+    /// PSNR over all pixels.
     pub psnr: f64,
     /// Structural similarity, 1 for equal pictures.
     pub ssim: f64,
     /// Mean FLIP, 0 for equal pictures.
     pub flip: f64,
-    /// Pixels with an edge of geometry in them.
+    /// PSNR over pixels with an edge of geometry.
     pub psnr_geometry: Option<f64>,
-    /// Pixels with an edge of shading and none of geometry.
+    /// PSNR over pixels with an edge of shading but none of geometry.
     pub psnr_shading: Option<f64>,
-    /// All others.
+    /// PSNR over all other pixels.
     pub psnr_flat: Option<f64>,
-    /// The error that one pixel in a thousand exceeds: the root of the mean square of what red, green and blue are off, 0 to 1. Records of before
-    /// it was taken have `None`.
+    /// Error that one pixel in a thousand exceeds: the root mean square over red, green and blue, 0 to 1. `None` in records
+    /// from before it was introduced.
     #[serde(default)]
     pub worst: Option<f64>,
-    /// Share of the gap between no antialiasing and 16x supersampling, in dB, that it closes: 0 to 1, more if it is better;
-    /// `None` of a capture, which has no 16x.
+    /// Share of the gap between no antialiasing and 16x supersampling, in dB, that the method closes: 0 to 1, more if it is
+    /// better than 16x; `None` for a capture, which has no 16x.
     pub gap_closed: Option<f64>,
-    /// Root of the mean squared error of frame differences, over a slow pan; `None` where it was not taken.
+    /// Root mean squared error of frame differences, over a slow pan; `None` if it was not measured.
     pub temporal: Option<f64>,
-    /// Time of the filter alone, without what it reads being drawn; `None` for what is not a filter.
+    /// Time of the filter alone, without drawing its inputs; `None` for a method that is not a filter.
     pub time: Option<Times>,
-    /// Bytes of what it reads and writes: G-buffer, picture and target.
+    /// Bytes that the method reads and writes: G-buffer, picture and target.
     pub bytes: u64,
-    /// Share of the pixels that were shaded once more, 0 to 1; `None` where none may be.
+    /// Share of the pixels that were shaded once more, 0 to 1; `None` if the method never does that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extra: Option<f64>,
-    /// Pixels that are not finite.
+    /// Number of pixels that are not finite.
     pub non_finite: usize,
     /// Picture beside the record, if one was written.
     pub picture: Option<String>,
 }
 
-/// Shares of a scene's pixels, 0 to 1.
+/// Shares of a scene's pixels by class, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shares {
-    /// With an edge of geometry in them.
+    /// Pixels with an edge of geometry.
     pub geometry: f64,
-    /// With an edge of shading and none of geometry.
+    /// Pixels with an edge of shading but none of geometry.
     pub shading: f64,
-    /// With neither.
+    /// Pixels with neither.
     pub flat: f64,
-    /// With a surface in them that no shading sample around them saw.
+    /// Pixels with a surface that no shading sample around them saw.
     pub unseen: f64,
 }
 
-/// Gap between SRAA and supersampling at the same places, and its causes. All in dB, at most [`MOST_DB`].
+/// Gap between SRAA and supersampling at the same positions, and its causes. All in dB, at most [`MOST_DB`].
 ///
 /// The ideal reconstruction gives each geometry sample its true colour if one of the 3 x 3 shading samples around saw its
 /// surface, and else the colour of the nearest of them. So `bound - ideal` is the price of surfaces that no shading sample
-/// saw, and `ideal - psnr` the price of colours that are borrowed from other places of a surface.
+/// saw, and `ideal - psnr` the price of colours borrowed from other points of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gap {
     /// `SRAA 4` or `SRAA 16`.
     pub method: String,
     /// `4x` or `16x`.
     pub bound: String,
-    /// Of SRAA.
+    /// PSNR of SRAA.
     pub psnr: f64,
-    /// Of the ideal reconstruction.
+    /// PSNR of the ideal reconstruction.
     pub ideal_psnr: f64,
-    /// Of supersampling.
+    /// PSNR of supersampling.
     pub bound_psnr: f64,
-    /// Of SRAA, without the pixels of which a surface was not seen; `None` if that leaves none.
+    /// PSNR of SRAA over pixels without unseen surfaces; `None` if there are none.
     pub psnr_seen: Option<f64>,
-    /// Of supersampling, without them.
+    /// PSNR of supersampling over the same pixels.
     pub bound_psnr_seen: Option<f64>,
-    /// Share of SRAA's squared error that is in pixels of which a surface was not seen.
+    /// Share of SRAA's squared error in pixels with an unseen surface.
     pub error_unseen: f64,
 }
 
@@ -114,25 +114,25 @@ pub struct SceneErrors {
     pub scene: String,
     /// Purpose of the scene.
     pub purpose: String,
-    /// Kinds of its pixels.
+    /// Classes of its pixels.
     pub shares: Shares,
     /// Picture of the reference, if one was written.
     pub reference: Option<String>,
     /// Methods of the scene.
     pub methods: Vec<MethodErrors>,
-    /// Methods that it has not, and why.
+    /// Missing methods, with the reasons.
     pub absent: Vec<(String, String)>,
-    /// Gaps between SRAA and supersampling; none of a capture.
+    /// Gaps between SRAA and supersampling; empty for a capture.
     pub gaps: Vec<Gap>,
 }
 
-/// Speed against error.
+/// Record of speed against error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QualityRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// The scene that filters were timed on, in turn; a method has the same time in all scenes of the same methods.
+    /// Scene on which filters were timed, in turn. A method has the same time in all scenes with the same methods.
     pub timed_on: Vec<String>,
     /// Frames of the pan.
     pub pan_frames: u32,

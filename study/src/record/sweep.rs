@@ -1,4 +1,4 @@
-//! A sweep: one kernel in every combination of options and forms.
+//! Record of a sweep: one kernel in every combination of options and forms.
 
 use super::{Circumstances, Record};
 use crate::sweep::{Axis, Interval};
@@ -6,89 +6,89 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Where a sweep ran, beyond its circumstances.
+/// Environment of a sweep, beyond its circumstances.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Environment {
     /// Version of Straightline.
     pub generator: String,
     /// Operating system and architecture.
     pub system: String,
-    /// How the first processor chooses its clock, where the system tells.
+    /// Frequency governor of the first processor, if the system reports one.
     pub governor: Option<String>,
-    /// Commit of the repository in which it was run, with `+` if that had changes; `None` outside of one.
+    /// Commit of the repository in which the sweep ran, with `+` if it had changes; `None` outside of one.
     pub commit: Option<String>,
 }
 
-/// What was measured of a shader.
+/// Measurements of a shader.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Measured {
     /// Hash of its WGSL: FNV-1a of 64 bits.
     pub hash: String,
-    /// Loops that are left; `None` of a text that was not emitted.
+    /// Number of loops left; `None` for a text that was not emitted.
     pub loops: Option<u32>,
-    /// Statements; `None` of a text that was not emitted.
+    /// Statements; `None` for a text that was not emitted.
     pub statements: Option<u32>,
-    /// Texture and buffer reads of one invocation; `None` of a text that was not emitted.
+    /// Texture and buffer reads of one invocation; `None` for a text that was not emitted.
     pub reads: Option<u32>,
-    /// Bytes of SPIR-V; `None` of a text that was not emitted.
+    /// Bytes of SPIR-V; `None` for a text that was not emitted.
     pub spirv_bytes: Option<usize>,
     /// Milliseconds of a frame, round by round.
     pub rounds_ms: Vec<f64>,
-    /// Their median.
+    /// Median of the rounds.
     pub median_ms: f64,
-    /// Speedup over the baseline in the same round: median of the rounds, and in which interval it lies
-    /// with 95 %. `None` where there is no baseline.
+    /// Speedup over the baseline in the same round: the median, and its 95 % confidence interval. `None` without a
+    /// baseline.
     pub speedup: Option<Interval>,
     /// Largest difference of a component to the same kernel in `f64`.
     pub difference: f64,
-    /// The same over all but the thousandth of the pixels that differ most.
+    /// Largest difference without the thousandth of the pixels that differ most.
     pub difference_999: f64,
 }
 
-/// A variant: measured, or why not.
+/// A variant: its measurements, or the reason why there are none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Swept {
-    /// The value of every axis. Of a rival, those of the variants that it is compared with.
+    /// Value of every axis. For a rival, those of the variants that it is compared with.
     pub settings: BTreeMap<String, String>,
-    /// The file of a hand-written shader that takes the place of an emitted one.
+    /// File of a hand-written shader that replaces the emitted one.
     pub rival: Option<String>,
-    /// Figures, if it could be made and run.
+    /// Measurements, if it could be created and run.
     pub measured: Option<Measured>,
-    /// Why there are none.
+    /// Reason why there are no measurements.
     pub refused: Option<String>,
 }
 
-/// One of several parts of a sweep.
+/// Part of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Shard {
-    /// Which, from 1.
+    /// Index of the part, from 1.
     pub index: u32,
-    /// Of how many.
+    /// Number of parts.
     pub count: u32,
 }
 
-/// A kernel in every combination of what was varied.
+/// A kernel in every combination of the varied settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// Where it ran.
+    /// Environment of the run.
     pub environment: Environment,
     /// The kernel.
     pub kernel: String,
     /// Hash of the kernel's source texts: FNV-1a of 64 bits.
     pub source: String,
-    /// What it read.
+    /// Input of the kernel.
     pub input: String,
-    /// What was varied: options first.
+    /// Varied axes, options first.
     pub axes: Vec<Axis>,
-    /// The axes, and their values, that distinguish the variant with which others of the same settings are compared.
+    /// Axes and their values that identify the baseline, which variants with otherwise equal settings are compared with.
     pub baseline: BTreeMap<String, String>,
-    /// Rounds went on until the intervals of all ratios were so many parts of the median wide, either way, or there were as many
-    /// rounds as `rounds` says.
+    /// Target half-width of all ratios' intervals, as a share of the median. Rounds end when it is reached, or after
+    /// `rounds` rounds.
     pub until: Option<f64>,
-    /// If it is a part: which. `None` of a whole one.
+    /// Part of the sweep; `None` for a whole sweep.
     pub shard: Option<Shard>,
     /// All variants.
     pub variants: Vec<Swept>,
@@ -97,7 +97,7 @@ pub struct SweepRecord {
 impl Record for SweepRecord {
     const STEM: &'static str = "sweep";
 
-    /// Tidy: a row for each variant and round, and one for a variant that was refused.
+    /// Formats a tidy table: a row for each variant and round, and one for a rejected variant.
     fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
         const FIGURES: [&str; 13] = [
             "rival",
@@ -122,7 +122,7 @@ impl Record for SweepRecord {
 }
 
 impl SweepRecord {
-    /// The JSON Schema of its file, as JSON.
+    /// Returns the JSON Schema of the record's file, as JSON.
     ///
     /// # Errors
     ///
@@ -131,7 +131,7 @@ impl SweepRecord {
         Ok(serde_json::to_string_pretty(&schemars::schema_for!(SweepRecord))? + "\n")
     }
 
-    /// Returns whether others are compared with this variant.
+    /// Returns whether a variant is the baseline of others.
     pub fn is_baseline(&self, variant: &Swept) -> bool {
         let mut baseline = self.baseline.iter();
         variant.rival.is_none() && baseline.all(|(name, value)| variant.settings.get(name) == Some(value))

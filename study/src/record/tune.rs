@@ -1,45 +1,45 @@
-//! The cheapest shader that a scene needs.
+//! Record of the search for the cheapest shader of a scene.
 
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_bench::execute::{Ratio, Times};
 use straightline_kernels::OptionText;
 
-/// A variant that was tried.
+/// A variant of the search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
-    /// The variant in words, each of its values: `16 samples, planes-normals, ...`.
+    /// Description of the variant, with each of its values: `16 samples, planes-normals, ...`.
     pub name: String,
-    /// Options that are not the default.
+    /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
     /// `f16` or `f32`.
     pub precision: String,
-    /// Algebra of the variant: `exact` or `fast`.
+    /// Mathematics policy of the variant: `exact` or `fast`.
     #[serde(default = "exact", skip_serializing_if = "is_exact")]
     pub math: String,
-    /// Pixels of one invocation.
+    /// Width and height of the block of one invocation, in pixels.
     pub block: [u32; 2],
     /// Error by the record's metric: dB of PSNR or mean FLIP.
     pub error: f64,
-    /// Pixels that are not finite.
+    /// Number of pixels that are not finite.
     pub non_finite: usize,
     /// Texture reads a pixel.
     pub reads: f64,
     /// Statements a pixel.
     pub statements: f64,
-    /// Bytes of G-buffer that it reads.
+    /// Bytes of the G-buffer that the variant reads.
     pub gbuffer_bytes: u64,
-    /// Cost predicted by the model, in milliseconds, or in cycles where a compiler is asked; 0 if there is no model yet.
+    /// Cost predicted by the model, in milliseconds, or in cycles if a compiler is the measure; 0 if there is no model yet.
     #[serde(alias = "predicted_ms")]
     pub predicted: f64,
     /// Measured time, if the variant was timed.
     pub time: Option<Times>,
-    /// Cycles of a wave and pixel of its invocations, if a compiler was asked.
+    /// Cycles of a wave per pixel of its invocations, if a compiler is the measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycles: Option<f64>,
     /// Speedup over the most general variant, if it was measured.
     pub ratio: Option<Ratio>,
-    /// True if no other variant is both faster and better.
+    /// `true` if no other variant is both faster and better.
     pub front: bool,
 }
 
@@ -51,25 +51,25 @@ fn is_exact(math: &str) -> bool {
     math == "exact"
 }
 
-/// A term that the chosen shader does without, or that it has beyond the most general variant.
+/// A term that the chosen shader omits, or that it adds to the most general variant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// Name of the term: normals, planes, 16 samples, mask, f32, placing.
     pub term: String,
-    /// Cost of doing without the term, by the record's metric: dB or mean FLIP, a loss being positive.
+    /// Cost of omitting the term, by the record's metric: dB or mean FLIP; a loss is positive.
     pub cost: f64,
 }
 
-/// The most general variant with one of its terms left out or replaced.
+/// The most general variant with one of its terms omitted or replaced.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TermWorth {
-    /// Name of the term that is left out.
+    /// Name of the omitted term.
     pub term: String,
     /// Replacement of the term.
     pub instead: String,
-    /// Cost of the replacement in error, by the record's metric, a loss being positive.
+    /// Cost of the replacement in error, by the record's metric; a loss is positive.
     pub cost: f64,
-    /// Speedup then, if that variant was run.
+    /// Speedup of the replacement, if that variant was run.
     pub ratio: Option<Ratio>,
     /// Index of the variant.
     pub candidate: usize,
@@ -80,22 +80,22 @@ pub struct TermWorth {
 pub struct Refused {
     /// The variant, in words.
     pub variant: String,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 
 /// A model of time, linear in static counts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
-    /// Counts, and milliseconds for each of them and million pixels, or cycles for each of them and pixel.
+    /// Names of the counts, with milliseconds per count and million pixels, or cycles per count and pixel.
     pub terms: Vec<(String, f64)>,
-    /// Variants that it was learned from.
+    /// Number of variants in the training set.
     pub learned_from: usize,
-    /// Variants that it was tested on, none of them learned from.
+    /// Number of variants in the test set, disjoint from the training set.
     pub tested_on: usize,
-    /// Mean of |predicted - measured| / measured over those.
+    /// Mean of |predicted - measured| / measured over the test set.
     pub mean_error: f64,
-    /// The largest of them.
+    /// Maximum of the same.
     pub largest_error: f64,
 }
 
@@ -105,56 +105,57 @@ pub struct TuneRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// By what variants are compared: `time`, or `isa:` and a family of GPUs whose compiler gives cycles.
+    /// Measure of cost: `time`, or `isa:` and a family of GPUs whose compiler provides cycles.
     #[serde(default = "time")]
     pub cost: String,
-    /// The GPU that is compiled for, and the compiler's version. Pictures, and so errors, are of the adapter all the same.
+    /// The GPU that is compiled for, and the compiler's version. Pictures, and therefore errors, still come from the
+    /// adapter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compiled_for: Option<String>,
     /// The scene's name, or the capture's path.
     pub scene: String,
     /// `psnr` or `flip`.
     pub metric: String,
-    /// The budget as it was asked for: what may be lost against the best variant, dB of PSNR or mean FLIP.
+    /// The requested budget: permitted loss against the best variant, in dB of PSNR or mean FLIP.
     pub max_error: f64,
-    /// The best error of all variants. Without a reference of the capture's own, the general variant's picture is the
-    /// reference, which it cannot be judged by: the best is then that of the others, at most 48.13 dB.
+    /// The best error of all variants. Without a reference in the capture, the general variant's picture is the reference,
+    /// so that variant cannot be judged; the best is then that of the others, at most 48.13 dB.
     pub best: f64,
-    /// Reference that variants are compared with: the mean of how many samples, the capture's reference, or the general
+    /// Reference that variants are compared with: the mean of a number of samples, the capture's reference, or the general
     /// variant.
     pub reference: String,
     /// Error of the picture before the filter, by the metric.
     pub unfiltered: f64,
-    /// Options that are the same for all variants.
+    /// Options fixed for all variants.
     pub fixed: Vec<OptionText>,
     /// Every variant.
     pub candidates: Vec<Candidate>,
-    /// Index of the chosen one; `None` if none is within the budget.
+    /// Index of the chosen variant; `None` if none is within the budget.
     pub chosen: Option<usize>,
-    /// Index of the most general one.
+    /// Index of the most general variant.
     pub general: usize,
-    /// Terms that the chosen variant leaves out.
+    /// Terms that the chosen variant omits.
     pub left_out: Vec<LeftOut>,
-    /// Terms that the chosen variant has beyond the most general one, and their loss without.
+    /// Terms that the chosen variant adds to the most general one, and the loss without them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needed: Vec<LeftOut>,
-    /// Worth of each term of the most general variant: that variant without it.
+    /// Worth of each term of the most general variant: that variant without the term.
     pub terms: Vec<TermWorth>,
     /// Variants that could not be emitted or run.
     pub refused: Vec<Refused>,
-    /// Parts that were not searched, and why.
+    /// Parts excluded from the search, with the reasons.
     pub not_searched: Vec<String>,
-    /// Model by which times were predicted; without terms if the run was interrupted before.
+    /// Model that predicted the times; without terms if the run was interrupted earlier.
     pub model: Model,
 }
 
-/// Measure of records from before there was a choice.
+/// Measure of cost in records that do not state one.
 fn time() -> String {
     "time".to_owned()
 }
 
 impl TuneRecord {
-    /// The unit of what variants are compared by.
+    /// Returns the unit of cost.
     pub fn unit(&self) -> &'static str {
         match self.compiled_for {
             Some(_) => "cycles",
@@ -162,7 +163,7 @@ impl TuneRecord {
         }
     }
 
-    /// The best error of variants that do nothing beyond the paper, all of whose pixels are finite.
+    /// Returns the best error of variants that do nothing beyond the paper and whose pixels are all finite.
     pub fn best_of_paper(&self) -> Option<f64> {
         let of_paper = self.candidates.iter().filter(|c| c.non_finite == 0 && !c.goes_beyond());
         let less = self.metric == "flip";
@@ -178,7 +179,7 @@ impl Candidate {
         self.cycles.or(self.time.map(|time| time.median_ms))
     }
 
-    /// Returns whether the variant is placed, searches, or borrows light apart.
+    /// Returns whether the variant places shading, searches, or borrows separated light.
     pub fn goes_beyond(&self) -> bool {
         let is_beyond = |(name, value): &OptionText| match name.as_str() {
             "shading" => value == "placed",

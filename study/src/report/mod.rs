@@ -45,8 +45,8 @@ pub enum ReportError {
     Template(String),
 }
 
-/// Makes `report.html` in `folder` from every record that lies there: `frame*.json`, `loops*.json`, `error*.json`, `hard*.json`, `isa*.json` and
-/// `tune*.json`, with the pictures that they name. Returns its path.
+/// Makes `report.html` in `folder` from every record that lies there: `frame*.json`, `loops*.json`, `error*.json`,
+/// `hard*.json`, `isa*.json` and `tune*.json`, with the pictures that they name. Returns its path.
 ///
 /// # Errors
 ///

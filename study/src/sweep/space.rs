@@ -27,12 +27,12 @@ impl Loops {
     }
 }
 
-/// What is varied, by its name, and its values in their order.
+/// A varied setting: its name, and its values in order.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Axis {
-    /// An option of the kernel, or one of [`RESERVED`].
+    /// Name of an option of the kernel, or one of [`RESERVED`].
     pub name: String,
-    /// At least one.
+    /// Values; at least one.
     pub values: Vec<String>,
 }
 

@@ -108,12 +108,12 @@ impl Search {
         self.measure_variants(&which, self.question.rounds, "measuring, to decide", progress)
     }
 
-    /// The fastest of those that were measured last and are within the budget; of those that cannot be told from it, the one
-    /// that reads the fewest bytes of G-buffer.
+    /// Returns the fastest variant within the budget among the last measured ones; of variants that are not measurably
+    /// slower, the one that reads the fewest bytes of G-buffer.
     ///
     /// # Errors
     ///
-    /// [`TuneError::NothingWithin`], which says what comes closest.
+    /// [`TuneError::NothingWithin`], with the closest variant.
     fn choose_fastest(&self) -> Result<usize, TuneError> {
         let within = self.finalists.iter().copied().filter(|k| self.is_within(*k));
         let measured: Vec<(usize, Ratio)> = within.filter_map(|k| Some((k, self.entries[k].ratio?))).collect();

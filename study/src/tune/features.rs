@@ -5,8 +5,8 @@ use straightline_codegen::ir::{Graph, Op};
 use straightline_codegen::passes::{self, Block, Schedule, Step};
 use straightline_manifest::Counts;
 
-/// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too. Loops there, which only few
-/// pixels come to, are counted apart from that, those of the filter and those of `sraa_place`.
+/// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too. Loops there, which
+/// only few pixels come to, are counted apart from that, those of the filter and those of `sraa_place`.
 pub const NAMES: [&str; 16] = [
     "pixels",
     "invocations",
@@ -121,7 +121,8 @@ fn arithmetic_cost(counts: &Counts) -> f64 {
     f64::from(counts.alu) + 4.0 * f64::from(counts.transcendentals)
 }
 
-/// Reads of depth, of normals (packed texels count as these), of colour and where that was shaded, and of albedo and parts of light.
+/// Reads of depth, of normals (packed texels count as these), of colour and where that was shaded, and of albedo and parts
+/// of light.
 fn reads_by_kind(counts: &Counts) -> [f64; 4] {
     let of = |is: &dyn Fn(&str) -> bool| {
         let found = counts.reads.iter().filter(|(name, _)| is(name));

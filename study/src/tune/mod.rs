@@ -1,8 +1,9 @@
 //! The cheapest filter that a scene needs: which terms of SRAA can be left out, what each is worth, and the variant that is
 //! fastest within a budget of error.
 //!
-//! Every variant's error is measured by its picture; its cost, which is time or a compiler's cycles ([`Cost`]), is measured for
-//! some, and predicted for all by a model that is learned from those ([`model`]). What the model finds best is then measured, and chosen by that alone.
+//! Every variant's error is measured by its picture; its cost, which is time or a compiler's cycles ([`Cost`]), is measured
+//! for some, and predicted for all by a model that is learned from those ([`model`]). What the model finds best is then
+//! measured, and chosen by that alone.
 
 mod choose;
 mod cost;
@@ -134,8 +135,8 @@ pub struct Outcome {
 pub struct Chosen {
     /// The kernel.
     pub compiled: Compiled,
-    /// The kernel `sraa_place`, which runs before it and before shading, if pixels are to be shaded where that says. It computes in
-    /// `f32`.
+    /// The kernel `sraa_place`, which runs before it and before shading, if pixels are to be shaded where that says. It
+    /// computes in `f32`.
     pub place: Option<Compiled>,
     /// Precision that the shader computes in.
     pub precision: Precision,

@@ -1,11 +1,11 @@
-//! What tells up from down and left from right: a filter whose mirror image is another.
+//! Detects flips of the image, vertical and horizontal: a filter whose result differs from its mirror image's.
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// How much of each.
+    /// Weights of the mixture.
     pub struct Orientation {
-        /// Of the pixel two rows below.
+        /// Weight of the pixel two rows below.
         pub below: f32 [0.0..=1.0] = 0.5,
     }
 }

@@ -40,8 +40,8 @@ struct Dxc {
     _library: Library,
 }
 
-/// Ends the process without the destructors of its libraries. DXC's takes a lock of LLVM at exit, which was seen to be taken for ever
-/// where a driver is loaded too. Rust has flushed its output by then.
+/// Ends the process without the destructors of its libraries. DXC's destructor takes an LLVM lock at exit, which has
+/// deadlocked when a driver was loaded too. Rust has flushed its output by then.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 fn skip_destructors() {
     unsafe extern "C" {
@@ -49,14 +49,14 @@ fn skip_destructors() {
         fn _exit(status: i32) -> !;
     }
     extern "C" fn end(status: i32, _: *mut c_void) {
-        // SAFETY: it ends the process, with the status that it ends with anyway.
+        // SAFETY: ends the process, with the status that it would have ended with.
         unsafe { _exit(status) }
     }
-    // SAFETY: the function lives as long as the process, and looks at no argument.
+    // SAFETY: the function lives as long as the process, and ignores its arguments.
     unsafe { on_exit(end, std::ptr::null_mut()) };
 }
 
-/// Elsewhere no such end was seen.
+/// The deadlock was not observed on other systems.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 fn skip_destructors() {}
 
@@ -99,13 +99,13 @@ struct Buffer {
     encoding: u32,
 }
 
-/// A warning that is no text's fault: outside of Windows nothing signs what is compiled.
+/// A warning independent of the text: outside of Windows compiled DXIL is never signed.
 const UNSIGNED: &str = "DXIL will not be signed";
 
 /// Code page of UTF-8.
 const UTF_8: u32 = 65001;
 
-// Functions by their place in the table. Objects outside of Windows have two destructors after `Release`.
+// Functions by their index in the table. Objects outside of Windows have two destructors after `Release`.
 /// `IUnknown::Release`.
 const RELEASE: usize = 2;
 /// `IDxcCompiler3::Compile`.
@@ -139,8 +139,8 @@ impl Dxc {
             ));
         }
         let failed = |e| format!("{}: {e}", path.display());
-        // SAFETY: a library of compilers that does nothing but initialise itself when it is loaded; the type of its one function is
-        // that of `dxcapi.h`.
+        // SAFETY: a library of compilers that does nothing but initialise itself when it is loaded; the type of its one
+        // function is that of `dxcapi.h`.
         unsafe {
             let library = Library::new(&path).map_err(failed)?;
             let create = *library.get::<CreateInstance>(b"DxcCreateInstance\0").map_err(failed)?;
@@ -163,8 +163,8 @@ impl Dxc {
             encoding: UTF_8,
         };
         let none: Object = std::ptr::null_mut();
-        // SAFETY: the tables are those of `dxcapi.h`, all that is pointed at outlives the calls, and an object is used only where the
-        // call that gives it succeeded.
+        // SAFETY: the tables are those of `dxcapi.h`, all that is pointed at outlives the calls, and an object is used only
+        // where the call that gives it succeeded.
         unsafe {
             let mut compiler = none;
             let code = (self.create)(&COMPILER_CLASS, &COMPILER, &mut compiler);
@@ -201,7 +201,7 @@ impl Dxc {
 struct Owned(Object);
 
 impl Owned {
-    /// Wraps the object that a call returned, if its code is no error.
+    /// Wraps the object that a call returned. Fails if its code is an error.
     fn new(object: Object, code: i32, call: &str) -> Result<Owned, String> {
         match code < 0 || object.is_null() {
             true => Err(format!("DXC: {call} failed with {code:#x}")),
@@ -209,7 +209,7 @@ impl Owned {
         }
     }
 
-    /// A function of the object's table.
+    /// Returns a function of the object's table.
     ///
     /// # Safety
     ///
@@ -220,7 +220,7 @@ impl Owned {
         unsafe { std::mem::transmute_copy(&*(*self.0).add(place)) }
     }
 
-    /// The bytes that a function of the table gives as a blob; none where it gives none.
+    /// Returns the bytes that a function of the table returns as a blob; empty without a blob.
     ///
     /// # Safety
     ///

@@ -1,6 +1,6 @@
-//! Foreign libraries that tests call: Microsoft's compiler of HLSL, and drivers of Vulkan without loader and without wgpu.
+//! Foreign libraries that tests call: Microsoft's compiler of HLSL, and Vulkan drivers without loader and without wgpu.
 //!
-//! Beside `isa` the one crate with `unsafe`. It knows nothing of kernels: texts, words and bytes go in and come out.
+//! The only crate with `unsafe` besides `isa`. Independent of kernels: texts, words and bytes go in and out.
 
 pub mod dxc;
 mod open;

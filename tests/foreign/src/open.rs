@@ -9,8 +9,8 @@ use std::path::Path;
 /// The functions of a driver's library, which stays loaded while the process runs.
 pub fn entry(library: &Path) -> Result<Entry, String> {
     let failed = |e| format!("{}: {e}", library.display());
-    // SAFETY: drivers do nothing but initialise themselves when they are loaded; the names and types are those of Vulkan's interface
-    // between loader and drivers.
+    // SAFETY: drivers do nothing but initialise themselves when they are loaded; the names and types are those of Vulkan's
+    // interface between loader and drivers.
     unsafe {
         let loaded = Library::new(library).map_err(failed)?;
         if let Ok(negotiate) = loaded.get::<Negotiate>(b"vk_icdNegotiateLoaderICDInterfaceVersion\0") {
@@ -57,7 +57,8 @@ pub fn adapter(entry: Entry) -> Result<wgpu::Adapter, String> {
     let flags = wgpu::InstanceFlags::empty();
     let extensions = vulkan::Instance::desired_extensions(&entry, VERSION, flags).map_err(|e| e.to_string())?;
     let raw = instance(&entry, &extensions)?;
-    // SAFETY: the instance is made from this entry, with the version, the extensions and the flags that are named, and becomes wgpu's.
+    // SAFETY: the instance is made from this entry, with the version, the extensions and the flags that are named, and
+    // becomes wgpu's.
     let instance = unsafe {
         let thresholds = wgpu::MemoryBudgetThresholds::default();
         let made = vulkan::Instance::from_raw(entry, raw, VERSION, 0, None, extensions, flags, thresholds, false, None);

@@ -1,5 +1,5 @@
-//! What each of the filter's ways beyond the paper mends, at six times, and the worst that is left: the picture of
-//! `docs/beyond-the-paper.md`.
+//! Errors that each of the filter's additions beyond the paper fixes, at six places, and the worst remaining error: the
+//! picture of `docs/beyond-the-paper.md`.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -17,7 +17,7 @@ const USAGE: &str = "usage: beyond FILE.png";
 
 type Failure = Box<dyn std::error::Error>;
 
-/// Of the scenes' pictures, and of a square of them that is shown.
+/// Size of the scenes' pictures, and of a square detail of them.
 const SIZE: UVec2 = uvec2(640, 360);
 const SIDE: u32 = 28;
 const ZOOM: u32 = 6;
@@ -28,7 +28,7 @@ const EXTRA: (&str, &str) = ("extra", "true");
 const KEPT_EVEN: [(&str, &str); 2] = [("mask", "branch"), ("variation", "within")];
 const LIGHT: [(&str, &str); 2] = [("demodulate", "albedo-shadow"), ("rest", "true")];
 
-/// A scene, what is shown first, and what is shown beside it: a title and options of each, beside those of [`PlacedBy::Planes`].
+/// A scene with two variants: title and options of each, in addition to those of [`PlacedBy::Planes`].
 struct Row {
     scene: &'static str,
     without: (&'static str, &'static [(&'static str, &'static str)]),
@@ -95,7 +95,7 @@ fn rows() -> Result<Vec<Frame<Vec4>>, Failure> {
         .collect()
 }
 
-/// Where `with` is nearer to the reference than `without` by most, or where it is farthest from it if the `worst` is asked for.
+/// Shows the detail where `with` improves most on `without`, or with `worst` the detail where its error is largest.
 fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> {
     let scene = Scene::from_name(row.scene)?;
     let renderer = CpuRenderer::new(&scene, SIZE)?;
@@ -155,7 +155,7 @@ fn filtered(bench: &Bench, renderer: &CpuRenderer, set: &Options) -> Result<Fram
     Ok(bench.run(&compiled, Stage::Compute, &inputs)?)
 }
 
-/// Pictures of one width, one below the other.
+/// Stacks pictures of one width.
 fn below(rows: &[Frame<Vec4>]) -> Frame<Vec4> {
     let width = rows.iter().map(|row| row.size().x).max().unwrap_or(1);
     let mut texels = Vec::new();

@@ -1,7 +1,8 @@
-//! Cost of recording a frame on the processor: `cargo run --release -p straightline-tests --bin encode [-- FILE.json]`.
+//! Cost of recording a frame on the CPU: `cargo run --release -p straightline-tests --bin encode [-- FILE.json]`.
 //!
-//! SRAA 4 by what `Pass::bind` gives, by wgpu calls written out, and bound anew every frame; beside it SMAA by the crate
-//! `smaa`. All in turn, in CPU time of the recording thread, so that a software driver's own threads do not count.
+//! Compares SRAA 4 through `Pass::bind`, through explicit wgpu calls, and bound anew every frame, with SMAA by the crate
+//! `smaa`. All run in turn and are measured in CPU time of the recording thread, which excludes a software driver's own
+//! threads.
 
 use cpu_time::ThreadTime;
 use serde_json::{Value, json};
@@ -17,7 +18,7 @@ use wgpu::{CommandEncoder, TextureFormat, TextureUsages, TextureViewDimension};
 const WGSL: &str = include_str!("../../../shaders-out/sraa4.wgsl");
 const MANIFEST: &str = include_str!("../../../shaders-out/sraa4.json");
 
-/// Small, so that the shader's own time matters least: what is recorded does not depend on it.
+/// Small, so that the shader's own time matters least: the recording does not depend on the size.
 const SIZE: u32 = 64;
 
 /// Frames that are timed together.
@@ -69,7 +70,7 @@ fn run(file: Option<&str>) -> Result<(), Box<dyn Error>> {
     ];
     for round in 0..=ROUNDS {
         for turn in 0..rows.len() {
-            // Every other round runs them in reverse, so that none always follows the same.
+            // Every other round runs them in reverse, so that none always follows the same one.
             let k = if round % 2 == 0 { turn } else { rows.len() - 1 - turn };
             let times = match k {
                 0 => gpu.recorded(|encoder| bound.encode(encoder))?,

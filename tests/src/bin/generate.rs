@@ -44,8 +44,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// A hundred variants of SRAA: every pattern, metric, falloff, normalisation and shading sample, unrolled, and some of
-/// them looped.
+/// Generates a hundred variants of SRAA: every pattern, metric, falloff, normalisation and shading sample, unrolled, and
+/// some of them looped.
 fn variants() -> Result<(), String> {
     let kernel = Kernel::builtin("sraa").map_err(|e| e.to_string())?;
     let choices: [(&str, &[&str]); 5] = [
@@ -128,7 +128,7 @@ fn emission(compiled: &Compiled) -> Result<(String, String), String> {
     ))
 }
 
-/// Memory that the process has had at most, in MB, where the system says so.
+/// Returns the peak memory of the process in MB, if the system reports it.
 fn peak_memory() -> String {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

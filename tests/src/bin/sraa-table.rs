@@ -1,6 +1,6 @@
 //! Every metric × pattern × falloff × normalisation × layout × stage of SRAA on this machine's adapter: the largest
-//! difference of the emitted shader to the oracle in f64, or why there is none. Then every metric on every scene of the testbed, with
-//! the most that the error analysis in `oracle::bound` allows there.
+//! difference of the emitted shader to the oracle in f64, or the reason why there is none. Then every metric on every scene
+//! of the testbed, with the bound of the error analysis in `oracle::bound`.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Most that a row may be off, for colours in 0..1.
+/// Maximum error of a row, for colours in 0..1.
 const BOUND: f64 = 1.0 / 1024.0;
 
 /// Returns whether all rows are within the bound.

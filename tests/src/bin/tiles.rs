@@ -79,7 +79,7 @@ fn bytes(inputs: &Inputs) -> u64 {
     images.sum::<u64>() + u64::from(inputs.size.element_product()) * 16
 }
 
-/// Discs on a floor, by a formula: nothing of the whole frame is ever held.
+/// Discs on a floor, by a formula: the whole frame is never in memory.
 fn inputs(tile: &Tile) -> Inputs {
     let offsets = [(-2.0, -6.0), (6.0, -2.0), (-6.0, 2.0), (2.0, 6.0), (0.0, 0.0)];
     let layer = |value: &dyn Fn(Vec2) -> Vec4, offset: Vec2| {
@@ -112,7 +112,7 @@ fn inputs(tile: &Tile) -> Inputs {
         .with_layers("normal", stack(&normal))
 }
 
-/// The most memory that this process has had, in MB, where the system tells.
+/// Returns the peak memory of the process in MB, if the system reports it.
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -85,7 +85,8 @@ fn require_varyings(program: &Program<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// Horizontal positions of the triangle's vertices, in widths of the picture. No local variables, which could have the name of a varying.
+/// Horizontal positions of the triangle's vertices, in widths of the picture. No local variables, which could have the name
+/// of a varying.
 const ACROSS: &str = "float(2 * int(gl_VertexID == 1))";
 /// Vertical positions in heights.
 const DOWN: &str = "float(2 * int(gl_VertexID == 2))";

@@ -58,7 +58,8 @@ pub struct Texture {
     pub texels: Vec<[f32; 4]>,
     /// State of the sampler. The nearest texel, clamped to the border, unless stated.
     pub sampler: SamplerState,
-    /// `true` if it is read through a `sampler2DShadow`: a depth texture of the texels' first components, which are clamped to 0..=1.
+    /// `true` if it is read through a `sampler2DShadow`: a depth texture of the texels' first components, which are clamped
+    /// to 0..=1.
     pub compares: bool,
 }
 

@@ -10,7 +10,8 @@ const UP_TO: [u32; 7] = [16, 24, 32, 48, 64, 96, u32::MAX];
 /// A shader by naga: scalars alive, registers, waves at once.
 type Shader = (u32, u64, u64);
 
-/// Registers and waves of the shaders of a record, by the scalars that are alive in them; in the last row, how well the two orders agree.
+/// Registers and waves of the shaders of a record, by the scalars that are alive in them; in the last row, how well the two
+/// orders agree.
 pub fn registers(record: &IsaRecord) -> Result<String, String> {
     let Some(family) = record.devices.keys().next() else {
         return Err("the record has no family".to_owned());

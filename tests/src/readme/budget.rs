@@ -1,4 +1,4 @@
-//! The price lists of the paper: its tables 1 and 2, of what `budget` measured.
+//! The price lists of the paper: its tables 1 and 2, from the measurements of `budget`.
 
 use super::markdown;
 use serde_json::Value;

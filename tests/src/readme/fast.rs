@@ -3,7 +3,7 @@
 use super::markdown;
 use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
-/// Cycles by a compiler, and errors on a driver, of what changes no bit and of what may.
+/// Cycles by a compiler, and errors on a driver, of exact and of fast mathematics.
 pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, String> {
     let Some(family) = cycles.devices.keys().next() else {
         return Err("the record has no family".to_owned());

@@ -4,8 +4,8 @@ use super::markdown;
 use straightline_isa::Figures;
 use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
-/// Instructions that read or write images, registers, cycles and latency of kernels without gathers and with them; of those of which
-/// no branch is left but the border's, whose cycles are no guesses.
+/// Instructions that read or write images, registers, cycles and latency of kernels without gathers and with them; of those
+/// of which no branch is left but the border's, whose cycles are no guesses.
 pub fn gathers(record: &IsaRecord) -> Result<String, String> {
     let Some(family) = record.devices.keys().next() else {
         return Err("the record has no family".to_owned());
@@ -51,8 +51,8 @@ pub fn gathers(record: &IsaRecord) -> Result<String, String> {
     Ok(markdown(&head, rows.collect()))
 }
 
-/// Times without gathers and with them, on each driver, and what of the speedup over the looped form is left if the one is divided by
-/// the other.
+/// Times without gathers and with them, on each driver, and what of the speedup over the looped form is left if the one is
+/// divided by the other.
 pub fn times(records: &[LoopsRecord]) -> Result<String, String> {
     let [first, ..] = records else {
         return Err("no record is given".to_owned());

@@ -1,4 +1,4 @@
-//! Goals that were set for speed, and what the records say.
+//! Goals for speed, and their state in the records.
 
 use super::markdown;
 use super::quality::GEOMETRIC;
@@ -22,7 +22,7 @@ const EXAMPLES: [&str; 10] = [
     "convolution",
 ];
 
-/// A goal: what is measured, what it was when the goal was set, the goal, and how large it is now.
+/// A goal: the measure, its value when the goal was set, the goal, and its current value.
 struct Goal {
     what: String,
     was: &'static str,
@@ -202,7 +202,7 @@ fn speedup(record: &LoopsRecord, name: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("{name} has no form without loops"))
 }
 
-/// Of what is emitted over what Slang's compiler made, pattern by pattern: medians of the rounds' ratios.
+/// Ratio of emitted shaders to those of Slang's compiler, pattern by pattern: medians of the rounds' ratios.
 fn over_rivals(record: &SweepRecord) -> Result<Vec<f64>, String> {
     let of = |pattern: &&str| {
         let is = |swept: &&Swept| swept.rival.is_some() && swept.settings.get("pattern").is_some_and(|p| p == pattern);

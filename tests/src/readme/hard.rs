@@ -4,8 +4,8 @@ use super::markdown;
 use std::path::Path;
 use straightline_study::record::read_file;
 
-/// Every kernel of the hard cases on all adapters: how often it was not finite, or beyond its bound. From CSV: the JSON of thousands
-/// of results is too long to be kept.
+/// Every kernel of the hard cases on all adapters: how often it was not finite, or beyond its bound. From CSV: the JSON of
+/// thousands of results is too long to be kept.
 pub fn kernels(files: &[&Path]) -> Result<String, String> {
     let head = ["kernel", "precision", "results", "not finite", "beyond their bound"];
     let mut rows: Vec<((String, String), [usize; 3])> = Vec::new();

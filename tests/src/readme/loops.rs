@@ -4,7 +4,7 @@ use super::markdown;
 use straightline_bench::execute::Ratio;
 use straightline_study::record::{Form, FormKind, KernelForms, LoopsRecord};
 
-/// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
+/// Gain from unrolling every kernel, in the fewest columns.
 pub fn in_short(record: &LoopsRecord) -> String {
     let head = [
         "kernel",
@@ -87,7 +87,7 @@ pub fn in_full(record: &LoopsRecord) -> String {
     markdown(&head, record.kernels.iter().map(row).collect())
 }
 
-/// Two runs of one study: how well what they say agrees.
+/// Agreement of two runs of one study.
 ///
 /// # Errors
 ///

@@ -4,7 +4,7 @@ use super::markdown;
 use super::quality::{cell, found};
 use straightline_study::record::{QualityRecord, SceneErrors};
 
-/// Methods with one number of samples, N, and what their columns are called.
+/// Methods with one number of samples, N, and the names of their columns.
 const METHODS: [(&str, &str); 6] = [
     ("SRAA N", "SRAA"),
     ("SRAA N, placed and searched", "placed, searched by depths"),

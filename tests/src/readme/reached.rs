@@ -1,4 +1,4 @@
-//! Goals that were set for accuracy, and what the records say.
+//! Goals for accuracy, and their state in the records.
 
 use super::markdown;
 use super::quality::GEOMETRIC;

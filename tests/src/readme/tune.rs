@@ -3,7 +3,7 @@
 use super::markdown;
 use straightline_study::record::TuneRecord;
 
-/// Every scene: what was chosen.
+/// Chosen variant of every scene.
 pub fn scenes(records: &[TuneRecord]) -> String {
     let head = [
         "scene",

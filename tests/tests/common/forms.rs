@@ -25,8 +25,8 @@ impl Example {
         self.kernel.compile(settings).unwrap_or_else(|e| panic!("{e}"))
     }
 
-    /// In every form what `native` makes of `inputs`, bit for bit, and on a GPU up to `tolerance`, but for a share of pixels, `unsure`:
-    /// those on which a decision hangs on the last bit. What the GPU made of it unrolled.
+    /// In every form what `native` makes of `inputs`, bit for bit, and on a GPU up to `tolerance`, but for a share of
+    /// pixels, `unsure`: those on which a decision hangs on the last bit. What the GPU made of it unrolled.
     pub fn check(&self, inputs: &Inputs, tolerance: f32, unsure: f64, native: impl Fn(IVec2) -> Vec4) -> Frame<Vec4> {
         let name = self.name;
         let expected: Vec<[f32; 4]> = pixels(inputs.size).map(|at| native(at).to_array()).collect();
@@ -86,7 +86,7 @@ pub fn first<T>(inputs: &Inputs, name: &str, make: impl Fn(UVec2, Vec<f32>) -> T
     make(image.size(), image.texels().iter().map(|t| t.x).collect())
 }
 
-/// Writes what a kernel read and made into the folder that `STRAIGHTLINE_PICTURES` says, if it does.
+/// Writes a kernel's inputs and picture to the folder `STRAIGHTLINE_PICTURES`, if it is set.
 pub fn save(name: &str, inputs: &Inputs, shown: &Frame<Vec4>) {
     let Some(folder) = std::env::var_os("STRAIGHTLINE_PICTURES") else {
         return;

@@ -25,7 +25,7 @@ pub fn bench() -> execute::Bench {
     execute::Bench::new(&device, &queue, false)
 }
 
-/// A device of any adapter, with what kernels can use of it.
+/// A device of any adapter, with the features that kernels can use.
 pub fn device() -> (wgpu::Device, wgpu::Queue) {
     let instance = instance();
     let adapter =

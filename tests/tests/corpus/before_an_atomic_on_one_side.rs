@@ -1,5 +1,5 @@
-// What was there before an atomic operation is what one side of a branch gives: the branch's variable took its place, and the
-// operation went on writing to the one that was gone.
+// The old value of an atomic operation is the result of one side of a branch. The branch's variable replaced it, but the
+// operation went on writing to the variable that was gone.
 pub fn k(a: &Frame<Vec4>, q: u32, ha: &AtomicShared<[u32; 2]>, group: &Workgroup<2, 1>) -> PerThread<Vec4> {
     group.each(|thread| ha.add(thread.index, q));
     group.each(|thread| {

@@ -1,4 +1,4 @@
-// The same in a tuple: the loop's results were given to the wrong parts, which was refused.
+// An array in a tuple: the loop's results went to the wrong parts, and the kernel was rejected.
 // expect 0 0: 0 0 0 0
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

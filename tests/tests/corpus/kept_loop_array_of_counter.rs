@@ -1,4 +1,4 @@
-// The same with an element made of the counter: the output depended on the region's parameter.
+// An array with an element computed from the counter: the output depended on the region's parameter.
 // expect 0 0: 0 0 0 0
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

@@ -1,4 +1,4 @@
-// What the right side of `&&` assigns was assigned even if the left side was false at run time.
+// The assignment on the right side of `&&` took place even if the left side was false at run time.
 // expect 0 0: 1 1 1 1
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

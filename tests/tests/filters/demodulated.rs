@@ -1,5 +1,5 @@
-//! Light apart from paint and shadow (`demodulate`): the kernel against its definition in f64, hard cases included, and what it is
-//! worth on scenes whose edges are those of paint and of shadow.
+//! Light apart from paint and shadow (`demodulate`): the kernel against its definition in f64, hard cases included, and
+//! what it is worth on scenes whose edges are those of paint and of shadow.
 
 use crate::common;
 
@@ -70,7 +70,7 @@ fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
     oracle::resolve_sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 
-/// The largest difference to the definition, as a share of what is larger than `scale`; all of it is finite.
+/// The largest difference to the definition, relative to values above `scale`; fails if a value is not finite.
 fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &str, scale: f64) -> f64 {
     let (mut largest, mut compared) = (0.0f64, 0);
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
@@ -286,8 +286,8 @@ fn what_cannot_be_taken_apart_is_refused_with_the_reason() {
     assert!(refused.contains("rest.exr"), "{refused}");
 }
 
-/// A scene's PSNR in dB: plain SRAA, demodulated by albedo, by albedo and shadow, the same placed and searched, the same with what does
-/// not follow the albedo, and shaded at every sample.
+/// A scene's PSNR in dB: plain SRAA, demodulated by albedo, by albedo and shadow, the same placed and searched, the same
+/// with what does not follow the albedo, and shaded at every sample.
 fn judged(name: &str, pattern: &str) -> [f64; 6] {
     let scene = Scene::from_name(name).expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");

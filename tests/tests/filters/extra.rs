@@ -1,5 +1,5 @@
-//! Further shading samples: which pixels the kernel `sraa_extra` lists, what `sraa` makes of them, and both with a dispatch in between
-//! whose size the list says.
+//! Further shading samples: which pixels the kernel `sraa_extra` lists, what `sraa` makes of them, and both with a dispatch
+//! in between whose size the list says.
 
 use crate::common;
 
@@ -37,7 +37,7 @@ fn listing(inputs: Inputs, room: usize) -> Inputs {
         .with_buffer("extra_list", vec![[0.0; 4]; room])
 }
 
-/// What was listed: an image, what counts, and the list.
+/// Recorded list: an image, the class of pixels that count, and the list.
 struct List {
     image: Vec<usize>,
     counts: Vec<usize>,
@@ -226,7 +226,7 @@ fn sets() -> Vec<Options> {
     sets
 }
 
-/// The largest difference to the definition; all of it is finite.
+/// The largest difference to the definition; fails if a value is not finite.
 fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &str) -> f64 {
     let (mut largest, mut compared) = (0.0f64, 0);
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
@@ -335,8 +335,8 @@ fn hard_further_samples_leave_no_trace() {
     }
 }
 
-/// The whole of it on a device: a list with an atomic counter, dispatches of as many workgroups as the list has, and the filter. The
-/// same as the renderer does on the processor, and worth it.
+/// The whole of it on a device: a list with an atomic counter, dispatches of as many workgroups as the list has, and the
+/// filter. The same as the renderer does on the processor, and worth it.
 #[test]
 fn a_list_is_shaded_by_an_indirect_dispatch() {
     let (device, queue) = device();

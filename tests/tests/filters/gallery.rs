@@ -1,5 +1,6 @@
-//! The shaders of `examples/gallery/`: as rustc compiles them, in every form by the interpreter, on a GPU, in every language, and
-//! against their definitions in f64 (`gallery/`), which share no code with them. `STRAIGHTLINE_PICTURES=DIR` writes what they make.
+//! The shaders of `examples/gallery/`: as rustc compiles them, in every form by the interpreter, on a GPU, in every
+//! language, and against their definitions in f64 (`gallery/`), which share no code with them. `STRAIGHTLINE_PICTURES=DIR`
+//! writes what they make.
 
 // As a graphics programmer's crate would hold them.
 mod colour;
@@ -368,8 +369,8 @@ fn fxaa() {
     }
     println!("fxaa: {changed} pixels are changed, {off} of them not as the reference has them, by at most {worst:.2e}");
     assert!(changed > 1000, "{changed} pixels are changed");
-    // Pixels at which the brightness at an edge's end equals the threshold but for its last bit: in half of them the definition in f64
-    // agrees with the reference, in the other half with the kernel.
+    // Pixels at which the brightness at an edge's end equals the threshold but for its last bit: in half of them the
+    // definition in f64 agrees with the reference, in the other half with the kernel.
     assert!(
         off <= 20 && worst <= 0.01,
         "{off} pixels are not the reference's, by at most {worst}"
@@ -452,7 +453,7 @@ fn smaa() {
     }
 }
 
-/// Every shader in every language that has what it takes, as both stages' entry points and as a function, looped and unrolled.
+/// Every shader in every supported language, as both stages' entry points and as a function, looped and unrolled.
 #[test]
 fn every_language_and_form() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/gallery");

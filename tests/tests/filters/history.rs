@@ -1,5 +1,5 @@
-//! Earlier frames as further taps (`history`): the kernel against its definition in f64, hard cases included, and what it is worth in a
-//! still, a pan, a turn, and where something moves.
+//! Earlier frames as further taps (`history`): the kernel against its definition in f64, hard cases included, and what it
+//! is worth in a still, a pan, a turn, and where something moves.
 
 use crate::common;
 
@@ -85,7 +85,7 @@ fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
     oracle::resolve_sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 
-/// The largest difference to the definition, but for few pixels that all but meet a threshold; all of it is finite.
+/// The largest difference to the definition, without the few pixels close to a threshold; fails if a value is not finite.
 fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &str) -> f64 {
     let mut largest = 0.0f64;
     let unsure = expected.iter().filter(|pixel| !pixel.sure).count();

@@ -60,7 +60,7 @@ fn worlds(set: &Options) -> [Inputs; 2] {
     [surfaces::inputs(set, SIZE, 7), railings]
 }
 
-/// The places as numbers, and how many pixels were compared.
+/// Compares placements; returns the number of compared pixels.
 fn agree(found: &[u32], expected: &[Placed], what: &str) -> usize {
     assert_eq!(found.len(), expected.len(), "{what}");
     let pairs = found.iter().zip(expected).enumerate().filter(|(_, (_, e))| e.sure);
@@ -148,8 +148,8 @@ fn of_a_pixel_and_its_neighbours_one_moves_at_most() {
     }
 }
 
-/// Section 3.5 of the paper leaves what no shading sample shows to chance. One sample a pixel still, moved, and a search: railings
-/// come within a decibel and a half of supersampling even where they are a few pixels wide.
+/// Section 3.5 of the paper leaves what no shading sample shows to chance. One sample a pixel still, moved, and a search:
+/// railings come within a decibel and a half of supersampling even where they are a few pixels wide.
 #[test]
 fn placing_and_searching_close_most_of_the_gap() {
     let bench = bench();

@@ -1,4 +1,4 @@
-//! The kernel on the built-in scene: what the listing's normalisation loses on thin wires, and what it costs to mend.
+//! The kernel on the built-in scene: the loss by the listing's normalisation on thin wires, and the cost of fixing it.
 
 use crate::common;
 

@@ -62,7 +62,7 @@ fn tiled_and_whole_are_the_same_bits() {
     }
 }
 
-/// Rectangles of one target, in one encoder: each keeps what the others wrote.
+/// Rectangles of one target, in one encoder: each keeps the pixels of the others.
 #[test]
 fn rectangles_of_one_picture_fill_it() {
     let (bench, size) = (bench(), uvec2(40, 30));

@@ -1,5 +1,5 @@
-//! `break`, `continue`, `return` and `?` under runtime conditions, out of loops that stay in the shader and loops that are unrolled:
-//! every form computes what rustc's own code does, and no form multiplies the work of compiling.
+//! `break`, `continue`, `return` and `?` under runtime conditions, out of loops that stay in the shader and loops that are
+//! unrolled: every form computes what rustc's own code does, and no form multiplies the work of compiling.
 
 #[path = "departures/kernels.rs"]
 #[allow(
@@ -38,7 +38,8 @@ const KERNELS: &[(&str, Native)] = &[
 const UNROLLS: [Unroll; 4] = [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(4)];
 const BRANCHES: [Branches; 3] = [Branches::Keep, Branches::Select, Branches::AsLoops];
 
-/// Work that compiling one of the kernels may take: a form that evaluates the rest once for each exit takes a hundred times as much.
+/// Work that compiling one of the kernels may take: a form that evaluates the rest once for each exit takes a hundred times
+/// as much.
 const MOST_WORK: u64 = 60_000;
 
 fn forms() -> impl Iterator<Item = (Unroll, Branches)> {
@@ -105,7 +106,7 @@ fn no_form_multiplies_the_work() {
     );
 }
 
-/// Copies and operations are those of what became of a loop, not of attempts that were given up.
+/// Copies and operations are those of a loop's final form, not of abandoned attempts.
 #[test]
 fn reports_leave_abandoned_attempts_out() {
     let counted = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

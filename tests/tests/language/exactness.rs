@@ -1,5 +1,5 @@
-//! Sums whose order of operations matters: what rustc makes of them is what every form computes, in every language on a driver, bit
-//! for bit. And kernels in which nothing hangs on an order, where nothing is marked.
+//! Sums whose order of operations matters: what rustc makes of them is what every form computes, in every language on a
+//! driver, bit for bit. And kernels in which nothing hangs on an order, where nothing is marked.
 
 use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::emit::Target;

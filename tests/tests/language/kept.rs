@@ -1,5 +1,5 @@
-//! Loops that are requested to be left in the shader: those that can be are, the others say why, and every form computes the values of
-//! rustc's own code.
+//! Loops that are requested to be left in the shader: those that can be are, the others say why, and every form computes
+//! the values of rustc's own code.
 
 use crate::common;
 #[path = "kept/kernels.rs"]
@@ -22,7 +22,7 @@ const TEXT: &str = include_str!("kept/kernels.rs");
 /// `n` in the kernels.
 const N: i32 = 4;
 
-/// Each kernel, natively, and what becomes of its loops: `none`, or part of the reason why it was unrolled.
+/// Each kernel, its native version, and the outcome of its loops: `none`, or part of the reason why it was unrolled.
 const KERNELS: &[(&str, Native, &[&str])] = &[
     ("elements", kernels::elements, &["none"; 5]),
     ("enumerated", kernels::enumerated, &["none"; 3]),

@@ -352,7 +352,8 @@ fn every_example_works_in_half_precision() {
 const BEGIN: &str = "<!-- features -->\n";
 const END: &str = "<!-- end of features -->";
 
-/// Each construct of `features/` computes the values of rustc's code, in every form, or is refused with a message. The page has the table.
+/// Each construct of `features/` computes the values of rustc's code, in every form, or is refused with a message. The page
+/// has the table.
 #[test]
 fn the_page_says_which_constructs_are_taken() {
     let world = World::new();

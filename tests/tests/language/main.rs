@@ -1,4 +1,4 @@
-//! The language: what the generator makes of kernels, against rustc and at the edges of its values.
+//! The language: results of kernels, compared with rustc and at the edges of its values.
 
 mod arrays;
 #[path = "../common/mod.rs"]

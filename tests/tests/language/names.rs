@@ -1,6 +1,6 @@
-//! Any name works: kernels whose parameters, options, fields, structures and functions are called by words of shading languages, of
-//! engines and of hosts' languages, or by names without end, are written in every language, read by its compiler, bound, and run
-//! as under their own names.
+//! Any name works: kernels whose parameters, options, fields, structures and functions are called by words of shading
+//! languages, of engines and of hosts' languages, or by names without end, are written in every language, read by its
+//! compiler, bound, and run as under their own names.
 //!
 //! `STRAIGHTLINE_BLESS=1` writes the generated bindings in `names/` anew, which rustc compiles with this test.
 
@@ -37,7 +37,7 @@ fn in_languages(compiled: &Compiled, options: EmitOptions) -> EmitOptions {
     options.clone().targets(Target::ALL.into_iter().filter(has))
 }
 
-/// Every way in which a kernel can be emitted: options and the languages that have what it needs.
+/// Every way in which a kernel can be emitted: options and the languages that support them.
 fn ways(compiled: &Compiled) -> Vec<EmitOptions> {
     let function = EmitOptions::new().form(Form::Function);
     let all = [
@@ -90,7 +90,7 @@ fn on_gpu(bench: &Bench, compiled: &Compiled, inputs: &Inputs) -> (Values, Value
     (targets, buffers.into_iter().map(|(_, values)| values).collect())
 }
 
-/// A kernel gives the same under other names, on a GPU and by the interpreter.
+/// Checks that a renamed kernel computes the same, on a GPU and by the interpreter.
 fn gives_the_same(bench: &Bench, name: &str, original: &Compiled, renamed: &Compiled) {
     let inputs = test_inputs(&original.graph, SIZE);
     let others = inputs_of(&original.graph, &renamed.graph, &inputs);
@@ -269,7 +269,7 @@ fn equal_names_are_told_apart() {
     }
 }
 
-/// Numbers go to what is called so: to the input, where an output has the same name.
+/// Numbers apply to the item of that name: to the input, if an output has the same name.
 #[test]
 fn numbers_of_equal_names_are_told_apart() {
     let text = "pub struct Out { pub depth: Vec4, pub seen: f32 }\npub fn k(depth: &Frame<Vec4>, parameters: f32, region: &Texture<Vec4>, pixel: IVec2) -> \
@@ -409,8 +409,8 @@ fn host_reads(files: &BTreeMap<String, String>) -> Result<(), String> {
     Ok(())
 }
 
-/// Random names in every template: compilers read the shaders, parsers of the hosts' languages what is around them, and shaders of
-/// one engine agree on names.
+/// Random names in every template: compilers read the shaders, parsers of the hosts' languages what is around them, and
+/// shaders of one engine agree on names.
 #[test]
 fn random_names_in_every_template() {
     let rounds = std::env::var("STRAIGHTLINE_NAMES").map_or(4, |n| n.parse().expect("a number"));

@@ -1,5 +1,5 @@
-//! Values of functions and operators where drivers depart from Rust unless the shader keeps them: what the kernel returns natively,
-//! in every form by the interpreter, and on lavapipe and SwiftShader in every language that they read.
+//! Values of functions and operators where drivers depart from Rust unless the shader keeps them: what the kernel returns
+//! natively, in every form by the interpreter, and on lavapipe and SwiftShader in every language that they read.
 
 use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
 use straightline_codegen::{EmitOptions, Format, Kernel, Stage};
@@ -8,7 +8,8 @@ use straightline_kernels::prelude::*;
 use straightline_tests::bare::{LANGUAGES, Shader};
 use straightline_tests::random::forms::{FORMS, Form};
 
-/// Most that a driver may be off, of the larger of 1 and the value's size. `exp` and `pow` of large arguments are the least accurate.
+/// Most that a driver may be off, of the larger of 1 and the value's size. `exp` and `pow` of large arguments are the least
+/// accurate.
 const BOUND: f32 = 1.0e-4;
 
 /// A function of one uniform, its text, what rustc makes of it, and what it must return where the uniform is 1.

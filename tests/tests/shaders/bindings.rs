@@ -1,5 +1,5 @@
-//! Groups, numbers and entry points that users give, run by the manifest; bind group layouts made of the manifest's words alone; and
-//! the hash that holds a text and its manifest together.
+//! Groups, numbers and entry points that users give, run by the manifest; bind group layouts made of the manifest's words
+//! alone; and the hash that holds a text and its manifest together.
 
 use crate::common;
 
@@ -13,7 +13,7 @@ use straightline_manifest::BindingKind;
 use straightline_runtime::{BindOptions, Error, Pass, Resource, UniformValue};
 use straightline_tests::passthrough;
 
-/// One of each kind of resource that kernels read.
+/// A kernel with every kind of resource.
 const ALL: &str = "pub fn all(color: &Frame<Vec4>, stack: &FrameLayers<f32>, samples: &Multisampled<Vec4>, image: &Texture<Vec4>, linear: &Sampler, \
                    shadow: &DepthTexture, less: &ComparisonSampler, weights: &Buffer<f32>, tau: f32, pixel: IVec2) -> Vec4 {\n    let uv = \
                    (pixel.as_vec2() + 0.3) / image.size().as_vec2();\n    let lit = shadow.compare(less, uv, 0.5);\n    \

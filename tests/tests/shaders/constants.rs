@@ -1,4 +1,5 @@
-//! The Rust that a build script writes: its constants are what the runtime reads from the manifest, and a pass of either is the same.
+//! The Rust that a build script writes: its constants are what the runtime reads from the manifest, and a pass of either is
+//! the same.
 //!
 //! `codegen/tests/bindings/` holds the bindings, as `include_shaders!` includes them.
 
@@ -177,7 +178,8 @@ fn sraa() -> Settings {
     settings
 }
 
-/// Every shader of the default set, built-in kernel and kernel of the gallery: what is written as Rust reads as the plan prints itself.
+/// Every shader of the default set, built-in kernel and kernel of the gallery: what is written as Rust reads as the plan
+/// prints itself.
 #[test]
 fn every_plan_is_written_as_it_is_read() {
     let mut compared = 0;
@@ -258,7 +260,8 @@ fn find_plan(tokens: TokenStream) -> Option<TokenStream> {
     None
 }
 
-/// Constants as `Debug` prints their values: without paths, references, `Borrowed`, trailing commas, and with the bytes of numbers.
+/// Constants as `Debug` prints their values: without paths, references, `Borrowed`, trailing commas, and with the bytes of
+/// numbers.
 fn as_printed(tokens: TokenStream, workgroup: &TokenStream) -> TokenStream {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let is = |k: usize, text: &str| tokens.get(k).is_some_and(|token: &TokenTree| token.to_string() == text);

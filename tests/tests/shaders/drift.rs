@@ -41,8 +41,8 @@ fn shaders_out_is_up_to_date() {
     }
 }
 
-/// A fragment shader is one basic block. A compute shader reads and filters in one; the others are the tests of the frame, around a return or a
-/// store with the last sum that it stores.
+/// A fragment shader is one basic block. A compute shader reads and filters in one; the others are the tests of the frame,
+/// around a return or a store with the last sum that it stores.
 #[test]
 fn each_shader_computes_in_one_basic_block() {
     for entry in default_set::ENTRIES.iter().filter(|entry| entry.unroll == Unroll::Full) {
@@ -106,7 +106,7 @@ fn spirv_val_accepts_the_spirv() {
     check(&["spv"], compilers::spirv);
 }
 
-/// Where Tint is on the path.
+/// Checks the WGSL with Tint, if it is on the path.
 #[test]
 fn tint_accepts_the_wgsl() {
     check(&["wgsl"], |path| {

@@ -1,6 +1,6 @@
-//! Every function of floats at the edges of its domain, on every road to a driver: WGSL through wgpu; GLSL, SPIR-V and HLSL without
-//! it. What rustc computes is what the interpreter computes bit by bit, and what lavapipe and SwiftShader compute within the accuracy
-//! that docs/semantics.md states.
+//! Every function of floats at the edges of its domain, on every road to a driver: WGSL through wgpu; GLSL, SPIR-V and HLSL
+//! without it. What rustc computes is what the interpreter computes bit by bit, and what lavapipe and SwiftShader compute
+//! within the accuracy that docs/semantics.md states.
 
 mod compare;
 mod functions;

@@ -1,7 +1,8 @@
-//! What is written for engines: which kernels fit which engine, and that compilers of the engines' languages read the texts. A
-//! folder of each engine is kept in `tests/engines/snapshots`, so that a reader sees it. `tests/engines/run` runs the engines.
+//! Output for engines: the kernels that fit each engine, and compilation of the texts by compilers of the engines'
+//! languages. A folder for each engine is kept in `tests/engines/snapshots` for readers. `tests/engines/run` runs the
+//! engines.
 //!
-//! `STRAIGHTLINE_BLESS=1` writes what is emitted now.
+//! `STRAIGHTLINE_BLESS=1` writes the current output.
 
 mod code;
 mod hostile;

@@ -15,8 +15,8 @@ use straightline_tests::random::oracle::{World, computed};
 use straightline_tests::sraa::surfaces;
 use straightline_tests::{compilers, passthrough};
 
-/// A component of a texel with more, a layer, texels beyond the border on every side, some of them read twice, a whole texel and one at
-/// a runtime offset, which stay; a coordinate that tells the texels of a row apart.
+/// A component of a texel with more, a layer, texels beyond the border on every side, some of them read twice, a whole
+/// texel and one at a runtime offset, which stay; a coordinate that tells the texels of a row apart.
 const MIXED: &str = "
     pub fn mixed(height: &Frame<f32>, color: &Frame<Vec4>, stack: &FrameLayers<Vec2>, pixel: IVec2) -> Vec4 {
         let mut sum = Vec4::ZERO;
@@ -206,8 +206,8 @@ fn a_gpu_finds_the_same_texels_in_large_pictures() {
     }
 }
 
-/// The corner that four texels share is half a texel from where others would be taken. In `f32`, with a division that is off by as
-/// much as Vulkan allows, it is off by less than a hundredth.
+/// The corner that four texels share is half a texel from where others would be taken. In `f32`, with a division that is
+/// off by as much as Vulkan allows, it is off by less than a hundredth.
 #[test]
 fn places_are_half_a_texel_from_all_others() {
     let mut worst = 0.0f64;

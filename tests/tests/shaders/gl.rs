@@ -16,7 +16,7 @@ fn es() -> Context {
     Context::es().unwrap_or_else(|e| panic!("this test needs OpenGL ES: {e}"))
 }
 
-/// What each pixel is, and a picture of that.
+/// Builds a picture from a function of the pixel.
 fn picture(of: impl Fn(u32, u32) -> [f32; 4]) -> Vec<[f32; 4]> {
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)));
     pixels.map(|(x, y)| of(x, y)).collect()

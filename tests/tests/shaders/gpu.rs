@@ -152,8 +152,8 @@ fn a_bad_colour_spreads_nowhere() {
     }
 }
 
-/// A pixel whose own samples show the same as its shading sample keeps its colour bit for bit, whatever lies around: and no other pixel
-/// does.
+/// A pixel whose own samples show the same as its shading sample keeps its colour bit for bit, whatever lies around: and no
+/// other pixel does.
 #[test]
 fn a_pixel_without_variation_within_keeps_its_colour() {
     let bench = bench();

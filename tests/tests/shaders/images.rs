@@ -81,7 +81,7 @@ fn settings(unroll: Unroll, branches: Branches) -> Settings {
     Settings::new().unroll(unroll).branches(branches)
 }
 
-/// A texture of one component has 0 and 1 in what it lacks; of what nobody stored in it, a shader's is 0.
+/// A texture of one component has 0 and 1 in the missing components. In texels that were never stored, a shader reads 0.
 #[track_caller]
 fn same(what: &str, native: &[Vec<[f64; 4]>], found: &[Written]) {
     assert_eq!(native.len(), found.len(), "{what}");

@@ -1,5 +1,5 @@
-//! Shaders whose rows count from below make, of pictures turned over, the picture turned over: the same bits where texels are loaded.
-//! One that is not told so makes another picture, and of a scene a worse one.
+//! Shaders with rows counted from below turn mirrored pictures into mirrored pictures, with the same bits if texels are
+//! loaded. A shader without that setting computes another picture, and a worse one of a scene.
 
 use crate::common;
 
@@ -215,7 +215,7 @@ fn regions_are_stated_from_below() {
                 ..Region::at(first, [9, 7])
             };
             let above = part(Origin::UpperLeft, &inputs, region([5, 3], [11, 20]));
-            // The same rectangles, their lowest rows counted from below.
+            // The rectangles above, with their lowest rows counted from below.
             let from_below = region([5, 31 - 3 - 7], [11, 31 - 20 - 7]);
             let below = part(Origin::LowerLeft, &all_turned(&inputs), from_below);
             same_bits(&texels(&below), &texels(&turned(&above))).unwrap_or_else(|e| panic!("{stage:?} {block:?}: {e}"));
@@ -227,7 +227,7 @@ fn regions_are_stated_from_below() {
     }
 }
 
-/// The silent mistake: not told that rows count from below, SRAA looks right, and is worse.
+/// The silent mistake: without the setting that rows count from below, SRAA looks right but has a larger error.
 #[test]
 fn a_scene_from_below_beats_its_mirror() {
     let bench = bench();

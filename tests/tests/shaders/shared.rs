@@ -1,4 +1,5 @@
-//! Texels shared by workgroups: the same bits as where each pixel reads for itself, by the interpreter and on a GPU, in every language.
+//! Texels shared by workgroups: the same bits as where each pixel reads for itself, by the interpreter and on a GPU, in
+//! every language.
 
 use crate::common;
 
@@ -16,8 +17,9 @@ use straightline_tests::random::oracle::{World, computed};
 use straightline_tests::sraa::surfaces;
 use straightline_tests::{compilers, passthrough};
 
-/// Layers and integers, components of which not all are used, places that are taken to a border twice, a read at a runtime offset,
-/// one whose value a branch alone needs, one that a loop does not change, a texture of another size; two values for each pixel.
+/// Layers and integers, components of which not all are used, places that are taken to a border twice, a read at a runtime
+/// offset, one whose value a branch alone needs, one that a loop does not change, a texture of another size; two values for
+/// each pixel.
 const MIXED: &str = "
     pub struct Given { pub edge: Vec2, pub found: IVec3 }
     pub fn mixed(
@@ -177,7 +179,7 @@ fn the_interpreter_finds_the_same_bits() {
     }
 }
 
-/// What a loop does not change is read before it; what it reads at a runtime offset stays.
+/// Reads that a loop does not change move before it; reads at a runtime offset stay.
 #[test]
 fn loops_and_branches_stay_what_they_are() {
     for case in looped() {
@@ -347,7 +349,7 @@ fn reads_are_counted() {
     assert!(sharing.unshared.is_empty());
 }
 
-/// What is left out, and why; what is used of a texel alone is kept.
+/// Unshared reads with their reasons; a partially used texel is kept.
 #[test]
 fn what_is_not_shared_is_told() {
     let case = &looped()[1];

@@ -163,7 +163,7 @@ struct Given {
     buffers: Vec<(&'static str, Vec<[f64; 4]>)>,
 }
 
-/// What all pixels of the frame are given, from what the threads of each workgroup are.
+/// Combines the results of each workgroup's threads into those of all pixels of the frame.
 fn whole<T: Texel, const W: usize, const H: usize>(given: &[PerThread<T>]) -> Vec<[f64; 4]> {
     let across = (SIZE.x as usize).div_ceil(W);
     let pixels = (0..SIZE.y as usize).flat_map(|y| (0..SIZE.x as usize).map(move |x| (x, y)));

@@ -97,7 +97,7 @@ kernel!(PLACES, places, {
     }
 });
 
-// Whose order is that of the pixels.
+// Writes in the order of the pixels.
 kernel!(ORDERED, ordered, {
     pub fn ordered(
         color: &Frame<Vec4>,
@@ -164,7 +164,7 @@ fn inputs() -> Inputs {
         .with_buffer("columns", numbers(10, -9.0))
 }
 
-/// The same natively.
+/// Native resources of the same kernels.
 struct World {
     color: Frame<Vec4>,
     bins: AtomicBuffer<u32>,

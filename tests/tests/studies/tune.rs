@@ -37,7 +37,8 @@ fn circumstances() -> Circumstances {
     }
 }
 
-/// A part of the space, so that the test is short: one falloff, one way to compare depths, whole floats, nothing beyond the paper.
+/// A part of the space, so that the test is short: one falloff, one way to compare depths, whole floats, nothing beyond the
+/// paper.
 fn question(metric: ErrorMetric, max_error: f64) -> Question {
     let fixed = [
         ("falloff", "tent"),
@@ -181,7 +182,7 @@ fn a_flat_scene_needs_no_normals_and_creases_need_them() {
     reads_what_it_needs(&manifest, &wgsl);
     assert!(!does_without_normals(&creases.record));
     assert!(reads(&manifest, "normal"), "{:?}", manifest.bindings);
-    // What a term costs is what the variant with it has, less what this one has.
+    // The cost of a term is the difference of the variants with and without it.
     let record = &creases.record;
     for out in &record.left_out {
         assert!(out.cost.abs() < 20.0 && out.cost <= record.max_error + 0.02, "{out:?}");
@@ -387,7 +388,7 @@ fn painted_scenes_need_light_apart_and_fine_ones_placing_and_a_search() {
         let needed = |term: &str| record.needed.iter().find(|needed| needed.term == term);
         let gain = needed(needs).unwrap_or_else(|| panic!("{scene} needs {needs}: {:?}", record.needed));
         assert!(gain.cost > record.max_error, "{scene}: {gain:?}");
-        // Whether it is there or not, each is told of, and once.
+        // Each term is reported exactly once, present or not.
         let terms = ["placing", "search", "light apart from paint and shadow"];
         for term in terms {
             let left_out = record.left_out.iter().filter(|out| out.term == term).count();

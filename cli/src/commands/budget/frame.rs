@@ -1,4 +1,4 @@
-//! Cost of frames, from the passes that they consist of.
+//! Cost of frames, summed from their passes.
 
 use super::measure::Measured;
 use crate::failure::Failure;
@@ -9,9 +9,9 @@ use straightline_scene::render::{FramePass, Samples};
 /// A way to antialias a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
-    /// Shaded once a pixel.
+    /// Shaded once a pixel, without antialiasing.
     None,
-    /// The main G-buffer, and so many samples in a pass for each.
+    /// The main G-buffer, and this many samples in one pass each.
     Sraa(Samples),
     /// The main G-buffer, and four further samples in one multisampled pass.
     SraaMultisampled,
@@ -33,28 +33,28 @@ const METHODS: [Method; 8] = [
     Method::Multisampling,
 ];
 
-/// Cost of a frame: a column of the paper's table 2, in milliseconds.
+/// Cost of a frame, in milliseconds: a column of the paper's table 2.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameCost {
     pub method: String,
-    /// `null` where it is drawn and shaded in one pass.
+    /// `null` if geometry and shading are one pass.
     pub geometry_ms: Option<Quartiles>,
     pub shading_ms: Quartiles,
-    /// `null` where there is none, or none apart.
+    /// `null` without a filter, or if it is not a separate pass.
     pub filter_ms: Option<Quartiles>,
-    /// The sum of the above: each quartile is the sum of the parts'.
+    /// Sum of the above: each quartile is the sum of the parts' quartiles.
     pub net_ms: Quartiles,
 }
 
-/// SRAA beside another method, from rounds in which both ran.
+/// SRAA compared with another method, over rounds in which both ran.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     pub method: String,
     pub over: String,
     /// Speedup of a frame.
     pub speedup: Quartiles,
-    /// Milliseconds of shading once a pixel from which SRAA is cheaper, if each further sample's shading costs as much; `null`
-    /// where the other method does not shade further samples. Below 0: whatever shading costs.
+    /// Milliseconds of shading once a pixel above which SRAA is cheaper, if each further sample costs as much to shade.
+    /// `null` if the other method shades no further samples. Negative if SRAA is cheaper at any shading cost.
     pub break_even_ms: Option<Quartiles>,
 }
 
@@ -108,7 +108,7 @@ impl Method {
 }
 
 impl Parts {
-    /// All of a frame but its shading.
+    /// Returns the time of the frame without its shading, round by round.
     fn beside_shading(&self) -> Vec<f64> {
         let nothing = vec![0.0; self.shading.len()];
         let parts = [&self.geometry, &self.filter].map(|part| part.as_ref().unwrap_or(&nothing));
@@ -124,12 +124,12 @@ fn add_rounds(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + b).collect()
 }
 
-/// Of at least one round.
+/// Returns the quartiles of the rounds. Fails if there are none.
 pub fn find_quartiles(rounds: &[f64]) -> Result<Quartiles, Failure> {
     Quartiles::from_values(rounds).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
 }
 
-/// The paper's table 2, of what was timed.
+/// Computes the paper's table 2 from the measurements.
 pub fn frame_costs(measured: &Measured) -> Result<Vec<FrameCost>, Failure> {
     let cost = |method: &Method| {
         let parts = method.frame_parts(measured)?;
@@ -150,7 +150,7 @@ pub fn frame_costs(measured: &Measured) -> Result<Vec<FrameCost>, Failure> {
     METHODS.iter().map(cost).collect()
 }
 
-/// SRAA beside everything else.
+/// Compares SRAA with every other method.
 pub fn compare_methods(measured: &Measured) -> Result<Vec<Comparison>, Failure> {
     let is_sraa = |method: &&Method| matches!(method, Method::Sraa(_) | Method::SraaMultisampled);
     let mut all = Vec::new();
@@ -182,8 +182,8 @@ pub fn compare_methods(measured: &Measured) -> Result<Vec<Comparison>, Failure> 
     Ok(all)
 }
 
-/// Break-even shading cost of a filter with so many samples beside the main G-buffer, drawn in a pass each, against shading all
-/// samples.
+/// Returns the break-even shading cost against shading all samples, for a filter with this many samples beside the main
+/// G-buffer, each drawn in its own pass.
 pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Result<Quartiles, Failure> {
     let pass = |pass| measured.pass_time(pass).map(|timed| timed.rounds_ms.as_slice());
     let geometry = add_rounds(
@@ -199,7 +199,7 @@ pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Resu
     find_quartiles(&break_even_rounds(&own, &other, samples))
 }
 
-/// Shading s of one sample, with which `own + s` and `other + samples * s` are equal, round by round.
+/// Returns the shading cost s of one sample at which `own + s` and `other + samples * s` are equal, round by round.
 fn break_even_rounds(own: &[f64], other: &[f64], samples: Samples) -> Vec<f64> {
     let further = f64::from(samples.count()) - 1.0;
     own.iter()

@@ -1,4 +1,4 @@
-//! Timing a frame's passes and SRAA's filters, all in turn in one run.
+//! Timing of a frame's passes and SRAA's filters, interleaved in one run.
 
 use super::frame;
 use crate::args::BudgetArgs;
@@ -23,17 +23,17 @@ const METRICS: [(&str, f64); 4] = [
     ("depth", 0.55),
 ];
 
-/// The metric that SRAA has unless another is asked for.
+/// Metric of SRAA by default.
 pub const DEFAULT_METRIC: &str = "depth-normals";
 
-/// Sample places of geometry and shading for the filters that are timed. The default metric alone is timed with `sample0`.
+/// Sample positions of geometry and shading for the timed filters. With `sample0` only the default metric is timed.
 const PLACES: [(&str, &str, Samples); 3] = [
     ("latin4", "centre", Samples::Four),
     ("latin4", "sample0", Samples::Three),
     ("latin16", "centre", Samples::Sixteen),
 ];
 
-/// The passes that are timed, and what they are called.
+/// The timed passes and their names.
 const PASSES: [(&str, FramePass); 13] = [
     ("main G-buffer", FramePass::Geometry(Samples::One)),
     ("main G-buffer", FramePass::Geometry(Samples::Four)),
@@ -50,7 +50,7 @@ const PASSES: [(&str, FramePass); 13] = [
     ("forward, multisampled, shaded and resolved", FramePass::Forward),
 ];
 
-/// Time of a part of a frame.
+/// Time of one part of a frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct PassTime {
     #[serde(skip)]
@@ -58,34 +58,35 @@ pub struct PassTime {
     pub name: &'static str,
     /// Samples of each pixel.
     pub samples: u32,
-    /// Render or compute passes that it takes.
+    /// Number of render or compute passes.
     pub passes: u32,
     pub ms: Quartiles,
     pub rounds_ms: Vec<f64>,
 }
 
-/// Time of a filter.
+/// Time of one filter.
 #[derive(Clone, Debug, Serialize)]
 pub struct Filter {
     pub metric: &'static str,
     pub pattern: &'static str,
-    /// Place of shading in the pixel.
+    /// Position of the shading sample in the pixel.
     pub shading: &'static str,
-    /// Samples that are drawn beside the main G-buffer.
+    /// Samples drawn in addition to the main G-buffer.
     #[serde(skip)]
     pub samples: Samples,
     pub reads: u32,
     pub ms: Quartiles,
-    /// Times as slow as with the default metric and shading at the centre: of the medians.
+    /// Median time relative to the default metric with shading at the centre.
     pub ratio: f64,
-    /// Ratio in the paper.
+    /// Value of this ratio in the paper.
     pub paper_ratio: Option<f64>,
-    /// Milliseconds of shading once a pixel from which SRAA, its geometry included, is cheaper than shading as many samples.
+    /// Milliseconds of shading once a pixel above which SRAA, its geometry included, is cheaper than shading as many
+    /// samples.
     pub break_even_ms: Quartiles,
     pub rounds_ms: Vec<f64>,
 }
 
-/// All that was timed.
+/// All measurements.
 #[derive(Clone, Debug)]
 pub struct Measured {
     pub passes: Vec<PassTime>,
@@ -93,18 +94,18 @@ pub struct Measured {
     pub together: Option<Together>,
 }
 
-/// A whole frame in one submission, which goes from graphics to compute and back as its passes need it.
+/// A whole frame in one submission, which switches between graphics and compute as its passes need.
 #[derive(Clone, Debug, Serialize)]
 pub struct Together {
-    /// Method whose frame it is.
+    /// Method that renders the frame.
     pub method: &'static str,
     pub ms: Quartiles,
-    /// Times as long as its parts, each submitted by itself, take together: round by round.
+    /// Time relative to the sum of its parts, each submitted on its own; round by round.
     pub over_parts: Quartiles,
     pub rounds_ms: Vec<f64>,
 }
 
-/// Passes that are timed together.
+/// Passes timed together in one submission.
 const TOGETHER: [FramePass; 3] = [
     FramePass::Geometry(Samples::One),
     FramePass::Auxiliary(Samples::Four),
@@ -112,13 +113,13 @@ const TOGETHER: [FramePass; 3] = [
 ];
 
 impl Measured {
-    /// The rounds of a pass, in milliseconds.
+    /// Returns the rounds of a pass, in milliseconds.
     pub fn pass_time(&self, pass: FramePass) -> Result<&PassTime, Failure> {
         let found = self.passes.iter().find(|timed| timed.pass == pass);
         found.ok_or_else(|| Failure::Failed(format!("{pass:?} was not timed")))
     }
 
-    /// The filter with the default metric, of the samples that are drawn beside the main G-buffer.
+    /// Returns the filter with the default metric for this many samples beside the main G-buffer.
     pub fn default_filter(&self, samples: Samples) -> Result<&Filter, Failure> {
         let mut filters = self.filters.iter();
         let found = filters.find(|filter| filter.samples == samples && filter.metric == DEFAULT_METRIC);
@@ -126,7 +127,7 @@ impl Measured {
     }
 }
 
-/// A filter and what it reads.
+/// A filter and its inputs.
 struct Subject {
     metric: &'static str,
     paper_ms: f64,
@@ -148,7 +149,7 @@ impl Subject {
     }
 }
 
-/// Times everything in turn, after one round that is not counted.
+/// Times everything in turn, after one uncounted warm-up round.
 pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured, Failure> {
     let bench = gpu.bench();
     let frame =
@@ -172,7 +173,7 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
     }
     let is_first = |subject: &&Subject| subject.metric == DEFAULT_METRIC && subject.shading == "centre";
     let first = subjects.iter().find(is_first).map(|subject| subject.job(args));
-    // Timestamps lie around passes, and say nothing of what lies between.
+    // Timestamps surround single passes and omit the time between them.
     if let Some(job) = first.filter(|_| bench.clock() == Clock::WallClock) {
         let filter = bench.pass_recorder(job).map_err(Failure::from_error)?;
         let frame = &frame;

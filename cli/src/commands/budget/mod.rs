@@ -1,5 +1,5 @@
-//! `budget`: what a frame costs with SRAA and without, in time, memory and reads (the paper's tables 1 and 2), and from which
-//! shading cost SRAA pays.
+//! `budget`: the cost of a frame with and without SRAA, in time, memory and reads (the paper's tables 1 and 2), and the
+//! shading cost above which SRAA pays.
 
 mod frame;
 mod measure;
@@ -16,20 +16,20 @@ use serde::Serialize;
 use straightline_codegen::files;
 use straightline_study::record::Circumstances;
 
-/// Bytes of a geometry sample: what is stored, how many bytes, and where that is assumed.
+/// Formats of a geometry sample: name, bytes, and the context that assumes it.
 const FORMATS: [(&str, u64); 3] = [
     ("24-bit depth, RGB8 normal (the paper's MB)", 6),
     ("rgba16float, normals=packed", 8),
     ("r32float depth, rgba16float normal", 12),
 ];
 
-/// Memory and work of a method.
+/// Memory and work of one method.
 #[derive(Clone, Debug, Serialize)]
 struct Cost {
     method: String,
     geometry_samples: u64,
     shading_samples: u64,
-    /// For each of [`FORMATS`].
+    /// Bytes for each of [`FORMATS`].
     gbuffer_bytes: Vec<u64>,
     reads: Option<u32>,
 }
@@ -38,23 +38,23 @@ struct Cost {
 struct Record {
     #[serde(flatten)]
     circumstances: Circumstances,
-    /// The built-in scene, or the model's file.
+    /// Name of the built-in scene, or the model's file.
     scene: String,
     triangles: usize,
-    /// Evaluations of the shading for each sample.
+    /// Shading evaluations per sample.
     shading_cost: u32,
-    /// The paper's table 2, of this scene on this device.
+    /// The paper's table 2 for this scene on this device.
     frames: Vec<FrameCost>,
     comparisons: Vec<Comparison>,
-    /// Passes that frames consist of.
+    /// Passes that make up the frames.
     passes: Vec<PassTime>,
     filters: Vec<Filter>,
-    /// `null` where timestamps are taken, which lie around passes alone.
+    /// `null` with timestamps, which surround single passes only.
     together: Option<Together>,
     costs: Vec<Cost>,
 }
 
-/// Counts, measures, prints.
+/// Counts, measures and prints.
 pub fn measure_budget(args: &BudgetArgs) -> Result<(), Failure> {
     if let Some(path) = &args.record {
         files::try_file(path, true).map_err(Failure::from_error)?;

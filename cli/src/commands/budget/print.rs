@@ -1,4 +1,4 @@
-//! The figures for people.
+//! Output of the measurements as text or JSON.
 
 use super::frame::FrameCost;
 use super::{Cost, FORMATS, Record};
@@ -16,7 +16,7 @@ const PAPER: [(&str, [f64; 4]); 3] = [
 
 const ROWS: [&str; 4] = ["geometry", "shading", "filter", "net"];
 
-/// As JSON, or as tables.
+/// Prints the record as JSON, or as tables.
 pub fn print_record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
         outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::from_error)?);
@@ -188,7 +188,7 @@ fn format_interval(of: Quartiles) -> String {
     format!("{:.2} ({:.2} to {:.2})", of.median, of.lower, of.upper)
 }
 
-/// Formats a cost, negative numbers as 0: what pays below nothing pays always.
+/// Formats a cost. Negative costs print as 0: a method with a negative break-even always pays.
 fn not_negative(of: Quartiles) -> String {
     format_interval(Quartiles {
         lower: of.lower.max(0.0),

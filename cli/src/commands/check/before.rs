@@ -1,15 +1,16 @@
-//! The command that `check` runs first: an editor has one command for all that it shows.
+//! The command that `check` runs first, so that an editor needs one command for all diagnostics.
 
 use crate::args::MessageFormat;
 use crate::failure::Failure;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-/// Runs it to its end and passes on what it prints. The value says whether it succeeded, or which status it had.
+/// Runs the command to its end and passes on its output. The inner result holds the exit status as an error if the command
+/// failed.
 ///
 /// # Errors
 ///
-/// If it cannot be started.
+/// If the command cannot be started.
 pub fn run_command(command: &[String], format: MessageFormat) -> Result<Result<(), String>, Failure> {
     let Some((program, arguments)) = command.split_first() else {
         return Ok(Ok(()));
@@ -29,7 +30,7 @@ pub fn run_command(command: &[String], format: MessageFormat) -> Result<Result<(
     })
 }
 
-/// Passes on its lines, but for the one that says that all is done: more comes.
+/// Passes on the lines of the command except cargo's final `build-finished` message: more messages follow.
 fn pass_on(child: &mut Child) -> std::io::Result<()> {
     let Some(stdout) = child.stdout.take() else {
         return Ok(());

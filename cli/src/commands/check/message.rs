@@ -1,25 +1,25 @@
-//! Errors as cargo and rustc write theirs with `--message-format=json`.
+//! Errors in the format of cargo and rustc with `--message-format=json`.
 //!
-//! The fields are those of <https://doc.rust-lang.org/cargo/reference/external-tools.html> and
+//! The fields follow <https://doc.rust-lang.org/cargo/reference/external-tools.html> and
 //! <https://doc.rust-lang.org/rustc/json.html>: lines and columns count from 1, columns in characters, bytes from 0.
 
 use serde_json::{Value, json};
 use std::path::Path;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, File, Span};
 
-/// The message for the first of `errors`, in one line.
+/// Returns the message for the first of `errors`, in one line.
 pub fn message_json(kernel: &str, errors: &Errors) -> Value {
     let Some(diagnostic) = errors.diagnostics.first() else {
         return Value::Null;
     };
-    // Of a file that cannot be read the name is all that there is.
+    // An unreadable file has no entry, only a name.
     let path = match errors.files.first() {
         Some(file) => absolute_path(&file.path),
         None => std::path::absolute(kernel).map_or_else(|_| kernel.to_owned(), |path| path.display().to_string()),
     };
     json!({
         "reason": "compiler-message",
-        // No package of cargo's: a name that no package has.
+        // Not a cargo package: no package can have this name.
         "package_id": format!("straightline+file://{path}"),
         "manifest_path": path,
         "target": {
@@ -36,12 +36,12 @@ pub fn message_json(kernel: &str, errors: &Errors) -> Value {
     })
 }
 
-/// The last message of all.
+/// Returns the final message of a run.
 pub fn finished_json(success: bool) -> Value {
     json!({ "reason": "build-finished", "success": success })
 }
 
-/// An error or a remark in rustc's words, at its level `error` or `note`.
+/// Converts an error or a remark to rustc's JSON, at its level `error` or `note`.
 fn diagnostic_json(diagnostic: &Diagnostic, errors: &Errors) -> Value {
     let primary = diagnostic.span.map(|at| (at, diagnostic.label.as_str(), true));
     let others = diagnostic.others.iter().map(|(at, label)| (*at, label.as_str(), false));
@@ -49,7 +49,7 @@ fn diagnostic_json(diagnostic: &Diagnostic, errors: &Errors) -> Value {
     let spans: Vec<Value> = places
         .filter_map(|(at, label, is_primary)| span_json(errors.files.get(at.file as usize)?, at, label, is_primary))
         .collect();
-    // Editors show the children of an error instead of its label.
+    // Editors show the children of an error, but not its label.
     let label = Some(&diagnostic.label).filter(|label| !label.is_empty());
     let notes = label
         .into_iter()
@@ -67,7 +67,7 @@ fn diagnostic_json(diagnostic: &Diagnostic, errors: &Errors) -> Value {
     })
 }
 
-/// The code as clippy names its own: the part before the colons says who speaks, or editors would show rustc's explanation.
+/// Prefixes the code with the tool's name, as clippy does. Without it editors would show rustc's explanation of the code.
 fn code_json(code: Code) -> Value {
     json!({ "code": format!("straightline::{code}"), "explanation": code.explanation() })
 }
@@ -78,7 +78,7 @@ fn child_json(level: &str, message: &str) -> Value {
 
 fn span_json(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Value> {
     let (start, end) = (at.start as usize, (at.end as usize).max(at.start as usize));
-    // A place outside of its file would put an editor's mark anywhere.
+    // A span outside its file would put the editor's mark in an arbitrary place.
     file.text.get(start..end)?;
     let (line_start, column_start) = line_and_column(&file.text, start);
     let (line_end, column_end) = line_and_column(&file.text, end);
@@ -113,7 +113,7 @@ fn span_json(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Val
     }))
 }
 
-/// Line and column of a byte, from 1, columns in characters. A byte order mark has no column.
+/// Returns line and column of a byte, from 1, columns in characters. A byte order mark takes no column.
 fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     let before = &text[..byte];
     let line = before.rfind('\n').map_or(0, |at| at + 1);
@@ -121,7 +121,7 @@ fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, column)
 }
 
-/// A path that means the same in every folder; that of a text which is no file stays as it is.
+/// Returns an absolute path for a file; the name of a text that is not a file is returned unchanged.
 fn absolute_path(path: &str) -> String {
     match std::path::absolute(path) {
         Ok(whole) if Path::new(path).exists() => whole.display().to_string(),

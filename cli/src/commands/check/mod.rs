@@ -1,4 +1,4 @@
-//! `check`: the errors of kernels, for people or for editors, without writing anything.
+//! `check`: prints the errors of kernels, for people or for editors, and writes no files.
 
 mod before;
 mod message;
@@ -13,16 +13,16 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Kernel};
 
-/// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
+/// Checks every kernel and prints all errors. Fails if there is one, or if the command that runs first fails.
 pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
     let names = kernel_names(&args.kernels, &args.source)?;
-    // A missing file is bad use, and reported before anything runs.
+    // A missing file is a usage error, reported before anything runs.
     let mut located = Vec::new();
     for name in &names {
         match args.kernel_args(name).locate_kernel() {
             Ok(kernel) => located.push(kernel),
             Err(errors) => {
-                // An editor reads messages alone.
+                // Editors read only messages.
                 if args.message_format == MessageFormat::Json {
                     outln!("{}", message::message_json(name, &errors));
                     outln!("{}", message::finished_json(false));
@@ -53,7 +53,7 @@ pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
                 diagnostics: vec![diagnostic.clone()],
                 files: errors.files.clone(),
             };
-            // Kernels that share a file share its errors.
+            // Kernels that share a file also share its errors.
             if shown.insert(one.render(false)) {
                 found += 1;
                 print(args.message_format, name, &one);
@@ -74,7 +74,7 @@ pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
     before.map_err(Failure::Failed)
 }
 
-/// The kernels to check, those of folders by the order of their names.
+/// Returns the kernels to check; those of a folder are sorted by name.
 fn kernel_names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> {
     let mut names = Vec::new();
     for name in given {
@@ -95,7 +95,7 @@ fn kernel_names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Fa
                 );
                 return Err(Failure::Usage(what));
             }
-            // Files that only hold modules or are given as a source are no kernels.
+            // Files that only hold modules, or are given as `--source`, are not kernels.
             if rust && !path.ends_with("mod.rs") && !sources.contains(&path) {
                 found.push(path.display().to_string());
             }
@@ -111,7 +111,7 @@ fn kernel_names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Fa
     Ok(names)
 }
 
-/// Finds the errors that `emit` would find in a kernel. Every error has a place, since editors show no other.
+/// Compiles and emits a kernel to find its errors. Every error has a span, because editors show no others.
 fn check_kernel(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
     let placed = |mut errors: Errors| {
         let place = kernel.name_span();

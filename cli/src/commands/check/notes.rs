@@ -5,7 +5,7 @@ use crate::args::MessageFormat;
 use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_codegen::{Compiled, Kernel};
 
-/// A note for each line whose operations drivers are kept from reordering.
+/// Returns a note for each line whose operations drivers must not reorder.
 pub fn find_notes(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
     let places = compiled.exact_places().into_iter();
     let note = |(path, line, name): (&str, u32, &str)| {
@@ -25,7 +25,7 @@ pub fn find_notes(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
     places.filter_map(note).collect()
 }
 
-/// The text of a line, without the space around it.
+/// Returns the span of a line, without surrounding whitespace.
 fn line_of(file: &File, index: u32, line: u32) -> Option<Span> {
     let text = file.text.split_inclusive('\n').nth(line as usize - 1)?;
     let before = file
@@ -45,7 +45,7 @@ fn line_of(file: &File, index: u32, line: u32) -> Option<Span> {
     })
 }
 
-/// Prints a note: for people in one line, for editors as rustc writes it.
+/// Prints a note: one line for people, rustc's JSON for editors.
 pub fn print(format: MessageFormat, kernel: &str, note: &Errors) {
     let Some(diagnostic) = note.diagnostics.first() else {
         return;

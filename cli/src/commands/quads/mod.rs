@@ -1,4 +1,4 @@
-//! `quads`: what sharing work over pixel quads is worth, filter by filter and transport by transport.
+//! `quads`: benefit of sharing work over pixel quads, by filter and transport.
 
 pub mod pictures;
 
@@ -13,10 +13,10 @@ use straightline_study::progress::Progress;
 use straightline_study::quads::{QuadsError, Setup, study_quads};
 use straightline_study::record::{QuadWay, QuadsRecord};
 
-/// Least time that a shader runs for one measurement, as in `study loops`.
+/// Minimum time for one measurement of a shader, as in `study loops`.
 const LEAST: Duration = Duration::from_millis(40);
 
-/// Measures every way of every filter on a rendered frame, in one run.
+/// Measures every variant of every filter on a rendered frame, in one run.
 pub fn measure_quads(args: &QuadsArgs) -> Result<(), Failure> {
     if let Some(path) = &args.record {
         files::try_file(path, true).map_err(Failure::from_error)?;

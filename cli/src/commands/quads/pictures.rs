@@ -1,4 +1,4 @@
-//! Pictures that the filters make, to be looked at.
+//! Pictures of the filters' results, for visual inspection.
 
 use crate::failure::Failure;
 use glam::Vec4;
@@ -10,7 +10,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_scene::picture;
 use straightline_study::quads::Studied;
 
-/// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
+/// Writes the shadow scene by each variant of the 8×8 filter, occlusion before and after upsampling, and details of both.
 pub fn write_pictures(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Failure> {
     let mut set = BTreeMap::new();
     let mut save = |name: &str, frame: &Frame<Vec4>| -> Result<(), Failure> {
@@ -34,17 +34,17 @@ pub fn write_pictures(bench: &Bench, folder: &Path, studied: &Studied) -> Result
     Ok(())
 }
 
-/// Details of the shadows under the awning over the built-in scene's door (figure 2.7).
+/// Returns details of the shadows under the awning over the built-in scene's door (figure 2.7).
 pub fn shadow_details(bench: &Bench, studied: &Studied) -> Result<Frame<Vec4>, Failure> {
     Ok(enlarge_part(&shadow_pictures(bench, studied)?, [0.55, 0.53, 0.1, 0.2]))
 }
 
-/// Details of the occlusion (figure 2.3).
+/// Returns details of the occlusion (figure 2.3).
 pub fn occlusion_details(studied: &Studied) -> Frame<Vec4> {
     enlarge_part(&occlusion_pictures(studied), [0.53, 0.42, 0.12, 0.22])
 }
 
-/// The shadow scene by each way of the 8×8 filter.
+/// Returns the shadow scene by each variant of the 8×8 filter.
 fn shadow_pictures(bench: &Bench, studied: &Studied) -> Result<Vec<(&'static str, Frame<Vec4>)>, Failure> {
     let mut all = Vec::new();
     for way in ["naive", "quad", "quad, gradient", "gather"] {
@@ -61,7 +61,7 @@ fn shadow_pictures(bench: &Bench, studied: &Studied) -> Result<Vec<(&'static str
     Ok(all)
 }
 
-/// Occlusion at half the resolution as a sampler stretches it, upsampled, and at full resolution.
+/// Returns occlusion at half resolution stretched by a sampler, upsampled, and at full resolution.
 fn occlusion_pictures(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
     let screen = &studied.screen;
     let low = screen.images.iter().rev().find(|(name, _)| name == "low");
@@ -80,7 +80,8 @@ fn occlusion_pictures(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
     all
 }
 
-/// Enlarges one part of several pictures, left, top, width and height as shares of the whole, beside one another.
+/// Enlarges one part of several pictures and puts the results side by side. `part` is left, top, width and height as shares
+/// of the whole.
 fn enlarge_part(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> {
     let detail = |frame: &Frame<Vec4>| {
         let size = frame.size().as_vec2();
@@ -94,7 +95,7 @@ fn enlarge_part(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> 
     picture::compose_montage(&columns)
 }
 
-/// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.
+/// Stretches a low-resolution image as a bilinear sampler would, for comparison with bilateral upsampling.
 fn stretch_bilinear(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
     let size = screen.size;
     let texel = |k: u32| {

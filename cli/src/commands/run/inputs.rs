@@ -12,9 +12,9 @@ use straightline_codegen::{Compiled, Stage, shorten};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture;
 
-/// Everything that the command line gives, for the kernel as it will run.
+/// Reads all inputs on the command line for the kernel in the form in which it runs.
 pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {
-    // A compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
+    // A compute invocation computes a whole quad, and reads from textures what a fragment shader interpolates.
     let compiled = match (given.executor, stage) {
         (Executor::Gpu, Stage::Fragment) => {
             refuse_varyings(compiled)?;
@@ -93,7 +93,7 @@ pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Resu
     Ok(inputs)
 }
 
-/// A fragment shader takes interpolated values from a mesh, and `run` draws none.
+/// Rejects fragment shaders with interpolated inputs: `run` draws no mesh.
 fn refuse_varyings(compiled: &Compiled) -> Result<(), Failure> {
     let Some(varying) = compiled.graph.varyings.first() else {
         return Ok(());
@@ -105,7 +105,7 @@ fn refuse_varyings(compiled: &Compiled) -> Result<(), Failure> {
     )))
 }
 
-/// The size of the first picture for a texture that has the output's size, else of the first picture.
+/// Returns the size of the first picture for a texture that has the output's size, else of the first picture.
 fn output_size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
     let framed = |name: &str| graph.textures.iter().any(|t| t.framed && t.name == name);
     let sizes = |name: &String, size: Option<UVec2>| size.map(|size| (framed(name), size));
@@ -145,8 +145,8 @@ fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'
     }
 }
 
-/// The pictures of a file for a texture: a picture; the layer that FILE:LAYER names; or of an EXR file of layers without a
-/// colour, all of them where the texture takes several.
+/// Returns the pictures of a file for a texture: the picture itself, or the layer of FILE:LAYER. If the texture takes
+/// several, an EXR file of layers without a colour returns all of them.
 fn read_pictures(path: &str, texture: &Texture, transfer: Transfer) -> Result<Vec<Frame<Vec4>>, Failure> {
     if !Path::new(path).exists()
         && let Some((file, layer)) = path.rsplit_once(':')
@@ -185,7 +185,7 @@ fn read_pictures(path: &str, texture: &Texture, transfer: Transfer) -> Result<Ve
     layers.iter().map(read).collect()
 }
 
-/// The files of a list, unless its commas are those of one file's name.
+/// Splits a list of files at its commas, unless the whole text names one file.
 fn split_paths(text: &str) -> Vec<&str> {
     match text.contains(',') && !Path::new(text).exists() {
         true => text.split(',').collect(),
@@ -193,12 +193,12 @@ fn split_paths(text: &str) -> Vec<&str> {
     }
 }
 
-/// Returns whether several pictures make one texture.
+/// Returns whether a texture consists of several pictures.
 fn takes_several(texture: &Texture) -> bool {
     texture.kind.is_indexed() || texture.kind.is_cube() || texture.kind == TextureKind::Volume
 }
 
-/// Takes a strip of a volume's slices apart, and refuses faces that make no cube.
+/// Splits a strip of a volume's slices, and rejects faces that do not form a cube.
 fn complete_texture(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failure> {
     let Some((name, layers)) = inputs.images.iter_mut().find(|(name, _)| *name == texture.name) else {
         return Ok(());
@@ -224,7 +224,7 @@ fn complete_texture(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failur
     Ok(())
 }
 
-/// A picture behind those that are there of a texture.
+/// Appends a picture to those of a texture.
 fn add_picture<T: Copy>(
     images: &mut Vec<(String, Vec<Frame<T>>)>,
     texture: &Texture,

@@ -1,4 +1,4 @@
-//! `run`: any kernel on pictures.
+//! `run`: runs any kernel on pictures.
 
 pub mod inputs;
 mod outputs;
@@ -14,7 +14,7 @@ use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
 
-/// Runs a kernel once and writes what it makes.
+/// Runs a kernel once and writes its results.
 pub fn run_kernel(args: &RunArgs) -> Result<(), Failure> {
     let compiled = args.kernel.locate_kernel()?.compile(&args.kernel.options.settings())?;
     let made = run_compiled(args, &compiled, &mut None)?;
@@ -30,7 +30,7 @@ pub struct Made {
     by: String,
 }
 
-/// Runs a compiled kernel and writes what it makes. The device is opened where one is needed, and kept in `gpu`.
+/// Runs a compiled kernel and writes its results. The device is opened on demand, and kept in `gpu`.
 pub fn run_compiled(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
     check_requests(args)?;
     let outs = outputs::parse_outputs(args, compiled)?;
@@ -80,7 +80,7 @@ pub fn run_compiled(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) 
     Ok(Made { files, by })
 }
 
-/// Refuses requests whose errors would otherwise be found only after all the work.
+/// Rejects invalid requests that would otherwise fail only after all the work.
 fn check_requests(args: &RunArgs) -> Result<(), Failure> {
     if args.given.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(

@@ -1,4 +1,4 @@
-//! Files that a kernel's results are written to.
+//! Files for a kernel's results.
 
 use crate::args::RunArgs;
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use straightline_codegen::ir::Access;
 use straightline_codegen::{Compiled, files, shorten};
 use straightline_scene::picture;
 
-/// Endings of files that hold the elements of a buffer, a line each.
+/// Extensions of files that hold the elements of a buffer, one a line.
 const TEXTS: [&str; 2] = ["csv", "txt"];
 
 /// A file to write.
@@ -25,7 +25,7 @@ pub struct Out {
 enum What {
     /// A target, by its index in the kernel's graph.
     Target(usize),
-    /// A buffer, by its name, and the components of its elements.
+    /// A buffer, by its name, and the number of components of its elements.
     Buffer(String, usize),
 }
 
@@ -98,7 +98,7 @@ fn parse_output(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
     Ok(Out { what, path })
 }
 
-/// Refuses a file of unknown kind.
+/// Rejects a file with an unknown extension.
 fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), Failure> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match known.contains(&extension.to_ascii_lowercase().as_str()) {
@@ -124,7 +124,7 @@ pub fn write_outputs(outs: &[Out], (targets, buffers): &AllWritten) -> Result<()
     Ok(())
 }
 
-/// An element a line, its components separated by commas.
+/// Formats the elements, one a line, with components separated by commas.
 fn format_elements(elements: &[[f64; 4]], lanes: usize) -> String {
     let mut text = String::new();
     for element in elements {

@@ -10,13 +10,14 @@ use straightline_scene::picture;
 /// Conversion of a PNG's numbers to those of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// They are colours in sRGB, made linear; alpha is as it is.
+    /// Colours in sRGB are made linear; alpha is unchanged.
     Srgb,
-    /// They are as they are, from 0 to 1.
+    /// Numbers from 0 to 1, unchanged.
     Linear,
 }
 
-/// The file, or files, of `--input`, and the transfer that is asked for behind them: `FILE,linear`. A file of such a name is one.
+/// Splits the value of `--input` into its file or files, and the requested conversion: `FILE,linear`. The text stays whole
+/// if a file has that name.
 pub fn split_transfer(path: &str) -> (&str, Option<Transfer>) {
     let ends = [(",linear", Transfer::Linear), (",srgb", Transfer::Srgb)];
     let found = ends
@@ -28,8 +29,8 @@ pub fn split_transfer(path: &str) -> (&str, Option<Transfer>) {
     }
 }
 
-/// Returns the requested conversion, or the one of the texture's type: one or two components are data, three or four a colour.
-/// Notes that a PNG is read as sRGB without a request.
+/// Returns the requested conversion, or the default of the texture's type: data for one or two components, a colour for
+/// three or four. Prints a note if a PNG is read as sRGB without a request.
 pub fn choose_transfer(asked: Option<Transfer>, texture: &Texture, path: &str) -> Result<Transfer, Failure> {
     let is_png = picture::is_png(Path::new(path));
     match asked {
@@ -58,7 +59,7 @@ pub fn choose_transfer(asked: Option<Transfer>, texture: &Texture, path: &str) -
     }
 }
 
-/// Says something once, however often a sweep or a watch reads the file.
+/// Prints a note once, however often a sweep or a watch reads the file.
 fn note_once(text: String) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     if SAID.lock().is_ok_and(|mut said| said.insert(text.clone())) {

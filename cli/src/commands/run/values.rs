@@ -1,12 +1,12 @@
-//! Numbers from the command line, as uniforms and elements of buffers hold them.
+//! Parsing of uniforms and buffer elements from the command line.
 
 use crate::failure::Failure;
 use straightline_codegen::ir::{Element, Scalar, Type};
 use straightline_codegen::shorten;
 
-/// The components of a uniform: as many numbers as it has, or one for all of them.
+/// Parses the components of a uniform: one number each, or one for all of them.
 pub fn parse_uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
-    // A boolean is a number in the buffer.
+    // A boolean is stored as a number.
     if let (true, Ok(set)) = (ty == Type::U32, text.parse::<bool>()) {
         return Ok(vec![f64::from(u8::from(set))]);
     }
@@ -26,7 +26,7 @@ pub fn parse_uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failu
     )))
 }
 
-/// The elements of a buffer; of structures all their numbers in order, those of vectors and arrays too.
+/// Parses the elements of a buffer. Structures list all their numbers in order, including those of vectors and arrays.
 pub fn parse_buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
     let types = element.value_types();
     let components = types.iter().map(|ty| ty.component_count() as usize).sum::<usize>();
@@ -55,16 +55,16 @@ pub fn parse_buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f6
     Ok(values)
 }
 
-/// Numbers separated by commas, each of which a component of `ty` can hold.
+/// Parses numbers separated by commas. Fails if a number does not fit a component of `ty`.
 fn parse_numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
     let texts = split_numbers(name, text)?;
     texts.into_iter().map(|text| parse_number(name, ty, text)).collect()
 }
 
-/// Numbers that a buffer may have.
+/// Maximum count of numbers in a buffer.
 const MOST: usize = 1 << 24;
 
-/// Splits a list at commas; `0*256` is a number so many times.
+/// Splits a list at commas; `0*256` repeats 0 256 times.
 fn split_numbers<'t>(name: &str, text: &'t str) -> Result<Vec<&'t str>, Failure> {
     let mut texts = Vec::new();
     for part in text.split(',') {

@@ -27,7 +27,7 @@ pub fn compare_methods(common: &CommonArgs, args: &ErrorArgs, progress: &mut Pro
         size: common.picture_size(),
         rounds: common.timing_rounds(),
         quick: common.quick,
-        // Post-processed pictures are not compared from frame to frame.
+        // Post-processed pictures are not compared between frames.
         pan_frames: match (args.post, common.quick) {
             (true, _) => 0,
             (_, true) => QUICK_FRAMES,
@@ -40,7 +40,7 @@ pub fn compare_methods(common: &CommonArgs, args: &ErrorArgs, progress: &mut Pro
         own,
     };
     let mut circumstances = run_circumstances(common, &gpu);
-    // A capture has its own size; a record of nothing else says so.
+    // A capture has its own size, which a record of captures alone states.
     let sizes: Vec<_> = sources.iter().map(|source| source.size(setup.size)).collect();
     if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
         circumstances.size = first.to_array();
@@ -61,7 +61,7 @@ pub fn compare_methods(common: &CommonArgs, args: &ErrorArgs, progress: &mut Pro
     Ok(())
 }
 
-/// Refuses names that no method has.
+/// Rejects names of unknown methods.
 fn check_names(names: &[String]) -> Result<(), Failure> {
     let known = quality::list_methods(false);
     match names
@@ -73,12 +73,12 @@ fn check_names(names: &[String]) -> Result<(), Failure> {
     }
 }
 
-/// Message about a name that no method has.
+/// Returns the error message for an unknown method name.
 pub fn unknown_method(name: &str, known: &[Method]) -> String {
     let mut said = format!("there is no method `{name}`; there are:");
     let mut width = usize::MAX;
     for method in known {
-        // Names have commas.
+        // Names contain commas.
         let (own, fits) = (method.name.as_str(), width < WIDTH);
         said += if fits { "; " } else { "\n  " };
         said += own;
@@ -87,10 +87,10 @@ pub fn unknown_method(name: &str, known: &[Method]) -> String {
     said
 }
 
-/// Characters of a line of names, but for the last of them.
+/// Maximum width of a line of names, without the last name.
 const WIDTH: usize = 80;
 
-/// Methods of the user's, each with a name that no other has.
+/// Parses the user's methods. Fails if a name is not unique.
 fn parse_own_methods(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
     let mut stems: BTreeSet<String> = quality::list_methods(false).iter().map(Method::file_stem).collect();
     let mut own = Vec::new();
@@ -107,7 +107,7 @@ fn parse_own_methods(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
     Ok(own)
 }
 
-/// A method of the user's.
+/// Parses one method of the user's.
 pub fn parse_method(text: &str) -> Result<Method, Failure> {
     Method::parse_own(text).map_err(|error| match error {
         OwnError::Kernel(errors) => Failure::Kernel(errors),
@@ -115,7 +115,7 @@ pub fn parse_method(text: &str) -> Result<Method, Failure> {
     })
 }
 
-/// Shows errors of a kernel with their place.
+/// Converts errors, keeping the source location of kernel errors.
 pub fn to_failure(error: QualityError) -> Failure {
     match error {
         QualityError::Kernel(errors) => Failure::Kernel(errors),

@@ -1,4 +1,4 @@
-//! `study film`: frames of a pan, methods side by side.
+//! `study film`: frames of a pan, with the methods side by side.
 
 use super::error::{parse_method, to_failure, unknown_method};
 use super::{ProgressBars, circumstances_of};
@@ -18,16 +18,16 @@ use straightline_study::record::{FilmRecord, FilmedMethod, Record};
 /// Methods that are filmed by default.
 const USUAL: [&str; 3] = ["1x", "MLAA", "SRAA 4"];
 
-/// Width and height of each method's picture unless another is asked for.
+/// Default width and height of each method's picture.
 const SIZE: UVec2 = UVec2::new(480, 270);
 
-/// Most pixels of a film, whose frames are all kept until it is written.
+/// Maximum number of pixels of a film: all frames stay in memory until it is written.
 const MOST_PIXELS: u64 = 1 << 27;
 
-/// Milliseconds that a frame is shown.
+/// Display time of a frame, in milliseconds.
 const SHOWN: u16 = 50;
 
-/// Films, and writes frames, animation and record.
+/// Films the pan, and writes frames, animation and record.
 pub fn film_methods(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let known = quality::list_methods(false);
     let methods = match args.methods.is_empty() {
@@ -78,7 +78,7 @@ pub fn film_methods(common: &CommonArgs, args: &FilmArgs, progress: &mut Progres
     Ok(())
 }
 
-/// Returns the requested methods, by their names among those `known` or of the user's own.
+/// Returns the requested methods: by name from `known`, or parsed as the user's own.
 pub fn choose_methods(texts: &[String], known: &[Method]) -> Result<Vec<Method>, Failure> {
     let mut stems = BTreeSet::new();
     let mut methods = Vec::new();

@@ -1,4 +1,4 @@
-//! `study frame`: time of a whole frame against its error, of two records.
+//! `study frame`: time of a whole frame against its error, composed from two records.
 
 use super::command_line;
 use crate::args::{CommonArgs, FrameArgs};
@@ -10,13 +10,13 @@ use straightline_study::frame::{FrameRequest, combine_frames};
 use straightline_study::record::{FrameMethod, FrameRecord, PassTimes, QualityRecord, Record, read_file};
 use straightline_study::report::frame_plot;
 
-/// Most costs of shading, each of which is a panel.
+/// Maximum number of shading costs; each is a panel.
 const MOST_COSTS: usize = 6;
 
-/// Width and height of a panel that is written by itself.
+/// Width and height of a panel in its own file.
 const PANEL: (u32, u32) = (820, 460);
 
-/// Puts frames together, prints the best, and writes record and panels.
+/// Composes frames, prints the best, and writes record and panels.
 pub fn compose_frames(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failure> {
     if args.shading.is_empty() || args.shading.len() > MOST_COSTS {
         return Err(Failure::Usage(format!("--shading takes 1 to {MOST_COSTS} costs")));
@@ -43,7 +43,7 @@ pub fn compose_frames(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failu
     Ok(())
 }
 
-/// Prints all methods, the best at each cost marked.
+/// Prints all methods, and marks the best at each cost.
 fn print(record: &FrameRecord) {
     let row = |m: &FrameMethod| {
         let mut row = vec![

@@ -10,7 +10,7 @@ use straightline_codegen::Precision;
 use straightline_study::hard::{self, Selection};
 use straightline_study::record::{HardRecord, HardResult, Record};
 
-/// Runs hard cases, prints what became of them, and writes the record.
+/// Runs hard cases, prints their results, and writes the record.
 pub fn run_hard_cases(common: &CommonArgs, args: &HardArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let selection = select_cases(args)?;
     let gpu = Gpu::open(&common.adapter)?;
@@ -41,7 +41,7 @@ pub fn run_hard_cases(common: &CommonArgs, args: &HardArgs, progress: &mut Progr
     }
 }
 
-/// Names the cases.
+/// Prints the names of the cases.
 pub fn list_cases(args: &HardArgs) -> Result<(), Failure> {
     for case in select_cases(args)?.cases {
         outln!("{:<32} {}", case.name, case.about);
@@ -61,7 +61,7 @@ fn select_cases(args: &HardArgs) -> Result<Selection, Failure> {
     Ok(selection)
 }
 
-/// Summary of a form on a case, over all executors.
+/// Formats the results of one kernel on one case, over all executors.
 fn result_cell<'a>(results: impl Iterator<Item = &'a HardResult>) -> String {
     let ran: Vec<&HardResult> = results.filter(|r| r.refused.is_none()).collect();
     let non_finite = ran.iter().map(|r| r.non_finite).max();
@@ -73,7 +73,7 @@ fn result_cell<'a>(results: impl Iterator<Item = &'a HardResult>) -> String {
     }
 }
 
-/// Cases down, kernels across, for each precision.
+/// Formats a table for each precision, with cases as rows and kernels as columns.
 fn result_matrix(record: &HardRecord, selection: &Selection) -> String {
     let mut text = String::new();
     for precision in &selection.precisions {
@@ -102,7 +102,8 @@ fn result_matrix(record: &HardRecord, selection: &Selection) -> String {
     text
 }
 
-/// Counts, the closest to its bound of each kernel, and who may compute in half precision.
+/// Formats the counts, the result of each kernel that is closest to its bound, and the kernels that may run in half
+/// precision.
 fn result_summary(record: &HardRecord) -> String {
     let [promised, others] = record.non_finite();
     let results = record.cases.iter().flat_map(|case| &case.results);

@@ -1,4 +1,4 @@
-//! `study isa`: what GPU compilers make of shaders, without the GPUs.
+//! `study isa`: statistics of GPU compilers for shaders, without the GPUs.
 
 use super::{ProgressBars, command_line, current_time, loops};
 use crate::args::{CommonArgs, IsaArgs};
@@ -9,10 +9,10 @@ use straightline_isa::Figures;
 use straightline_study::isa::{self, Asking, IsaStudyError, Question};
 use straightline_study::record::{IsaRecord, Record};
 
-/// The hidden command that a compiler's process runs.
+/// Name of the hidden command that runs in a compiler's process.
 pub const SERVE: &str = "serve-isa";
 
-/// Asks, prints, writes the record.
+/// Compiles, prints, and writes the record.
 pub fn measure_isa(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let subjects = loops::choose_subjects(common, &args.from, &args.by_hand)?;
     let mut askings: Vec<Asking> = subjects.into_iter().map(Asking::from).collect();
@@ -42,7 +42,7 @@ pub fn measure_isa(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressB
     Ok(())
 }
 
-/// glslang's program on the path.
+/// Returns the path of glslang's executable.
 fn find_glslang() -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     let programs = std::env::split_paths(&path).map(|folder| folder.join("glslangValidator"));

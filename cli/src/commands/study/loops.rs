@@ -1,4 +1,4 @@
-//! `study loops`: unroll against loop.
+//! `study loops`: unrolled against looped forms.
 
 use super::{ProgressBars, run_circumstances};
 use crate::args::{CommonArgs, LoopsArgs};
@@ -15,11 +15,11 @@ use straightline_study::loops::{LoopsError, Setup, Studied, Subject, list_subjec
 use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
 
-/// Least time that a form runs for one measurement. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
-/// in 10 ms by 0.81, and of a single frame by 1.06.
+/// Minimum time for one measurement of a form. On two busy cores the ratios of a form spread by 0.64 of their median at 40
+/// ms, by 0.81 at 10 ms, and by 1.06 for a single frame.
 const LEAST: Duration = Duration::from_millis(40);
 
-/// Measures, writes the record, prints it.
+/// Measures, writes the record, and prints it.
 pub fn measure_loops(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let mut subjects = choose_subjects(common, &args.from, &args.by_hand)?;
     set_uniforms(&mut subjects, &args.uniform)?;
@@ -48,7 +48,7 @@ pub fn measure_loops(common: &CommonArgs, args: &LoopsArgs, progress: &mut Progr
     Ok(())
 }
 
-/// The kernels asked for, each with what was written by hand for it, or the built-in choice.
+/// Returns the requested kernels, each with its hand-written version if there is one, or the built-in selection.
 pub fn choose_subjects(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Result<Vec<Subject>, Failure> {
     if !by_hand.is_empty() && by_hand.len() != from.len() {
         return Err(Failure::Usage(format!(
@@ -68,7 +68,7 @@ pub fn choose_subjects(common: &CommonArgs, from: &[String], by_hand: &[String])
     Ok(own)
 }
 
-/// Gives each kernel the uniforms that it has of those asked for, each of which some kernel must have.
+/// Sets the requested uniforms of each kernel. Fails if a uniform belongs to none of them.
 fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<(), Failure> {
     let mut found = vec![false; asked.len()];
     for subject in subjects.iter_mut() {
@@ -93,7 +93,7 @@ fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<
     }
 }
 
-/// Shows errors of a kernel with their place.
+/// Converts errors, keeping the source location of kernel errors.
 fn to_failure(error: LoopsError) -> Failure {
     match error {
         LoopsError::Kernel { errors, .. } => Failure::Kernel(errors),

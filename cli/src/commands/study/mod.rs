@@ -1,4 +1,5 @@
-//! `study`: unroll against loop, speed against error, hard cases, sweeps; records, and one page of them all.
+//! `study`: unrolled against looped forms, speed against error, hard cases and sweeps; with records, and one page for all
+//! of them.
 
 pub mod error;
 mod film;
@@ -55,7 +56,7 @@ pub fn run_study(args: &StudyArgs) -> Result<(), Failure> {
     write_page(&common.out)
 }
 
-/// Scenes that need different things: the flat one, thin things, and creases that depth does not tell.
+/// Scenes with different demands: a flat one, thin objects, and creases that depth does not show.
 const TUNED: [&str; 3] = ["floor", "tubes", "creases"];
 
 /// Every study, until Ctrl-C.
@@ -75,19 +76,19 @@ fn run_all_studies(common: &CommonArgs, progress: &mut ProgressBars) -> Result<(
     Ok(())
 }
 
-/// The page of all records in a folder.
+/// Writes the page of all records in a folder.
 pub fn write_page(folder: &Path) -> Result<(), Failure> {
     let path = report::write_report(folder).map_err(Failure::from_error)?;
     outln!("{}", path.display());
     Ok(())
 }
 
-/// Circumstances of this run for a record. `complete` is to be put right when it ends.
+/// Returns the circumstances of this run for a record. `complete` is corrected when the run ends.
 pub fn run_circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
     circumstances_of(gpu, common.picture_size(), common.timing_rounds())
 }
 
-/// Circumstances of this run with a picture's size and rounds of timing.
+/// Returns the circumstances of this run with the size of a picture and the rounds of timing.
 pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         adapter: gpu.describe(),
@@ -99,7 +100,7 @@ pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     }
 }
 
-/// Circumstances of a run without a device.
+/// Returns the circumstances of a run without a device.
 pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         command: command_line(),
@@ -113,12 +114,12 @@ pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
     }
 }
 
-/// The time, as records have it: RFC 3339, UTC.
+/// Returns the current time as in records: RFC 3339, UTC.
 fn current_time() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }
 
-/// Name of the processor, and its number of threads.
+/// Returns the name of the processor, and its number of threads.
 fn processor_name() -> String {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `study motion`: methods in frames that follow on each other.
+//! `study motion`: methods over consecutive frames.
 
 use super::error::to_failure;
 use super::film::choose_methods;
@@ -12,10 +12,10 @@ use glam::UVec2;
 use straightline_study::quality;
 use straightline_study::record::{Motion, MotionRecord, MovedScene, Record};
 
-/// Scenes that are drawn by default: thin things before others, and edges near and far.
+/// Scenes by default: thin objects in front of others, and edges near and far.
 const USUAL: [&str; 2] = ["railings", "roof"];
 
-/// Width and height unless others are asked for: a software renderer draws it.
+/// Default width and height, small enough for a software renderer.
 const SIZE: UVec2 = UVec2::new(240, 135);
 
 /// Compares, writes the record and prints it.

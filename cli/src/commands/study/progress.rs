@@ -1,17 +1,17 @@
-//! Progress of a study, with the time left; and Ctrl-C, which ends it and keeps what was measured.
+//! Progress of a study with the time left. Ctrl-C ends the study and keeps the measurements.
 
 use crate::interrupt;
 use crate::scene;
 use indicatif::ProgressBar;
 use straightline_study::progress::Progress;
 
-/// A bar on stderr, and whether Ctrl-C was pressed.
+/// Progress bar on stderr, and the state of Ctrl-C.
 pub struct ProgressBars {
     bar: ProgressBar,
 }
 
 impl ProgressBars {
-    /// From now on the first Ctrl-C asks the study to stop, and a second one ends the program.
+    /// Starts listening: the first Ctrl-C asks the study to stop, a second one ends the program.
     pub fn new() -> ProgressBars {
         interrupt::defer_interrupt();
         ProgressBars {
@@ -21,7 +21,7 @@ impl ProgressBars {
 }
 
 impl ProgressBars {
-    /// Takes the bar away, before something is printed.
+    /// Removes the bar before other output.
     pub fn clear_bar(&mut self) {
         self.bar.finish_and_clear();
     }

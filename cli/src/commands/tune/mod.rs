@@ -1,4 +1,4 @@
-//! `tune`: the cheapest shader that a scene needs.
+//! `tune`: the cheapest shader that is good enough for a scene.
 
 mod print;
 
@@ -18,10 +18,10 @@ use straightline_study::progress::Progress;
 use straightline_study::record::Record;
 use straightline_study::tune::{self, Beyond, Chosen, Cost, Gauge, PATTERNS, Question, Subject, TuneError};
 
-/// Size of a scene's picture where none is asked for.
+/// Default size of a scene's picture.
 const SIZE: UVec2 = UVec2::new(640, 360);
 
-/// Searches, writes the record and the shader, prints what was found.
+/// Searches, writes the record and the shader, and prints the result.
 pub fn tune_shader(args: &TuneArgs) -> Result<(), Failure> {
     let asked = asked_options(args)?;
     files::try_folder(&args.out).map_err(Failure::from_error)?;
@@ -59,7 +59,7 @@ pub fn tune_shader(args: &TuneArgs) -> Result<(), Failure> {
         .transpose()?;
     let place = outcome.chosen.as_ref().and_then(|chosen| chosen.place.as_ref());
     let place = place.map(|compiled| compiled.emit(&emit_options(args))).transpose()?;
-    // The shader and the record that says why it was chosen are one set.
+    // The shader and the record that justifies it are written as one set.
     let mut set = outcome
         .record
         .to_files(&format!("tune-{stem}"))
@@ -90,7 +90,7 @@ fn open_gauge(cost: Cost) -> Result<Gauge, Failure> {
     Ok(Gauge::Compiler(Box::new(compiler)))
 }
 
-/// Draws the subject to tune for; `None` if it was stopped before all was drawn.
+/// Draws the subject to tune for; returns `None` if interrupted.
 fn draw_subject(
     args: &TuneArgs,
     asked: &OptionValues,
@@ -126,8 +126,8 @@ fn draw_subject(
     Subject::of_scene(&name, renderer.as_ref(), &patterns, beyond, progress).map_err(to_failure)
 }
 
-/// Values of the options that are set. Refuses those that the kernel does not have before anything is drawn, and those left to a
-/// host.
+/// Returns the values of the options that are set. Rejects unknown options, and options left to a host, before anything is
+/// drawn.
 fn asked_options(args: &TuneArgs) -> Result<OptionValues, Failure> {
     let settings = Settings::new().set_all(args.set.clone());
     let mut asked = Kernel::builtin("sraa")?.compile(&settings)?.options;
@@ -153,7 +153,7 @@ fn emit_options(args: &TuneArgs) -> EmitOptions {
         .targets(args.target.iter().copied())
 }
 
-/// Stem of file names for a scene, a model's path or a capture's.
+/// Returns the stem of file names for a scene, a model's path or a capture's.
 fn stem(name: &str) -> String {
     let path = std::path::Path::new(name);
     let last = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");

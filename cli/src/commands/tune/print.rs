@@ -8,7 +8,7 @@ use straightline_bench::execute::Ratio;
 use straightline_study::record::{Candidate, TuneRecord};
 use straightline_study::tune::ErrorMetric;
 
-/// Prints the record: as JSON, or its findings as tables.
+/// Prints the record as JSON, or its findings as tables.
 pub fn print_report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {
     if args.json {
         outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::from_error)?);
@@ -91,7 +91,7 @@ fn print_choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
     }
 }
 
-/// The worst error that the budget allows.
+/// Formats the worst error that the budget allows.
 fn format_budget(record: &TuneRecord, metric: ErrorMetric) -> String {
     match metric {
         ErrorMetric::Psnr => format!("at least {}", metric.format_error(record.best - record.max_error)),
@@ -149,7 +149,7 @@ fn format_loss(cost: f64, metric: ErrorMetric) -> String {
     }
 }
 
-/// Speed against the most general variant, which may be lower than that of one with more terms.
+/// Formats the speedup over the most general variant, which may be slower than one with more terms.
 fn format_speed(found: Option<Ratio>) -> String {
     let longer = found.filter(|found| found.median < 1.0).map(|found| Ratio {
         median: 1.0 / found.median,

@@ -72,7 +72,7 @@ pub fn binding_entry(stage: Stage, binding: &Binding) -> TokenStream {
 
 pub fn output_entry(binding: u32, format: Format) -> TokenStream {
     let number = Literal::u32_unsuffixed(binding);
-    // wgpu names formats as the manifest does.
+    // wgpu's format names equal the manifest's.
     let format = format_ident!("{format:?}");
     let wgpu = quote! { wgpu };
     quote! {

@@ -28,8 +28,8 @@ pub struct Module<'a> {
     pub wgsl: &'a str,
 }
 
-/// Returns the text of a Rust file with a module for each shader. The file belongs in the folder of the shaders' files, needs the crate
-/// `straightline-runtime`, and is meant to be included.
+/// Returns the text of a Rust file with a module for each shader. The file belongs in the folder of the shaders' files,
+/// needs the crate `straightline-runtime`, and is meant to be included.
 ///
 /// # Errors
 ///
@@ -52,7 +52,7 @@ fn quote_module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     if manifest.form == Form::Function {
         return Ok(quote! {
             #(#[doc = #docs])*
-            // A caller uses the part that it needs.
+            // A caller uses only the parts that it needs.
             #[allow(dead_code)]
             pub mod #name {
                 #constants
@@ -71,7 +71,7 @@ fn quote_module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     // Without inputs there is no reference to have a lifetime.
     let (life, inputs_docs) = match inputs.is_empty() {
         true => (quote! {}, " What the shader reads: nothing."),
-        false => (quote! { <'a> }, " What the shader reads."),
+        false => (quote! { <'a> }, " Inputs of the shader."),
     };
     let (structure, setters) = parameters::quote_parameters(manifest);
     let elements = parameters::quote_elements(manifest);
@@ -85,7 +85,7 @@ fn quote_module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     let shader = shader::quote_shader(module)?;
     Ok(quote! {
         #(#[doc = #docs])*
-        // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
+        // A caller uses only the parts that it needs, and a struct of one reference is passed like one of several.
         #[allow(dead_code, non_camel_case_types, non_snake_case, clippy::trivially_copy_pass_by_ref)]
         pub mod #name {
             use straightline_runtime::{Error, Resource, wgpu};
@@ -111,16 +111,16 @@ fn quote_module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     })
 }
 
-/// A name as Rust writes it, one of its keywords as `r#name`.
+/// Returns a name as a Rust identifier; a keyword becomes `r#name`.
 pub fn rust_identifier(name: &str) -> proc_macro2::Ident {
     match syn::parse_str::<proc_macro2::Ident>(name) {
-        // A keyword since the edition of 2024, which syn takes for a name.
+        // `gen` is a keyword since edition 2024, but syn accepts it as a name.
         Ok(_) if name != "gen" => format_ident!("{name}"),
         _ => proc_macro2::Ident::new_raw(name, proc_macro2::Span::call_site()),
     }
 }
 
-/// A line of documentation as `///` is followed by one.
+/// Returns a line of documentation with the space that follows `///`.
 pub fn doc_line(line: &str) -> String {
     if line.is_empty() {
         String::new()
@@ -143,7 +143,7 @@ fn module_docs(module: &Module<'_>) -> Vec<String> {
         false => format!("Generated for {}", options.join(", ")),
     };
     vec![
-        // A bare carriage return, of which rustc takes none in documentation, or a line end of another kind is no part of it.
+        // rustc rejects bare carriage returns in documentation; other line ends are removed as well.
         single_line_comment(&summary),
         String::new(),
         format!("{generated}; loops unrolled: `{}`.", module.compiled.policy),
@@ -156,10 +156,10 @@ fn quote_constants(module: &Module<'_>) -> TokenStream {
     let entry = &manifest.entry_point;
     if manifest.form == Form::Function {
         return quote! {
-            /// The function, to be put into a fragment shader of one's own.
+            /// The function, for use in your own fragment shader.
             pub const WGSL: &str = include_str!(#wgsl);
 
-            /// What the function takes, as JSON.
+            /// Inputs of the function, as JSON.
             pub const MANIFEST: &str = include_str!(#json);
 
             /// Name of the function.
@@ -172,7 +172,7 @@ fn quote_constants(module: &Module<'_>) -> TokenStream {
         .map(|b| b.group)
         .or(manifest.outputs.first().and_then(|output| output.group))
         .unwrap_or_default();
-    let layout_docs = doc_line(&format!("Layout of bind group {group}, for a pipeline of one's own."));
+    let layout_docs = doc_line(&format!("Layout of bind group {group}, for a custom pipeline."));
     let workgroup = manifest.workgroup_size.map(|size| {
         let [x, y, z] = size.map(Literal::u32_unsuffixed);
         quote! {
@@ -197,7 +197,7 @@ fn quote_constants(module: &Module<'_>) -> TokenStream {
         /// The shader.
         pub const WGSL: &str = include_str!(#wgsl);
 
-        /// Bindings of the shader as JSON: for other programs, since a pass is made of [`SHADER`].
+        /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
         pub const MANIFEST: &str = include_str!(#json);
 
         /// Name of the entry point.

@@ -1,11 +1,11 @@
-//! The Rust of a shader's uniform struct: laid out as the shader has it, which the caller's compiler checks.
+//! Rust for a shader's uniform struct, with the layout of the shader, which the caller's compiler checks.
 
 use super::{doc_line, rust_identifier};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{BindingKind, Element, Manifest, Scalar, UniformField, ValueType};
 
-/// The struct `Parameters` with what belongs to it, and the methods that set it.
+/// Returns the struct `Parameters` with its items, and the methods that set it.
 pub fn quote_parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
         BindingKind::Uniform { fields, size, .. } if !b.is_region() => Some((fields.as_slice(), *size)),
@@ -22,7 +22,7 @@ pub fn quote_parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     }
 }
 
-/// The structures that buffers hold, each once.
+/// Returns the structures of buffers, each once.
 pub fn quote_elements(manifest: &Manifest) -> TokenStream {
     let mut made: Vec<&str> = Vec::new();
     let mut all = TokenStream::new();
@@ -43,7 +43,7 @@ pub fn quote_elements(manifest: &Manifest) -> TokenStream {
     all
 }
 
-/// Names of types that the module has uses for, those of the prelude among them.
+/// Names of types that the module uses, including those of the prelude.
 const TYPES: [&str; 30] = [
     "Bound",
     "BoundDraw",
@@ -77,7 +77,7 @@ const TYPES: [&str; 30] = [
     "wgpu",
 ];
 
-/// The name of a structure that a buffer holds: its own, unless the module has another use for it.
+/// Returns the name of a buffer's structure: its own name, unless the module uses that for something else.
 pub fn structure_name(manifest: &Manifest, element: &str) -> String {
     if !TYPES.contains(&element) {
         return element.to_owned();
@@ -88,7 +88,7 @@ pub fn structure_name(manifest: &Manifest, element: &str) -> String {
         })
     };
     let mut name = format!("{element}Element");
-    // Each turn leaves a structure of the shader behind.
+    // Each iteration excludes one structure of the shader, so this many suffice.
     for _ in &manifest.bindings {
         if is_structure(&name) {
             name.push('_');
@@ -157,7 +157,7 @@ fn quote_structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> 
             false => quote! { #name: #argument },
         });
     let new = match fields.len() {
-        // With more arguments, only their order would distinguish them.
+        // With more arguments, only the order would distinguish them.
         0..=7 => quote! {
             impl #of {
                 /// All values, in order.
@@ -187,14 +187,14 @@ fn quote_structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> 
             #(#members,)*
         }
 
-        // Laid out as in the shader, or this does not compile.
+        // The layout must equal the shader's, or this does not compile.
         const _: () = {
             #(assert!(core::mem::offset_of!(#of, #names) == #offsets);)*
             assert!(core::mem::size_of::<#of>() == #total);
         };
 
         impl #of {
-            /// All zeros: `Self { name: value, ..Self::ZERO }` states single values by name.
+            /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
             pub const ZERO: Self = Self { #(#names: #zeros,)* #(#pads,)* };
         }
 
@@ -203,7 +203,7 @@ fn quote_structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> 
         #default
 
         impl #of {
-            /// The values as they lie in the buffer.
+            /// Returns the bytes of the values in the buffer's layout.
             #[must_use]
             pub fn to_bytes(self) -> [u8; #total] {
                 let mut bytes = [0; #total];
@@ -214,7 +214,7 @@ fn quote_structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> 
     }
 }
 
-/// The argument that a field is set by: its name, unless a pattern of that name could be a constant or a type.
+/// Returns the name of a setter's argument: the field's name, unless as a pattern it could be a constant or a type.
 fn argument_name(fields: &[UniformField], k: usize) -> proc_macro2::Ident {
     let name = &fields[k].name;
     if !name.starts_with(|c: char| c.is_ascii_uppercase()) {
@@ -223,10 +223,10 @@ fn argument_name(fields: &[UniformField], k: usize) -> proc_macro2::Ident {
     free_field_name(fields, &format!("value_{k}"))
 }
 
-/// A name that no field has: `wanted`, with underscores behind it where fields have it without.
+/// Returns a name that no field has: `wanted`, with as many underscores appended as needed.
 fn free_field_name(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident {
     let mut name = wanted.to_owned();
-    // Each turn leaves a field behind.
+    // Each iteration excludes one field, so this many suffice.
     for _ in fields {
         if fields.iter().any(|field| field.name == name) {
             name.push('_');
@@ -235,7 +235,7 @@ fn free_field_name(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident 
     format_ident!("{name}")
 }
 
-/// The method that sets a value: `set_NAME`, unless that sets all of them.
+/// Returns the name of the method that sets a value: `set_NAME`, unless that is the method that sets all values.
 fn setter_name(fields: &[UniformField], name: &str) -> proc_macro2::Ident {
     match name {
         "parameters" => {
@@ -246,7 +246,7 @@ fn setter_name(fields: &[UniformField], name: &str) -> proc_macro2::Ident {
     }
 }
 
-/// Bytes that no value fills, as a field of their own.
+/// Adds the padding before a value as a separate field.
 fn push_padding(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fields: &[UniformField], bytes: u32) {
     if bytes == 0 {
         return;
@@ -257,7 +257,7 @@ fn push_padding(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fie
     pads.push(quote! { #name: [0; #words] });
 }
 
-/// A value that a kernel has set at run time; a matrix or an array is one, with a field for each part that is read.
+/// A value that the kernel sets at run time. A matrix or an array is one value, with a field for each part that is read.
 struct Whole<'f> {
     name: &'f str,
     ty: ValueType,
@@ -265,7 +265,7 @@ struct Whole<'f> {
     parts: Vec<(&'f UniformField, u32)>,
 }
 
-/// The values that `fields` are of, in order.
+/// Groups fields into the values that they are parts of, in order.
 fn group_fields(fields: &[UniformField]) -> Vec<Whole<'_>> {
     let mut wholes: Vec<Whole<'_>> = Vec::new();
     for field in fields {
@@ -286,11 +286,11 @@ fn group_fields(fields: &[UniformField]) -> Vec<Whole<'_>> {
 }
 
 impl Whole<'_> {
-    /// The type by which a method takes it, and what makes its own type of that.
+    /// Returns the type of the setter's argument, and the conversion to the value's own type.
     fn setter_argument(&self) -> (TokenStream, TokenStream) {
         let value = value_type(self.ty);
         match self.ty {
-            // An array, or a vector of another crate.
+            // An array, or a vector type of another crate.
             ValueType::Vector { .. } => (
                 quote! { impl Into<#value> },
                 quote! { let value: #value = value.into(); },
@@ -299,7 +299,7 @@ impl Whole<'_> {
         }
     }
 
-    /// Each field with the expression of its part of `value`.
+    /// Returns each field with the expression of its part of `value`.
     fn field_values(&self) -> impl Iterator<Item = (&UniformField, TokenStream)> {
         self.parts.iter().map(|(field, index)| {
             let index = Literal::u32_unsuffixed(*index);
@@ -319,7 +319,7 @@ impl Whole<'_> {
     }
 }
 
-/// Methods of `Parameters` that set one value, by name.
+/// Returns the methods of `Parameters` that set one value, by name.
 fn by_name(fields: &[UniformField]) -> TokenStream {
     let wholes = group_fields(fields);
     let each = wholes.iter().map(|whole| {
@@ -349,7 +349,8 @@ fn by_name(fields: &[UniformField]) -> TokenStream {
     }
 }
 
-/// Methods of what is bound: one that sets all, and one for each value. They cannot fail: the compiler has checked names and types.
+/// Returns the setters of a bound shader: one that sets all values, and one for each value. The setters cannot fail, since
+/// the compiler checks names and types.
 fn quote_setters(fields: &[UniformField]) -> TokenStream {
     let wholes = group_fields(fields);
     let each = wholes.iter().map(|whole| {
@@ -376,7 +377,7 @@ fn quote_setters(fields: &[UniformField]) -> TokenStream {
         }
     });
     quote! {
-        /// Sets all values that are set at run time, from the next submission on.
+        /// Sets all runtime values, from the next submission on.
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }
@@ -385,14 +386,14 @@ fn quote_setters(fields: &[UniformField]) -> TokenStream {
     }
 }
 
-/// Zeros of a field as it lies in the buffer.
+/// Returns the zeros of a field as stored in the buffer.
 fn quote_zero(ty: ValueType) -> TokenStream {
     let number = match ty.scalar() {
         Scalar::F32 => quote! { 0.0 },
         Scalar::I32 | Scalar::U32 => quote! { 0 },
     };
     let part = match ty {
-        // An element of three has the room of four.
+        // An element with three components occupies the space of four.
         ValueType::Array { components: 3, .. } => quote! { [#number; 4] },
         _ if ty.components() == 1 => number,
         _ => {
@@ -409,7 +410,7 @@ fn quote_zero(ty: ValueType) -> TokenStream {
     }
 }
 
-/// A default of every field, as Rust.
+/// Returns the default of every field, as Rust.
 fn default(field: &UniformField) -> Option<TokenStream> {
     let value = field.default?;
     Some(match field.ty.scalar() {
@@ -432,8 +433,8 @@ fn default(field: &UniformField) -> Option<TokenStream> {
     })
 }
 
-/// The type of a field as it lies in the buffer: a number, an array of components, or an array of those; an element of three has the
-/// room of four.
+/// Returns the type of a field as stored in the buffer: a number, an array of components, or an array of those. An element
+/// with three components occupies the space of four.
 fn stored_type(ty: ValueType) -> TokenStream {
     match ty {
         ValueType::Array {
@@ -448,7 +449,7 @@ fn stored_type(ty: ValueType) -> TokenStream {
     }
 }
 
-/// The type of a value as a caller gives it: a number, an array of components, or an array of those.
+/// Returns the type of a value in the caller's API: a number, an array of components, or an array of those.
 fn value_type(ty: ValueType) -> TokenStream {
     let part = single_type(ty.part());
     match ty.is_single() {

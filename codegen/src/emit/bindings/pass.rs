@@ -1,4 +1,4 @@
-//! Generated methods that bind a shader and run it: a pass over a picture, or triangles that are drawn.
+//! Generated methods that bind a shader and run it: as a pass over a picture, or to draw triangles.
 
 use super::inputs::Input;
 use super::{doc_line, rust_identifier};
@@ -6,22 +6,22 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use straightline_manifest::{Binding, Manifest};
 
-/// Parameters for a pass's inputs and uniforms, and the code that passes them on.
+/// Parameters for a pass's inputs and uniforms, and the code that forwards them.
 pub struct Given {
-    /// The parameter of inputs.
+    /// The parameter for the inputs.
     used: TokenStream,
-    /// The parameter of values that are set at run time, if there are some.
+    /// The parameter for runtime values, if there are any.
     parameters: TokenStream,
-    /// The statement that gives inputs their names.
+    /// The statement that pairs inputs with their names.
     pairs: TokenStream,
-    /// Arguments beside inputs and target.
+    /// Arguments other than inputs and target.
     options: TokenStream,
-    /// Methods that set such values later.
+    /// Methods that set runtime values later.
     setters: TokenStream,
 }
 
 impl Given {
-    /// `parameters` is the structure of values that are set at run time, empty if there are none.
+    /// Builds the parameters; `parameters` is the structure of runtime values, empty if there are none.
     pub fn from_inputs(inputs: &[Input], parameters: &TokenStream, setters: TokenStream) -> Given {
         let count = Literal::usize_unsuffixed(inputs.len());
         let pairs = inputs.iter().map(|input| {
@@ -51,7 +51,7 @@ impl Given {
     }
 }
 
-/// A kernel of pixels, as its bindings run it.
+/// Returns the bindings of a kernel that runs as a pass.
 pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStream {
     let Given {
         used,
@@ -81,7 +81,7 @@ pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> Toke
         }
     });
     quote! {
-        /// The shader on a device: make it once, and bind it to what it reads and writes.
+        /// The shader on a device: create it once, and bind it to its inputs and outputs.
         #[derive(Debug)]
         pub struct Pass(straightline_runtime::Pass);
 
@@ -95,7 +95,7 @@ pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> Toke
                 Self::with_options(device, &straightline_runtime::PassOptions::default())
             }
 
-            /// Compiles the shader with options: for a target of another format, say.
+            /// Compiles the shader with options, for example for a target of another format.
             ///
             /// # Errors
             ///
@@ -121,14 +121,14 @@ pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> Toke
 
             #region
 
-            /// The pass itself, to ask what it binds.
+            /// The underlying pass, for queries about its bindings.
             #[must_use]
             pub fn inner(&self) -> &straightline_runtime::Pass {
                 &self.0
             }
         }
 
-        /// The shader with what it reads and writes: encode it every frame.
+        /// The shader with its inputs and outputs: encode it every frame.
         #[derive(Debug)]
         pub struct Bound(straightline_runtime::Bound);
 
@@ -140,7 +140,7 @@ pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> Toke
 
             #setters
 
-            /// What is bound itself, for timing it.
+            /// The underlying binding, for timing.
             #[must_use]
             pub fn inner(&self) -> &straightline_runtime::Bound {
                 &self.0
@@ -149,7 +149,7 @@ pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> Toke
     }
 }
 
-/// A kernel that has values interpolated, as its bindings draw it: behind a vertex shader of the caller's.
+/// Returns the bindings of a kernel with interpolated values, drawn after a vertex shader of the caller's.
 pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
     let Given {
         used,
@@ -163,15 +163,15 @@ pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
         .map(|v| format!("@location({}) {}: {},\n", v.location, v.name, v.ty))
         .collect();
     quote! {
-        /// What the vertex shader must give, as members of a structure in WGSL.
+        /// Outputs that the vertex shader must have, as members of a structure in WGSL.
         pub const VARYINGS: &str = #members;
 
-        /// The shader on a device, behind a vertex shader: make it once, and bind it to what it reads.
+        /// The shader on a device, after a vertex shader: create it once, and bind it to its inputs.
         #[derive(Debug)]
         pub struct Draw(straightline_runtime::Draw);
 
         impl Draw {
-            /// Compiles the shader, and the vertex shader of `options`, which gives [`VARYINGS`].
+            /// Compiles the shader, and the vertex shader of `options`, which outputs [`VARYINGS`].
             ///
             /// # Errors
             ///
@@ -180,7 +180,7 @@ pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
                 straightline_runtime::Draw::from_shader(device, &SHADER, options).map(Self)
             }
 
-            /// Binds the shader to what it reads.
+            /// Binds the shader to its inputs.
             ///
             /// # Errors
             ///
@@ -190,14 +190,14 @@ pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
                 self.0.bind_with(&inputs, &#options).map(BoundDraw)
             }
 
-            /// What is drawn itself, to ask what it binds.
+            /// The underlying draw, for queries about its bindings.
             #[must_use]
             pub fn inner(&self) -> &straightline_runtime::Draw {
                 &self.0
             }
         }
 
-        /// The shader with what it reads: set it in a render pass, and draw triangles.
+        /// The shader with its inputs: set it in a render pass, and draw triangles.
         #[derive(Debug)]
         pub struct BoundDraw(straightline_runtime::BoundDraw);
 
@@ -209,7 +209,7 @@ pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
 
             #setters
 
-            /// What is bound itself.
+            /// The underlying binding.
             #[must_use]
             pub fn inner(&self) -> &straightline_runtime::BoundDraw {
                 &self.0
@@ -218,13 +218,13 @@ pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
     }
 }
 
-/// Parameters for a pass's outputs, and the code that passes them on.
+/// Parameters for a pass's outputs, and the code that forwards them.
 pub struct Targets {
-    /// The parameter, with the comma behind it; nothing for a kernel that writes to buffers alone.
+    /// The parameter with its trailing comma; empty for a kernel that writes only to buffers.
     ty: TokenStream,
     /// Argument that passes the targets on.
     given: TokenStream,
-    /// The structure of several.
+    /// The structure of several targets.
     pub structure: TokenStream,
 }
 
@@ -257,7 +257,7 @@ impl Targets {
             ty: quote! { targets: &Targets<'_>, },
             given: quote! { &[#((#names, targets.#fields)),*] },
             structure: quote! {
-                /// What the shader writes: textures of one size.
+                /// Targets of the shader: textures of one size.
                 #[derive(Clone, Copy, Debug)]
                 pub struct Targets<'a> {
                     #(#[doc = #docs] pub #fields: &'a wgpu::TextureView,)*

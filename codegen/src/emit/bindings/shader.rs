@@ -1,4 +1,4 @@
-//! The constant `SHADER`: a text with its plan, each checked against the other.
+//! The constant `SHADER`: a text and its binding plan, each checked against the other.
 
 use super::Module;
 use crate::emit::refusal::Refusal;
@@ -10,14 +10,14 @@ use straightline_manifest::plan::{
 };
 use straightline_manifest::{Scalar, ValueType, text_hash};
 
-/// Bytes of a text from which rustc's lint of long evaluations may fire at its hash.
+/// Size in bytes at which rustc's lint of long constant evaluations may fire while hashing a text.
 const LONG: usize = 100_000;
 
-/// The constant `SHADER` of a module.
+/// Returns the constant `SHADER` of a module.
 ///
 /// # Errors
 ///
-/// A text that is not the shader that the manifest describes: a mistake of the emitter's.
+/// If the text is not the shader that the manifest describes: a bug of the emitter.
 pub fn quote_shader(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     let Module { manifest, wgsl, .. } = module;
     let refused = |problem: String| Refusal::invalid_text(&manifest.kernel, "wgsl", &problem);
@@ -34,7 +34,7 @@ pub fn quote_shader(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     let words = imported_items(&value);
     let allow = (wgsl.len() > LONG).then(|| quote! { #[allow(long_running_const_eval)] });
     Ok(quote! {
-        /// The shader with what it binds, known since it was generated: nothing is parsed when a pass is made of it.
+        /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
         #allow
         pub static SHADER: straightline_runtime::Shader<'static> = {
             use straightline_runtime::Shader;
@@ -69,7 +69,7 @@ const WORDS: [&str; 20] = [
     "VaryingPlan",
 ];
 
-/// The items that `tokens` name, by name.
+/// Returns the items that `tokens` name, by name.
 fn imported_items(tokens: &TokenStream) -> Vec<proc_macro2::Ident> {
     fn collect_idents(tokens: &TokenStream, found: &mut BTreeSet<String>) {
         for token in tokens.clone() {
@@ -91,7 +91,7 @@ fn imported_items(tokens: &TokenStream) -> Vec<proc_macro2::Ident> {
         .collect()
 }
 
-/// A hash in groups of four digits.
+/// Formats a hash in groups of four digits.
 fn hex_literal(hash: u64) -> Literal {
     let group = |shift: u32| (hash >> shift) & 0xffff;
     let text = format!(
@@ -227,7 +227,7 @@ fn quote_field(field: &FieldPlan) -> TokenStream {
     quote! { FieldPlan { name: Borrowed(#name), ty: #ty, offset: #offset, default: #default, part: #part } }
 }
 
-/// A number of these bits, as it can be followed by a method.
+/// Returns a number with these bits, in a form that a method call can follow.
 fn quote_number(scalar: Scalar, word: [u8; 4]) -> TokenStream {
     let text = match scalar {
         Scalar::F32 => format!("{:?}_f32", f32::from_le_bytes(word)),
@@ -282,7 +282,7 @@ fn value_type(ty: ValueType) -> TokenStream {
     }
 }
 
-/// The name of a variant without fields, as it prints itself.
+/// Returns the name of a variant without fields, as `Debug` prints it.
 fn variant_name(value: &impl std::fmt::Debug) -> proc_macro2::Ident {
     format_ident!("{value:?}")
 }

@@ -1,12 +1,12 @@
-//! Exact operations: `precise` where a language has it, else a function that no compiler sees through.
+//! Exact operations: `precise` if the language has it, else a function that is opaque to compilers.
 
 use crate::emit::ast::{Expr, Function, Module, Op, Stmt, StmtKind, Ty};
 use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 
-/// Name of the function that keeps a value as it is written; of vectors, with the type behind it.
+/// Name of the function that keeps a value as written; for vectors, the type is appended.
 pub const AS_WRITTEN: &str = "as_written";
 
-/// Rewrites exact values as variables that are precise.
+/// Declares the variables of exact values as `precise`.
 pub fn mark_precise(module: &mut Module<'_>) {
     let mut body = std::mem::take(&mut module.body);
     body.iter_mut().for_each(|stmt| mark_statement(module, stmt));
@@ -37,7 +37,7 @@ fn is_exact(expr: &Expr) -> bool {
     matches!(expr.op, Op::Exact { .. })
 }
 
-/// Rewrites exact values that arithmetic goes on from, or `all` of them, as calls of a function.
+/// Wraps exact values in calls of a function: those that further arithmetic uses, or all of them with `all`.
 pub fn insert_barriers(module: &mut Module<'_>, all: bool) {
     module.rewrite(&mut |module, mut expr| match expr.op {
         Op::Exact { goes_on } if all || goes_on => {
@@ -49,8 +49,8 @@ pub fn insert_barriers(module: &mut Module<'_>, all: bool) {
     });
 }
 
-/// A function that changes the bits of one NaN to those of another. To see that this changes no number, a compiler would have to
-/// know that none has these bits, so it computes the argument as it is written, and nothing across the function.
+/// Returns a function that replaces the bits of one NaN by those of another. A compiler cannot know that no number has
+/// these bits. So it must compute the argument as written, and cannot optimise across the call.
 fn barrier_function(module: &mut Module<'_>, ty: Ty) -> Op {
     const LARGEST: u32 = 0xffff_fffe;
     let name = match ty.is_scalar() && !ty.half {

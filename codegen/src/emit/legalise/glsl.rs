@@ -1,4 +1,4 @@
-//! GLSL: what it has no operator for, what it leaves open, and what glslang would make branches of.
+//! GLSL: missing operators, unspecified behaviour, and expressions that glslang would compile to branches.
 
 use super::{
     Rule, below_32, by_component, clamp_index, component_select, componentwise_function, eager_bool_op,
@@ -8,12 +8,12 @@ use crate::emit::ast::{Expr, Module, Op, Ty};
 use crate::emit::print::glsl_type;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
-/// The rule of GLSL for Vulkan.
+/// Rewrite rule of GLSL for Vulkan.
 pub fn vulkan_rule(module: &mut Module<'_>, expr: Expr) -> Expr {
     glsl_rule(module, expr, true)
 }
 
-/// The rule of GLSL for OpenGL, where `mix` chooses between floats alone.
+/// Rewrite rule of GLSL for OpenGL, where `mix` only selects between floats.
 pub fn opengl_rule(module: &mut Module<'_>, expr: Expr) -> Expr {
     glsl_rule(module, expr, false)
 }
@@ -43,15 +43,15 @@ fn glsl_rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
             expr
         }
         Op::Index { inside: false } => clamp_index(expr),
-        // A depth texture gives four components here, not one.
+        // In GLSL, reading a depth texture returns four components, not one.
         Op::Ir(ir::Op::Load { .. }) if ty.is_scalar() => {
             expr.ty = Type::value(Scalar::F32, 4).into();
             Expr::new(Op::Swizzle(vec![0]), vec![expr], ty)
         }
         Op::Ir(ir::Op::Unary(op)) => rewrite_unary(*op, expr),
         Op::Ir(ir::Op::Binary(op)) => rewrite_binary(*op, expr),
-        // glslang makes branches of a choice between more than names and literals, and none of `mix`. Where `mix` is of floats
-        // alone, a choice by one boolean stays one, of vectors too.
+        // glslang compiles a `?:` to a branch unless its operands are names or literals, but not `mix`. If `mix` only takes
+        // floats, a selection by one boolean stays `?:`, for vectors too.
         Op::Ir(ir::Op::Select)
             if mixes
                 && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2]))
@@ -123,14 +123,14 @@ fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
         }
     }
     match op {
-        // GLSL's own `%` takes integers only, and its `mod` floors.
+        // GLSL's own `%` only takes integers, and its `mod` rounds down.
         Rem if ty.is_float() => {
             let [x, y] = take_args(expr.args);
             let quotient = x.clone().binary(BinaryOp::Div, y.clone());
             let whole = Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Trunc)), vec![quotient], ty);
             x.binary(BinaryOp::Sub, y.binary(BinaryOp::Mul, whole))
         }
-        // GLSL has no `&` of booleans, and glslang makes branches of `&&` and `||` where the right side is not a name or a
+        // GLSL has no `&` of booleans. glslang compiles `&&` and `||` to branches unless the right side is a name or a
         // comparison of two.
         And | Or if bools && (vector || !is_simple(&expr.args[1])) => eager_bool_op(op, expr),
         Shl | Shr => {

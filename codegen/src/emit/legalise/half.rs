@@ -1,4 +1,5 @@
-//! Half precision: every float of the kernel is an `f16`; what other hardware reads and writes stays in full precision.
+//! Half precision: every float of the kernel is an `f16`; inputs and outputs shared with other hardware stay in full
+//! precision.
 
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
 use straightline_evaluator::ir;
@@ -6,7 +7,7 @@ use straightline_evaluator::ir;
 /// The largest finite number of half precision.
 const LARGEST: f32 = 65504.0;
 
-/// Rewrites a kernel; the colours that it gives are in full precision.
+/// Rewrites a kernel to half precision; the output colours stay in full precision.
 pub fn legalise_half(module: &mut Module<'_>) {
     for variable in &mut module.variables {
         variable.ty = to_half_type(variable.ty);
@@ -22,7 +23,7 @@ pub fn legalise_half(module: &mut Module<'_>) {
     }
 }
 
-/// Converts values that are stored in buffers to full precision, too.
+/// Converts values that are stored in buffers back to full precision.
 fn widen_stored(stmt: &mut Stmt<'_>) {
     if let StmtKind::Effect(effect) = &mut stmt.kind {
         for arg in &mut effect.args {
@@ -39,7 +40,7 @@ fn to_half_type(ty: Ty) -> Ty {
     }
 }
 
-/// A value in full precision.
+/// Converts a value to full precision.
 fn to_full_precision(expr: Expr) -> Expr {
     match expr.ty.half {
         true => {
@@ -50,7 +51,7 @@ fn to_full_precision(expr: Expr) -> Expr {
     }
 }
 
-/// A value as the shader computes with it.
+/// Converts a value to the precision of the shader's arithmetic.
 fn to_half_precision(expr: Expr) -> Expr {
     match expr.ty.is_float() {
         true => {
@@ -85,8 +86,8 @@ fn half_rule(mut expr: Expr) -> Expr {
             expr.args = expr.args.into_iter().map(to_full_precision).collect();
             to_half_precision(expr)
         }
-        // Between half precision and integers by way of `f32`, which holds every `f16`, and every integer that an `f16` holds:
-        // whatever a driver does of its own is what it does in full precision.
+        // Conversions between half precision and integers go through `f32`, which holds every `f16` and every integer that
+        // an `f16` holds. Driver-specific behaviour is then the same as in full precision.
         Op::Convert { fits } => {
             let fits = *fits;
             expr.args = expr.args.into_iter().map(to_full_precision).collect();
@@ -98,7 +99,7 @@ fn half_rule(mut expr: Expr) -> Expr {
             }
             to_half_precision(expr)
         }
-        // Converts the components that are used, not the whole texel.
+        // Converts only the components in use, not the whole texel.
         Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) && expr.args[0].ty.half => {
             let converted = expr.args.pop().expect("a vector");
             expr.args = converted.args;

@@ -1,4 +1,4 @@
-//! HLSL: what it has no operator for, what it leaves open, and arrays, which it sets element by element.
+//! HLSL: missing operators, unspecified behaviour, and arrays, which are assigned element by element.
 
 use super::{
     Rule, below_32, by_component, clamp_index, componentwise_function, eager_bool_op, guarded_division,
@@ -23,8 +23,8 @@ pub fn apply_hlsl_rules(module: &mut Module<'_>) {
     }
 }
 
-/// The statements with what a selection computes on either side before it: since HLSL 2021 `?:` evaluates one side alone, and a
-/// compiler makes a branch of that.
+/// Returns the statements with the operands of selections computed before them. Since HLSL 2021 `?:` only evaluates one
+/// side, so a compiler would emit a branch.
 fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
     let mut out = Vec::with_capacity(block.len());
     for mut stmt in block {
@@ -52,7 +52,7 @@ fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
     out
 }
 
-/// Returns whether an expression computes nothing.
+/// Returns whether an expression needs no computation.
 fn is_plain(expr: &Expr) -> bool {
     match &expr.op {
         Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,
@@ -101,7 +101,7 @@ fn hlsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
 fn rewrite_unary(op: UnaryOp, expr: Expr) -> Expr {
     let ty = expr.ty;
     match op {
-        // An integer here.
+        // HLSL's `sign` returns an integer.
         UnaryOp::Sign if ty.is_float() => Expr::call("sign", expr.args, ty.with_kind(Scalar::I32)).convert_to(ty),
         UnaryOp::CountOneBits => Expr::call("countbits", expr.args, ty.with_kind(Scalar::U32)).convert_to(ty),
         UnaryOp::ReverseBits if ty.scalar_kind() == Some(Scalar::I32) => {
@@ -134,7 +134,8 @@ fn rewrite_binary(op: BinaryOp, mut expr: Expr) -> Expr {
     }
 }
 
-/// A value that is shifted. A literal of `int` has no suffix, and DXC leaves open how many bits of it are shifted.
+/// Adds a suffix to a literal that is shifted. Literals of `int` have none, and DXC leaves their width in shifts
+/// unspecified.
 fn typed_literal(value: Expr) -> Expr {
     let ty = value.ty;
     match ty.scalar_kind() == Some(Scalar::I32) && ty.is_scalar() && value.as_constant().is_some() {
@@ -143,8 +144,8 @@ fn typed_literal(value: Expr) -> Expr {
     }
 }
 
-/// The statements with arrays of single elements assigned one by one: only where it is declared can an array have a list. What
-/// is made of the array's own elements is an array of its own first.
+/// Returns the statements with arrays assigned element by element, because HLSL only allows a list in a declaration. A
+/// value computed from the array's own elements is first stored in a separate array.
 fn by_element<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
     let mut out = Vec::with_capacity(block.len());
     for mut stmt in block {

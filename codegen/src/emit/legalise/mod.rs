@@ -1,6 +1,6 @@
-//! Rewriting what a language says in another way, or leaves open where Rust does not.
+//! Rewrites constructs that a language spells differently, or leaves undefined where Rust does not.
 //!
-//! Each language has its rule, which sees every expression after its arguments and gives what stands for it.
+//! Each language has a rule, which is applied to every expression after its arguments and returns the replacement.
 //!
 //! File tests: `codegen/tests/filetests/legalise`.
 
@@ -22,8 +22,8 @@ use guards::Overloads;
 pub use exact::AS_WRITTEN;
 pub use half::legalise_half;
 
-/// Rewrites a module for WGSL. With `marks` every exact value is marked, not only those that a compiler could merge: to be found
-/// again in what is translated from the WGSL.
+/// Rewrites a module for WGSL. With `marks`, every exact value is marked, not only those that a compiler could contract, so
+/// that they can be found in translations of the WGSL.
 pub fn legalise_wgsl(module: &mut Module<'_>, marks: bool) {
     exact::insert_barriers(module, marks);
     module.rewrite(&mut |module, expr| guards::expand_guarded(module, expr, Overloads::None));
@@ -31,7 +31,7 @@ pub fn legalise_wgsl(module: &mut Module<'_>, marks: bool) {
     wgsl::apply_wgsl_rules(module);
 }
 
-/// Rewrites a module for GLSL, for Vulkan or for OpenGL; for a version that has `precise` or not.
+/// Rewrites a module for GLSL, for Vulkan or OpenGL, and for a version with or without `precise`.
 pub fn legalise_glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool, precise: bool) {
     zeroed::zero_workgroup_memory(module, resources);
     match precise {
@@ -59,10 +59,10 @@ pub fn legalise_hlsl(module: &mut Module<'_>, resources: &Resources) {
     hlsl::apply_hlsl_rules(module);
 }
 
-/// A rule of a language.
+/// Rewrite rule of a language.
 type Rule = fn(&mut Module<'_>, Expr) -> Expr;
 
-/// Rewrites the functions that the module has so far.
+/// Rewrites the functions that are already in the module.
 fn rewrite_functions(module: &mut Module<'_>, rule: Rule) {
     for k in 0..module.functions.len() {
         let mut body = std::mem::take(&mut module.functions[k].body);
@@ -73,7 +73,7 @@ fn rewrite_functions(module: &mut Module<'_>, rule: Rule) {
     }
 }
 
-/// A selection by component: value if it holds, value if not.
+/// Returns a component-wise selection: `yes` if the condition is `true`, else `no`.
 fn component_select(condition: Expr, yes: Expr, no: Expr) -> Expr {
     let ty = yes.ty;
     Expr::new(Op::Choose, vec![condition, yes, no], ty)
@@ -95,7 +95,7 @@ fn is_non_finite(expr: &Expr) -> bool {
     expr.ty.is_float() && expr.as_constant().is_some_and(|bits| bits[..lanes].iter().any(float))
 }
 
-/// A constant vector that is not finite, component by component.
+/// Builds a non-finite constant vector component by component.
 fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
     let bits = *expr.as_constant().expect("only constants are not finite");
     let lanes = &bits[..expr.ty.component_count() as usize];
@@ -120,8 +120,8 @@ fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
     }
 }
 
-/// A function that converts floats to integers as Rust does: to the nearest integer there is, and a NaN to 0. Where the language
-/// leaves open what becomes of numbers out of range, they are `clamped` first.
+/// Returns a function that converts floats to integers as Rust does: to the nearest representable integer, and a NaN to 0.
+/// With `clamped`, numbers out of range are clamped first, for languages that leave them undefined.
 fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: Rule) -> Op {
     let from = to.with_kind(Scalar::F32);
     module.add_function(name, to, |module| {
@@ -162,9 +162,9 @@ fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: 
     })
 }
 
-/// Division by zero gives the dividend and its remainder 0, as in WGSL, and the smallest integer divided by -1 itself; other
-/// languages leave both open. They leave the remainder of negative numbers open too, or give it the sign of the divisor.
-/// `None` where the operator does all that by itself.
+/// Returns a division with WGSL's edge cases: division by zero returns the dividend with remainder 0, and the smallest
+/// integer divided by -1 returns itself. Other languages leave both undefined, and also the remainder of negative numbers,
+/// or give it the sign of the divisor. `None` if the operator needs no guard.
 fn guarded_division(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: Ty, rule: Rule) -> Option<Op> {
     let signed = ty.scalar_kind() == Some(Scalar::I32);
     let quotient = op == BinaryOp::Div;
@@ -221,7 +221,7 @@ fn guarded_division(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: 
     Some(function)
 }
 
-/// A count of bits below 32.
+/// Masks a shift count to less than 32.
 fn below_32(count: Expr) -> Expr {
     let ty = count.ty;
     match count.as_constant() {
@@ -234,7 +234,7 @@ fn take_args<const N: usize>(args: Vec<Expr>) -> [Expr; N] {
     args.try_into().expect("as many arguments as the operation has")
 }
 
-/// An element of an array at an index that is clamped to the last.
+/// Clamps the index of an array element to the last element.
 fn clamp_index(mut expr: Expr) -> Expr {
     let Type::Array { len, .. } = expr.args[0].ty.shape else {
         return expr;
@@ -245,7 +245,7 @@ fn clamp_index(mut expr: Expr) -> Expr {
     expr
 }
 
-/// A leaf, or a comparison of two.
+/// Returns whether an expression is a leaf, or a comparison of two leaves.
 fn is_simple(expr: &Expr) -> bool {
     match expr.op {
         Op::Ir(ir::Op::Binary(op)) => op.is_comparison() && expr.args.iter().all(is_leaf),
@@ -253,7 +253,7 @@ fn is_simple(expr: &Expr) -> bool {
     }
 }
 
-/// `&` or `|` of booleans, in a language that has none but those that may branch.
+/// Returns `&` or `|` of booleans without short-circuit evaluation, for languages whose operators may branch.
 fn eager_bool_op(op: BinaryOp, expr: Expr) -> Expr {
     let ty = expr.ty;
     if ty.is_scalar() {
@@ -266,8 +266,8 @@ fn eager_bool_op(op: BinaryOp, expr: Expr) -> Expr {
     x.binary(op, y).convert_to(ty)
 }
 
-/// Zeros before the first bit that is set, or behind the last, by a function that numbers bits from the lowest and gives -1 for
-/// none.
+/// Counts the zeros before the highest set bit, or after the lowest, by a function that returns bit positions from the
+/// lowest, and -1 for none.
 fn zero_count(expr: Expr, find: &'static str, leading: bool) -> Expr {
     let ty = expr.ty;
     let [x] = take_args(expr.args);
@@ -285,14 +285,14 @@ fn zero_count(expr: Expr, find: &'static str, leading: bool) -> Expr {
     component_select(none, number(32), zeros).convert_to(ty)
 }
 
-/// A function of scalars, as one of vectors that calls it for each component. Both have one name.
+/// Returns a function of vectors that calls a scalar function of the same name for each component.
 fn componentwise_function(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
     let Op::Function(name) = &function else { return function };
     let same = |f: &&Function<'_>| f.name == *name;
     if module.functions.iter().filter(same).any(|f| f.result == ty) {
         return function;
     }
-    // Of signed and unsigned numbers there are functions of one name.
+    // Functions of signed and unsigned numbers share a name.
     let of_scalars = |f: &&Function<'_>| f.result.shape == ty.element_of();
     let Some(scalar) = module.functions.iter().filter(same).find(of_scalars).cloned() else {
         return function;

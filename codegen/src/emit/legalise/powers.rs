@@ -1,11 +1,12 @@
-//! Divisions by powers of two of what is not negative: shifts and masks. naga guards every division of integers, and a compiler that does
-//! not know the sign of what is divided corrects for it.
+//! Divisions of non-negative numbers by powers of two, as shifts and masks. naga guards every integer division, and a
+//! compiler that does not know the dividend's sign adds a correction.
 
 use super::take_args;
 use crate::emit::ast::{Expr, Op};
 use straightline_evaluator::ir::BinaryOp;
 
-/// A quotient or remainder of numbers that are not negative by a constant whose components are powers of two, without a division.
+/// Returns a quotient or remainder without a division, if no component can be negative and the divisor's components are
+/// constant powers of two.
 pub fn divide_by_shift(expr: Expr) -> Expr {
     let Op::Division(op, known) = expr.op else { return expr };
     let ty = expr.ty;
@@ -20,7 +21,7 @@ pub fn divide_by_shift(expr: Expr) -> Expr {
         BinaryOp::Div => (BinaryOp::Shr, u32::trailing_zeros),
         _ => (BinaryOp::And, |n| n - 1),
     };
-    // Components beyond the type's are 0, and stay so.
+    // Components beyond the type's are 0, and stay 0.
     let by = divisor.map(|n| if n == 0 { 0 } else { bits(n) });
     x.binary(op, Expr::constant(ty, by))
 }

@@ -1,11 +1,11 @@
-//! WGSL: counts of shifts, conversions that saturate, constants that are not finite, tables that are read often.
+//! WGSL: shift counts, saturating conversions, non-finite constants, and tables with many reads.
 
 use super::{below_32, by_component, guards::rewrite_unequal, is_non_finite, to_integer};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty, VarId, Variable};
 use std::collections::BTreeMap;
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
-/// Floats without a literal, by their bits: variables that hold them.
+/// Variables of non-finite floats, by their bits: WGSL has no such literals.
 type Specials = BTreeMap<u32, [VarId; 2]>;
 
 /// Rewrites a module for WGSL.
@@ -25,7 +25,7 @@ pub fn apply_wgsl_rules(module: &mut Module<'_>) {
     copy_tables(module);
 }
 
-/// Lets tables that are read several times be read from a variable: naga copies a constant array to one for each read.
+/// Copies tables with several reads to variables: naga copies a constant array for every read.
 fn copy_tables(module: &mut Module<'_>) {
     let mut reads: BTreeMap<VarId, u32> = module.tables.iter().map(|(var, _)| (*var, 0)).collect();
     module.body.iter().for_each(|stmt| count_reads(stmt, 1, &mut reads));
@@ -54,7 +54,7 @@ fn copy_tables(module: &mut Module<'_>) {
     module.body.splice(0..0, declarations);
 }
 
-/// Counts reads of tables at indices that are no constants; in a loop each is several.
+/// Counts reads of tables at non-constant indices; a read in a loop counts several times.
 fn count_reads(stmt: &Stmt<'_>, times: u32, reads: &mut BTreeMap<VarId, u32>) {
     for expr in stmt.own_exprs() {
         expr.visit(&mut |expr| {
@@ -82,7 +82,7 @@ fn rename_copy(expr: Expr, copies: &BTreeMap<VarId, VarId>) -> Expr {
     }
 }
 
-/// The rule of WGSL, which has no literals of infinities and NaN.
+/// Rewrite rule of WGSL for infinities and NaN, which have no literals.
 fn finite_rule(module: &mut Module<'_>, specials: &mut Specials, expr: Expr) -> Expr {
     if is_non_finite(&expr) {
         let half = expr.ty.half;
@@ -91,7 +91,7 @@ fn finite_rule(module: &mut Module<'_>, specials: &mut Specials, expr: Expr) -> 
     wgsl_rule(module, expr)
 }
 
-/// A block after the variables that hold infinities and NaN.
+/// Prepends the variables that hold infinities and NaN to a block.
 fn declare_specials<'g>(module: &mut Module<'g>, specials: Specials, mut block: Block<'g>) -> Block<'g> {
     let mut body: Block<'_> = Vec::new();
     for (bits, [value, variable]) in specials {
@@ -110,7 +110,7 @@ fn declare_specials<'g>(module: &mut Module<'g>, specials: Specials, mut block: 
 
 fn wgsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     match expr.op {
-        // WGSL shifts by unsigned counts, and makes a constant count of 32 or more an error.
+        // WGSL shifts by unsigned counts, and rejects a constant count of 32 or more.
         Op::Ir(ir::Op::Binary(BinaryOp::Shl | BinaryOp::Shr)) => {
             let count = expr.args.pop().expect("two arguments");
             let unsigned = count.ty.with_kind(Scalar::U32);
@@ -123,8 +123,8 @@ fn wgsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
             expr
         }
         Op::Ir(ir::Op::Binary(BinaryOp::Ne)) => rewrite_unequal(expr),
-        // WGSL's own conversion goes to the nearest integer that an `f32` has too, which is not the largest one, and leaves NaN
-        // open.
+        // WGSL's own conversion saturates at the nearest integer that is also an `f32`, which is not the largest integer,
+        // and leaves NaN undefined.
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && expr.ty.is_integer() => {
             let name = format!("to_{}", expr.ty.short_name());
             expr.op = to_integer(module, &name, expr.ty, false, wgsl_rule);
@@ -134,7 +134,7 @@ fn wgsl_rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     }
 }
 
-/// An infinity or a NaN. WGSL has no expression for one that is a compile-time constant, and takes the bits of a variable.
+/// Returns an infinity or a NaN. WGSL rejects such constant expressions, but accepts the bits of a variable.
 fn non_finite(module: &mut Module<'_>, specials: &mut Specials, bits: u32, half: bool) -> Expr {
     let ty = Ty { shape: Type::F32, half };
     if bits == f32::NEG_INFINITY.to_bits() {

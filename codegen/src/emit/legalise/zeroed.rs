@@ -1,10 +1,11 @@
-//! Initialises workgroup memory: it is 0 at first in WGSL and undefined in GLSL and HLSL, whose shaders write the zeros.
+//! Zero-initialisation of workgroup memory. WGSL initialises it to 0; in GLSL and HLSL it is undefined, so their shaders
+//! write the zeros.
 
 use crate::emit::ast::{Block, Builtin, Effect, Expr, Module, Op, Stmt, StmtKind};
 use crate::emit::resources::Resources;
 use straightline_evaluator::ir::{BinaryOp, Memory, SharedArray, Type};
 
-/// Writes zeros before the first statement that is the kernel's.
+/// Emits writes of zeros before the kernel's first statement.
 pub fn zero_workgroup_memory(module: &mut Module<'_>, resources: &Resources) {
     let Some([width, height]) = resources.group else { return };
     if !resources.is_zeroed() {
@@ -19,7 +20,7 @@ pub fn zero_workgroup_memory(module: &mut Module<'_>, resources: &Resources) {
         if shared.filled {
             continue;
         }
-        // Threads take turns: each has every element that is as many behind its last one as there are threads.
+        // Threads take turns: each writes every n-th element, for n threads.
         let turns = shared.len.div_ceil(threads);
         let at = Expr::var(index, Type::I32);
         match turns {
@@ -54,7 +55,7 @@ pub fn zero_workgroup_memory(module: &mut Module<'_>, resources: &Resources) {
     module.body.splice(0..0, stmts);
 }
 
-/// Writes an element where there is one: of `reached` places.
+/// Writes an element if it exists, among the `reached` indices.
 fn guarded_zero_write<'g>(k: u32, shared: &SharedArray, at: Expr, reached: u32) -> Stmt<'g> {
     let zero = Expr::splat(shared.element, 0);
     let write: Stmt<'g> = StmtKind::Effect(Effect {

@@ -1,4 +1,4 @@
-//! Arrays: elements read and written, and the variables that hold their versions.
+//! Arrays: reads and writes of elements, and the variables that hold array versions.
 
 use super::{Lowering, facts};
 use crate::emit::ast::{Expr, Op, StmtKind, VarId};
@@ -16,7 +16,7 @@ impl Lowering<'_> {
         self.emit_let(id, read);
     }
 
-    /// Writes an array of constants, which is a table of the module.
+    /// Emits an array of constants as a table of the module.
     fn emit_table(&mut self, array: NodeId) {
         if self.exprs[array.0 as usize].is_none() {
             let literal = self.node_expr(array);
@@ -26,8 +26,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Gives the elements of an array a variable, which is what can be indexed. One of constants is a table, and one that is copied alone
-    /// is written there.
+    /// Stores the elements of an array in a variable, because only variables can be indexed. Constants become a table; a
+    /// version that is only copied is written directly at the copy.
     pub(super) fn make_array(&mut self, id: NodeId) {
         let graph = &self.compiled.graph;
         if self.indexed[id.0 as usize] && !facts::is_table(graph, &graph.node(id).args) {
@@ -38,7 +38,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// An element of an array of the same type as `array`.
+    /// Returns an element of an array of the same type as `array`.
     fn array_element(&mut self, array: NodeId, base: Expr, index: NodeId) -> Expr {
         let graph = &self.compiled.graph;
         let ty = graph.ty(array);
@@ -58,7 +58,7 @@ impl Lowering<'_> {
         self.emit_statement(id, StmtKind::Assign(place, None, value));
     }
 
-    /// Makes the variable of a version hold `begin`.
+    /// Makes the variable of a version hold `begin`; returns the variable.
     pub(super) fn enter_web(&mut self, version: NodeId, begin: NodeId) -> VarId {
         let value = self.node_expr(begin);
         match self.coalescing.version_variable(version) {
@@ -78,7 +78,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The variable that holds a version of an array.
+    /// Returns the variable that holds a version of an array.
     pub(super) fn version_expr(&self, id: NodeId) -> Expr {
         self.module
             .read_variable(self.coalescing.version_variable(id).unwrap_or(VarId::PIXEL))

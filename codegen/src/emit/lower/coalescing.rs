@@ -1,8 +1,8 @@
 //! Arrays of structured loops: values in the graph, variables changed in place in the text.
 //!
-//! Versions of an array that follow from one another by writes, iterations and branches share one variable (a web), but for those that
-//! are needed at the same time: where two webs interfere they stay apart, and the later one begins with a copy. Literals (`MakeArray`)
-//! belong to no web and are copied where one begins.
+//! Versions of an array that follow from one another by writes, iterations and branches share one variable (a web). Webs of
+//! versions that are live at the same time interfere and stay apart, and the later web begins with a copy. Literals
+//! (`MakeArray`) belong to no web; they are copied at the beginning of a web.
 
 use super::interference::{Interference, array_version, find_interference};
 use crate::emit::ast::VarId;
@@ -10,10 +10,10 @@ use std::collections::HashMap;
 use straightline_evaluator::ir::{Graph, NodeId, Op};
 use straightline_evaluator::passes::Schedule;
 
-/// The web of each version of an array, and the variables in scope.
+/// Assigns array versions to webs, and webs to variables in scope.
 pub struct ArrayCoalescing {
     parent: Vec<u32>,
-    /// Per web in scope: its variable.
+    /// Variables in scope, by web.
     vars: Scope,
 }
 
@@ -21,7 +21,7 @@ pub struct ArrayCoalescing {
 pub type Scope = HashMap<u32, VarId>;
 
 impl ArrayCoalescing {
-    /// Finds the webs of a scheduled graph.
+    /// Computes the webs of a scheduled graph.
     pub fn new(graph: &Graph, schedule: &Schedule) -> ArrayCoalescing {
         let mut webs = Webs {
             graph,
@@ -33,7 +33,7 @@ impl ArrayCoalescing {
             let node = graph.node(id);
             match &node.op {
                 Op::ArraySet => webs.unite(id, node.args[0]),
-                // The variable that was carried.
+                // The result of a loop is the variable that the loop carried.
                 Op::Result(_) if node.ty.is_array() => {
                     let carried = array_version(graph, id).unwrap_or(id);
                     webs.parent[id.0 as usize] = webs.web_root(carried);
@@ -65,7 +65,7 @@ impl ArrayCoalescing {
         }
     }
 
-    /// The variable of a version, if its web is in scope.
+    /// Returns the variable of a version, if its web is in scope.
     pub fn version_variable(&self, id: NodeId) -> Option<VarId> {
         self.vars.get(&find_root(&self.parent, id)).copied()
     }
@@ -75,12 +75,12 @@ impl ArrayCoalescing {
         self.vars.insert(find_root(&self.parent, id), var);
     }
 
-    /// The variables in scope, to return to with [`ArrayCoalescing::restore_scope`].
+    /// Returns the variables in scope, for [`ArrayCoalescing::restore_scope`].
     pub fn current_scope(&self) -> Scope {
         self.vars.clone()
     }
 
-    /// Leaves a scope: variables made in it are gone.
+    /// Leaves a scope, dropping its variables.
     pub fn restore_scope(&mut self, outer: &Scope) {
         self.vars.clone_from(outer);
     }
@@ -97,7 +97,7 @@ fn find_root(parent: &[u32], id: NodeId) -> u32 {
 struct Webs<'g> {
     graph: &'g Graph,
     parent: Vec<u32>,
-    /// By a web's root: versions that must not be in it.
+    /// Versions that must not join a web, by the web's root.
     apart: Interference,
 }
 
@@ -106,7 +106,7 @@ impl Webs<'_> {
         find_root(&self.parent, id)
     }
 
-    /// Unites the webs of two versions, unless they are needed at the same time.
+    /// Unites the webs of two versions, unless they are live at the same time.
     fn unite(&mut self, a: NodeId, b: NodeId) {
         let (Some(a), Some(b)) = (array_version(self.graph, a), array_version(self.graph, b)) else {
             return;

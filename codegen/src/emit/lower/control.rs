@@ -1,11 +1,11 @@
-//! Loops and branches that are left in the shader.
+//! Lowering of structured loops and branches.
 
 use super::Lowering;
 use crate::emit::ast::{Expr, StmtKind, VarId};
 use straightline_evaluator::ir::{self, Bits, Graph, NodeId, Region};
 use straightline_evaluator::passes::Block;
 
-/// Bits of the end of a loop that only its stop ends.
+/// Bits of the trip count of a loop without an exclusive end.
 const ENDLESS: Bits = [Graph::ENDLESS as u32, 0, 0, 0];
 
 impl<'g> Lowering<'g> {
@@ -53,8 +53,8 @@ impl<'g> Lowering<'g> {
         self.compiled.graph.node(id).op != ir::Op::Undef
     }
 
-    /// Assigns the next iteration's values, and leaves the loop if this one was the last. What reads a variable which an
-    /// assignment before changes is computed before.
+    /// Assigns the next iteration's values, and exits the loop after the last iteration. Values that read a variable which
+    /// an earlier assignment overwrites are computed first.
     fn next_iteration(&mut self, params: &[NodeId], region: &Region) {
         let graph = &self.compiled.graph;
         let mut moves: Vec<(NodeId, VarId, Expr)> = Vec::new();
@@ -103,7 +103,7 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// After a loop, results go by the variables that were carried.
+    /// Binds the results of a loop to the variables that it carried.
     fn bind_results(&mut self, owner: NodeId, variables: &[NodeId]) {
         for (id, k) in self.results_of(owner) {
             if !self.compiled.graph.ty(id).is_array() {
@@ -112,7 +112,7 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// The nodes that give a loop's or branch's results, with their numbers.
+    /// Returns the result nodes of a loop or branch, with their numbers.
     fn results_of(&self, owner: NodeId) -> Vec<(NodeId, usize)> {
         let graph = &self.compiled.graph;
         let all = graph.node_ids().skip(owner.0 as usize);
@@ -127,8 +127,8 @@ impl<'g> Lowering<'g> {
         let graph = &self.compiled.graph;
         let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r)).collect();
         let results = self.results_of(node);
-        // A side that does nothing leaves values that are known before: the variable begins with them. Not so where the other
-        // side leaves what a loop carries, as it does where it leaves: that may be one variable then.
+        // An empty side yields values computed before the branch, so the variable is initialised with them. Except if the
+        // other side yields a value that a loop carries, as before an exit: the two may then share a variable.
         let idle = otherwise.steps.is_empty();
         let carried = |id: NodeId| matches!(graph.node(id).op, ir::Op::Param(..));
         let begins = |k: usize| idle && !carried(regions[0].results[k]);
@@ -170,19 +170,20 @@ impl<'g> Lowering<'g> {
         self.coalescing.restore_scope(&scope);
     }
 
-    /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
-    /// leaves `kept` must write it, because the variable holds something else.
+    /// Declares the variable of an array that a branch selects before the branch. Returns whether the side that yields
+    /// `kept` must write it, because the variable holds another value.
     fn prepare_array(&mut self, id: NodeId, kept: NodeId) -> bool {
         if self.coalescing.version_variable(id).is_none() {
             let var = self.new_variable(id);
             self.emit_statement(id, StmtKind::Var(var, None));
-            // Both sides write it before it is read.
+            // Both sides write the variable before it is read.
             self.coalescing.declare_version(id, var);
         }
         self.coalescing.version_variable(kept) != self.coalescing.version_variable(id)
     }
 
-    /// Lowers one side of a branch: its steps, and the assignments to the branch's variables, except to those that hold the value already.
+    /// Lowers one side of a branch: its steps, then the assignments to the branch's variables, except to those that already
+    /// hold the value.
     fn lower_side(
         &mut self,
         block: &'g Block,

@@ -1,4 +1,4 @@
-//! The entry point around a kernel's statements: which pixel it is, where it may write, what it stores.
+//! Prologue and epilogue of the entry point: the invocation's pixel, the bounds check, and the stores.
 
 use crate::emit::ast::{Block, Builtin, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
 use crate::emit::outputs::whole_texel;
@@ -11,7 +11,7 @@ const IVEC2: Type = Type::value(Scalar::I32, 2);
 /// Purpose of the first statements of a shader whose workgroups share texels.
 const TILES: &str = "Texels of the workgroup's pixels and of those around: each thread reads some of them.";
 
-/// A module with the variables that entry points declare.
+/// Creates a module with the entry point's variables.
 pub fn entry_module<'g>() -> Module<'g> {
     let pairs = ["pixel", "frame", "within", "place", "origin"].map(|name| (name, IVEC2));
     let variables = pairs.into_iter().chain([("inside", Type::BOOL), ("local", IVEC2)]);
@@ -26,7 +26,7 @@ pub fn entry_module<'g>() -> Module<'g> {
     }
 }
 
-/// Puts the statements of an entry point around those of the kernel, the last of which are its outputs.
+/// Puts the entry point's statements around those of the kernel, which end with its outputs.
 pub fn wrap_entry_point(module: &mut Module<'_>, resources: &Resources) {
     let compute = resources.options.stage == Stage::Compute;
     let mut body = match compute {
@@ -54,7 +54,7 @@ pub fn wrap_entry_point(module: &mut Module<'_>, resources: &Resources) {
         false => body.extend(outputs),
     }
     if resources.group.is_some() {
-        // A workgroup's entry point has all that a kernel may ask for; what it does not ask goes, last to first.
+        // A workgroup's entry point declares every variable that a kernel may use; unused ones are removed, last to first.
         for k in (0..begun).rev() {
             if let StmtKind::Let(var, _) = body[k].kind
                 && !body[k + 1..].iter().any(|stmt| stmt.mentions(var))
@@ -83,7 +83,7 @@ fn let_statement(var: VarId, value: Expr) -> Stmt<'static> {
     StmtKind::Let(var, value).into()
 }
 
-/// A component of a pair.
+/// Returns a component of a pair.
 fn pair_component(pair: Expr, component: u8) -> Expr {
     Expr::new(Op::Swizzle(vec![component]), vec![pair], Type::I32)
 }
@@ -92,7 +92,7 @@ fn make_pair(x: Expr, y: Expr) -> Expr {
     Expr::new(Op::Construct, vec![x, y], IVEC2)
 }
 
-/// `height - 1 - row`: the row by its number from the other end.
+/// Returns `height - 1 - row`: the row counted from the other end.
 fn flip_row(height: Expr, row: Expr) -> Expr {
     let one = Expr::splat(Type::I32, 1);
     height.binary(BinaryOp::Sub, one).binary(BinaryOp::Sub, row)
@@ -108,7 +108,7 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         true => frame_size(resources),
         false => builtin_expr(Builtin::OutputSize),
     };
-    // Pixels outside have nothing to do, but in a workgroup, which all of its invocations go through together.
+    // Invocations outside return early, except in a workgroup, all of whose invocations must reach the barriers.
     let outside = |place: VarId, size: Expr| -> Stmt<'static> {
         if resources.group.is_some() {
             let inside = Expr::new(
@@ -126,7 +126,7 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         }
         .into()
     };
-    // Of a workgroup: the pixel of its first invocation, and where this one lies in it.
+    // For a workgroup: the pixel of its first invocation, and the position of this one in it.
     let of_group = |pixel: &dyn Fn(Expr) -> Expr| -> Block<'static> {
         let Some(size) = resources.group else { return Vec::new() };
         let [width, height] = size.map(|side| side as i32);
@@ -159,11 +159,11 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         (true, from_below) => {
             let height = || pair_component(builtin_expr(Builtin::RegionSize), 1);
             let corner = |of: Builtin, k: u8| pair_component(builtin_expr(of), k);
-            // The pixel at a place within the region.
+            // The pixel at a position within the region.
             let pixel = |within: Expr| match from_below {
                 false => builtin_expr(Builtin::RegionFirst).binary(BinaryOp::Add, within),
                 true => {
-                    // `within` counts from the region's upper row, which is the last of those that the host states.
+                    // `within` counts from the region's upper row, which is the last of the host's rows.
                     let [column, row] = [0, 1].map(|k| pair_component(within.clone(), k));
                     let above = pair_component(local_variable(VarId::FRAME), 1)
                         .binary(BinaryOp::Sub, corner(Builtin::RegionFirst, 1))
@@ -186,7 +186,7 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
                 let_statement(VarId::WITHIN, invocation),
                 outside(VarId::WITHIN, builtin_expr(Builtin::RegionSize)),
             ];
-            // Nothing tells the frame's size where nothing asks for it.
+            // Without a texture or an output the frame's size is unknown, and unused.
             if resources.frame_texture().is_some() || !resources.outputs.is_empty() {
                 body.push(let_statement(VarId::FRAME, frame_size(resources)));
             }
@@ -200,7 +200,7 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
     }
 }
 
-/// The frame's size: that of a texture which has it, or else of the output.
+/// Returns the frame's size: that of a texture with that size, or else of the output.
 fn frame_size(resources: &Resources) -> Expr {
     match resources.frame_texture() {
         Some(texture) => Expr::new(Op::Ir(ir::Op::TextureSize(texture)), Vec::new(), IVEC2),
@@ -239,7 +239,7 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
     body
 }
 
-/// Flips the rows of a kernel's stores at any place, where rows count from below.
+/// Flips the rows of a kernel's stores at arbitrary places, if rows count from below.
 fn stored_from_below(block: &mut Block<'_>) {
     for stmt in block {
         if let StmtKind::Store(_, place, _) = &mut stmt.kind {
@@ -253,7 +253,7 @@ fn stored_from_below(block: &mut Block<'_>) {
     }
 }
 
-/// Stores what is given for a block's pixels; all but the first may lie outside.
+/// Stores the outputs of a block's pixels; all but the first may lie outside.
 fn store_outputs(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     let (within, bound) = match resources.options.region {
         true => (VarId::WITHIN, builtin_expr(Builtin::RegionSize)),

@@ -1,4 +1,4 @@
-//! Facts on exact operations: which are written in one statement with their mark, and which arithmetic goes on from.
+//! Facts about exact operations: those emitted as part of a marked statement, and those that further arithmetic uses.
 
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{NodeId, Op};
@@ -10,12 +10,12 @@ pub struct Exactness {
 }
 
 impl Exactness {
-    /// Of the operations of a kernel.
+    /// Collects the facts for a kernel.
     pub fn from_compiled(compiled: &Compiled) -> Exactness {
         let (graph, schedule) = (&compiled.graph, &compiled.schedule);
         let mut parts = vec![false; graph.nodes.len()];
         let mut goes_on = vec![false; graph.nodes.len()];
-        // The next iteration uses the values that a loop carries, and the statements after a branch use its results.
+        // The next iteration uses a loop's carried values, and the statements after a branch use its results.
         for region in graph.regions.iter().skip(1) {
             region.yielded_values().for_each(|id| goes_on[id.0 as usize] = true);
         }
@@ -28,7 +28,7 @@ impl Exactness {
                     continue;
                 }
                 Op::Compose | Op::Splat | Op::Extract(_) | Op::Tally(_) | Op::MakeArray => goes_on[id.0 as usize],
-                // Bits, whole numbers and what is given to the host are of one rounding.
+                // Bits, whole numbers and outputs are not rounded further.
                 Op::Convert | Op::Bitcast => false,
                 op => !(op.is_effect() || op.is_read()),
             };
@@ -39,12 +39,12 @@ impl Exactness {
         Exactness { parts, goes_on }
     }
 
-    /// Tells if an operation is written in the statement of its mark.
+    /// Returns whether an operation is emitted as part of its mark's statement.
     pub fn is_part(&self, id: NodeId) -> bool {
         self.parts[id.0 as usize]
     }
 
-    /// Tells if arithmetic goes on from a value.
+    /// Returns whether further arithmetic uses a value.
     pub fn goes_on(&self, id: NodeId) -> bool {
         self.goes_on[id.0 as usize]
     }

@@ -23,8 +23,8 @@ pub fn division_facts(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     }
 }
 
-/// Returns the facts known about the arguments of a function of floats, if they may lie where drivers deviate from it; fast mathematics
-/// assumes that none do. A power that is a product always needs them.
+/// Returns the facts known about the arguments of a function of floats, if they may lie where drivers deviate from it. Fast
+/// mathematics assumes that they never do. A power that is a product always needs the facts.
 pub fn float_domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
     let node = graph.node(id);
     if !node.ty.is_float() || node.ty.is_array() {
@@ -59,7 +59,7 @@ pub fn float_domain(graph: &Graph, id: NodeId, math: Math) -> Option<Domain> {
     guarded.then_some(domain)
 }
 
-/// As [`float_domain`], of a power.
+/// As [`float_domain`], for a power.
 fn power_domain(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math) -> Option<Domain> {
     let lanes = usize::from(graph.ty(y).component_count());
     let constant = |id: NodeId| {
@@ -75,14 +75,14 @@ fn power_domain(graph: &Graph, x: NodeId, y: NodeId, domain: Domain, math: Math)
         // A product, or a root.
         Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n.abs()) => return Some(domain),
         Some(y) if y.abs() == 0.5 && domain.not_negative => return Some(domain),
-        // A driver has 2^-127y at 0, which is as small as a rounding of 1.
+        // At 0 a driver returns 2^-127y, which is as small as a rounding of 1.
         Some(y) if y.is_finite() => domain.positive || (domain.not_negative && y >= 0.2),
         _ => domain.positive && finite(x) && (finite(y) || constant(x).is_some_and(|x| x != 1.0)),
     };
     (math == Math::Exact && !simple).then_some(domain)
 }
 
-/// As [`float_domain`], of a remainder. A power of two from 1 on makes none of the roundings.
+/// As [`float_domain`], for a remainder. With a power of two of at least 1 no operation rounds.
 fn remainder_domain(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
     let lanes = graph.ty(y).component_count();
     let is_power = |bits: u32| f32::from_bits(bits).abs() >= 1.0 && bits & 0x007f_ffff == 0 && bits << 1 < 0xff00_0000;
@@ -106,8 +106,8 @@ fn remainder_domain(graph: &Graph, x: NodeId, y: NodeId) -> Option<Domain> {
     })
 }
 
-/// Returns whether every value of a node is representable in the type `to`: for a float the truncated integer, for an integer a finite
-/// number of every precision, or the same integer.
+/// Returns whether every value of a node is representable in the type `to`: for a float the truncated integer, for an
+/// integer a finite number of every precision, or the same integer.
 pub fn is_convertible(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     match (graph.ty(id).is_float(), to.is_integer()) {
         (true, true) => has_integer(graph, id, to, half),
@@ -122,10 +122,10 @@ fn has_no_sign(graph: &Graph, id: NodeId) -> bool {
     (0..graph.ty(id).component_count()).all(fits)
 }
 
-/// Returns whether every possible value of a float truncates to an integer of the type `to`. In half precision the largest numbers may have
-/// become infinities.
+/// Returns whether every possible value of a float truncates to an integer of the type `to`. In half precision the largest
+/// numbers may have become infinities.
 fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
-    // A driver may round a little differently: stay clear of the edges.
+    // A driver may round slightly differently, so values near the limits are excluded.
     let (smallest, largest) = match (half, to.scalar_kind()) {
         (true, Some(Scalar::I32)) => (-60_000.0, 60_000.0),
         (true, _) => (-0.5, 60_000.0),
@@ -136,7 +136,7 @@ fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     (0..to.component_count()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
 }
 
-/// Returns whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
+/// Returns whether an integer is known to lie within the finite numbers of half precision. Texture sizes always do.
 fn fits_half(graph: &Graph, id: NodeId) -> bool {
     let node = graph.node(id);
     match node.op {
@@ -152,7 +152,7 @@ pub fn is_inside(graph: &Graph, index: NodeId, len: u32) -> bool {
     component_bounds(graph, index, 0).is_some_and(|(low, high)| low >= 0 && high < i64::from(len))
 }
 
-/// Returns whether all elements of an array literal are finite constants, which a literal can spell.
+/// Returns whether all elements of an array are finite constants, which a literal can spell.
 pub fn is_table(graph: &Graph, elements: &[NodeId]) -> bool {
     elements.iter().all(|id| {
         let ty = graph.ty(*id);

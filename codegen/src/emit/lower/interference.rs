@@ -1,16 +1,16 @@
-//! Interference of array versions: which are needed at the same time, computed from the end of the schedule to its beginning.
+//! Interference of array versions that are live at the same time, computed from the end of the schedule to its beginning.
 //!
-//! A version is written where it is made, carried into a loop, or left by a branch. Whatever else is needed behind that must lie in
-//! another variable.
+//! A version is written when it is created, carried into a loop, or yielded by a branch. All other versions live after that
+//! write must be in other variables.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_evaluator::ir::{Graph, NodeId, Op, RegionId};
 use straightline_evaluator::passes::{Block, Schedule, Step};
 
-/// Versions that are needed where another is written, by that one, both ways.
+/// Pairs of versions of which one is live where the other is written; symmetric.
 pub type Interference = HashMap<NodeId, HashSet<NodeId>>;
 
-/// Versions that are needed behind a place.
+/// Versions that are live after a place.
 type Needed = BTreeSet<NodeId>;
 
 /// Finds the interference of the arrays of a scheduled graph.
@@ -24,8 +24,8 @@ pub fn find_interference(graph: &Graph, schedule: &Schedule) -> Interference {
     walk.found
 }
 
-/// The version that a node stands for. Literals are no versions: they are copied where they are used. What a loop has carried is, behind
-/// it, what it carried.
+/// Returns the version that a node stands for. Literals are not versions: they are copied where they are used. The result
+/// of a loop stands for the version that the loop carried.
 pub fn array_version(graph: &Graph, id: NodeId) -> Option<NodeId> {
     let node = graph.node(id);
     match node.op {
@@ -39,7 +39,7 @@ pub fn array_version(graph: &Graph, id: NodeId) -> Option<NodeId> {
     }
 }
 
-/// The nodes that give results of loops and branches, by their owners, with their numbers.
+/// Returns the result nodes of loops and branches, by their owners, with their numbers.
 fn results_by_owner(graph: &Graph) -> HashMap<NodeId, Vec<(NodeId, usize)>> {
     let mut results: HashMap<NodeId, Vec<(NodeId, usize)>> = HashMap::new();
     for id in graph.node_ids() {
@@ -81,7 +81,7 @@ impl Walk<'_> {
     fn walk_loop(&mut self, node: NodeId, body: &Block, needed: &mut Needed) {
         let inside = self.graph.regions_of(node)[0];
         let region = self.graph.region(inside);
-        // Values of outside that the next iteration reads are needed at the end of each.
+        // Values from outside that the next iteration reads are live at the end of each iteration.
         let mut outside = Needed::new();
         self.collect_read(inside, body, &mut outside);
         needed.extend(outside.iter().copied());
@@ -101,7 +101,7 @@ impl Walk<'_> {
         let left = self.results.get(&node).cloned().unwrap_or_default();
         for (region, block) in self.graph.regions_of(node).into_iter().zip([then, otherwise]) {
             let mut side = behind.clone();
-            // In sequence: the assignment of one result must not overwrite the source of the next.
+            // Assignments run in sequence: the assignment of one result must not overwrite the source of the next.
             for (result, k) in left.iter().rev() {
                 self.write_version(*result, &mut side);
                 self.read_version(self.graph.region(region).results[*k], &mut side);
@@ -111,7 +111,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A version is written: what else is needed behind it lies elsewhere.
+    /// Records a write to a version: all other live versions interfere with it.
     fn write_version(&mut self, id: NodeId, needed: &mut Needed) {
         let Some(version) = array_version(self.graph, id) else {
             return;
@@ -127,7 +127,7 @@ impl Walk<'_> {
         needed.extend(array_version(self.graph, id));
     }
 
-    /// Versions that the body of a loop reads and does not make itself.
+    /// Collects the versions that a loop's body reads and does not create.
     fn collect_read(&self, region: RegionId, body: &Block, read: &mut Needed) {
         let mut made: Needed = self.graph.region(region).params.iter().copied().collect();
         self.collect_versions(body, read, &mut made);

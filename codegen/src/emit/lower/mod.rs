@@ -1,6 +1,6 @@
-//! From a scheduled graph to the statements of a kernel.
+//! Lowers a scheduled graph to the statements of a kernel.
 //!
-//! Every step of the schedule becomes a statement or part of one. This cannot fail: whatever the graph, there is a tree.
+//! Every step of the schedule becomes a statement or part of one. Lowering cannot fail: there is a tree for every graph.
 
 mod arrays;
 mod coalescing;
@@ -22,10 +22,10 @@ use straightline_evaluator::passes::{Block, Step};
 
 pub use entry::wrap_entry_point;
 
-/// Uses from which a constant vector is written once.
+/// Number of uses from which a constant vector gets its own variable.
 const OFTEN: u32 = 6;
 
-/// The statements of a kernel: one for each value, and at the end an output for each pixel of the invocation.
+/// Lowers a kernel: a statement for each value, and at the end an output for each pixel of the invocation.
 pub fn lower_kernel<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     let graph = &compiled.graph;
     let mut lowering = Lowering {
@@ -50,7 +50,8 @@ pub fn lower_kernel<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     lowering.module
 }
 
-/// Origin of each node. A tally passes its name on to the node that it tallies; last to first, so that chains do too.
+/// Returns the origin of each node. A tally passes its name on to the node that it tallies; nodes are visited last to
+/// first, so that chains work too.
 fn node_origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
     let graph = &compiled.graph;
     let mut origins: Vec<Option<&Origin>> = graph.node_ids().map(|id| graph.origin(id)).collect();
@@ -63,7 +64,7 @@ fn node_origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
     origins
 }
 
-/// Arrays that are indexed, by node.
+/// Returns for each node whether it is an array that is indexed.
 fn indexed_arrays(compiled: &Compiled) -> Vec<bool> {
     let graph = &compiled.graph;
     let mut indexed = vec![false; graph.nodes.len()];
@@ -77,23 +78,23 @@ fn indexed_arrays(compiled: &Compiled) -> Vec<bool> {
 struct Lowering<'g> {
     compiled: &'g Compiled,
     exact: Exactness,
-    /// By node: where it comes from.
+    /// Origin of each node.
     origins: Vec<Option<&'g Origin>>,
     wanted: Wanted,
     coalescing: ArrayCoalescing,
-    /// By node: whether it is an array that is indexed.
+    /// `true` for each node that is an indexed array.
     indexed: Vec<bool>,
-    /// By node: how its value is written, once it has been evaluated.
+    /// Expression of each node, once it has been evaluated.
     exprs: Vec<Option<Expr>>,
     /// `true` if floats are in half precision.
     half: bool,
     module: Module<'g>,
-    /// Statements of the block that is being lowered.
+    /// Statements of the current block.
     block: Statements<'g>,
 }
 
 impl<'g> Lowering<'g> {
-    /// Vectors that the kernel has a name for, and that many lines would repeat, are written once.
+    /// Declares constant vectors that have a name in the kernel and that many lines would repeat.
     fn emit_constants(&mut self) {
         let graph = &self.compiled.graph;
         for id in graph.node_ids() {
@@ -120,7 +121,7 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// The statements that `lower` makes, as a block of their own.
+    /// Returns the statements that `lower` emits, as a separate block.
     fn nested(&mut self, lower: impl FnOnce(&mut Self)) -> Statements<'g> {
         let outer = std::mem::take(&mut self.block);
         lower(self);
@@ -130,10 +131,10 @@ impl<'g> Lowering<'g> {
     fn lower_node(&mut self, id: NodeId) {
         let node = self.compiled.graph.node(id);
         match &node.op {
-            // Written where it is used.
+            // Emitted at the use.
             ir::Op::Const(_) | ir::Op::Undef | ir::Op::Result(_) => {}
             ir::Op::MakeArray => self.make_array(id),
-            // Written in the statement that rounds it.
+            // Emitted in the statement that rounds the value.
             _ if self.exact.is_part(id) => {}
             ir::Op::Exact => {
                 let of = node.args[0];
@@ -149,7 +150,7 @@ impl<'g> Lowering<'g> {
             ir::Op::ArrayGet => self.array_get(id),
             ir::Op::SharedLoad(_) => {
                 let mut expr = self.build_expr(id);
-                // The condition is dropped: the value read where it does not hold is unused.
+                // The condition is dropped: the value read where it is `false` is unused.
                 expr.args.remove(0);
                 self.emit_let(id, simplify_expr(expr));
             }
@@ -165,7 +166,7 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// A write to memory, under its condition.
+    /// Lowers a write to memory, with its condition.
     fn lower_effect(&mut self, id: NodeId) {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
@@ -219,27 +220,27 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// A new variable for a node's value.
+    /// Creates a variable for a node's value.
     fn new_variable(&mut self, id: NodeId) -> VarId {
         let graph = &self.compiled.graph;
         let name = self.wanted.preferred_name(graph, id, self.origins[id.0 as usize]);
         self.module.new_variable(name, graph.ty(id))
     }
 
-    /// A statement that names a value.
+    /// Emits a statement that names a value.
     fn emit_let(&mut self, id: NodeId, value: Expr) {
         let var = self.new_variable(id);
         self.emit_statement(id, StmtKind::Let(var, value));
         self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
     }
 
-    /// A statement of a node's.
+    /// Emits a statement with a node's origin.
     fn emit_statement(&mut self, id: NodeId, kind: StmtKind<'g>) {
         let origin = self.origins[id.0 as usize];
         self.block.push(Stmt { kind, origin });
     }
 
-    /// The value of a node that has been evaluated.
+    /// Returns the expression of a node that has been evaluated.
     fn node_expr(&mut self, id: NodeId) -> Expr {
         if let Some(expr) = &self.exprs[id.0 as usize] {
             return expr.clone();
@@ -279,7 +280,7 @@ impl<'g> Lowering<'g> {
                 fits: facts::is_convertible(graph, node.args[0], node.ty, self.half),
             },
             ir::Op::Tally(_) => return args.swap_remove(0),
-            // Texels have four components, of which the kernel takes some.
+            // Texels have four components, of which the kernel may take fewer.
             ir::Op::Load { texture, .. } | ir::Op::Sample { texture, .. }
                 if !graph.textures[*texture as usize].kind.is_depth() && node.ty.component_count() < 4 =>
             {
@@ -300,7 +301,7 @@ impl<'g> Lowering<'g> {
     }
 }
 
-/// Returns whether an expression is so short that it is written wherever it is used.
+/// Returns whether an expression is short enough to be repeated at every use.
 fn is_atom(expr: &Expr) -> bool {
     match &expr.op {
         Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,

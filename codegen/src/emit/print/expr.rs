@@ -1,4 +1,4 @@
-//! Expressions: what all languages write alike.
+//! Printing of expressions common to all languages.
 
 use super::Language;
 use crate::emit::ast::{Expr, Op, Ty};
@@ -6,7 +6,7 @@ use crate::emit::literals::decimal_digits;
 use crate::emit::text::{Binds, Text};
 use straightline_evaluator::ir::{self, BinaryOp, Bits, Scalar, Type, UnaryOp};
 
-/// An expression whose arguments have been printed.
+/// Prints an expression whose arguments have been printed.
 pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
     let all: Vec<&Text> = args.iter().collect();
     match &expr.op {
@@ -24,7 +24,7 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
         }
         Op::Index { .. } => Text::index(&args[0], &args[1]),
         Op::Builtin(builtin) => l.builtin_value(*builtin),
-        // The variable that the value is assigned to carries the qualifier.
+        // The assigned variable carries the qualifier.
         Op::Exact { .. } => args[0].clone(),
         Op::Any => Text::call("any", &all),
         Op::All => Text::call("all", &all),
@@ -66,7 +66,7 @@ fn print_infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> T
     Text::infix(&args[0], spelled, &args[1], binds)
 }
 
-/// Spelling of an operator on a kind of operands, and its precedence.
+/// Returns the spelling of an operator for a kind of operands, and its precedence.
 pub fn spell_operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, Binds) {
     use BinaryOp::{Add, And, Atan2, Div, Eq, Ge, Gt, Le, Lt, Max, Min, Mul, Ne, Or, Pow, Rem, Shl, Shr, Sub, Xor};
     match op {
@@ -90,7 +90,7 @@ pub fn spell_operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static
     }
 }
 
-/// A constant scalar or vector of finite numbers: a component that is the same in all is written once.
+/// Prints a constant scalar or vector of finite numbers; a value common to all components is written once.
 fn print_constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
     let kind = ty.scalar_kind().unwrap_or(Scalar::F32);
     let lanes = &bits[..ty.component_count() as usize];
@@ -105,18 +105,18 @@ fn print_constant(l: &dyn Language, ty: Ty, bits: &Bits) -> Text {
     }
 }
 
-/// A finite float with few digits that every reader takes for the same bits.
+/// Returns a finite float with few digits that every parser reads as the same bits.
 pub fn float_literal(bits: u32) -> Text {
     let x = f32::from_bits(bits);
     Text::literal(decimal_digits(x), x.is_sign_negative())
 }
 
-/// An integer literal with a suffix.
+/// Returns an integer literal with a suffix.
 pub fn integer_literal(n: i64, suffix: &str) -> Text {
     Text::literal(format!("{n}{suffix}"), n < 0)
 }
 
-/// An unsigned literal: hexadecimal where it is a mask of many bits.
+/// Returns an unsigned literal, in hexadecimal if it is a mask of many bits.
 pub fn unsigned_literal(bits: u32) -> Text {
     let run = bits.checked_shr(bits.trailing_zeros()).unwrap_or_default();
     let is_mask = bits > 0xffff && run.count_ones() > 1 && run & run.wrapping_add(1) == 0;
@@ -126,7 +126,7 @@ pub fn unsigned_literal(bits: u32) -> Text {
     }
 }
 
-/// The function of WGSL that stands for an operation on numbers.
+/// Returns the WGSL function for an operation on numbers.
 pub fn wgsl_function(op: &ir::Op) -> &'static str {
     use UnaryOp::*;
     match op {

@@ -1,5 +1,5 @@
-//! Heads of functions that take all that they read, in every language that has them: bound things, the position, interpolated
-//! values, uniforms.
+//! Heads of functions that take all their inputs as parameters, in every language that supports it: resources, the
+//! position, interpolated values, uniforms.
 
 use super::glsl::{self, Glsl};
 use super::hlsl::{self, Hlsl, buffer_declared, sampler_declared, texture_declared};
@@ -8,7 +8,7 @@ use crate::emit::ast::Ty;
 use crate::emit::own_words::SAMPLER;
 
 impl Wgsl<'_> {
-    /// The head of a function that takes all that it reads.
+    /// Returns the head of a function that takes all its inputs as parameters.
     pub(super) fn kernel_function_head(&self) -> String {
         let r = self.resources;
         // A function that reads textures through the host's functions takes no textures.
@@ -33,12 +33,12 @@ impl Wgsl<'_> {
 }
 
 impl Glsl<'_> {
-    /// The head of a function that takes all that it reads.
+    /// Returns the head of a function that takes all its inputs as parameters.
     pub(super) fn kernel_function_head(&self) -> String {
         let r = self.resources;
         let mut all = Vec::new();
         if r.options.calls_host() {
-            // The host's functions read its textures.
+            // The host's functions read the textures.
         } else if self.is_vulkan() {
             for bound in &r.read {
                 let texture = r.texture(bound.index);
@@ -65,7 +65,7 @@ impl Glsl<'_> {
 }
 
 impl Hlsl<'_> {
-    /// The head of a function that takes all that it reads.
+    /// Returns the head of a function that takes all its inputs as parameters.
     pub(super) fn kernel_function_head(&self) -> String {
         let r = self.resources;
         let textures = r.read.iter().map(|bound| texture_declared(r, bound.index));

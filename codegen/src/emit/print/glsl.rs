@@ -20,44 +20,44 @@ use straightline_manifest::{REGION, Stage};
 
 pub use types::{image_type, plain_sampler, sampler_of, sampler_type, texture_type, type_name, variable_declared};
 
-/// The region's uniforms where no block holds them, with the fields that they are otherwise.
+/// Uniforms of the region as loose variables, where no block holds them, with the names of the block's fields.
 pub const LOOSE_REGION: [(&str, &str); 3] = [
     ("region_first", "first"),
     ("region_size", "size"),
     ("region_place", "place"),
 ];
 
-/// Construct of GLSL 4.50 that naga's reader does not know, or takes for another.
+/// Construct of GLSL 4.50 that naga's parser rejects or misinterprets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Unread {
     /// A function for another shader: a text without `main`.
     Function,
-    /// `.length()` of a buffer, of which naga makes an invalid module.
+    /// `.length()` of a buffer, for which naga produces an invalid module.
     Length,
     /// `textureGather`.
     Gather,
-    /// `subgroupQuadSwapHorizontal` and its like.
+    /// `subgroupQuadSwapHorizontal` and similar functions.
     QuadSwap,
     /// `precise`.
     Precise,
-    /// Texels of a texture that a sampler compares, which naga takes for one of depths alone.
+    /// Texels of a texture with a comparison sampler, which naga treats as a pure depth texture.
     ComparedTexels,
-    /// Writes to memory, of which it does not know the atomic ones.
+    /// Writes to memory; naga does not know the atomic ones.
     Effect,
-    /// `memoryBarrierShared` and its like.
+    /// `memoryBarrierShared` and similar functions.
     Barrier,
 }
 
-/// A GLSL.
+/// Printer for a version of GLSL.
 pub struct Glsl<'a> {
     pub(super) resources: &'a Resources,
     pub(super) target: Target,
-    /// Constructs in what was printed that naga does not read.
+    /// Printed constructs that naga cannot parse.
     unread: RefCell<BTreeSet<Unread>>,
 }
 
 impl<'a> Glsl<'a> {
-    /// In the GLSL of a target.
+    /// Creates the printer for a target.
     pub fn new(resources: &'a Resources, target: Target) -> Glsl<'a> {
         Glsl {
             resources,
@@ -66,7 +66,7 @@ impl<'a> Glsl<'a> {
         }
     }
 
-    /// Constructs that naga does not read, in all that was printed of a module.
+    /// Returns the constructs that naga cannot parse, in everything printed for a module.
     pub fn unread_constructs(&self, module: &Module<'_>) -> BTreeSet<Unread> {
         let mut unread = self.unread.borrow().clone();
         unread.extend(self.is_function().then_some(Unread::Function));
@@ -87,7 +87,7 @@ impl<'a> Glsl<'a> {
         self.target == Target::Glsl450
     }
 
-    /// Name of the combined sampler that a texture is read by.
+    /// Returns the name of the combined sampler that reads a texture.
     fn combined_sampler(&self, texture: u32, sampler: Option<u32>) -> Text {
         let r = self.resources;
         let of_texture = || r.combined.iter().filter(|one| one.texture == texture);
@@ -97,7 +97,7 @@ impl<'a> Glsl<'a> {
         Text::name(found.map_or("", |one| r.combined_name(*one)))
     }
 
-    /// A texture to take texels of, or the size.
+    /// Returns the operand of a texel load or a size query.
     fn unfiltered_texture(&self, texture: u32) -> Text {
         if !self.is_vulkan() {
             return self.combined_sampler(texture, None);
@@ -114,7 +114,7 @@ impl<'a> Glsl<'a> {
         Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture), texture.name))
     }
 
-    /// A texture with a sampler of the kernel's.
+    /// Returns a texture combined with a sampler of the kernel.
     fn sampled_texture(&self, texture: u32, sampler: u32) -> Text {
         if !self.is_vulkan() {
             return self.combined_sampler(texture, Some(sampler));
@@ -124,20 +124,20 @@ impl<'a> Glsl<'a> {
         Text::name(format!("{kind}({}, {})", texture.name, sampler.name))
     }
 
-    /// The four texels around a place, or the results of a comparison with them.
+    /// Returns a gather of four texels around a point, or of their comparison results.
     fn gather_call(&self, args: &[&Text]) -> Text {
         self.note_unread(Unread::Gather);
         Text::call("textureGather", args)
     }
 
-    /// Number of elements of a buffer, an `int`.
+    /// Returns the number of elements of a buffer, as an `int`.
     fn buffer_length(&self, buffer: u32) -> Text {
         self.note_unread(Unread::Length);
         Text::name(format!("{}.elements.length()", self.resources.buffer(buffer).name))
     }
 
-    /// A place with the layer and the reference behind it, in one vector, and what else there is; and how many components the
-    /// vector has.
+    /// Packs coordinates, layer and reference value into one vector. Returns the vector, the remaining arguments, and the
+    /// vector's number of components.
     fn pack_coordinates(&self, texture: u32, args: &[Text], compares: bool) -> (Text, usize) {
         let kind = self.resources.texture(texture).kind;
         let layers = usize::from(kind.has_layers());
@@ -154,7 +154,7 @@ impl<'a> Glsl<'a> {
         (Text::call(&format!("vec{components}"), &all), components)
     }
 
-    /// `layout(set = 0, binding = N)`, with what else a layout says, as far as the version knows of bindings.
+    /// Returns `layout(set = 0, binding = N)` with additional qualifiers, as far as the version supports bindings.
     pub(super) fn layout_qualifier(&self, binding: u32, before: &str, behind: &str) -> String {
         let binding = match self.target {
             Target::Glsl450 => format!("set = {}, binding = {binding}", self.resources.places.bind_group()),
@@ -164,7 +164,7 @@ impl<'a> Glsl<'a> {
         format!("layout({before}{binding}{behind}) ")
     }
 
-    /// Storage buffers.
+    /// Declares the storage buffers.
     pub(super) fn buffer_declarations(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
@@ -191,7 +191,8 @@ impl<'a> Glsl<'a> {
         structures.collect::<String>() + &each.collect::<String>()
     }
 
-    /// The images that are written; of a fragment what is interpolated, with locations or not, and the colours.
+    /// Declares the written images; for a fragment shader the interpolated inputs, with or without locations, and the
+    /// colour outputs.
     pub(super) fn output_and_inputs(&self, located: bool) -> String {
         let r = self.resources;
         if r.options.stage == Stage::Compute {
@@ -219,7 +220,7 @@ impl<'a> Glsl<'a> {
 }
 
 impl Glsl<'_> {
-    /// The structure of several outputs, which a function gives.
+    /// Declares the structure of several outputs, which a function returns.
     fn outputs_structure(&self) -> String {
         let r = self.resources;
         let fields = r
@@ -229,7 +230,7 @@ impl Glsl<'_> {
         format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())
     }
 
-    /// The type that a function gives.
+    /// Returns the result type of a function.
     pub(super) fn result_type(&self) -> String {
         match &self.resources.outputs[..] {
             [one] => type_name(one.ty.into()),
@@ -246,7 +247,7 @@ impl Language for Glsl<'_> {
     fn scalar_literal(&self, kind: Scalar, _: bool, bits: u32) -> Text {
         match kind {
             Scalar::F32 => float_literal(bits),
-            // The smallest `int`, which no literal is.
+            // The smallest `int` cannot be written as a literal.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
             Scalar::I32 => integer_literal(i64::from(bits as i32), ""),
             Scalar::U32 | Scalar::Usize => unsigned_literal(bits),
@@ -355,7 +356,7 @@ impl Language for Glsl<'_> {
                 if components == 3 {
                     return Text::call("textureLod", &[&through, &place, &Text::name("0.0")]);
                 }
-                // No `textureLod` takes these; steps of no length are those of the finest level.
+                // No `textureLod` accepts these samplers; gradients of length 0 select the finest level.
                 let step = Text::name(
                     match self.resources.texture(*texture).kind.position_type().component_count() {
                         2 => "vec2(0.0)",
@@ -458,7 +459,7 @@ impl Language for Glsl<'_> {
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
         };
-        // There is no atomic load, and a bit that is set to what it is changes nothing.
+        // GLSL has no atomic load; an atomic `or` with 0 changes nothing.
         let (function, value) = match op {
             AtomicOp::Load => ("atomicOr".to_owned(), Text::name("0")),
             op => (format!("atomic{op:?}"), args[1].clone()),
@@ -505,7 +506,7 @@ impl Language for Glsl<'_> {
         let extension = "#extension GL_KHR_shader_subgroup_quad : require\n";
         let mut out = match (self.is_function(), r.subgroups) {
             (true, false) => String::new(),
-            // Directives stand before everything else of the host's text.
+            // Directives must precede everything else in the host's text.
             (true, true) => format!("// Needs {extension}"),
             (false, _) => format!("#version {}\n", self.target.glsl_version()),
         };
@@ -518,7 +519,7 @@ impl Language for Glsl<'_> {
                 "// GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.\n";
         }
         out.push('\n');
-        // A function whose host reads its textures stands below what the host has said of precision.
+        // If the host's functions read the textures, the function comes after the host's own precision statements.
         if matches!(self.target, Target::Essl310 | Target::Essl300) && !r.options.calls_host() {
             out += "precision highp float;\nprecision highp int;\n";
             for ty in self.opaque_types() {

@@ -1,4 +1,4 @@
-//! The comment that a shader begins with.
+//! The comment at the beginning of a shader.
 
 use crate::compiled::Compiled;
 use crate::emit::layout::value_type;
@@ -11,7 +11,7 @@ use straightline_manifest::{Counts, Form, Origin, Precision};
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
 
-/// Lines of the header. Deterministic for the same input: no date, no path of the machine.
+/// Returns the lines of the header. Deterministic for the same input: no date, no path of the machine.
 pub fn header_lines(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Vec<String> {
     let mut lines = vec![
         match compiled.summary.as_str() {
@@ -129,7 +129,7 @@ fn describe_results(resources: &Resources) -> String {
     }
 }
 
-/// A list of many numbers that are all alike by one of them.
+/// Shortens a list of many equal numbers to one of them.
 fn shorten_list(value: &str) -> String {
     let numbers: Vec<&str> = value.split(',').collect();
     match numbers[..] {

@@ -18,7 +18,7 @@ pub use declarations::{buffer_declared, sampler_declared, texture_declared, type
 /// HLSL.
 pub struct Hlsl<'a> {
     pub(super) resources: &'a Resources,
-    /// Functions that ask for the size of what is bound.
+    /// Functions that query the size of a resource.
     sizes: Vec<Size>,
 }
 
@@ -46,7 +46,7 @@ impl Size {
 }
 
 impl<'a> Hlsl<'a> {
-    /// For a module.
+    /// Creates the printer for a module.
     pub fn new(resources: &'a Resources, module: &Module<'_>) -> Hlsl<'a> {
         let mut sizes = Vec::new();
         let mut see = |expr: &Expr| {
@@ -64,7 +64,7 @@ impl<'a> Hlsl<'a> {
         self.resources.options.is_function()
     }
 
-    /// The call that queries a size.
+    /// Returns the call that queries a size.
     fn size_call(&self, size: Size) -> Text {
         let name = match size {
             Size::Texture(texture) | Size::Levels(texture) | Size::Layers(texture) => {
@@ -88,7 +88,7 @@ impl<'a> Hlsl<'a> {
         })
     }
 
-    /// A function that asks for a size: the language gives it by way of variables.
+    /// Returns the function that queries a size, which HLSL returns through out parameters.
     fn size_function(&self, size: Size) -> String {
         let name = self.size_of(size);
         let taken = match (self.is_function(), size) {
@@ -148,7 +148,7 @@ impl<'a> Hlsl<'a> {
         )
     }
 
-    /// A place with the layer behind it, in one vector.
+    /// Packs coordinates and layer into one vector.
     fn pack_coordinates(&self, texture: u32, args: &[Text]) -> Text {
         match self.resources.texture(texture).kind.has_layers() {
             true => Text::call("float3", &[&args[0], &Text::call("float", &[&args[1]])]),
@@ -156,7 +156,7 @@ impl<'a> Hlsl<'a> {
         }
     }
 
-    /// A method of a texture, with a sampler.
+    /// Returns a call of a texture's method, with a sampler.
     fn sample_call(&self, texture: u32, method: &str, sampler: u32, args: &[&Text]) -> Text {
         let texture = &self.resources.texture(texture).name;
         let sampler = Text::name(self.resources.sampler(sampler).name.as_str());
@@ -175,7 +175,7 @@ impl Language for Hlsl<'_> {
         match kind {
             Scalar::F32 if half => crate::emit::half::half_literal(bits),
             Scalar::F32 => float_literal(bits),
-            // The smallest `int`, which no literal is.
+            // The smallest `int` cannot be written as a literal.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
             Scalar::I32 => integer_literal(i64::from(bits as i32), ""),
             Scalar::U32 | Scalar::Usize => unsigned_literal(bits),
@@ -292,7 +292,7 @@ impl Language for Hlsl<'_> {
         Text::choice(condition, yes, no)
     }
 
-    // Only of scalars: functions of vectors call those of scalars.
+    // Scalars only: functions of vectors call those of scalars.
     fn component_select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
         Text::choice(condition, yes, no)
     }
@@ -358,7 +358,7 @@ impl Language for Hlsl<'_> {
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
         };
-        // There is no atomic load, and a bit that is set to what it is changes nothing.
+        // HLSL has no atomic load; an atomic `or` with 0 changes nothing.
         let (function, value) = match op {
             AtomicOp::Load => ("InterlockedOr".to_owned(), Text::name("0")),
             op => (format!("Interlocked{op:?}"), args[1].clone()),
@@ -498,7 +498,7 @@ impl Language for Hlsl<'_> {
 }
 
 impl Hlsl<'_> {
-    /// The structure of several outputs: of an entry point with their locations.
+    /// Declares the structure of several outputs; for an entry point with their locations.
     fn outputs_structure(&self) -> String {
         let r = self.resources;
         let fields = r
@@ -515,7 +515,7 @@ impl Hlsl<'_> {
         format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())
     }
 
-    /// The type that a function gives.
+    /// Returns the result type of a function.
     pub(super) fn result_type(&self) -> String {
         match &self.resources.outputs[..] {
             [one] => type_name(one.ty.into()),

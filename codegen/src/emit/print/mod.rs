@@ -1,4 +1,4 @@
-//! From a tree to text. Printers decide nothing: they write what the tree says.
+//! Printers: from a tree to text. Printers make no decisions; they write the tree as it is.
 
 mod expr;
 mod function;
@@ -18,17 +18,17 @@ pub use header::{GENERATOR, header_lines};
 pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;
 
-/// A type as GLSL spells it.
+/// Returns a type in GLSL's spelling.
 pub fn glsl_type(ty: Ty) -> String {
     glsl::type_name(ty)
 }
 
-/// A type as HLSL spells it.
+/// Returns a type in HLSL's spelling.
 pub fn hlsl_type(ty: Ty) -> String {
     hlsl::type_name(ty)
 }
 
-/// A part of an element of a buffer.
+/// Returns a part of a buffer's element.
 fn element_part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> Text {
     let ir::Element::Struct(of) = of else {
         return element.clone();
@@ -38,12 +38,12 @@ fn element_part(element: &Text, of: &ir::Element, field: u32, within: Option<&Te
     within.map_or(field.clone(), |within| Text::index(&field, within))
 }
 
-/// Qualifier of a variable in GLSL and HLSL whose value is rounded as it is written.
+/// Qualifier of a variable in GLSL and HLSL whose value must be rounded as written.
 pub const PRECISE: &str = "precise ";
 
 /// A shading language.
 pub trait Language {
-    /// A type.
+    /// Spelling of a type.
     fn type_spelling(&self, ty: Ty) -> String;
     /// A scalar constant.
     fn scalar_literal(&self, kind: Scalar, half: bool, bits: u32) -> Text;
@@ -51,13 +51,13 @@ pub trait Language {
     fn hex_literal(&self, bits: u32) -> String {
         format!("{bits:#x}u")
     }
-    /// A built-in value of the entry point.
+    /// Expression of a built-in value of the entry point.
     fn builtin_value(&self, builtin: Builtin) -> Text;
-    /// The function that stands for an operation of the graph on numbers; WGSL's name unless the language has another.
+    /// Function for an operation on numbers; WGSL's name unless the language has another.
     fn function_name(&self, op: &ir::Op) -> &'static str {
         expr::wgsl_function(op)
     }
-    /// A read of what the host binds, a size of it, or what another lane has.
+    /// Read of a resource or its size, or of another lane's value.
     fn resource_read(&self, op: &ir::Op, args: &[Text]) -> Text;
     /// Selection by a scalar boolean.
     fn scalar_select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text;
@@ -80,7 +80,7 @@ pub trait Language {
 
     /// Declaration of an immutable local, up to ` = value;`.
     fn let_head(&self, name: &str, ty: Ty) -> String;
-    /// Declaration of a mutable local, up to its value if it `has_value`, or else up to `;`.
+    /// Declaration of a mutable local, up to its value if it `has_value`, else up to `;`.
     fn var_head(&self, name: &str, ty: Ty, has_value: bool) -> String;
     /// Declaration of a constant array at module scope, up to its value.
     fn table_head(&self, name: &str, ty: Ty) -> String;
@@ -90,7 +90,7 @@ pub trait Language {
     }
     /// The head of a loop, up to the opening brace.
     fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String;
-    /// The head of a loop that only a `break` ends.
+    /// Head of an endless loop, left by `break`.
     fn endless_head(&self) -> &'static str {
         "while (true) {"
     }
@@ -98,9 +98,9 @@ pub trait Language {
     fn if_head(&self) -> [&'static str; 2];
     /// The head of a function, up to the opening brace.
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
-    /// Writes a texel of an output.
+    /// Write of a texel of an output.
     fn texel_store(&self, output: usize, place: &Text, value: &Text) -> Text;
-    /// Writes to memory: statements without their semicolons. `before` is the variable that takes what was there before.
+    /// Write to memory: statements without their semicolons. `before` is the variable that receives the old value.
     fn effect_statement(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
     /// Number of elements of a buffer, unsigned.
     fn unsigned_length(&self, buffer: u32) -> Text;
@@ -108,39 +108,40 @@ pub trait Language {
     fn gives_before(&self) -> bool {
         true
     }
-    /// Waits for the other invocations of the workgroup: statements, each a line.
+    /// Barrier of the workgroup: statements, one a line.
     fn barrier_statements(&self, buffers: bool) -> &'static [&'static str];
-    /// Assigns the fragment's outputs, one value each: statements without their semicolons.
+    /// Assignments of the fragment's outputs, one value each: statements without their semicolons.
     fn output_statements(&self, values: &[Text]) -> Vec<(String, Text)>;
     /// Everything before the first function: header, directives, bindings.
     fn preamble(&self, header: &[String]) -> String;
     /// The head of the entry point or function, up to the opening brace.
     fn entry_head(&self) -> String;
-    /// Text after a function that leads.
+    /// Text after a function that comes first.
     fn trailing_text(&self) -> Option<String> {
         None
     }
-    /// Returns whether the entry point is a function before which nothing may stand: the header stands in it, and everything else after it.
+    /// Returns whether the entry point is a function that must come first: the header is inside it, and everything else
+    /// after it.
     fn function_leads(&self) -> bool {
         false
     }
 }
 
-/// A module in a language, under a header.
+/// Prints a module in a language, under a header.
 pub fn print_module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
     Printed::new(language, module).with_header(language, header)
 }
 
-/// A module as text, which its header is yet to stand over.
+/// A module as text, without its header.
 pub struct Printed {
-    /// The constants, and each of the functions beside the entry point.
+    /// The constants, and each function except the entry point.
     beside: Vec<String>,
     /// The entry point's statements.
     body: String,
 }
 
 impl Printed {
-    /// The text of a module in a language.
+    /// Prints a module in a language.
     pub fn new(language: &dyn Language, module: &Module<'_>) -> Printed {
         let printer = Printer { language, module };
         Printed {
@@ -149,7 +150,7 @@ impl Printed {
         }
     }
 
-    /// All of it, under a header, in the same language.
+    /// Returns the whole text under a header, in the same language.
     pub fn with_header(&self, language: &dyn Language, header: &[String]) -> String {
         let entry = |header: &str| format!("{}\n{header}{}}}\n", language.entry_head(), self.body);
         let mut parts = self.beside.clone();
@@ -165,12 +166,12 @@ impl Printed {
     }
 }
 
-/// A header as comments, a line each.
+/// Formats a header as comments, one line each.
 pub fn header_comment(header: &[String]) -> String {
     header.iter().map(|line| wrapped_comment(line, 0) + "\n").collect()
 }
 
-/// Prints what a module's trees say.
+/// Printer of a module's trees.
 struct Printer<'m> {
     language: &'m dyn Language,
     module: &'m Module<'m>,
@@ -181,7 +182,7 @@ impl Printer<'_> {
         &self.module.variables[var.0 as usize].name
     }
 
-    /// A declaration, with the word that keeps compilers from changing roundings.
+    /// Returns a declaration with the qualifier that keeps compilers from changing roundings.
     fn qualify_precise(&self, var: VarId, declared: String) -> String {
         match self.module.variables[var.0 as usize].precise {
             true => format!("{PRECISE}{declared}"),
@@ -189,7 +190,7 @@ impl Printer<'_> {
         }
     }
 
-    /// The constants, and each of the functions beside the entry point.
+    /// Prints the constants, and each function except the entry point.
     fn tables_and_functions(&self) -> Vec<String> {
         let table = |(var, value): &(VarId, Expr)| {
             let declared = self
@@ -257,14 +258,14 @@ impl Printer<'_> {
         out
     }
 
-    /// A write to memory; `before` is what takes what was there.
+    /// Prints a write to memory; `before` receives the old value.
     fn print_effect(&self, effect: &Effect, before: Option<&str>, depth: usize) -> String {
         let args: Vec<Text> = effect.args.iter().map(|arg| self.print_expr(arg)).collect();
         let (before, text) = self.language.effect_statement(effect, &args, before);
         Self::line(depth, &before, &text, ";")
     }
 
-    /// A line, or several where it would be too wide.
+    /// Prints a line, wrapped if it is too wide.
     fn line(depth: usize, before: &str, value: &Text, behind: &str) -> String {
         let indent = 4 * depth;
         let value = value.wrap_lines(indent + before.len(), behind.len(), indent);
@@ -385,7 +386,7 @@ impl Printer<'_> {
         text + "\n"
     }
 
-    /// The elements of an array where it is declared.
+    /// Prints the elements of an array in its declaration.
     fn print_elements(&self, array: &Expr) -> Text {
         let parts: Vec<Text> = array.args.iter().map(|part| self.print_expr(part)).collect();
         self.language.table_value(array.ty, &parts.iter().collect::<Vec<_>>())
@@ -400,7 +401,7 @@ impl Printer<'_> {
     }
 }
 
-/// The condition of a loop whose first statement leaves it where that does not hold.
+/// Returns the negated exit condition, if a loop's first statement is a conditional exit.
 fn goes_on<'s>(first: &'s Stmt<'_>) -> Option<&'s Expr> {
     match &first.kind {
         StmtKind::If {

@@ -5,7 +5,7 @@ use crate::emit::Target;
 use crate::emit::derived::Combined;
 
 impl Glsl<'_> {
-    /// Types that have no precision of their own in OpenGL ES.
+    /// Returns the types without a default precision in OpenGL ES.
     pub(super) fn opaque_types(&self) -> Vec<String> {
         let r = self.resources;
         let mut all: Vec<String> = Vec::new();
@@ -14,7 +14,7 @@ impl Glsl<'_> {
                 all.push(ty);
             }
         }
-        // In one order, whatever is read first.
+        // A fixed order, independent of the reads.
         all.sort_by_key(|ty| (ty.ends_with("Shadow"), ty.len(), ty.clone()));
         let writes = |ty: &&str| r.outputs.iter().any(|o| o.binding.is_some() && image_type(o) == *ty);
         let written = ["image2D", "iimage2D", "uimage2D"].into_iter().filter(writes);
@@ -22,7 +22,7 @@ impl Glsl<'_> {
         all
     }
 
-    /// The type of a combined sampler.
+    /// Returns the type of a combined sampler.
     pub(super) fn combined_type(&self, one: Combined) -> String {
         let r = self.resources;
         let compares = one.sampler.is_some_and(|s| r.sampler(s).comparison);
@@ -38,7 +38,7 @@ impl Glsl<'_> {
             let ty = self.combined_type(*one);
             let layout = match r.combined.iter().filter(|c| c.texture == one.texture).count() {
                 1 => self.layout_qualifier(binding, "", ""),
-                // Two samplers of one texture have two units, which the host numbers.
+                // Two samplers of one texture have two units, numbered by the host.
                 _ => String::new(),
             };
             out += &format!("{layout}uniform {ty} {};\n", r.combined_name(*one));

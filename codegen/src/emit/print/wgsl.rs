@@ -26,7 +26,7 @@ impl Wgsl<'_> {
         [texture, sampler].map(Text::name)
     }
 
-    /// Number of levels or layers of a texture, as `i32`.
+    /// Returns the number of levels or layers of a texture, as `i32`.
     fn count_call(&self, function: &str, texture: u32) -> Text {
         let name = Text::name(self.resources.texture(texture).name.as_str());
         Text::call("i32", &[&Text::call(function, &[&name])])
@@ -154,7 +154,7 @@ impl Language for Wgsl<'_> {
 
     fn scalar_select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
         if ty.scalar_kind() == Some(Scalar::Bool) {
-            // `a < b, c, d > e` would begin a list of template arguments.
+            // `a < b, c, d > e` would be parsed as a list of template arguments.
             return Text::call("select", &[&no.in_parentheses(), &yes.in_parentheses(), condition]);
         }
         Text::call("select", &[no, yes, condition])
@@ -170,14 +170,14 @@ impl Language for Wgsl<'_> {
 
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
         if ty.scalar_kind() == Some(Scalar::Bool) && parts.len() > 1 {
-            // `a < b, c > d` would begin a list of template arguments.
+            // `a < b, c > d` would be parsed as a list of template arguments.
             let parts: Vec<Text> = parts.iter().map(|part| part.in_parentheses()).collect();
             return Text::call(&ty.short_name(), &parts.iter().collect::<Vec<_>>());
         }
         Text::call(&ty.short_name(), parts)
     }
 
-    // Operands are pure, and naga makes control flow of `&&` and `||`.
+    // Operands are pure, and naga compiles `&&` and `||` to control flow.
     fn logical_operator(&self, op: BinaryOp, _: Scalar) -> &'static str {
         if op == BinaryOp::And { "&" } else { "|" }
     }
@@ -378,7 +378,7 @@ impl Language for Wgsl<'_> {
 }
 
 impl Wgsl<'_> {
-    /// The structure of several outputs: of an entry point with their locations.
+    /// Declares the structure of several outputs; for an entry point with their locations.
     fn outputs_structure(&self) -> String {
         let r = self.resources;
         let fields = r
@@ -396,7 +396,7 @@ impl Wgsl<'_> {
         format!("struct {} {{\n{}}}\n", r.outputs_type(), fields.collect::<String>())
     }
 
-    /// The type that a function gives.
+    /// Returns the result type of a function.
     pub(super) fn result_type(&self) -> String {
         match &self.resources.outputs[..] {
             [one] => Ty::from(one.ty).short_name(),
@@ -405,7 +405,7 @@ impl Wgsl<'_> {
     }
 }
 
-/// A texel of four components, as texels are stored whatever their format.
+/// Pads a value to a texel of four components, as stores require in every format.
 pub(super) fn pad_texel(language: &dyn Language, output: &BoundOutput, value: &Text) -> Text {
     let texel = output.texel_type();
     let kind = texel.scalar_kind().unwrap_or(Scalar::F32);

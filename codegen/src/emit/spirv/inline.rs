@@ -1,5 +1,5 @@
-//! Calls of straight functions, replaced by their instructions: naga guards integer divisions, and Straightline conversions, by
-//! functions without a branch, each of which would be a basic block of its own.
+//! Inlining of straight-line functions. naga guards integer divisions, and Straightline conversions, by functions without a
+//! branch; each would be a separate basic block.
 
 use super::{HEADER, opcode_of, split_instructions};
 use std::collections::HashMap;
@@ -30,9 +30,9 @@ mod op {
     pub const RETURN_VALUE: u32 = 254;
 }
 
-/// Functions of one block that do nothing but compute, replaced where they are called. A module that has none is left as it is.
+/// Inlines functions of a single block that only compute. A module without such functions is returned unchanged.
 ///
-/// Each round takes one function away, so the rounds are at most as many as the functions.
+/// Each iteration removes one function, so there are at most as many iterations as functions.
 pub fn inline_functions(words: &[u32]) -> Vec<u32> {
     let mut module = words.to_vec();
     while let Some(next) = without_one(&module) {
@@ -41,7 +41,7 @@ pub fn inline_functions(words: &[u32]) -> Vec<u32> {
     module
 }
 
-/// A function that can replace its calls.
+/// A function that can be inlined.
 struct Straight<'w> {
     /// Id of the function.
     id: u32,
@@ -52,7 +52,7 @@ struct Straight<'w> {
 }
 
 impl<'w> Straight<'w> {
-    /// The function that `all` holds, if it is straight.
+    /// Parses the function in `all`; returns `None` if it cannot be inlined.
     fn new(all: &[&'w [u32]]) -> Option<Straight<'w>> {
         let [head, inner @ .., last, _end] = all else {
             return None;
@@ -74,17 +74,18 @@ impl<'w> Straight<'w> {
         })
     }
 
-    /// Every id that the function defines.
+    /// Returns whether the function defines an id.
     fn defines(&self, id: u32) -> bool {
         id == self.id || self.params.contains(&id) || self.body.iter().any(|i| i[2] == id)
     }
 }
 
-/// Index of the first operand of a computation that is a literal, not an id, counted in words from the instruction's first, or the
-/// instruction's length if all are ids; `None` for every other instruction. The second word is the type, the third the result.
+/// Returns the index of the first literal operand of a computation, counted in words from the instruction's first, or the
+/// instruction's length if all operands are ids. `None` for every other instruction. The second word is the type, the third
+/// the result.
 fn first_literal(instruction: &[u32]) -> Option<usize> {
     match opcode_of(instruction) {
-        // The set of instructions is an id, the number in it is none, and ids follow.
+        // The instruction set is an id, its instruction number is a literal, and ids follow.
         op::EXT_INST => Some(4),
         op::COMPOSITE_EXTRACT => Some(4),
         op::VECTOR_SHUFFLE => Some(5),
@@ -100,7 +101,7 @@ fn first_literal(instruction: &[u32]) -> Option<usize> {
     }
 }
 
-/// The module with one straight function fewer.
+/// Returns the module with one function inlined and removed.
 fn without_one(words: &[u32]) -> Option<Vec<u32>> {
     let all = split_instructions(words);
     let entries: Vec<u32> = all
@@ -115,7 +116,7 @@ fn without_one(words: &[u32]) -> Option<Vec<u32>> {
     });
     let (span, straight) = spans.find_map(|(first, end)| {
         let straight = Straight::new(&all[first..end])?;
-        // Of straight functions that call others, the others go first.
+        // Straight functions that call others must wait until those are inlined.
         let calls = straight.body.iter().any(|i| opcode_of(i) == op::FUNCTION_CALL);
         (!calls && !entries.contains(&straight.id)).then_some(((first, end), straight))
     })?;
@@ -152,7 +153,7 @@ fn without_one(words: &[u32]) -> Option<Vec<u32>> {
     Some(out)
 }
 
-/// Writes the body of a function for one call of it.
+/// Emits the body of a function for one call.
 fn inline_call(
     straight: &Straight<'_>,
     instruction: &[u32],
@@ -186,7 +187,7 @@ fn inline_call(
         copies.entry(computed[2]).or_default().push(own);
     }
     if straight.body.iter().all(|computed| computed[2] != straight.value) {
-        // A parameter or a constant comes back.
+        // The function returns a parameter or a constant.
         let value = stands_for.get(&straight.value).copied().unwrap_or(straight.value);
         out.extend([4 << 16 | op::COPY_OBJECT, *ty, *result, value]);
     }

@@ -1,5 +1,4 @@
-//! SPIR-V as words: straight functions replaced where they are called, blocks joined that are one, and exact
-//! operations decorated.
+//! SPIR-V as words: straight-line functions are inlined, consecutive blocks joined, and exact operations decorated.
 
 mod inline;
 mod uncontracted;
@@ -20,7 +19,7 @@ mod opcode {
     pub const SWITCH: u32 = 251;
 }
 
-/// The instructions of a module, each with its first word.
+/// Splits a module into instructions.
 fn split_instructions(words: &[u32]) -> Vec<&[u32]> {
     let mut rest = words.get(HEADER..).unwrap_or_default();
     let mut found = Vec::new();
@@ -37,8 +36,8 @@ fn opcode_of(instruction: &[u32]) -> u32 {
     instruction[0] & 0xffff
 }
 
-/// The module with a block and the next in one where the first ends in a branch to the second, and nothing else names that:
-/// naga begins each function with a block of its own for variables.
+/// Joins a block with the next one if it ends in a branch to it and nothing else refers to that label. naga begins each
+/// function with a separate block for variables.
 pub fn join_blocks(words: &[u32]) -> Vec<u32> {
     let all = split_instructions(words);
     let merges = |k: usize| k > 0 && matches!(opcode_of(all[k - 1]), opcode::LOOP_MERGE | opcode::SELECTION_MERGE);
@@ -47,7 +46,7 @@ pub fn join_blocks(words: &[u32]) -> Vec<u32> {
         .filter(|i| opcode_of(i) == opcode::LABEL)
         .map(|i| (i[1], 0))
         .collect();
-    // A literal of a switch may look like a label: then a block is left as it is.
+    // A literal of a switch may equal a label; the block is then left unchanged.
     let controls = |i: &&&[u32]| matches!(opcode_of(i), opcode::PHI..=opcode::SWITCH if opcode_of(i) != opcode::LABEL);
     for word in all.iter().filter(controls).flat_map(|i| &i[1..]) {
         if let Some(count) = users.get_mut(word) {

@@ -1,11 +1,11 @@
-//! Decoration of exact operations: naga writes none, so exact values pass through a function in the WGSL that is translated, and
-//! its calls become the decoration here.
+//! Decoration of exact operations. naga writes none, so the translated WGSL passes exact values through a marking function,
+//! whose calls become decorations here.
 
 use super::{HEADER, opcode_of, split_instructions};
 use crate::emit::legalise::AS_WRITTEN;
 use std::collections::HashSet;
 
-/// Opcodes of the instructions that are read or written here.
+/// Opcodes of the instructions handled here.
 mod code {
     pub const SOURCE_CONTINUED: u32 = 2;
     pub const SOURCE: u32 = 3;
@@ -32,14 +32,14 @@ mod code {
     pub const ARITHMETIC: [u32; 9] = [127, 129, 131, 133, 136, 140, 141, 142, 148];
 }
 
-/// The decoration `NoContraction`, which forbids to merge and reorder an operation.
+/// The decoration `NoContraction`, which prevents merging and reordering of an operation.
 const NO_CONTRACTION: u32 = 42;
 
-/// The module with each call of the marking function as a copy of its argument, and the operation that computes the argument decorated;
-/// the function is gone.
+/// Replaces each call of the marking function by a copy of its argument, decorates the operation that computes the
+/// argument, and removes the function.
 pub fn forbid_contraction(words: &[u32]) -> Vec<u32> {
     let all = split_instructions(words);
-    // An entry point may have the name; no other function is a kernel's own.
+    // An entry point may have that name; no other function is the kernel's own.
     let entries: HashSet<u32> = all
         .iter()
         .filter(|i| opcode_of(i) == code::ENTRY_POINT)
@@ -102,12 +102,12 @@ pub fn forbid_contraction(words: &[u32]) -> Vec<u32> {
     out
 }
 
-/// The first word of an instruction.
+/// Returns the first word of an instruction.
 fn instruction_head(length: u32, opcode: u32) -> u32 {
     length << 16 | opcode
 }
 
-/// Tells if an instruction stands before the types of a module, where decorations do.
+/// Returns whether an instruction precedes the types of a module, where decorations belong.
 fn is_before_types(opcode: u32) -> bool {
     use code::*;
     matches!(
@@ -130,7 +130,7 @@ fn is_before_types(opcode: u32) -> bool {
     )
 }
 
-/// A literal string.
+/// Decodes a literal string.
 fn literal_string(words: &[u32]) -> String {
     let bytes = words.iter().flat_map(|word| word.to_le_bytes());
     String::from_utf8_lossy(&bytes.take_while(|byte| *byte != 0).collect::<Vec<u8>>()).into_owned()

@@ -1,10 +1,10 @@
-//! A loop is left where that is decided: `if c { a } else { b } if c { break; }` is `if c { a; break; } b`.
+//! Moves exits into the branches that decide them: `if c { a } else { b } if c { break; }` becomes `if c { a; break; } b`.
 
 use super::simplify::not;
 use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
 use straightline_evaluator::ir::{self, BinaryOp, Type, UnaryOp};
 
-/// Moves every `break` that ends a loop's body into the branch before it that decides on it.
+/// Moves every `break` at the end of a loop's body into the preceding branch that decides it.
 pub fn sink_breaks(block: &mut Block<'_>) {
     for stmt in &mut *block {
         stmt.blocks_mut().into_iter().for_each(sink_breaks);
@@ -33,7 +33,7 @@ pub fn sink_breaks(block: &mut Block<'_>) {
 enum Known {
     /// The constant value.
     Is(bool),
-    /// The simplified condition; `true` if a branch at the end of the side decides more.
+    /// The simplified condition; `true` if a branch at the end of the side simplifies it further.
     Left(Expr, bool),
 }
 
@@ -47,7 +47,7 @@ impl Known {
     }
 }
 
-/// Merges a `break` at the end of a block with the branch before it, as deep as that decides.
+/// Merges a `break` at the end of a block with the preceding branch, as deeply as that decides it.
 fn sink_break(block: &mut Block<'_>) {
     branch_last(block);
     let [.., branch, leave] = block.as_slice() else { return };
@@ -93,7 +93,7 @@ fn sink_break(block: &mut Block<'_>) {
             }
         }
     }
-    // Statements after a side that ends in a `break` need no side of their own.
+    // After a side that ends in a `break`, the other side's statements need no block.
     let mut rest = Vec::new();
     if leaves_first {
         rest = std::mem::take(&mut otherwise);
@@ -111,7 +111,7 @@ fn sink_break(block: &mut Block<'_>) {
     block.extend(rest);
 }
 
-/// The condition of a statement that only leaves the loop.
+/// Returns the condition of a statement that only exits the loop.
 fn exit_condition<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
     match &stmt.kind {
         StmtKind::If {
@@ -125,7 +125,7 @@ fn exit_condition<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
     }
 }
 
-/// Evaluates the exit condition `leaves` at the end of a side of a branch that is taken where `condition` is `holds`.
+/// Evaluates the exit condition `leaves` at the end of a branch's side, which is taken if `condition` equals `holds`.
 fn evaluate_exit(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Known {
     let unchanged = !condition.mentions(|var| side.iter().any(|stmt| stmt.assigns(var)));
     let left = leaves.clone().rewrite(&mut |expr| {
@@ -166,8 +166,8 @@ fn last_value<'b>(block: &'b Block<'_>, var: VarId) -> Option<&'b Expr> {
     }
 }
 
-/// Moves assignments after a branch that do not depend on it to before it, so that the branch immediately precedes the `break` that it
-/// decides on.
+/// Moves assignments after a branch that do not depend on it to before it, so that the branch immediately precedes the
+/// `break` that it decides on.
 fn branch_last(block: &mut Block<'_>) {
     let Some(end) = block
         .len()
@@ -203,7 +203,7 @@ fn bool_constant(holds: bool) -> Expr {
     Expr::constant(Type::BOOL, [u32::from(holds), 0, 0, 0])
 }
 
-/// A boolean operation of which an argument is known.
+/// Simplifies a boolean operation with a constant argument.
 fn reduce_boolean(expr: Expr) -> Expr {
     let known = |k: usize| expr.args.get(k).and_then(Expr::as_constant).map(|bits| bits[0] != 0);
     let keep = match (&expr.op, known(0), known(1)) {
@@ -222,8 +222,8 @@ fn reduce_boolean(expr: Expr) -> Expr {
     args.swap_remove(keep)
 }
 
-/// Returns whether a variable that begins as `value` still holds it wherever a loop's body assigns that value again: each assignment of
-/// another value leads out of the loop.
+/// Returns whether a variable that begins as `value` still holds it wherever a loop's body assigns that value again: each
+/// assignment of another value exits the loop.
 fn keeps_value(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
     let leaves = matches!(body.last().map(|stmt| &stmt.kind), Some(StmtKind::Break));
     body.iter().all(|stmt| match &stmt.kind {
@@ -235,7 +235,7 @@ fn keeps_value(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
     })
 }
 
-/// Removes the assignments of what a variable is already.
+/// Removes the assignments of a value that the variable already has.
 fn drop_assignments(block: &mut Block<'_>, var: VarId, value: &Expr) {
     if matches!(block.last().map(|stmt| &stmt.kind), Some(StmtKind::Break)) {
         // The value assigned before a `break` is read after the loop.

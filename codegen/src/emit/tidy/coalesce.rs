@@ -1,6 +1,6 @@
-//! No second variable for what is copied back: `var b = a; if c { b = f(a); } a = b;` is `if c { a = f(a); }`, and so where
-//! both sides of the branch give `b` its value; `let b = f(a); g(b); a = b;` is `a = f(a); g(a);`,
-//! and `let a = f(); var b = a; if c { b = g(b); }` is `var a = f(); if c { a = g(a); }`.
+//! Merges variables whose value is copied back. `var b = a; if c { b = f(a); } a = b;` becomes `if c { a = f(a); }`, also
+//! if both sides assign `b`. `let b = f(a); g(b); a = b;` becomes `a = f(a); g(a);`. `let a = f(); var b = a; if c { b =
+//! g(b); }` becomes `var a = f(); if c { a = g(a); }`.
 
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
 use std::collections::BTreeSet;
@@ -16,7 +16,7 @@ fn merge_block(block: &mut Block<'_>, variables: &[Variable]) {
             .into_iter()
             .for_each(|inner| merge_block(inner, variables));
     }
-    // Variables whose whole value is assigned to another one: few of a long block.
+    // Variables whose whole value is assigned to another one: few in a long block.
     let passed_on: BTreeSet<VarId> = block
         .iter()
         .filter_map(|stmt| match &stmt.kind {
@@ -76,8 +76,8 @@ fn merge_block(block: &mut Block<'_>, variables: &[Variable]) {
     }
 }
 
-/// Finds in statement `k` a variable that is initialised with a value of the same name that is not read after the variable is changed:
-/// returns the variable, the value and the statement that made it.
+/// Finds in statement `k` a variable that is initialised with a named value which is not read after the variable changes.
+/// Returns the variable, the value, and the statement that made the value.
 fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarId, VarId, usize)> {
     let StmtKind::Var(copy, Some(value)) = &block[k].kind else {
         return None;
@@ -96,8 +96,8 @@ fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarI
     kept.then_some((copy, original, declared))
 }
 
-/// Finds in statement `k` the value that a later one of the block assigns to a variable whose old value is not read between: returns the
-/// value's name, the variable and the later statement.
+/// Finds in statement `k` a value that a later statement of the block assigns to a variable whose old value is not read in
+/// between. Returns the value's name, the variable and the later statement.
 fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let (StmtKind::Let(copy, _) | StmtKind::Var(copy, _)) = block[k].kind else {
         return None;
@@ -113,7 +113,7 @@ fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     (unread && (unused || same)).then_some((copy, original, last))
 }
 
-/// Returns whether a statement may leave its block.
+/// Returns whether a statement may exit its block.
 fn may_leave(stmt: &Stmt<'_>) -> bool {
     match &stmt.kind {
         StmtKind::Break | StmtKind::Return(_) => true,
@@ -121,8 +121,8 @@ fn may_leave(stmt: &Stmt<'_>) -> bool {
     }
 }
 
-/// If statement `k` copies a variable which a later one copies back, and none but the copy is changed between: the copy, the
-/// original and the later statement.
+/// Finds in statement `k` a copy of a variable that a later statement copies back, while only the copy changes in between.
+/// Returns the copy, the original and the later statement.
 fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let StmtKind::Var(copy, value) = &block[k].kind else {
         return None;
@@ -137,14 +137,14 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let kept = block[k + 1..last]
         .iter()
         .all(|stmt| keeps_original(stmt, copy, original, &mut changed));
-    // From there on both are the same, unless one of them changes.
+    // From there on both are equal, unless one of them changes.
     let rest = &block[last + 1..];
     let unused = rest.iter().all(|stmt| !stmt.mentions(copy));
     let same = rest.iter().all(|stmt| !stmt.assigns(copy) && !stmt.assigns(original));
     (kept && (unused || same)).then_some((copy, original, last))
 }
 
-/// The variable that is given the copy which statement `k` makes, and the statement that gives it.
+/// Returns the variable to which the copy of statement `k` is assigned, and the assigning statement.
 fn given_back(block: &[Stmt<'_>], k: usize, copy: VarId) -> Option<(VarId, usize)> {
     let back = |stmt: &Stmt<'_>| match &stmt.kind {
         StmtKind::Assign(place, None, value) if value.as_var() == Some(copy) => place.as_var(),
@@ -154,8 +154,8 @@ fn given_back(block: &[Stmt<'_>], k: usize, copy: VarId) -> Option<(VarId, usize
     rest.filter_map(|(at, stmt)| Some((back(stmt)?, at))).next()
 }
 
-/// Moves what reads the original before what changes the copy beside it, on every side of a branch: `b = x; c = a;` is
-/// `c = a; b = x;`.
+/// Moves reads of the original before changes of the copy, on every side of a branch: `b = x; c = a;` becomes `c = a; b =
+/// x;`.
 fn read_first(stmt: &mut Stmt<'_>, copy: VarId, original: VarId) {
     let StmtKind::If { then, otherwise, .. } = &mut stmt.kind else {
         return;
@@ -180,7 +180,7 @@ fn read_first(stmt: &mut Stmt<'_>, copy: VarId, original: VarId) {
     }
 }
 
-/// Returns whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
+/// Returns whether a statement does not change the original, and does not read it after the copy has `changed`.
 fn keeps_original(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> bool {
     let reads = |expr: &Expr| expr.mentions(|var| var == original);
     match &stmt.kind {
@@ -212,7 +212,7 @@ fn keeps_original(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut b
         StmtKind::Effect(effect) if effect.before.is_some_and(|var| var == copy || var == original) => false,
         // An exit from the loop skips the copy back.
         StmtKind::Break | StmtKind::Return(_) => false,
-        // Iterations see what those before have changed.
+        // An iteration sees the changes of earlier ones.
         StmtKind::For { .. } | StmtKind::Loop(_) => {
             let (copied, read) = (stmt.mentions(copy), stmt.mentions(original));
             let first = *changed;
@@ -231,7 +231,7 @@ fn rename_variable(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
     rename_before(stmt, from, to);
 }
 
-/// Renames the variable that takes the old value of an effect, too.
+/// Renames the variable that receives the old value of an effect, too.
 fn rename_before(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
     if let StmtKind::Effect(effect) = &mut stmt.kind
         && effect.before == Some(from)

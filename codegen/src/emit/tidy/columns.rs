@@ -1,18 +1,18 @@
-//! About how wide a statement is in print. Printers break what turns out too wide.
+//! Approximate printed width of statements. Printers wrap lines that exceed the limit.
 
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::legalise::AS_WRITTEN;
 use crate::emit::literals::number_columns;
 use straightline_evaluator::ir::{self, BinaryOp, Graph};
 
-/// Context that widths depend on: names.
+/// Names, which widths depend on.
 pub struct Columns<'m> {
     pub module: &'m Module<'m>,
     pub graph: &'m Graph,
 }
 
 impl Columns<'_> {
-    /// Columns of a statement's own line, without its indentation; operators and calls in it.
+    /// Returns the width of a statement's own line, without its indentation, and the number of its operators and calls.
     pub fn of_stmt(&self, stmt: &Stmt<'_>) -> (usize, usize) {
         let around = match &stmt.kind {
             StmtKind::Let(var, _) | StmtKind::Var(var, _) => self.module.variables[var.0 as usize].name.len() + 8,
@@ -30,7 +30,7 @@ impl Columns<'_> {
         )
     }
 
-    /// Columns of an expression.
+    /// Returns the width of an expression, in columns.
     pub fn expr_columns(&self, expr: &Expr) -> usize {
         let args: usize = expr.args.iter().map(|arg| self.expr_columns(arg)).sum();
         let commas = 2 * expr.args.len().saturating_sub(1);
@@ -108,7 +108,7 @@ impl Columns<'_> {
     }
 }
 
-/// Parentheses around operands that are operators themselves, where there may be some.
+/// Returns the width of possible parentheses around operands that are operators themselves.
 fn parenthesis_columns(expr: &Expr) -> usize {
     let operator = |arg: &&Expr| match (&arg.op, &expr.op) {
         (Op::Ir(ir::Op::Binary(inner)), Op::Ir(ir::Op::Binary(outer))) => !matches!(

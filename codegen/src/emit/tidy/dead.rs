@@ -1,9 +1,9 @@
-//! No statement for a value that nothing uses, and none that does nothing.
+//! Removes statements without effect, and statements whose value is unused.
 
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use straightline_evaluator::limits;
 
-/// Counts the reads of each variable, by variable.
+/// Counts the reads of each variable.
 pub fn count_reads(module: &Module<'_>) -> Vec<u32> {
     let mut uses = vec![0; module.variables.len()];
     for stmt in &module.body {
@@ -19,7 +19,7 @@ pub fn count_reads(module: &Module<'_>) -> Vec<u32> {
     uses
 }
 
-/// Expressions that a statement reads itself: writing to a variable is no use of it.
+/// Returns the expressions that a statement reads itself; a write to a variable is not a read.
 pub fn read_by<'s>(stmt: &'s Stmt<'_>) -> impl Iterator<Item = &'s Expr> {
     let written = matches!(&stmt.kind, StmtKind::Assign(place, None, _) if matches!(place.op, Op::Var(_)));
     stmt.own_exprs().skip(usize::from(written))
@@ -38,13 +38,13 @@ fn count_stmt_reads(stmt: &Stmt<'_>, uses: &mut [u32]) {
     }
 }
 
-/// Removes variables that nothing reads with what is assigned to them, branches without statements, and tables.
+/// Removes variables that are never read with their assignments, branches without statements, and unused tables.
 pub fn remove_dead(module: &mut Module<'_>) {
-    // Each turn but the last takes a statement away, and the first may take only tables.
+    // Each iteration but the last removes a statement, and the first may remove only tables.
     for _ in 0..=crate::emit::ast::count_statements(&module.body) + 1 {
         limits::count_work(u64::from(crate::emit::ast::count_statements(&module.body)));
         if limits::exceeded_limit(0).is_some() {
-            // The remaining statements are dead but correct; the caller that requested the text reports the exceeded limit.
+            // The remaining statements are dead but correct; the caller reports the exceeded limit.
             return;
         }
         let uses = count_reads(module);
@@ -79,7 +79,7 @@ fn sweep_block(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: 
         _ => true,
     });
     for stmt in block.iter_mut() {
-        // Effects stay.
+        // Effects are kept.
         if let StmtKind::Effect(effect) = &mut stmt.kind {
             effect.before = effect.before.filter(|var| is_used(*var) || effect.needs_variable());
         }
@@ -87,7 +87,7 @@ fn sweep_block(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: 
     *removed |= block.len() < before;
 }
 
-/// Variables without which what happens in a statement cannot be written in every language.
+/// Collects the variables that some language needs to express the effects of a statement.
 fn variables_of_effects(stmt: &Stmt<'_>, out: &mut Vec<VarId>) {
     if let StmtKind::Effect(effect) = &stmt.kind
         && effect.needs_variable()

@@ -1,4 +1,4 @@
-//! A value that is used once is written where it is used, while the line stays short.
+//! Inlines a value that is used once at its use, while the line stays short.
 
 use super::columns::Columns;
 use super::{dead, simplify_expr};
@@ -8,19 +8,19 @@ use crate::emit::text::WIDEST;
 use rustc_hash::{FxHashMap, FxHashSet};
 use straightline_evaluator::ir::{Graph, Memory};
 
-/// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
+/// Maximum number of operators and calls in a line, for readability and because shader compilers recurse over them.
 const MOST: usize = 16;
 
-/// Values that are not inlined.
+/// Kinds of values that are not inlined.
 #[derive(Clone, Copy)]
 pub struct Stays {
-    /// Reads of textures and buffers, whose order is not the source's.
+    /// Reads of textures and buffers, if their order is not the source's.
     pub reads: bool,
-    /// Values for which more scalars would be alive if they were computed later.
+    /// Values whose later computation would increase the number of live scalars.
     pub crowding: bool,
 }
 
-/// Inlines values that are used once, but for those that stay; gives whether there were some.
+/// Inlines values that are used once, except those that stay; returns whether there were any.
 pub fn inline_values(module: &mut Module<'_>, graph: &Graph, stays: Stays) -> bool {
     let uses = dead::count_reads(module);
     let mut body = std::mem::take(&mut module.body);
@@ -43,25 +43,25 @@ struct Inliner<'m> {
     columns: Columns<'m>,
 }
 
-/// A value that may be written where it is used.
+/// A value that may be inlined.
 #[derive(Clone, Copy)]
 struct Candidate {
-    /// Index of the statement that makes it.
+    /// Index of the statement that computes the value.
     at: usize,
     /// Width in columns.
     columns: usize,
-    /// Operators and calls in it.
+    /// Number of operators and calls.
     operations: usize,
 }
 
 /// Facts about the visited statements of a block.
 #[derive(Default)]
 struct Seen {
-    /// Values that may be written where they are used.
+    /// Values that may be inlined.
     defined: FxHashMap<VarId, Candidate>,
     /// Index of the statement that last assigned each mutable variable.
     assigned: FxHashMap<VarId, usize>,
-    /// Index of the statement that last read each variable of the block; its declaration counts.
+    /// Index of the statement that last read each variable of the block, including its declaration.
     read: FxHashMap<VarId, usize>,
 }
 
@@ -108,8 +108,8 @@ impl Inliner<'_> {
         inlined
     }
 
-    /// Returns whether computing a value in a later statement would keep more scalars alive: its operands then live until there, in place
-    /// of the value.
+    /// Returns whether computing a value in a later statement would keep more scalars alive: its operands then live until
+    /// there, instead of the value.
     fn is_crowding(&self, value: &Expr, at: usize, stmt: &Stmt<'_>, out: &[Option<Stmt<'_>>], seen: &Seen) -> bool {
         let is_last = |at: usize| out[at + 1..].iter().all(Option::is_none);
         if is_last(at) {
@@ -133,9 +133,9 @@ impl Inliner<'_> {
         more > register_count(value.ty.shape)
     }
 
-    /// Writes values of earlier statements into a statement, short ones first.
+    /// Inlines values of earlier statements into a statement, short ones first.
     fn absorb<'g>(&mut self, stmt: &mut Stmt<'g>, out: &mut [Option<Stmt<'g>>], seen: &Seen, depth: usize) {
-        // The end of a loop is computed again for each iteration: what it reads must not change, and be quick to tell.
+        // The end of a loop is computed again for each iteration, so its operands must not change, and it must be cheap.
         let mut written = FxHashSet::default();
         let is_loop = matches!(stmt.kind, StmtKind::For { .. });
         if is_loop {
@@ -144,7 +144,7 @@ impl Inliner<'_> {
         let suits = |value: &Expr, operations: usize| {
             !is_loop || (operations <= 2 && !reads_memory(value) && !value.mentions(|var| written.contains(&var)))
         };
-        // Each turn takes one of them.
+        // Each iteration inlines one value.
         for _ in 0..=out.len() {
             let mut candidates = Vec::new();
             for expr in stmt.own_exprs() {
@@ -206,7 +206,7 @@ impl Inliner<'_> {
     }
 }
 
-/// Shows each variable that expressions read, with `weight` each time.
+/// Visits each variable that expressions read, with `weight` each time.
 fn visit_reads<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, see: &mut dyn FnMut(VarId, i32)) {
     for expr in exprs {
         expr.visit(&mut |expr| {
@@ -243,7 +243,7 @@ fn changed_since(value: &Expr, at: usize, assigned: &FxHashMap<VarId, usize>) ->
     value.mentions(changed) || (reads_shared(value) && changed(VarId::MEMORY))
 }
 
-/// Shows every variable that a statement assigns to.
+/// Visits every variable that a statement assigns.
 fn visit_assignments(stmt: &Stmt<'_>, see: &mut dyn FnMut(VarId)) {
     if let StmtKind::Assign(place, ..) = &stmt.kind {
         place.visit(&mut |expr| {

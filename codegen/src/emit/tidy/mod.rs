@@ -1,4 +1,4 @@
-//! Rules that make a tree read as a colleague would have written it. None changes what is computed, by a single bit.
+//! Rules that make a tree read as if written by a colleague. None changes any bit of the result.
 //!
 //! File tests: `codegen/tests/filetests/tidy`.
 
@@ -19,12 +19,12 @@ use straightline_evaluator::policy::ReadOrder;
 
 pub use simplify::simplify_expr;
 
-/// Scalars alive at once from which values stay where fewer are alive for them. With fewer, compilers of GPUs do as well by
-/// themselves (docs/study.md).
+/// Number of live scalars from which inlining must not increase pressure. Below it, GPU compilers do as well on their own
+/// (docs/study.md).
 const MANY_ALIVE: u32 = 32;
 
-/// Tidies a kernel's statements. Reads that stand in an order of their own stay where they are, and of a kernel in which many values
-/// are alive what would make them more.
+/// Tidies a kernel's statements. Reads with an explicit order stay in place; in a kernel with many live values, so do
+/// values whose inlining would add more.
 pub fn tidy_kernel<'g>(module: &mut Module<'g>, graph: &Graph, reads: ReadOrder) {
     module.rewrite(&mut |_, expr| simplify_expr(expr));
     dead::remove_dead(module);
@@ -43,13 +43,14 @@ pub fn tidy_kernel<'g>(module: &mut Module<'g>, graph: &Graph, reads: ReadOrder)
     statements::shorten_statements(&mut module.body);
 }
 
-/// Writes values where they are used, until there are no more.
+/// Inlines values until there are none left.
 fn inline_repeatedly(module: &mut Module<'_>, graph: &Graph, stays: Stays) {
     inline_values(module, graph, stays);
     breaks::sink_breaks(&mut module.body);
     // Variables that were separated by a loop's early exit can be merged now.
     coalesce::coalesce_variables(module);
-    // Inlined values have new neighbours, and shorter ones may be inlined now. Each turn but the last removes a statement.
+    // Inlined values have new neighbours, and shorter ones may now be inlined. Each iteration but the last removes a
+    // statement.
     for _ in 0..=count_statements(&module.body) {
         module.rewrite(&mut |_, expr| simplify_expr(expr));
         dead::remove_dead(module);

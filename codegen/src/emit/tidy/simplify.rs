@@ -1,9 +1,9 @@
-//! Shorter ways to write an expression.
+//! Shorter forms of expressions.
 
 use crate::emit::ast::{Expr, Op};
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
-/// Rewrites an expression, whose arguments have been rewritten.
+/// Simplifies an expression whose arguments have been simplified.
 pub fn simplify_expr(expr: Expr) -> Expr {
     match &expr.op {
         Op::Swizzle(_) => simplify_swizzle(expr),
@@ -17,7 +17,7 @@ pub fn simplify_expr(expr: Expr) -> Expr {
     }
 }
 
-/// `!condition`: of `!a`, `a`, and of `a == b`, `a != b`.
+/// Returns `!condition`: `a` for `!a`, and `a != b` for `a == b`.
 pub fn not(mut condition: Expr) -> Expr {
     let opposite = |op| match op {
         BinaryOp::Eq => Some(BinaryOp::Ne),
@@ -27,7 +27,7 @@ pub fn not(mut condition: Expr) -> Expr {
     match condition.op {
         Op::Ir(ir::Op::Unary(UnaryOp::Not)) => return condition.args.swap_remove(0),
         Op::Ir(ir::Op::Binary(op)) => {
-            // Of other comparisons the opposite does not hold of a NaN.
+            // For a NaN, the opposite of other comparisons does not hold.
             if let Some(opposite) = opposite(op) {
                 condition.op = Op::Ir(ir::Op::Binary(opposite));
                 return condition;
@@ -39,7 +39,7 @@ pub fn not(mut condition: Expr) -> Expr {
     Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Not)), vec![condition], ty)
 }
 
-/// `v.zyx.y` is `v.y`, `v.xyz` of a vector of three `v`, `vec2(a, b).y` is `b`.
+/// `v.zyx.y` becomes `v.y`; `v.xyz` of a vector of three becomes `v`; `vec2(a, b).y` becomes `b`.
 fn simplify_swizzle(mut expr: Expr) -> Expr {
     let Op::Swizzle(components) = &expr.op else { return expr };
     let base = &mut expr.args[0];
@@ -63,7 +63,7 @@ fn simplify_swizzle(mut expr: Expr) -> Expr {
     }
 }
 
-/// `vec3(v.x, v.y, a)` is `vec3(v.xy, a)`.
+/// `vec3(v.x, v.y, a)` becomes `vec3(v.xy, a)`.
 fn simplify_construct(expr: Expr) -> Expr {
     if expr.ty.is_array() || expr.args.len() < 2 {
         return expr;
@@ -90,7 +90,7 @@ fn simplify_construct(expr: Expr) -> Expr {
     }
 }
 
-/// `f32(u32(i))` is `f32(i)` where `i` has no sign; so is `i32(u32(i))` `i`.
+/// `f32(u32(i))` becomes `f32(i)` if `i` is not negative; likewise `i32(u32(i))` becomes `i`.
 fn simplify_convert(mut expr: Expr) -> Expr {
     let Op::Convert { fits: outer } = expr.op else {
         return expr;
@@ -109,7 +109,7 @@ fn simplify_convert(mut expr: Expr) -> Expr {
     expr
 }
 
-/// A vector of one number in all components is that number where the other side is a vector.
+/// A vector with equal components becomes a scalar if the other operand is a vector.
 fn scalar_operands(op: BinaryOp, mut expr: Expr) -> Expr {
     if !matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div) || expr.ty.is_scalar() {
         return expr;
@@ -124,7 +124,7 @@ fn scalar_operands(op: BinaryOp, mut expr: Expr) -> Expr {
     expr
 }
 
-/// The number that all components of a vector are.
+/// Returns the scalar that all components of a vector equal.
 fn splatted_scalar(expr: &Expr) -> Option<Expr> {
     let kind = expr.ty.scalar_kind()?;
     let lanes = expr.ty.component_count() as usize;
@@ -139,7 +139,7 @@ fn splatted_scalar(expr: &Expr) -> Option<Expr> {
     }
 }
 
-/// `x + -1` is `x - 1`, and `x - -1` is `x + 1`.
+/// `x + -1` becomes `x - 1`, and `x - -1` becomes `x + 1`.
 fn flip_negative_term(op: BinaryOp, mut expr: Expr) -> Expr {
     let other = match op {
         BinaryOp::Add => BinaryOp::Sub,
@@ -168,7 +168,7 @@ fn flip_negative_term(op: BinaryOp, mut expr: Expr) -> Expr {
     expr
 }
 
-/// `(f(v.x) < a) & (f(v.y) < a)` is `all(f(v.xy) < vec2(a))`, and so is `max(v.x, v.y) < a` of integers.
+/// `(f(v.x) < a) & (f(v.y) < a)` becomes `all(f(v.xy) < vec2(a))`, and so does `max(v.x, v.y) < a` of integers.
 fn merge_comparisons(op: BinaryOp, expr: Expr) -> Expr {
     match op {
         BinaryOp::And | BinaryOp::Or if expr.ty.shape == Type::BOOL => {
@@ -210,7 +210,7 @@ fn is_comparison(expr: &Expr) -> bool {
     matches!(expr.op, Op::Ir(ir::Op::Binary(op)) if op.is_comparison())
 }
 
-/// Operands of a chain of an operator.
+/// Collects the operands of a chain of one operator.
 fn collect_operands<'e>(expr: &'e Expr, op: BinaryOp, out: &mut Vec<&'e Expr>) {
     if expr.op == Op::Ir(ir::Op::Binary(op)) {
         expr.args.iter().for_each(|arg| collect_operands(arg, op, out));
@@ -219,7 +219,7 @@ fn collect_operands<'e>(expr: &'e Expr, op: BinaryOp, out: &mut Vec<&'e Expr>) {
     }
 }
 
-/// The vector whose components these are, in order.
+/// Returns the vector whose components these are, in order.
 fn whole_vector(parts: &[&Expr]) -> Option<Expr> {
     let first = parts.first()?;
     let Op::Swizzle(_) = first.op else { return None };
@@ -229,8 +229,8 @@ fn whole_vector(parts: &[&Expr]) -> Option<Expr> {
     (whole && parts.len() > 1).then(|| base.clone())
 }
 
-/// Two expressions that differ by the components of one vector alone, as one of more components; both have the shape of the other
-/// but for how many components they are of.
+/// Joins two expressions that differ only in the components of one vector, into one with more components. Both must have
+/// the same shape, except for the number of components.
 fn join_components(left: &Expr, right: &Expr) -> Option<Expr> {
     let lanes = left.ty.component_count() + right.ty.component_count();
     if lanes > 4 || left.ty.is_array() {

@@ -1,10 +1,10 @@
-//! Shorter ways to write a statement.
+//! Shorter forms of statements.
 
 use super::simplify::not;
 use crate::emit::ast::{Block, Expr, Op, StmtKind};
 use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 
-/// Rewrites every statement, those of inner blocks too.
+/// Shortens every statement, including those of inner blocks.
 pub fn shorten_statements(block: &mut Block<'_>) {
     for stmt in block {
         stmt.blocks_mut().into_iter().for_each(shorten_statements);
@@ -18,7 +18,7 @@ pub fn shorten_statements(block: &mut Block<'_>) {
                 then,
                 otherwise,
             } if then.is_empty() => {
-                // `if c {} else { a }` is `if !c { a }`.
+                // `if c {} else { a }` becomes `if !c { a }`.
                 let taken = std::mem::replace(condition, Expr::constant(ir::Type::BOOL, [0; 4]));
                 *condition = not(taken);
                 std::mem::swap(then, otherwise);
@@ -28,7 +28,7 @@ pub fn shorten_statements(block: &mut Block<'_>) {
     }
 }
 
-/// `v = vec2(a, v.y)` is `v.x = a`.
+/// `v = vec2(a, v.y)` becomes `v.x = a`.
 fn one_component(place: &mut Expr, value: &mut Expr) {
     if place.as_var().is_none() || place.ty.is_array() || value.op != Op::Construct {
         return;
@@ -53,7 +53,7 @@ fn one_component(place: &mut Expr, value: &mut Expr) {
     }
 }
 
-/// `x = x + a` is `x += a`.
+/// `x = x + a` becomes `x += a`.
 fn compound_assignment(place: &Expr, assigned: &mut Option<BinaryOp>, value: &mut Expr) {
     let Op::Ir(ir::Op::Binary(op)) = value.op else { return };
     let compounds = match op {

@@ -1,6 +1,6 @@
-//! Words of GLSL, of OpenGL ES and of the compatibility profile too.
+//! Reserved words of GLSL, including OpenGL ES and the compatibility profile.
 
-/// Keywords and built-in functions of GLSL. Types that come in families are recognised by their form.
+/// Keywords and built-in functions of GLSL. Families of types are recognised by their form.
 #[rustfmt::skip]
 pub const WORDS: &[&str] = &[
     "abs", "acos", "acosh", "active", "all", "allInvocations", "allInvocationsEqual", "any", "anyInvocation",

@@ -1,7 +1,7 @@
 //! Words of HLSL.
 
-/// Keywords, types and intrinsic functions of HLSL, and the keywords of C++ that DXC keeps. Numeric types, which come in
-/// families, are recognised by their form.
+/// Keywords, types and intrinsic functions of HLSL, and the keywords of C++ that DXC reserves. Families of numeric types
+/// are recognised by their form.
 #[rustfmt::skip]
 pub const WORDS: &[&str] = &[
     "abort", "abs", "AcceptHitAndEndSearch", "acos", "AddUint64", "alignas", "alignof", "all", "AllMemoryBarrier",

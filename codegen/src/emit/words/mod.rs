@@ -1,4 +1,4 @@
-//! Words that have a meaning of their own in a language, and names that are none.
+//! Reserved words of each language, and names that are invalid.
 
 mod glsl;
 mod hlsl;
@@ -10,13 +10,13 @@ use naga::keywords::wgsl;
 use std::collections::BTreeSet;
 use straightline_evaluator::diagnostic::Code;
 
-/// Letters that every compiler takes in a name.
+/// Maximum length of a name that every compiler accepts.
 pub const LONGEST: usize = 255;
 
-/// Names that are tried in place of one that is taken. A text has far fewer.
+/// Maximum number of alternatives for a taken name. A text has far fewer names.
 const MOST: u32 = 1_000_000;
 
-/// A language whose words names stay clear of.
+/// A language whose reserved words names must avoid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Words {
     /// WGSL, and its translations by naga.
@@ -28,7 +28,7 @@ pub enum Words {
 }
 
 impl Words {
-    /// The words of a target's text.
+    /// Returns the language of a target's text.
     pub fn from_target(target: Target) -> Words {
         match target {
             Target::Hlsl => Words::Hlsl,
@@ -37,7 +37,7 @@ impl Words {
         }
     }
 
-    /// Returns whether a word has a meaning of its own in the language.
+    /// Returns whether a word is reserved in the language.
     pub fn is_reserved(self, word: &str) -> bool {
         word.starts_with("__")
             || match self {
@@ -53,7 +53,7 @@ impl Words {
     }
 }
 
-/// Words of HLSL that FXC takes in any case.
+/// Words of HLSL that FXC reserves regardless of case.
 const IN_ANY_CASE: [&str; 8] = [
     "asm",
     "decl",
@@ -65,7 +65,7 @@ const IN_ANY_CASE: [&str; 8] = [
     "TextureCube",
 ];
 
-/// Words that names in one text stay clear of: those of its language, of others and of an engine.
+/// Words that names in one text must avoid: those of its language, of others and of an engine.
 #[derive(Clone, Debug)]
 pub struct Reserved {
     languages: BTreeSet<Words>,
@@ -73,7 +73,7 @@ pub struct Reserved {
 }
 
 impl Reserved {
-    /// Of a text in the language of a target.
+    /// Collects the words for the language of a target.
     pub fn new(target: Target, options: &EmitOptions) -> Reserved {
         let also = options.clear_of.iter().map(|other| Words::from_target(*other));
         Reserved {
@@ -88,15 +88,16 @@ impl Reserved {
     }
 }
 
-/// Returns whether a word matches an entry of a list, in which `gl_*` is every word that begins so and `*Sampler` every one that ends so.
+/// Returns whether a word matches an entry of a list, in which `gl_*` stands for every word with that prefix and `*Sampler`
+/// for every word with that suffix.
 pub fn is_among(words: &BTreeSet<String>, word: &str) -> bool {
     let begins = |pattern: &String| pattern.strip_suffix('*').is_some_and(|start| word.starts_with(start));
     let ends = |pattern: &String| pattern.strip_prefix('*').is_some_and(|end| word.ends_with(end));
     words.contains(word) || words.iter().any(|pattern| begins(pattern) || ends(pattern))
 }
 
-/// Types of WGSL that come in families, which are predeclared: `vec2f`, `mat4x3h`, `texture_2d`; and what texel formats and the
-/// accesses of memory are called.
+/// Returns whether a word is a predeclared type of WGSL from a family (`vec2f`, `mat4x3h`, `texture_2d`), a texel format,
+/// or an access mode.
 fn is_wgsl_type(word: &str) -> bool {
     const OTHERS: [&str; 21] = [
         "bool",
@@ -143,7 +144,7 @@ fn is_wgsl_type(word: &str) -> bool {
     OTHERS.contains(&word) || is_number("vec") || is_number("mat") || is_texture || is_format
 }
 
-/// Types of HLSL that come in families: `float4x3`, `uint2`, `min16float`, `sampler2D`.
+/// Returns whether a word is a type of HLSL from a family: `float4x3`, `uint2`, `min16float`, `sampler2D`.
 fn is_hlsl_type(word: &str) -> bool {
     const SCALARS: [&str; 23] = [
         "bool",
@@ -177,7 +178,8 @@ fn is_hlsl_type(word: &str) -> bool {
     SCALARS.iter().any(is_numeric) || opaque.iter().any(is_opaque)
 }
 
-/// Returns whether a text is a size suffix, as it follows the scalar's name in that of a vector or a matrix: `3`, `4x2`, or nothing.
+/// Returns whether a text is a size suffix, which follows the scalar in the name of a vector or a matrix: `3`, `4x2`, or
+/// nothing.
 fn is_size(text: &str) -> bool {
     let side = |c: u8| (b'1'..=b'4').contains(&c);
     match text.as_bytes() {
@@ -188,7 +190,7 @@ fn is_size(text: &str) -> bool {
     }
 }
 
-/// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
+/// Returns whether a word is a type of GLSL from a family: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
 fn is_glsl_type(word: &str) -> bool {
     let is_type = |bare: &str| {
         let numbered = ["vec", "mat"].iter().any(|kind| {
@@ -206,7 +208,7 @@ fn is_glsl_type(word: &str) -> bool {
     is_type(word) || word.strip_prefix(['i', 'u', 'b', 'd', 'f', 'h']).is_some_and(is_type)
 }
 
-/// Returns whether a text consists of GLSL's shapes of textures and their suffixes: `2DArrayShadow`, `CubeLod`.
+/// Returns whether a text consists of GLSL's texture shapes and their suffixes: `2DArrayShadow`, `CubeLod`.
 fn is_shape(text: &str) -> bool {
     const PARTS: [&str; 11] = [
         "1D", "2D", "3D", "Cube", "Buffer", "Rect", "Array", "Shadow", "MS", "Lod", "Proj",
@@ -218,12 +220,12 @@ fn is_shape(text: &str) -> bool {
     rest.is_empty() && !text.is_empty()
 }
 
-/// A name as an identifier of every language: `é` becomes `ue9`, two underscores in a row become one, and what is very long is
-/// cut.
+/// Returns a name as an identifier of every language: `é` becomes `ue9`, double underscores become one, and very long names
+/// are cut.
 pub fn to_identifier(name: &str) -> String {
     let mut out = String::new();
     let mut push = |c: char| {
-        // GLSL keeps two underscores in a row for itself.
+        // GLSL reserves double underscores.
         if c != '_' || !out.ends_with('_') {
             out.push(c);
         }
@@ -244,7 +246,7 @@ pub fn to_identifier(name: &str) -> String {
     }
 }
 
-/// Returns whether a name is an identifier of every language as it is.
+/// Returns whether a name is already an identifier in every language.
 pub fn is_plain(name: &str) -> bool {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.len() <= LONGEST
@@ -254,11 +256,11 @@ pub fn is_plain(name: &str) -> bool {
         && !name.contains("__")
 }
 
-/// A name that is not taken: `name` itself, or else `name_`, `v_name`, or `v_name_2`, `v_name_3`, ...
+/// Returns a name that is not taken: `name` itself, or else `name_`, `v_name`, or `v_name_2`, `v_name_3`, ...
 ///
 /// # Errors
 ///
-/// All of a million names are taken.
+/// If all of a million names are taken.
 pub fn free_name(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Result<String, Refusal> {
     let base = match is_plain(name) {
         true => name.to_owned(),
@@ -267,7 +269,7 @@ pub fn free_name(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Resu
     if !taken(&base) {
         return Ok(base);
     }
-    // Room for what is put behind it.
+    // Leaves room for the suffix.
     let stem = &base[..base.len().min(LONGEST / 2)];
     let stem = stem.trim_end_matches('_');
     let marked = [format!("{stem}_"), format!("v_{}", stem.trim_start_matches('_'))];
@@ -275,15 +277,15 @@ pub fn free_name(kernel: &str, name: &str, taken: impl Fn(&str) -> bool) -> Resu
         return Ok(free.clone());
     }
     let [_, before] = &marked;
-    // Words of an engine may begin as the name does.
+    // An engine may reserve all words with the name's prefix.
     numbered_name(kernel, before, 2, taken).map(|(name, _)| name)
 }
 
-/// The first of `stem_K`, `stem_(K + 1)`, ... that is not taken, and the number behind its own.
+/// Returns the first of `stem_K`, `stem_(K + 1)`, ... that is not taken, and the number after its own.
 ///
 /// # Errors
 ///
-/// All of a million names are taken.
+/// If all of a million names are taken.
 pub fn numbered_name(
     kernel: &str,
     stem: &str,

@@ -1,4 +1,4 @@
-//! Declarations of options: kind, default and range of each, read from `options!`.
+//! Option declarations: kind, default and range of each, read from `options!`.
 
 use super::super::Evaluator;
 use super::super::value::{Eval, Exit, Value};
@@ -10,7 +10,7 @@ use crate::ir::{Scalar, Type};
 use straightline_kernels::OptionValue;
 
 impl Evaluator<'_> {
-    /// Declaration of an option, with its default evaluated.
+    /// Evaluates the declaration of an option, including its default.
     pub(super) fn option_info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
         let default = self.eval_expr(&field.default)?;
         let default = self.ascribe_type(default, Some(&field.ty), field.default.span)?;
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// An option that is an array of numbers.
+    /// Evaluates the declaration of an option that is an array of numbers.
     fn list_info(&mut self, field: &OptionField, default: &Value) -> Eval<OptionInfo> {
         let element = match field.ty.peel_refs() {
             SourceType::Array(element, _) => match &**element {
@@ -104,7 +104,7 @@ impl Evaluator<'_> {
         .into()
     }
 
-    /// Numbers that the option `field`, of the scalar type `ty`, can hold.
+    /// Range of the option `field` of scalar type `ty`.
     fn numeric_range(&mut self, field: &OptionField, ty: &str) -> Eval<Numeric> {
         let (min, max) = self.stated_limits(field)?;
         let scalar = match ty {
@@ -115,7 +115,7 @@ impl Evaluator<'_> {
         Ok(Numeric { scalar, min, max })
     }
 
-    /// Smallest and largest value of a number.
+    /// Declared minimum and maximum of a number.
     fn stated_limits(&mut self, field: &OptionField) -> Eval<(Option<f64>, Option<f64>)> {
         let Some(range) = &field.range else {
             return Ok((None, None));
@@ -164,7 +164,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Refuses a default with a number outside of the option's range.
+/// Rejects a default with a number outside the option's range.
 fn in_range(field: &OptionField, defaults: &[f64], of: &Numeric) -> Result<(), Exit> {
     let (low, high) = (of.min.unwrap_or(f64::NEG_INFINITY), of.max.unwrap_or(f64::INFINITY));
     match defaults.iter().find(|n| !(low..=high).contains(*n)) {

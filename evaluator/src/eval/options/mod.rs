@@ -1,4 +1,4 @@
-//! A kernel's options: what there are, and the values of one setting.
+//! Options of a kernel: their declarations, and the values of one setting.
 
 mod declared;
 mod parse;
@@ -17,7 +17,7 @@ use straightline_kernels::{OptionText, OptionValue, OptionValues, kebab};
 pub use parse::parse_settings;
 pub(super) use parse::unknown_settings;
 
-/// One option of a kernel.
+/// An option of a kernel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OptionInfo {
     /// Name on the command line: the field's, with `-` for `_`.
@@ -26,14 +26,14 @@ pub struct OptionInfo {
     pub docs: String,
     /// Kind of its values.
     pub kind: OptionKind,
-    /// Default; of a number that is set at run time, the one it has until then.
+    /// Default. An option that is set at run time has this value until then.
     pub default: OptionValue,
-    /// True if it is `uniform` unless a setting says otherwise: a number that is set at run time, with this default.
+    /// `true` if the option is set at run time unless a setting overrides that.
     pub uniform: bool,
 }
 
 impl OptionInfo {
-    /// Value of the option where no setting names it.
+    /// Value of the option if no setting names it.
     pub fn default_value(&self) -> OptionValue {
         match self.uniform {
             true => OptionValue::Uniform,
@@ -45,13 +45,13 @@ impl OptionInfo {
 /// Kind of an option's values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OptionKind {
-    /// One of some values, each with its meaning.
+    /// A choice of several values, each with its meaning.
     Choice(Vec<(String, String)>),
-    /// A number; or `uniform`, to be set at run time.
+    /// A number, or `uniform` for one that is set at run time.
     Number(Numeric),
-    /// As many numbers, separated by commas.
+    /// Several numbers, separated by commas.
     List {
-        /// Length; any if there is none.
+        /// Required length; `None` if any length is allowed.
         len: Option<usize>,
         /// Range of each.
         of: Numeric,
@@ -60,7 +60,7 @@ pub enum OptionKind {
     Flag,
 }
 
-/// Numbers that an option can hold: those of a scalar type within a range, both ends included.
+/// Range of a numeric option: a scalar type with inclusive bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numeric {
     /// `f32`, `i32` or `u32`.
@@ -72,7 +72,7 @@ pub struct Numeric {
 }
 
 impl Numeric {
-    /// Returns whether it holds whole numbers only.
+    /// Returns whether the option allows whole numbers only.
     pub fn is_integer(&self) -> bool {
         self.scalar != Scalar::F32
     }
@@ -102,7 +102,7 @@ pub fn describe_options(library: &Library, files: &Arc<Vec<File>>, entry: &str) 
     }
 }
 
-/// The options declared for `entry`, of whichever of its parameters is made of options.
+/// Options declared for `entry`: the fields of its parameter that is an options structure.
 fn option_fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
     let params = library
         .functions
@@ -116,7 +116,7 @@ fn option_fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> 
     declared.flatten().collect()
 }
 
-/// An error for every field that has the name of one before it.
+/// Errors for fields whose name was declared before.
 fn duplicate_errors(fields: &[&OptionField]) -> Vec<Exit> {
     let again = fields.iter().enumerate().filter_map(|(k, field)| {
         let first = fields[..k].iter().find(|other| other.name == field.name)?;
@@ -134,7 +134,7 @@ fn duplicate_errors(fields: &[&OptionField]) -> Vec<Exit> {
 }
 
 impl Evaluator<'_> {
-    /// A structure of options with each field set or at its default.
+    /// Builds the options structure, with each field set or at its default.
     pub fn configure_options(&mut self, ty: &str, settings: &[OptionText], chosen: &mut OptionValues) -> Eval {
         let library = self.library;
         let mut values = Vec::new();
@@ -169,7 +169,7 @@ impl Evaluator<'_> {
         Ok(Value::structure(ty, values))
     }
 
-    /// The kernel's value of an option. Settings equal to the default share its node, so that both give the same text.
+    /// Value of an option in the kernel. A setting equal to the default shares its node, so that both emit the same text.
     fn value_of(&mut self, field: &OptionField, info: &OptionInfo, value: &OptionValue) -> Eval {
         if *value == info.default {
             let default = self.eval_expr(&field.default)?;
@@ -208,7 +208,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// A value that is set at run time.
+    /// Adds a value that is set at run time.
     pub fn add_uniform(&mut self, name: &str, ty: Type, default: Option<f64>) -> Value {
         let uniforms = &mut self.builder.graph_mut().uniforms;
         uniforms.push(Uniform {
@@ -222,8 +222,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// The one form of a number among the spellings of the same `f32` or integer: the shortest decimal, a whole number in all of its
-/// digits.
+/// Canonical form of a number, so that all spellings of one `f32` or integer agree: the shortest decimal, or all digits of
+/// a whole number.
 fn canonical_number(number: f64) -> f64 {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         // -0 + 0 is 0.

@@ -1,4 +1,4 @@
-//! Text of options as values, by their declarations.
+//! Parsing of option values by their declarations.
 
 use super::{Numeric, OptionInfo, OptionKind, canonical_number};
 use crate::diagnostic::{Code, Diagnostic};
@@ -6,14 +6,14 @@ use crate::ir::Scalar;
 use crate::shorten;
 use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
-/// The word for an option that is set at run time.
+/// Keyword for an option that is set at run time.
 const UNIFORM: &str = "uniform";
 
 /// Values of all options under `settings`, pairs of name and text.
 ///
 /// # Errors
 ///
-/// A diagnostic for each name that is no option or stands twice, and for each text that is no value of its option.
+/// A diagnostic for each unknown or repeated name, and for each text that is not a valid value of its option.
 pub fn parse_settings(
     kernel: &str,
     infos: &[OptionInfo],
@@ -36,7 +36,7 @@ pub fn parse_settings(
     }
 }
 
-/// An error for each setting that names none of the options `names`.
+/// Errors for settings that name none of the options `names`.
 pub(in crate::eval) fn unknown_settings(kernel: &str, names: &[&str], settings: &[OptionText]) -> Vec<Diagnostic> {
     let unknown = settings.iter().filter(|(name, _)| !names.contains(&name.as_str()));
     let errors = unknown.map(|(name, _)| {
@@ -76,7 +76,7 @@ pub(super) fn setting_value(info: &OptionInfo, settings: &[OptionText]) -> Resul
     Err(errors)
 }
 
-/// The value that `text` stands for.
+/// Parses the value of an option.
 fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> {
     let refuse = |text: &str, allowed: String| {
         let what = format!("`{}` is not a value of the option `{}`", shorten(text), info.name);
@@ -123,7 +123,7 @@ fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> 
 }
 
 impl Numeric {
-    /// Smallest and largest number, by the range and the type.
+    /// Smallest and largest number allowed by the range and the type.
     fn bounds(&self) -> (f64, f64) {
         let (low, high) = match self.scalar {
             Scalar::I32 => (f64::from(i32::MIN), f64::from(i32::MAX)),
@@ -136,10 +136,10 @@ impl Numeric {
         )
     }
 
-    /// The number that `text` stands for, in its canonical form.
+    /// Parses a number, in its canonical form.
     fn parse(&self, text: &str) -> Option<f64> {
         let number = text.parse::<f64>().ok()?;
-        // An `f32` is compared with the bounds as the `f32` that it becomes: 0.001 is not below 0.001f32.
+        // An `f32` is compared with the bounds after conversion: 0.001 is not below 0.001f32.
         let held = match self.scalar {
             Scalar::F32 => f64::from(number as f32),
             _ => number,
@@ -149,7 +149,7 @@ impl Numeric {
         (is_held && (low..=high).contains(&held)).then(|| canonical_number(held))
     }
 
-    /// Help for a text that is none of its numbers.
+    /// Help that lists the allowed numbers.
     fn allowed_help(&self) -> String {
         let what = if self.is_integer() {
             "a whole number"

@@ -1,8 +1,8 @@
-//! Arguments and results of reads and writes.
+//! Verification of reads and writes.
 
 use crate::ir::{Access, AtomicOp, Graph, Invocation, Memory, Node, Op, Scalar, Texture, TextureKind, Type};
 
-/// Checks an operation on a texture or a buffer, whose arguments are of `types`.
+/// Checks an operation on a texture or a buffer with arguments of `types`.
 pub fn check_resource_op(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
     let expect = |holds: bool, what: &str| super::expect_types(holds, what, types);
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");

@@ -1,46 +1,46 @@
-//! Cancelling terms of one sum, difference or comparison.
+//! Search for cancelling terms of one sum, difference or comparison.
 
 use super::terms::{Choice, Definition, Dependence, Place, Rounding, Term, WeightedTerm};
 use crate::ir::{BinaryOp, Graph, NodeId, Op};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
 
-/// Terms of one sum that are looked at, those nearest to it first.
+/// Maximum number of terms examined for one sum, nearest first.
 const MAX_TERMS: usize = 256;
 
-/// Terms of a short side, which is looked at first.
+/// Maximum number of terms of a short side, which is examined first.
 const FEW_TERMS: usize = 32;
 
-/// Alternatives that are followed at once, and combinations of them for one sum.
+/// Maximum number of alternatives followed at once, and of their combinations for one sum.
 const MAX_CHOICES: usize = 4;
 const MAX_COMBINATIONS: u32 = 32;
 
-/// A term cancels if no more than this share of it is left. Weights of filters leave more; the constants of a split by 257 or
-/// more, or of a rounding, leave less.
+/// A term cancels if at most this share of it remains. Filter weights leave more; the constants of a split by 257 or more,
+/// or of a rounding, leave less.
 const LEFT: f64 = 1.0 / 256.0;
 
 /// Constants from which a sum loses digits on purpose: those that round to multiples of less than 1/4096.
 const LARGE: f64 = 1024.0;
 
-/// Sides of a sum: two, or the components of a dot product.
+/// Maximum number of sides of a sum: two, or the components of a dot product.
 const SIDES: usize = 4;
 
 /// Result of the search in a graph.
 #[derive(Default)]
 pub struct ExactSearch {
-    /// Operations through which terms pass that cancel.
+    /// Operations that a cancelling term passes through.
     pub marks: FxHashSet<NodeId>,
-    /// Sums and differences that would be 0 without rounding: errors of others.
+    /// Sums and differences that would be 0 without rounding: the rounding errors of others.
     pub errors: FxHashSet<NodeId>,
 }
 
-/// Adds the operations through which terms pass whose cancelling in a node means something:
+/// Adds the operations that a cancelling term passes through, if the cancellation in a node is intended:
 ///
-/// - of `(a + b) - a`, which takes a term away again that was added;
-/// - of a sum that would be 0 without rounding: the error of another;
-/// - of a large constant, by which something is rounded.
+/// - `(a + b) - a`, which subtracts a term that was added before;
+/// - a sum that would be 0 without rounding: the rounding error of another;
+/// - a large constant that rounds a value.
 ///
-/// Of other sums, such as `(a + b) - (a - b)`, reordering changes a rounding.
+/// In other sums, such as `(a + b) - (a - b)`, reordering changes only a rounding.
 pub fn find_cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mut ExactSearch) {
     let node = graph.node(id);
     let sign = match &node.op {
@@ -110,11 +110,11 @@ enum Outcome {
     Nothing,
     /// A term cancels.
     Cancels,
-    /// Components must be looked at one by one.
+    /// Components must be examined one by one.
     ByLane,
 }
 
-/// Tells if two sides may have a term in common.
+/// Returns whether two sides may have a term in common.
 fn may_share_terms(dependence: &Dependence, sides: &[Vec<WeightedTerm>]) -> bool {
     let reach = |side: &Vec<WeightedTerm>| {
         let all = side.iter().filter_map(|part| part.term.place);
@@ -137,20 +137,20 @@ struct Search<'g> {
     graph: &'g Graph,
     dependence: &'g Dependence,
     sides: Vec<Vec<WeightedTerm>>,
-    /// Alternatives that are followed: the first, the second, or none.
+    /// Alternatives followed: the first, the second, or neither.
     choices: Vec<(Choice, usize)>,
-    /// Combinations that may still be looked at.
+    /// Number of combinations that may still be examined.
     left: u32,
     found: &'g mut ExactSearch,
     outcome: Outcome,
-    /// True if nothing is left of the sum without rounding.
+    /// `true` if nothing remains of the sum without rounding.
     is_error: bool,
 }
 
-/// Step from a term to one that it is made of: the term, its count, and the operation.
+/// Edge from a term to one of its parts: the part, its factor, and the operation.
 type Edge = (usize, f64, Rounding);
 
-/// Ways that reach a term: their number, by side; and if a rounding or, by side, a sum lies between.
+/// Paths to a term: total factor by side, whether a rounding lies on them, and by side whether a sum does.
 #[derive(Clone, Copy, Default)]
 struct Share {
     times: [f64; SIDES],
@@ -176,7 +176,7 @@ impl Share {
         (0..SIDES).filter(move |side| times[*side] != 0.0)
     }
 
-    /// Adds what reaches another term by way of an edge.
+    /// Adds the paths that reach another term through an edge.
     fn add(&mut self, from: Share, times: f64, by: Rounding) {
         for side in from.sides() {
             self.times[side] += from.times[side] * times;
@@ -186,14 +186,14 @@ impl Share {
     }
 }
 
-/// Terms that a sum is made of, and how.
+/// Terms that a sum is made of, with their edges.
 #[derive(Default)]
 struct Cone {
     terms: Vec<Term>,
     index: FxHashMap<Term, usize>,
-    /// By term, those that it is made of.
+    /// By term, the edges to its parts.
     edges: Vec<Vec<Edge>>,
-    /// True if there are more.
+    /// `true` if the limit was reached and terms are missing.
     is_cut: bool,
 }
 
@@ -209,7 +209,7 @@ impl Cone {
         (k, true)
     }
 
-    /// Terms before those that they are made of.
+    /// Orders terms before their parts.
     fn dependency_order(&self, roots: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut order = Vec::with_capacity(self.terms.len());
         let mut seen = vec![false; self.terms.len()];
@@ -236,8 +236,8 @@ impl Cone {
 }
 
 impl Search<'_> {
-    /// Tells if the shorter side has a term that the other one may have. What was made after the other side is no term of it, unless
-    /// a loop carries it there: most terms of a long sum are, and are not looked at again.
+    /// Returns whether the shorter side may share a term with the other. Nodes created after the other side cannot be terms
+    /// of it, unless a loop carries them there. Most terms of a long sum are such nodes and need no second look.
     fn may_share(&self) -> bool {
         let [left, right] = &self.sides[..] else { return true };
         if self.dependence.has_loops() {
@@ -285,7 +285,7 @@ impl Search<'_> {
         for side in 0..3 {
             self.choices.push((choice, side));
             match side {
-                // The value as it is: looked at above, unless another choice comes after.
+                // The value as a leaf: examined above, unless another choice follows.
                 2 if self.choices.len() == MAX_CHOICES => {}
                 _ => self.run(),
             }
@@ -293,7 +293,8 @@ impl Search<'_> {
         }
     }
 
-    /// The terms under the choices made, the first terms of each side, and a choice that is still open.
+    /// Builds the cone under the choices made. Returns it with the first terms of each side and a choice that is still
+    /// open.
     fn build_cone(&mut self) -> (Cone, Vec<Vec<Edge>>, Option<Choice>) {
         let mut cone = Cone::default();
         let mut queue = VecDeque::new();
@@ -345,7 +346,7 @@ impl Search<'_> {
         (cone, roots, pending)
     }
 
-    /// Finds the terms that cancel, and notes the operations through which they pass.
+    /// Finds the terms that cancel, and marks the operations that they pass through.
     fn find_cancelled(&mut self, cone: &Cone, roots: &[Vec<Edge>]) {
         let mut shares = vec![Share::default(); cone.terms.len()];
         let mut users: Vec<Vec<usize>> = vec![Vec::new(); cone.terms.len()];
@@ -360,9 +361,9 @@ impl Search<'_> {
         let mut is_error = !cone.is_cut;
         for k in cone.dependency_order(roots.iter().flatten().map(|(k, ..)| *k)) {
             let share = shares[k];
-            // A constant is looked at together with all others.
+            // All constants are examined together.
             if share.is_cancelled() && !self.is_constant(&cone.terms[k]) {
-                // Of one value from itself nothing is lost, nor of what it is made of.
+                // A value minus itself loses nothing, nor do the values that it is made of.
                 if share.sides().count() > 1 && (share.rounded || self.is_contractible(&cone.terms[k])) {
                     cancelled.push((k, order_matters(&cone.terms[k], &share)));
                 }
@@ -374,7 +375,7 @@ impl Search<'_> {
                 users[*to].push(k);
             }
         }
-        // Before its first iteration a loop carries what is often 0.
+        // The initial value that a loop carries is often 0.
         let before = |(choice, side): &(Choice, usize)| *side == 1 && !matches!(choice, Choice::Condition(_));
         is_error &= !cancelled.is_empty() && !self.choices.iter().any(before);
         self.is_error |= is_error;
@@ -402,7 +403,7 @@ impl Search<'_> {
         }
     }
 
-    /// A product that cancels itself: a contraction would leave its rounding error.
+    /// Marks a product that cancels itself, because a contraction would leave its rounding error.
     fn mark_product(&mut self, term: &Term) {
         if self.is_contractible(term) {
             self.mark_term(term);
@@ -414,14 +415,15 @@ impl Search<'_> {
             .is_some_and(|place| self.graph.constant_bits(place.node).is_some())
     }
 
-    /// Tells if a term is a product that may be contracted with the sum that it goes into.
+    /// Returns whether a term is a product that may be contracted with the sum that uses it.
     fn is_contractible(&self, term: &Term) -> bool {
         let is_product = |place: Place| matches!(self.graph.node(place.node).op, Op::Binary(BinaryOp::Mul) | Op::Dot);
         term.factors.is_empty() && term.place.is_some_and(is_product)
     }
 }
 
-/// Tells if a result hangs on the order in which a term cancels: one side is the term itself, or it is a large constant.
+/// Returns whether a result depends on the order in which a term cancels: one side is the term itself, or the term is a
+/// large constant.
 fn order_matters(term: &Term, share: &Share) -> bool {
     let is_itself = share.sides().any(|side| !share.summed[side]);
     match (term.place, &term.factors[..]) {

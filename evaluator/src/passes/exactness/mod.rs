@@ -1,9 +1,10 @@
-//! Sums whose meaning hangs on the order of their operations: compensated sums, the rounding error of a sum or a product,
+//! Sums whose meaning depends on the order of their operations: compensated sums, the rounding error of a sum or a product,
 //! rounding by a large constant.
 //!
-//! Such a sum is one whose exact value cancels a term: of `(a + b) - a` the term `a`. A compiler that reassociates floats makes
-//! `b` of it, where IEEE 754 gives `b` as far as `a + b` holds it. The operations through which the term passes are made
-//! [`Op::Exact`], which forbids that; of other operations drivers may change a rounding, and nothing hangs on it.
+//! The exact value of such a sum cancels a term: in `(a + b) - a` the term `a`. A compiler that reassociates floats reduces
+//! it to `b`, while IEEE 754 yields the part of `b` that `a + b` retains. The operations that the term passes through
+//! become [`Op::Exact`], which forbids reassociation. In other operations drivers may change a rounding, with no further
+//! consequence.
 //!
 //! File tests: `evaluator/tests/filetests/passes/exactness`.
 
@@ -15,7 +16,7 @@ use crate::passes::Exact;
 use rustc_hash::{FxHashMap, FxHashSet};
 use terms::Dependence;
 
-/// The kernel with the operations marked whose order matters.
+/// Marks the operations whose order matters.
 pub fn mark_exact_ops(graph: &Graph) -> Graph {
     let marks = find_exact_ops(graph);
     if marks.is_empty() {
@@ -28,7 +29,7 @@ pub fn mark_exact_ops(graph: &Graph) -> Graph {
     rebuild_replacing(graph, &pass, &mut Marking { old: graph, marks })
 }
 
-/// The first origin of the exact operations of each line, by file and line.
+/// First origin of the exact operations of each line, by file and line.
 pub fn exact_places(graph: &Graph) -> Vec<&Origin> {
     let exact = graph.node_ids().filter(|id| graph.node(*id).op == Op::Exact);
     let origins = exact.filter_map(|id| graph.origin(id).or_else(|| graph.origin(graph.node(id).args[0])));
@@ -38,7 +39,7 @@ pub fn exact_places(graph: &Graph) -> Vec<&Origin> {
     places
 }
 
-/// The operations whose results must be rounded as they are written.
+/// Operations whose results must be rounded as written.
 fn find_exact_ops(graph: &Graph) -> FxHashSet<NodeId> {
     let dependence = Dependence::from_graph(graph);
     let mut found = cone::ExactSearch::default();
@@ -47,13 +48,13 @@ fn find_exact_ops(graph: &Graph) -> FxHashSet<NodeId> {
     }
     let mut ordered = found.marks;
     ordered.extend(made_of(graph, &dependence, found.errors));
-    // Operations that are exact already, by request.
+    // Operations that are exact already, on request.
     let asked = graph.node_ids().filter(|id| graph.node(*id).op == Op::Exact);
     let asked: FxHashSet<NodeId> = asked.map(|id| graph.node(id).args[0]).collect();
     let mut marks = ordered.clone();
     let mut seen = FxHashMap::default();
     for id in ordered.iter().chain(&asked) {
-        // A rounded sum is that of rounded operands.
+        // A correctly rounded sum needs correctly rounded operands.
         for arg in &graph.node(*id).args {
             collect_operands(graph, &dependence, *arg, DEPTH, &mut seen, &mut marks);
         }
@@ -62,10 +63,11 @@ fn find_exact_ops(graph: &Graph) -> FxHashSet<NodeId> {
     marks
 }
 
-/// Operations after an error of a sum through which it goes on: it is lost in another order of theirs.
+/// Number of operations through which the rounding error of a sum is followed. In another order of these, the error is
+/// lost.
 const STEPS: usize = 3;
 
-/// Sums and products that errors of other sums go into.
+/// Sums and products that use the rounding errors of other sums.
 fn made_of(graph: &Graph, dependence: &Dependence, errors: FxHashSet<NodeId>) -> FxHashSet<NodeId> {
     let mut all = FxHashSet::default();
     let mut last = errors;
@@ -73,7 +75,7 @@ fn made_of(graph: &Graph, dependence: &Dependence, errors: FxHashSet<NodeId>) ->
         if last.is_empty() {
             break;
         }
-        // Seen through what rounds nothing, and once more for what loops carry back.
+        // Operations that round nothing are transparent. A second sweep covers values that loops carry.
         let (mut seen, mut next) = (last, FxHashSet::default());
         for _ in 0..if dependence.has_loops() { 2 } else { 1 } {
             for id in graph.node_ids().filter(|id| graph.ty(*id).is_float()) {
@@ -108,11 +110,11 @@ fn made_of(graph: &Graph, dependence: &Dependence, errors: FxHashSet<NodeId>) ->
     all
 }
 
-/// Sums and products behind an operand that are rounded as they are written, too: they might be contracted, or their constant
-/// factors multiplied.
+/// Depth of sums and products below an operand that are also rounded as written: they might be contracted, or their
+/// constant factors multiplied.
 const DEPTH: u32 = 3;
 
-/// Adds the operations that compute an operand, seen through what rounds nothing.
+/// Adds the operations that compute an operand. Operations that round nothing are transparent.
 fn collect_operands(
     graph: &Graph,
     dependence: &Dependence,

@@ -1,15 +1,15 @@
-//! Terms of sums, and how each is made of others.
+//! Terms of sums, and the parts that each is made of.
 
 use crate::ir::{BinaryOp, Graph, NodeId, Op, RegionId, Type, UnaryOp};
 use rustc_hash::FxHashMap;
 
-/// A factor with its power.
+/// A factor with its exponent.
 pub type Factor = (Place, i8);
 
-/// Factors that a product is followed through.
+/// Maximum number of factors of a product that is followed.
 const MAX_FACTORS: usize = 2;
 
-/// Iterations back that a carried value is followed.
+/// Maximum number of iterations back that a carried value is followed.
 const MAX_AGE: u8 = 2;
 
 /// A component of a value, in an iteration of the loop around it.
@@ -17,9 +17,9 @@ const MAX_AGE: u8 = 2;
 pub struct Place {
     /// The value.
     pub node: NodeId,
-    /// The component, or [`Place::ALL`] for a vector whose components are all computed alike.
+    /// The component, or [`Place::ALL`] for a vector whose components are all computed in the same way.
     pub lane: u8,
-    /// Iterations back, and of which loop; 0 outside of loops.
+    /// Loop, and number of iterations back; 0 outside loops.
     pub age: (RegionId, u8),
 }
 
@@ -28,17 +28,17 @@ impl Place {
     pub const ALL: u8 = u8::MAX;
 }
 
-/// A product of values and, where `node` is `None`, of a constant.
+/// A product of values, and of a constant if `node` is `None`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Term {
     /// The value that is followed further; `None` is 1.
     pub place: Option<Place>,
-    /// By which it is multiplied, in order.
+    /// Factors, in order.
     pub factors: Vec<Factor>,
 }
 
 impl Term {
-    /// A value.
+    /// Term that consists of one value.
     pub fn from_place(place: Place) -> Term {
         Term {
             place: Some(place),
@@ -46,7 +46,7 @@ impl Term {
         }
     }
 
-    /// The value in it that was made last; `None` of a constant.
+    /// Most recently created value in the term; `None` for a constant.
     pub fn newest_node(&self) -> Option<NodeId> {
         let factors = self.factors.iter().map(|(factor, _)| factor.node);
         self.place.map(|place| place.node).into_iter().chain(factors).max()
@@ -59,7 +59,7 @@ impl Term {
         }
     }
 
-    /// The term at another place, multiplied by a power of a value; `None` if that has too many factors.
+    /// The term at another place, multiplied by a power of a value; `None` if there are too many factors.
     fn times(&self, place: Place, by: Place, power: i8) -> Option<Term> {
         let mut factors = self.factors.clone();
         match factors.iter_mut().find(|(factor, _)| *factor == by) {
@@ -79,25 +79,25 @@ impl Term {
     }
 }
 
-/// A part of a term: how often it is taken, and what the operation does that takes it.
+/// A part of a term, with its factor and the effect of the operation that uses it.
 pub struct WeightedTerm {
     pub term: Term,
     pub times: f64,
     pub by: Rounding,
 }
 
-/// Effect of an operation on the parts of its value.
+/// Effect of an operation on its parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounding {
-    /// Rounds nothing.
+    /// No rounding.
     Itself,
-    /// Rounds a product or a quotient.
+    /// Rounding of a product or a quotient.
     Product,
-    /// Rounds a sum.
+    /// Rounding of a sum.
     Sum,
 }
 
-/// A value that has alternatives, of which one is followed: a selection by its condition, what a loop carries by its region and the
+/// A value with alternatives, one of which is followed: a selection by its condition, a carried value by its region and the
 /// iterations back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Choice {
@@ -106,23 +106,23 @@ pub enum Choice {
     Left(RegionId),
 }
 
-/// Terms that a term is made of.
+/// Parts of a term.
 pub enum Definition {
-    /// Nothing else is known of it.
+    /// No known parts.
     Leaf,
-    /// Components are computed differently: each must be looked at by itself.
+    /// Components are computed differently and must be examined one by one.
     ByLane,
-    /// A sum of others.
+    /// A sum of parts.
     Sum(Vec<WeightedTerm>),
-    /// Two alternatives, of which a choice takes one.
+    /// Two alternatives, selected by a choice.
     Either(Choice, [WeightedTerm; 2]),
 }
 
-/// Loops that values depend on, the nodes of loops and branches, and what values may be made of.
+/// Loops that values depend on, owners of regions, and the values that each value may be made of.
 pub struct Dependence {
-    /// By node, a set of the values that it may be made of, as bits: two values whose sets have none in common share no term.
+    /// By node, a set of the values that it may be made of, as bits. Values with disjoint sets share no term.
     reach: Vec<[u64; 4]>,
-    /// By node, the innermost loop's or branch's region whose parameters it depends on.
+    /// By node, the innermost loop or branch region whose parameters it depends on.
     innermost: Vec<RegionId>,
     has_loops: bool,
     parents: Vec<RegionId>,
@@ -165,7 +165,7 @@ impl Dependence {
             parents,
             owners,
         };
-        // Again for what loops carry back, and once more for a loop in a loop.
+        // A second sweep covers values that loops carry, a third one nested loops.
         for _ in 0..if dependence.has_loops { 3 } else { 1 } {
             graph.node_ids().for_each(|id| dependence.record_node(graph, id));
         }
@@ -193,17 +193,17 @@ impl Dependence {
         self.reach[id.0 as usize] = reach;
     }
 
-    /// True if values may come from a later place, by way of a loop.
+    /// Returns whether values may come from a later place, through a loop.
     pub fn has_loops(&self) -> bool {
         self.has_loops
     }
 
-    /// A set of the values that a value may be made of, as bits.
+    /// Set of the values that a value may be made of, as bits.
     pub fn reach_bits(&self, id: NodeId) -> [u64; 4] {
         self.reach[id.0 as usize]
     }
 
-    /// Tells if a value may differ from iteration to iteration of a loop.
+    /// Returns whether a value may differ between iterations of a loop.
     fn varies_in(&self, id: NodeId, region: RegionId) -> bool {
         let mut at = self.innermost[id.0 as usize];
         while at != Graph::BODY {
@@ -215,7 +215,7 @@ impl Dependence {
         false
     }
 
-    /// The values that may come to be that of a parameter or a result.
+    /// Values that a parameter or a result may take.
     pub fn incoming_values(&self, graph: &Graph, id: NodeId) -> Vec<NodeId> {
         let node = graph.node(id);
         match node.op {
@@ -249,12 +249,12 @@ impl Dependence {
         Place { node, lane, age }
     }
 
-    /// The term of a component of a value.
+    /// Term of a component of a value.
     pub fn component_term(&self, node: NodeId, lane: u8) -> Term {
         Term::from_place(self.component_place(node, lane, (Graph::BODY, 0)))
     }
 
-    /// Terms that a term is made of.
+    /// Parts that a term is made of.
     pub fn term_definition(&self, graph: &Graph, term: &Term) -> Definition {
         let Some(place) = term.place else {
             return Definition::Leaf;
@@ -264,7 +264,7 @@ impl Dependence {
             return Definition::Leaf;
         }
         let (lane, age) = (place.lane, place.age);
-        // Of a scalar there is one component.
+        // A scalar has one component.
         let lane_of = |id: NodeId| match graph.ty(id).is_scalar() {
             true => 0,
             false => lane,
@@ -288,7 +288,7 @@ impl Dependence {
             Op::Exact | Op::Tally(_) => Definition::Sum(vec![same(arg(0), 1.0, Rounding::Itself)]),
             Op::Unary(UnaryOp::Neg) => Definition::Sum(vec![same(arg(0), -1.0, Rounding::Itself)]),
             Op::Unary(UnaryOp::Sqrt) => {
-                // The root multiplied by itself.
+                // The root times itself.
                 let by_itself = term
                     .factors
                     .iter()
@@ -399,7 +399,7 @@ impl Dependence {
         }
     }
 
-    /// The product of one component of a dot product.
+    /// Product of one component in a dot product.
     pub fn dot_part(&self, graph: &Graph, dot: NodeId, lane: u8) -> Vec<WeightedTerm> {
         self.product_of(graph, &self.component_term(dot, 0), lane)
     }
@@ -422,7 +422,7 @@ impl Dependence {
         }
     }
 
-    /// A product of two values as each of them times the other.
+    /// Expands a product to each of its two values times the other.
     fn expand_product(&self, term: &Term, x: Place, y: Place) -> Vec<WeightedTerm> {
         let both = [term.times(x, y, 1), term.times(y, x, 1).filter(|_| x != y)];
         let part = |term| WeightedTerm {
@@ -437,7 +437,7 @@ impl Dependence {
         let ty = graph.ty(id);
         let Some(bits) = graph.constant_bits(id) else {
             return match (&graph.node(id).op, lane) {
-                // A vector of one number.
+                // A vector of equal components.
                 (Op::Splat, _) => self.known_factor(graph, graph.node(id).args[0], 0),
                 _ => ConstantFact::Nothing,
             };
@@ -456,7 +456,7 @@ impl Dependence {
     }
 }
 
-/// Facts about a component that are known without running anything.
+/// Constant facts about a component.
 enum ConstantFact {
     Number(f64),
     /// Components differ.
@@ -464,7 +464,7 @@ enum ConstantFact {
     Nothing,
 }
 
-/// Effect of multiplying by a number: by a power of two it rounds nothing.
+/// Effect of multiplying by a number: a power of two rounds nothing.
 fn scaling_effect(x: f64) -> Rounding {
     match x != 0.0 && x.to_bits() << 12 == 0 {
         true => Rounding::Itself,

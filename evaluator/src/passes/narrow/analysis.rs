@@ -1,4 +1,4 @@
-//! The extents of all runtime `usize` of a graph, loops included.
+//! Extents of all runtime `usize` of a graph, including loops.
 
 use super::Facts;
 use super::extent::{Extent, WORD};
@@ -6,10 +6,11 @@ use crate::ir::{BinaryOp, Graph, NodeId, Op, RegionId, Scalar, Type, UnaryOp, us
 use crate::passes::ranges;
 use std::collections::HashMap;
 
-/// Iterations that no loop of a shader makes.
+/// Upper bound on the iterations of a loop in a shader.
 const LONGEST_LOOP: i128 = 1 << 24;
 
-/// Rounds before what still grows in a loop is taken to grow on, and after which nothing is known of it.
+/// Number of rounds after which a value that still grows in a loop is widened. After `GIVE_UP` rounds nothing is known of
+/// it.
 const WIDEN: u32 = 4;
 const GIVE_UP: u32 = 40;
 
@@ -17,10 +18,10 @@ const GIVE_UP: u32 = 40;
 pub struct Analysis<'g> {
     pub graph: &'g Graph,
     facts: &'g Facts,
-    /// Conversions that are capped, and where.
+    /// Capped conversions, with their caps.
     caps: &'g HashMap<NodeId, i128>,
     extents: Vec<Extent>,
-    /// The loop or branch of each region.
+    /// Loop or branch of each region.
     owners: HashMap<RegionId, NodeId>,
 }
 
@@ -30,7 +31,7 @@ pub fn is_wide(graph: &Graph, id: NodeId) -> bool {
 }
 
 impl<'g> Analysis<'g> {
-    /// Finds the extents.
+    /// Computes the extents.
     pub fn from_graph(graph: &'g Graph, facts: &'g Facts, caps: &'g HashMap<NodeId, i128>) -> Analysis<'g> {
         let mut owners = HashMap::new();
         for id in graph.node_ids() {
@@ -56,7 +57,7 @@ impl<'g> Analysis<'g> {
         analysis
     }
 
-    /// Takes what loops carry over into their next iteration. Returns whether that is more than before.
+    /// Propagates extents of carried values to the next iteration. Returns whether any of them grew.
     fn propagate_carried(&self, carried: &mut HashMap<NodeId, Extent>, round: u32) -> bool {
         let mut changed = false;
         for (k, node) in self.graph.nodes.iter().enumerate() {
@@ -173,7 +174,7 @@ impl<'g> Analysis<'g> {
         }
     }
 
-    /// The float that an unbounded `usize` is made of, where no cap is asked for.
+    /// Float that an unbounded `usize` was converted from, unless a cap was requested.
     pub fn float_of(&self, id: NodeId) -> Option<NodeId> {
         let node = self.graph.node(id);
         let float = *node.args.first()?;
@@ -181,7 +182,8 @@ impl<'g> Analysis<'g> {
         (made && self.usize_extent(id).bounds().is_none()).then_some(float)
     }
 
-    /// The float and the constant of a remainder or a mask of an unbounded float, whose 64 bits a shader can compute with.
+    /// For the remainder or mask of an unbounded float by a constant: the float and the constant. A shader can compute
+    /// these with all 64 bits.
     pub fn float_by(&self, id: NodeId) -> Option<(NodeId, u32)> {
         let node = self.graph.node(id);
         let by = self
@@ -197,12 +199,12 @@ impl<'g> Analysis<'g> {
         (by <= most).then_some((float, by as u32))
     }
 
-    /// The loop or branch of a region.
+    /// Loop or branch of a region.
     pub fn region_owner(&self, region: RegionId) -> Option<NodeId> {
         self.owners.get(&region).copied()
     }
 
-    /// Returns the extent of a value where a comparison of it with a constant holds, or where it does not.
+    /// Returns the extent of a value where its comparison with a constant holds, or where it does not.
     fn extent_under(&self, id: NodeId, condition: NodeId, holds: bool) -> Extent {
         let (whole, node) = (self.usize_extent(id), self.graph.node(condition));
         let (Op::Binary(op), Some((low, high)), [first, second]) = (&node.op, whole.bounds(), node.args.as_slice())
@@ -229,7 +231,7 @@ impl<'g> Analysis<'g> {
         let Some((least, most)) = self.usize_extent(other).bounds() else {
             return whole;
         };
-        // Of negative ones, which are the largest, and of others.
+        // Negative values, which are the largest, and others.
         let bounded = |low: i128, high: i128| match low <= high {
             true => Extent::range(low, high),
             false => whole,
@@ -244,7 +246,7 @@ impl<'g> Analysis<'g> {
         }
     }
 
-    /// A number that becomes a `usize`.
+    /// Extent of a number converted to a `usize`.
     fn converted_extent(&self, id: NodeId) -> Extent {
         let from = self.graph.node(id).args[0];
         let cap = self.caps.get(&id).copied();
@@ -269,7 +271,7 @@ impl<'g> Analysis<'g> {
         }
     }
 
-    /// The counter of a loop.
+    /// Extent of a loop's counter.
     fn counter_extent(&self, region: RegionId) -> Extent {
         let Some(owner) = self.owners.get(&region) else {
             return Extent::Lost;
@@ -297,7 +299,7 @@ impl<'g> Analysis<'g> {
     }
 }
 
-/// 2 to the power of a shift's count, which a shader may shift by.
+/// Extent of 2 to the power of a shift count, if a shader may shift by it.
 pub fn power_of_two(count: Extent) -> Option<Extent> {
     let (low, high) = count.bounds()?;
     (low >= 0 && high < 32).then(|| Extent::range(1 << low, 1 << high))

@@ -1,12 +1,12 @@
-//! Values that a `usize` may have, and how far the 32 bits that stand for it in a shader agree with its 64.
+//! Possible values of a `usize`, and how far its 32 bits in a shader agree with its 64 native bits.
 
 /// Smallest number that needs more than 32 bits.
 pub const WORD: i128 = 1 << 32;
 
-/// Bound of what loops count up to in small steps: no loop of a shader runs so long that it gets there.
+/// Bound of counts in small steps: no loop of a shader runs long enough to reach it.
 pub const COUNTED: i128 = i32::MAX as i128;
 
-/// Largest step that [`COUNTED`] holds for.
+/// Largest step for which [`COUNTED`] holds.
 const SMALL_STEP: i128 = 255;
 
 /// Possible values of a `usize`, and their form in the shader.
@@ -18,14 +18,14 @@ pub enum Extent {
         low: i128,
         /// Largest value.
         high: i128,
-        /// The shader's number stands for any value from here on, if it is that large.
+        /// From this value on, the shader's number stands for any value at least as large.
         cap: Option<i128>,
-        /// The largest value is [`COUNTED`], by the length of loops.
+        /// `true` if the largest value is [`COUNTED`], derived from the length of loops.
         counted: bool,
     },
-    /// The lower 32 bits are those of the value, which may be any.
+    /// The lower 32 bits are those of the value, which is unbounded.
     Modular,
-    /// The shader's number may be any.
+    /// The shader's number is unrelated to the value.
     Lost,
 }
 
@@ -55,7 +55,7 @@ impl Extent {
         }
     }
 
-    /// As [`Extent::range`], up to where loops count.
+    /// Like [`Extent::range`], up to [`COUNTED`].
     pub fn counted(low: i128) -> Extent {
         Known {
             low,
@@ -65,7 +65,7 @@ impl Extent {
         }
     }
 
-    /// The bounds of a value that is not capped.
+    /// Bounds of a value without a cap.
     pub fn bounds(self) -> Option<(i128, i128)> {
         match self {
             Known {
@@ -75,7 +75,7 @@ impl Extent {
         }
     }
 
-    /// Returns whether the shader's number is the value.
+    /// Returns whether the shader's number equals the value.
     pub fn is_exact(self) -> bool {
         self.bounds().is_some_and(|(low, high)| low >= 0 && high < WORD)
     }
@@ -90,12 +90,12 @@ impl Extent {
         matches!(self, Known { low, high, .. } if low >= i128::from(i32::MIN) && high <= i128::from(i32::MAX))
     }
 
-    /// Returns whether an `i32` is the value.
+    /// Returns whether an `i32` equals the value.
     pub fn is_natural(self) -> bool {
         self.is_signed() && matches!(self, Known { low: 0.., .. })
     }
 
-    /// Values of either.
+    /// Union of two extents.
     pub fn join(self, other: Extent) -> Extent {
         match (self, other) {
             (a, b) if a == b => a,
@@ -136,7 +136,7 @@ impl Extent {
         }
     }
 
-    /// Returns whether the shader's numbers are ordered as the values are.
+    /// Returns whether the shader's numbers have the order of the values.
     pub fn is_ordered_with(self, other: Extent) -> bool {
         match (self, other) {
             (
@@ -190,7 +190,7 @@ impl Extent {
         Extent::capped(low + low_b, high + high_b, cap)
     }
 
-    /// `self - other`. What goes below 0 panics natively, unless it `wraps`.
+    /// `self - other`. A result below 0 panics natively, unless the difference `wraps`.
     pub fn minus(self, other: Extent, wraps: bool) -> Extent {
         let (
             Known { low, high, cap, .. },
@@ -234,7 +234,7 @@ impl Extent {
         Extent::capped(least, most, cap.into_iter().flatten().min())
     }
 
-    /// `self / other`, where the shader may divide.
+    /// `self / other`; `None` if the shader's division would differ.
     pub fn divided(self, other: Extent) -> Option<Extent> {
         let (low_b, high_b) = other
             .is_exact()
@@ -249,7 +249,7 @@ impl Extent {
         }
     }
 
-    /// `self % other`, where the shader may.
+    /// `self % other`; `None` if the shader's remainder would differ.
     pub fn rest(self, other: Extent) -> Option<Extent> {
         let (low_b, high_b) = other.is_exact().then(|| other.bounds()).flatten()?;
         let largest = (high_b - 1).max(0);
@@ -272,7 +272,7 @@ impl Extent {
         }
     }
 
-    /// `self | other`, `self ^ other`.
+    /// `self | other` or `self ^ other`.
     pub fn mixed(self, other: Extent) -> Extent {
         if self.is_exact() && other.is_exact() {
             let most = [self, other]
@@ -300,7 +300,7 @@ impl Extent {
         }
     }
 
-    /// The smaller of two that are ordered.
+    /// Minimum of two values that are ordered.
     pub fn smaller(self, other: Extent) -> Extent {
         let (
             Known { low, high, cap, .. },
@@ -317,7 +317,7 @@ impl Extent {
         if low < 0 && low_b < 0 {
             return self.join(other);
         }
-        // Negative ones are the largest.
+        // Negative values are the largest.
         let most = match (low < 0, low_b < 0) {
             (true, _) => high_b,
             (_, true) => high,
@@ -327,7 +327,7 @@ impl Extent {
         Extent::capped(low.max(0).min(low_b.max(0)), most, cap)
     }
 
-    /// The larger of two that are ordered.
+    /// Maximum of two values that are ordered.
     pub fn larger(self, other: Extent) -> Extent {
         match (self, other) {
             (

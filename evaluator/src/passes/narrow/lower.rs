@@ -1,22 +1,22 @@
-//! The graph with an `i32` or a `u32` for each `usize`.
+//! Replacement of each `usize` by an `i32` or a `u32`.
 
 use super::analysis::{Analysis, is_wide, power_of_two};
 use super::extent::{Extent, WORD};
 use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, RegionId, Replace, Scalar, Type, UnaryOp, usize_value};
 use std::collections::HashMap;
 
-/// Builds the graph again.
+/// Rebuilds the graph without `usize`.
 pub struct Lower<'a> {
     of: &'a Analysis<'a>,
     graph: &'a Graph,
     caps: &'a HashMap<NodeId, i128>,
-    /// The kind of the elements of all arrays.
+    /// Kind of the elements of all arrays.
     arrays: Scalar,
-    /// The kind of a region's result, by its position.
+    /// Kind of a region's result, by its position.
     results: HashMap<(RegionId, usize), Scalar>,
-    /// Operations that the shader would compute otherwise.
+    /// Operations whose result would differ in the shader.
     refused: Vec<NodeId>,
-    /// As these, of operands that are lost.
+    /// Operations whose result would differ because their operands are already lost.
     following: Vec<NodeId>,
 }
 
@@ -72,7 +72,7 @@ impl<'a> Lower<'a> {
         lower
     }
 
-    /// Operations that the shader would compute otherwise; of those that follow from each other the first.
+    /// Operations whose result would differ in the shader. Those that only follow from others are left out.
     pub fn into_refused(self) -> Vec<NodeId> {
         match self.refused.is_empty() {
             true => self.following,
@@ -80,7 +80,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The kind by a node's own extent.
+    /// Kind that a node's own extent requires.
     fn own_kind(&self, id: NodeId) -> Scalar {
         match self.graph.ty(id).is_array() {
             true => self.arrays,
@@ -88,7 +88,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The kind that stands for a `usize`.
+    /// Kind that represents a `usize`.
     fn usize_kind(&self, id: NodeId) -> Scalar {
         let node = self.graph.node(id);
         match node.op {
@@ -102,7 +102,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The kind of a loop's counter.
+    /// Kind of a loop's counter.
     fn counted_in(&self, region: RegionId) -> Scalar {
         match self.of.region_owner(region) {
             Some(owner) if (0..2).all(|k| self.of.arg_extent(owner, k).is_natural()) => Scalar::I32,
@@ -119,14 +119,14 @@ impl<'a> Lower<'a> {
         convert_node(b, id, kind)
     }
 
-    /// An operation on arguments of a kind.
+    /// Builds an operation on arguments of one kind.
     fn lower_operation(&self, b: &mut Builder<'_>, old: NodeId, kind: Scalar, ty: Type, new: New<'_>) -> NodeId {
         let node = self.graph.node(old);
         let args: Vec<NodeId> = node.args.iter().map(|arg| self.as_kind(b, *arg, kind, new)).collect();
         b.add(node.op.clone(), args, ty)
     }
 
-    /// The kind in which numbers are ordered as they are natively.
+    /// Kind in which numbers have their native order.
     fn ordered_kind(&self, args: &[NodeId]) -> Scalar {
         match args.iter().all(|arg| self.of.usize_extent(*arg).is_natural()) {
             true => Scalar::I32,
@@ -134,7 +134,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// Returns whether the shader's operation gives the native result.
+    /// Returns whether the shader's operation has the native result.
     fn is_same(&self, id: NodeId) -> bool {
         let node = self.graph.node(id);
         let of = |k: usize| self.of.usize_extent(node.args[k]);
@@ -157,14 +157,14 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The float that a float is the `usize` of.
+    /// Float from which the `usize` argument of a conversion to float was itself converted.
     fn source_of_float(&self, id: NodeId) -> Option<NodeId> {
         let inner = self.graph.node(self.graph.node(id).args[0]);
         let float = *inner.args.first()?;
         (inner.op == Op::Convert && self.graph.ty(float) == Type::F32).then_some(float)
     }
 
-    /// A number that becomes a `usize`.
+    /// Builds the conversion of a number to a `usize`.
     fn widen_node(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
         let from = self.graph.node(old).args[0];
         let id = new[from.0 as usize].expect("arguments are built before their users");
@@ -180,7 +180,7 @@ impl<'a> Lower<'a> {
         convert_node(b, id, self.usize_kind(old))
     }
 
-    /// A `usize` as a float.
+    /// Builds the conversion of a `usize` to a float.
     fn to_float(&self, b: &mut Builder<'_>, old: NodeId, new: New<'_>) -> NodeId {
         let whole = self.graph.node(old).args[0];
         let kind = self.ordered_kind(&[whole]);
@@ -188,7 +188,7 @@ impl<'a> Lower<'a> {
             let whole = self.as_kind(b, whole, kind, new);
             return convert_node(b, whole, Scalar::F32);
         };
-        // A float from 2^32 on is a whole number already.
+        // A float of at least 2^32 is a whole number already.
         let x = new[float.0 as usize].expect("arguments are built before their users");
         let [word, most] = [b.f32(WORD as f32), b.f32(u64::MAX as f32)];
         let large = b.add(Op::Binary(BinaryOp::Ge), [x, word], Type::BOOL);
@@ -236,7 +236,7 @@ impl Replace for Lower<'_> {
                 let found = match op {
                     BinaryOp::And => binary_with(b, BinaryOp::And, low, by),
                     _ => {
-                        // (high * 2^32 + low) % n, none of which leaves 32 bits.
+                        // (high * 2^32 + low) % n, computed within 32 bits.
                         let high = binary_with(b, BinaryOp::Rem, high, by);
                         let high = binary_with(b, BinaryOp::Mul, high, (WORD as u64 % u64::from(by)) as u32);
                         let low = binary_with(b, BinaryOp::Rem, low, by);
@@ -315,8 +315,8 @@ impl Replace for Lower<'_> {
     }
 }
 
-/// The upper and the lower 32 bits of a float as a number of 64 bits, each a `u32`. All of it is exact: a float is scaled by powers
-/// of two, and what is subtracted from it are its upper bits.
+/// Upper and lower 32 bits of a float as a 64-bit integer, each a `u32`. All steps are exact: the float is scaled by powers
+/// of two, and only its upper bits are subtracted from it.
 fn split_words(b: &mut Builder<'_>, x: NodeId) -> [NodeId; 2] {
     let op = |op: BinaryOp| Op::Binary(op);
     let [word, inverse, end] = [b.f32(WORD as f32), b.f32(1.0 / WORD as f32), b.f32(u64::MAX as f32)];
@@ -331,13 +331,13 @@ fn split_words(b: &mut Builder<'_>, x: NodeId) -> [NodeId; 2] {
     [high, b.add(Op::Select, [beyond, most, low], Type::U32)]
 }
 
-/// `x op n` of a `u32`.
+/// Builds `x op n` for a `u32`.
 fn binary_with(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
     let n = b.constant(Type::U32, [n, 0, 0, 0]);
     b.add(Op::Binary(op), [x, n], Type::U32)
 }
 
-/// The kind that holds the bits of a `usize`: an `i32` where they fit.
+/// Kind that holds the bits of a `usize`: `i32` if they fit.
 fn kind_of(extent: Extent) -> Scalar {
     match extent.is_signed() {
         true => Scalar::I32,

@@ -1,9 +1,9 @@
-//! Runtime values of `usize`, which natively has 64 bits, in the 32 bits of a shader.
+//! Runtime values of type `usize`, 64 bits natively, in the 32 bits of a shader.
 //!
-//! A `usize` becomes an `i32` where its bits fit there, else a `u32`, with the lower bits of the native value. An operation
-//! that looks at more than lower bits (`/`, `%`, `<`, `as f32`, ...) is one of the shader where the values that its
-//! operands may have show that it gives the native result; an index that may be too large for that is held below a
-//! bound first, beyond which no array and no buffer reaches; and what is left is refused.
+//! A `usize` becomes an `i32` if its bits fit there, otherwise a `u32` with the lower bits of the native value. An
+//! operation that depends on more than lower bits (`/`, `%`, `<`, `as f32`, ...) is translated if the possible values of
+//! its operands prove that it has the native result. An index that may be too large for that is first clamped to a bound
+//! beyond every array and buffer. All other operations are rejected.
 
 mod analysis;
 mod extent;
@@ -17,21 +17,21 @@ use std::collections::{HashMap, HashSet};
 
 pub use refuse::Refusal;
 
-/// Facts from the evaluation about values of `usize`.
+/// Facts about values of type `usize`, from the evaluation.
 #[derive(Default)]
 pub struct Facts {
-    /// Counters that are computed, with the start and the end of their ranges.
+    /// Computed counters, with the start and the end of their ranges.
     pub counters: HashMap<NodeId, (NodeId, NodeId)>,
-    /// Differences that wrap by intention.
+    /// Differences that wrap intentionally.
     pub wrapping: HashSet<NodeId>,
-    /// Source location of each node; none for later nodes.
+    /// Source location of each node; missing for later nodes.
     pub places: Vec<Span>,
 }
 
 /// Caps for numbers that are too large to compute with.
 const CAPS: [i128; 4] = [1 << 30, 1 << 28, 1 << 24, 1 << 20];
 
-/// Returns the kernel without a `usize`; `None` if it has none.
+/// Returns the kernel without `usize`; `None` if it has none.
 ///
 /// # Errors
 ///
@@ -62,7 +62,7 @@ pub fn narrow_usize(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<R
             }
         }
         if next == caps {
-            // Of the values themselves, not of what has been tried with them; what can be helped is no error.
+            // Report the original extents, not those of attempted caps. An operation that a cap fixes is no error.
             let none = HashMap::new();
             let analysis = Analysis::from_graph(graph, facts, &none);
             let mut lower = lower::Lower::new(&analysis, &none);

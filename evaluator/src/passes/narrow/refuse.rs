@@ -14,7 +14,7 @@ pub struct Refusal {
     pub error: Diagnostic,
 }
 
-/// Conversions to `usize` that the operands of operations come from.
+/// Conversions to `usize` that the operands of rejected operations are computed from.
 pub fn source_conversions(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId> {
     let (mut seen, mut found) = (HashSet::new(), BTreeSet::new());
     let mut pending: Vec<NodeId> = refused.iter().flat_map(|id| graph.node(*id).args.clone()).collect();
@@ -53,7 +53,7 @@ pub fn source_conversions(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId>
     found
 }
 
-/// The errors of operations, one for each place.
+/// Errors of rejected operations, one for each location.
 pub fn collect_refusals(graph: &Graph, facts: &Facts, refused: &[NodeId]) -> Vec<Refusal> {
     let mut places = HashSet::new();
     let mut found = Vec::new();
@@ -96,7 +96,7 @@ fn refusal_error(graph: &Graph, id: NodeId, span: Span) -> Diagnostic {
     .help(help)
 }
 
-/// Why, by what the operands come from.
+/// Reason and help, by the origin of the operands.
 fn refusal_cause(graph: &Graph, id: NodeId) -> (&'static str, &'static str) {
     let mut cause = (
         "the value may need more than 32 bits",

@@ -1,4 +1,4 @@
-//! Filling tiles, and reading them.
+//! Filling and reading of tiles.
 
 use super::{Candidate, Tile};
 use crate::ir::{
@@ -19,20 +19,20 @@ struct Place {
 }
 
 impl Place {
-    /// Returns whether an element is a texel as reads return it.
+    /// Returns whether an element is a complete texel as returned by reads.
     fn is_whole(&self, texel: Type) -> bool {
         self.shared.element == texel && self.components.len() == usize::from(texel.component_count())
     }
 }
 
-/// Fills the tiles, and reads them.
+/// Fills the tiles, and replaces reads by reads of them.
 pub struct Tiling<'g> {
     old: &'g Graph,
     threads: [u32; 2],
     tiles: Vec<Place>,
     /// By read, its tile and offset.
     loads: HashMap<NodeId, (usize, [i32; 2])>,
-    /// Reads whose values leave a loop or branch that they were made in: done before all others.
+    /// Reads whose values are used outside the loop or branch that contains them; performed before all others.
     early: HashMap<NodeId, NodeId>,
     /// By tile, the index of the element at the smallest offset.
     here: Vec<NodeId>,
@@ -97,7 +97,7 @@ impl<'g> Tiling<'g> {
         }
     }
 
-    /// Fills an element of each of some tiles.
+    /// Fills one element of each of the given tiles.
     fn fill_texel(&self, b: &mut Builder<'_>, tiles: &[usize], corner: NodeId, texel: NodeId) {
         let width = b.i32(self.tiles[tiles[0]].size[0] as i32);
         let [x, y] = [BinaryOp::Rem, BinaryOp::Div].map(|op| add(b, op, texel, width));
@@ -141,7 +141,7 @@ impl<'g> Tiling<'g> {
         }
     }
 
-    /// A texel of a tile, in the type of the read that it replaces; components that the tile lacks are unused.
+    /// A texel from a tile, in the type of the read that it replaces; components missing from the tile are unused.
     fn tile_texel(&self, b: &mut Builder<'_>, load: NodeId) -> Option<NodeId> {
         let (k, offset) = *self.loads.get(&load)?;
         let tile = &self.tiles[k];
@@ -216,7 +216,7 @@ impl Replace for Tiling<'_> {
         if self.old.node(old).op != Op::Pixel {
             return self.tile_texel(b, old);
         }
-        // A thread outside of the frame computes what the nearest pixel does, so that all that is known of pixels holds.
+        // A thread outside the frame computes the nearest pixel, so that all facts about pixels hold.
         let (pixel, last) = (b.add(Op::Pixel, Vec::new(), PAIR), last_pixel(b));
         let inside = add(b, BinaryOp::Min, pixel, last);
         name_node(b, inside, "nearest");
@@ -237,7 +237,7 @@ fn last_pixel(b: &mut Builder<'_>) -> NodeId {
     last
 }
 
-/// Names a value that is nowhere in the source.
+/// Names a value that has no place in the source.
 fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
     let fixed = matches!(b.graph().node(id).op, Op::Const(_) | Op::GroupOrigin | Op::Pixel);
     if fixed || b.graph().origin(id).is_some() {

@@ -1,9 +1,9 @@
-//! Texels that the pixels of a workgroup share: read once into its memory, and from there by each pixel that needs them.
+//! Texels shared by the pixels of a workgroup: read once into its memory, and from there by each pixel that needs them.
 //!
-//! A read takes part if it is of a texture of the frame's size, at a constant offset from the pixel that is then brought into
-//! the frame, and if every pixel does it: not in a loop or branch that is left in the shader. For each texture, and each of its layers, the
-//! offsets make a rectangle; that around all pixels of the workgroup is the tile. It is filled by the same reads, brought into
-//! the frame alike, so that what a pixel finds there is what it would have read, bit for bit.
+//! A read is eligible if it has a frame-sized texture and a constant offset from the pixel that is clamped to the frame,
+//! and if every pixel performs it, outside loops and branches left in the shader. For each texture, and for each of its
+//! layers, the offsets span a rectangle; the tile is that rectangle around all pixels of the workgroup. The same reads,
+//! clamped in the same way, fill the tile, so each pixel finds there exactly the value that it would have read.
 //!
 //! File tests: `evaluator/tests/filetests/passes/tiles`.
 
@@ -19,32 +19,32 @@ use crate::policy::ReadOrder;
 use fill::Tiling;
 use std::collections::BTreeSet;
 
-/// Why a tile was left out that would not fit beside the others.
+/// Reason for a tile that does not fit beside the others.
 const TOO_LARGE: &str = "its tile does not fit into 16384 bytes beside those of others";
 
-/// Texels of a texture, or of a layer of it, that a workgroup shares.
+/// Texels of a texture, or of one of its layers, that a workgroup shares.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tile {
     /// Name in the shader.
     pub name: String,
     /// The texture's name.
     pub texture: String,
-    /// The layer or sample, where there are several.
+    /// The layer or sample, if there are several.
     pub layer: Option<u32>,
-    /// The smallest offset across and down.
+    /// Smallest horizontal and vertical offset.
     pub first: [i32; 2],
-    /// Texels across and down.
+    /// Width and height in texels.
     pub size: [u32; 2],
-    /// Bytes of the workgroup's memory.
+    /// Bytes of workgroup memory.
     pub bytes: u64,
-    /// Reads of a pixel that it stands for.
+    /// Number of reads per pixel that the tile replaces.
     pub reads: u32,
-    /// Reads by which a thread fills its part.
+    /// Number of reads with which each thread fills its part.
     pub fills: u32,
 }
 
 impl Tile {
-    /// The texture, and its layer or sample where there are several, for people.
+    /// Display name of the texture, with its layer or sample if there are several.
     pub fn display_name(&self) -> String {
         match self.layer {
             Some(layer) => format!("{}[{layer}]", self.texture),
@@ -53,41 +53,41 @@ impl Tile {
     }
 }
 
-/// Reads of a texture that stay as they are.
+/// Reads of a texture that remain unchanged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnsharedReads {
     /// The texture's name.
     pub texture: String,
-    /// Number of reads of a pixel.
+    /// Number of reads per pixel.
     pub reads: u32,
-    /// Why.
+    /// Reason.
     pub why: String,
 }
 
-/// Outcome of sharing for a kernel's reads of textures.
+/// Outcome of sharing the texture reads of a kernel.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sharing {
-    /// Threads of a workgroup, across and down.
+    /// Width and height of a workgroup in threads.
     pub threads: [u32; 2],
-    /// In the order of the first read of each.
+    /// Tiles in the order of the first read of each.
     pub tiles: Vec<Tile>,
-    /// Reads that stay.
+    /// Reads that remain unchanged.
     pub unshared: Vec<UnsharedReads>,
 }
 
 impl Sharing {
-    /// Bytes of a workgroup's memory.
+    /// Bytes of workgroup memory in total.
     pub fn byte_size(&self) -> u64 {
         self.tiles.iter().map(|tile| tile.bytes).sum()
     }
 }
 
-/// Has the pixels of a workgroup of so many threads share what they read. Tiles that would take as many reads to fill as they save
-/// are left out, and so are those that save the fewest where all do not fit into the memory that every device has.
+/// Makes the pixels of a workgroup share their reads. Omits tiles that take as many reads to fill as they save. If the
+/// tiles do not all fit into the memory that every device has, omits those that save the fewest reads.
 ///
 /// # Errors
 ///
-/// Why the kernel has no such form.
+/// The reason why the kernel cannot share reads.
 pub fn by_workgroup(graph: &Graph, threads: [u32; 2]) -> Result<(Graph, Sharing), String> {
     match graph.invocation {
         Invocation::Pixel => {}
@@ -128,11 +128,11 @@ pub fn by_workgroup(graph: &Graph, threads: [u32; 2]) -> Result<(Graph, Sharing)
     Ok((made, sharing))
 }
 
-/// Reads that one tile could stand for.
+/// Reads that one tile could replace.
 struct Candidate {
     tile: Tile,
     texture: u32,
-    /// The layer or sample, as reads have it.
+    /// The layer or sample, as given by the reads.
     layer: Option<(Type, Bits)>,
     /// Components that some pixel uses, in order.
     components: Vec<u8>,
@@ -140,7 +140,7 @@ struct Candidate {
     loads: Vec<(NodeId, [i32; 2])>,
 }
 
-/// Reads that could be shared, by texture and layer, and those that could not.
+/// Reads that can be shared, by texture and layer, and those that cannot.
 fn find_candidates(graph: &Graph) -> (Vec<Candidate>, Vec<UnsharedReads>) {
     let schedule = schedule_graph(graph, ReadOrder::Source);
     let offsets = pixel_offsets(graph);
@@ -210,7 +210,7 @@ impl Candidate {
         }
     }
 
-    /// Type of a tile's elements. Three components take the space of four, and are read at once as four.
+    /// Type of a tile's elements. Three components take the space of four, and are read as four at once.
     fn element_type(&self, graph: &Graph) -> Type {
         let scalar = graph.textures[self.texture as usize].scalar;
         let lanes = match self.components.len() as u8 {
@@ -220,7 +220,7 @@ impl Candidate {
         Type::value(scalar, lanes)
     }
 
-    /// Computes the size of the tile, and the reads that it saves.
+    /// Computes the size of the tile, and the number of reads that it saves.
     fn measure_tile(&mut self, graph: &Graph, threads: [u32; 2]) {
         self.components.sort_unstable();
         self.components.dedup();
@@ -240,7 +240,7 @@ impl Candidate {
         u64::from(self.tile.size[0]) * u64::from(self.tile.size[1])
     }
 
-    /// The memory of the tile.
+    /// Shared memory of the tile.
     fn tile_memory(&self, graph: &Graph) -> SharedArray {
         SharedArray {
             name: self.tile.name.clone(),
@@ -295,7 +295,7 @@ fn choose_tiles(
     kept
 }
 
-/// Reads of one texture for one reason together.
+/// Merges reads of one texture that have the same reason.
 fn merge_apart(apart: Vec<UnsharedReads>) -> Vec<UnsharedReads> {
     let mut all: Vec<UnsharedReads> = Vec::new();
     for one in apart {
@@ -307,7 +307,7 @@ fn merge_apart(apart: Vec<UnsharedReads>) -> Vec<UnsharedReads> {
     all
 }
 
-/// Components of each read that are used, by node.
+/// Used components of each read, by node.
 pub(super) fn components_used(graph: &Graph) -> Vec<BTreeSet<u8>> {
     let mut used = vec![BTreeSet::new(); graph.nodes.len()];
     let mut whole = |id: NodeId| used[id.0 as usize].extend(0..graph.ty(id).component_count());
@@ -329,7 +329,7 @@ pub(super) fn components_used(graph: &Graph) -> Vec<BTreeSet<u8>> {
     used
 }
 
-/// Gives tiles names that nothing else in the shader has.
+/// Names the tiles uniquely in the shader.
 fn name_tiles(graph: &Graph, tiles: &mut [Tile]) {
     let mut taken = taken_names(graph);
     for tile in tiles {
@@ -342,7 +342,7 @@ fn name_tiles(graph: &Graph, tiles: &mut [Tile]) {
     }
 }
 
-/// Names of what a shader binds.
+/// Names of all bindings of a shader.
 pub(super) fn taken_names(graph: &Graph) -> BTreeSet<String> {
     let names = graph.textures.iter().map(|t| &t.name);
     let names = names.chain(graph.buffers.iter().map(|b| &b.name));
@@ -352,7 +352,7 @@ pub(super) fn taken_names(graph: &Graph) -> BTreeSet<String> {
     names.chain(graph.written_targets().map(|p| &p.name)).cloned().collect()
 }
 
-/// A name that is not taken: this one, or with a number behind it.
+/// A name that is not taken: `base`, or `base` with a number appended.
 pub(super) fn unused_name(taken: &BTreeSet<String>, base: String) -> String {
     let names = (2..).map(|k| format!("{base}_{k}"));
     let mut names = std::iter::once(base.clone()).chain(names);

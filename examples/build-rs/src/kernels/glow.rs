@@ -1,20 +1,20 @@
-//! Light that spills over from bright places.
+//! Light that spills over from bright areas.
 
 use straightline_kernels::prelude::*;
 
 options! {
-    /// What a glow is made of.
+    /// Options of the glow.
     pub struct Glow {
-        /// How far light spills, in pixels.
+        /// Radius of the glow, in pixels.
         pub radius: i32 [1..=4] = 2,
-        /// Brightness from which a place spills light.
+        /// Brightness above which a pixel spills light.
         pub threshold: f32 [0.0..=1.0] = 0.7,
-        /// How much of the light spills.
+        /// Share of the light that spills.
         pub strength: f32 [0.0..=4.0] = 0.8,
     }
 }
 
-/// The picture with the light that spills into each pixel, most of it from close by.
+/// Adds the light that spills into each pixel to the picture, most of it from close by.
 pub fn glow(cfg: &Glow, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut light = Vec3::ZERO;
     let mut sum = 0.0;

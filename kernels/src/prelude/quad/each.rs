@@ -1,17 +1,17 @@
-//! One value, or one in each lane: what textures can be asked for.
+//! A value, or one value per lane: the types of texture coordinates.
 
 use super::Quad;
 use glam::{IVec2, IVec3, Vec2, Vec3};
 
 /// A `V`, or a [`Quad`] of them.
 pub trait PerLane<V>: Copy {
-    /// A `T` where this is a `V`, a `Quad<T>` where it is a `Quad<V>`.
+    /// A `T` if this is a `V`, or a `Quad<T>` if it is a `Quad<V>`.
     type Of<T: Copy>: Copy;
 
-    /// `f` of the value, or of each lane's.
+    /// Applies `f` to the value, or to the value of each lane.
     fn each<T: Copy>(self, f: impl Fn(V) -> T) -> Self::Of<T>;
 
-    /// `f` of this and another value, or of both in each lane.
+    /// Applies `f` to this and another value, or to both in each lane.
     fn with<A: Copy, T: Copy>(self, other: Self::Of<A>, f: impl Fn(V, A) -> T) -> Self::Of<T>;
 }
 

@@ -1,4 +1,4 @@
-//! Methods that numbers and vectors have, lane by lane; fields as methods; comparison and selection.
+//! Methods of numbers and vectors, lane by lane; fields as methods; comparison and selection.
 
 use super::Quad;
 use crate::prelude::maths::Floats;
@@ -36,12 +36,12 @@ impl Quad<f32> {
     two! { f32, f32 => f32: atan2 max min powf }
 
     /// `max(min(x, high), low)` of each lane.
-    #[allow(clippy::manual_clamp)] // of a NaN this gives a number, as in the graph
+    #[allow(clippy::manual_clamp)] // a NaN becomes a number, as in the graph
     pub fn clamp(self, low: impl Into<Quad<f32>>, high: impl Into<Quad<f32>>) -> Quad<f32> {
         self.min(high).max(low)
     }
 
-    /// Each lane as an integer, truncated.
+    /// Converts each lane to an integer by truncation.
     pub fn as_i32(self) -> Quad<i32> {
         self.map(|lane| lane as i32)
     }
@@ -51,7 +51,7 @@ impl Quad<i32> {
     one! { i32 => i32: abs signum }
     two! { i32, i32 => i32: max min }
 
-    /// Each lane as a float.
+    /// Converts each lane to a float.
     pub fn as_f32(self) -> Quad<f32> {
         self.map(|lane| lane as f32)
     }
@@ -65,7 +65,7 @@ macro_rules! compared {
     )* };
     ($ty:ty: $($method:ident $op:tt),*) => { $(
         #[doc = concat!("Whether the lane `", stringify!($op), "` another value, or the other quad's lane.")]
-        #[allow(clippy::should_implement_trait)] // a quad has four answers
+        #[allow(clippy::should_implement_trait)] // a quad has four results
         pub fn $method(self, other: impl Into<Quad<$ty>>) -> Quad<bool> {
             self.zip(other.into(), |lane, other| lane $op other)
         }
@@ -75,7 +75,7 @@ macro_rules! compared {
 compared! { f32 i32 }
 
 impl Quad<bool> {
-    /// `yes` where the lane holds, else `no`.
+    /// Selects `yes` in the lanes that are `true`, else `no`.
     pub fn select<T: Copy>(self, yes: Quad<T>, no: Quad<T>) -> Quad<T> {
         let (yes, no) = (yes.lanes(), no.lanes());
         let lane = |k: usize| if self.lanes()[k] { yes[k] } else { no[k] };
@@ -103,7 +103,7 @@ impl Quad<Vec2> {
     one! { Vec2 => Vec4: xyxy }
     two! { Vec2, f32 => Vec3: extend }
 
-    /// A vector from its components.
+    /// Creates a vector from its components.
     pub fn from_xy(x: impl Into<Quad<f32>>, y: impl Into<Quad<f32>>) -> Self {
         x.into().zip(y.into(), Vec2::new)
     }

@@ -36,8 +36,8 @@ macro_rules! with_one {
     )* };
 }
 
-/// One value and a quad. Each pair of types is written out: a condition on any type would have rustc look for quads of
-/// quads wherever a number's type is not known yet.
+/// Operators of one value and a quad. Each pair of types is written out: with a generic bound, rustc would look for quads of
+/// quads wherever a number's type is not yet known.
 macro_rules! one_and_quad {
     ($ty:ty: $lane:ty => $result:ty: $($op:ident $method:ident),*) => { $(
         impl $op<Quad<$lane>> for $ty {

@@ -1,4 +1,4 @@
-//! Images of all that is around a point.
+//! Images of the whole surroundings of a point.
 
 use super::filter::{between_levels, sample_cube};
 use super::{Address, Filterable, Sampler, Texture};
@@ -7,8 +7,8 @@ use glam::{UVec2, Vec3};
 
 /// Six square images, the faces of a cube around a point. Bound as a `texture_cube<f32>`.
 ///
-/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`. A direction finds its face by its largest component; where two are as large, Z goes
-/// before Y, and Y before X. Filters are seamless: beyond an edge lie the texels of the next face, and where three faces meet
+/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`. The largest component of a direction selects the face; on a tie, Z precedes Y, and Y
+/// precedes X. Filtering is seamless: beyond an edge are the texels of the adjacent face, and where three faces meet,
 /// the fourth texel is the mean of the three.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureCube<T> {
@@ -16,8 +16,8 @@ pub struct TextureCube<T> {
 }
 
 impl<T: Filterable> TextureCube<T> {
-    /// A cube from its faces, +X, -X, +Y, -Y, +Z, -Z, each with the upper row first as Vulkan and WebGPU have it, with as many
-    /// levels as they have. Panics unless they are square, of one size and have as many levels.
+    /// Creates a cube from its faces, +X, -X, +Y, -Y, +Z, -Z, each with the top row first as in Vulkan and WebGPU. All levels of
+    /// the faces are used. Panics unless the faces are square and have the same size and number of levels.
     pub fn new(faces: [Texture<T>; 6]) -> Self {
         let size = faces[0].size();
         assert!(
@@ -37,19 +37,19 @@ impl<T: Filterable> TextureCube<T> {
         self.faces[0].levels()
     }
 
-    /// The faces, +X, -X, +Y, -Y, +Z, -Z.
+    /// Faces in the order +X, -X, +Y, -Y, +Z, -Z.
     pub fn faces(&self) -> &[Texture<T>; 6] {
         &self.faces
     }
 
-    /// What lies in `direction`, which may have any length but 0, as `sampler` reads its finest level; what the sampler says of
-    /// borders is of no account. A GPU weighs texels in steps of 1/256.
+    /// Samples the finest level in `direction`, which may have any length but 0. The sampler's address mode has no
+    /// effect. A GPU quantises filter weights to 1/256.
     pub fn sample<P: PerLane<Vec3>>(&self, sampler: &Sampler, direction: P) -> P::Of<T> {
         direction.each(|direction| self.sampled(0, sampler, direction))
     }
 
-    /// What lies in `direction`, which may have any length but 0, at `level`, 0 the finest; between two levels as `sampler.mip`
-    /// says, outside the nearest one.
+    /// Samples `level` in `direction`, which may have any length but 0. Level 0 is the finest. Between two levels `sampler.mip`
+    /// applies; a level out of range is clamped.
     pub fn sample_level<P: PerLane<Vec3>>(&self, sampler: &Sampler, direction: P, level: P::Of<f32>) -> P::Of<T> {
         direction.with(level, |direction, level| {
             between_levels(self.levels(), sampler.mip, level, |k| {

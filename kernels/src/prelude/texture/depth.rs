@@ -1,18 +1,18 @@
-//! Depths, to be compared.
+//! Depth textures for comparison.
 
 use super::filter::{filtered, gather, sample_cube};
 use super::{Address, ComparisonSampler, Sampler, Texture};
 use crate::prelude::quad::PerLane;
 use glam::{IVec2, UVec2, Vec2, Vec3, Vec4};
 
-/// Depths of any size, 0 to 1, to be compared. Bound as a `texture_depth_2d`.
+/// A depth texture of any size, values 0 to 1, for comparison. Bound as a `texture_depth_2d`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthTexture {
     depths: Texture<f32>,
 }
 
 impl DepthTexture {
-    /// Depths from rows, as [`Texture::new`].
+    /// Creates a texture from its depths, like [`Texture::new`].
     pub fn new(size: UVec2, depths: Vec<f32>) -> Self {
         DepthTexture {
             depths: Texture::new(size, depths),
@@ -33,12 +33,12 @@ impl DepthTexture {
         self.depths.at(coord, Address::Clamp)
     }
 
-    /// The depth at `coord`, or the nearest one on the border if `coord` lies outside.
+    /// Returns the depth at `coord`, or the nearest one on the border if `coord` is outside.
     pub fn load<P: PerLane<IVec2>>(&self, coord: P) -> P::Of<f32> {
         self.depths.load(coord)
     }
 
-    /// How much of what lies at `uv` passes the comparison with `reference`: 0 to 1. Beyond the border lie its texels.
+    /// Returns the share of `uv` that passes the comparison with `reference`: 0 to 1. Coordinates are clamped to the border.
     pub fn compare<P: PerLane<Vec2>>(&self, sampler: &ComparisonSampler, uv: P, reference: P::Of<f32>) -> P::Of<f32> {
         uv.with(reference, |uv, reference| {
             filtered(sampler.filter, uv * self.size().as_vec2(), |coord| {
@@ -47,8 +47,8 @@ impl DepthTexture {
         })
     }
 
-    /// Which of the four texels that a linear filter would weigh at `uv` pass the comparison, 1 or 0 each: lower left,
-    /// lower right, upper right, upper left.
+    /// Returns 1 or 0 for each of the four texels that a linear filter would weight at `uv`: 1 if it passes the comparison.
+    /// In the order lower left, lower right, upper right, upper left.
     pub fn gather_compare<P: PerLane<Vec2>>(
         &self,
         sampler: &ComparisonSampler,
@@ -64,14 +64,14 @@ impl DepthTexture {
     }
 }
 
-/// A stack of [`DepthTexture`]s of one size: the cascades of a shadow map, say. Bound as a `texture_depth_2d_array`.
+/// A stack of [`DepthTexture`]s of one size, such as the cascades of a shadow map. Bound as a `texture_depth_2d_array`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthTextureArray {
     layers: Vec<DepthTexture>,
 }
 
 impl DepthTextureArray {
-    /// A stack from its layers. Panics unless there is at least one and all have the same size.
+    /// Creates a stack from its layers. Panics unless there is at least one and all have the same size.
     pub fn new(layers: Vec<DepthTexture>) -> Self {
         assert!(!layers.is_empty(), "a stack needs at least one layer");
         assert!(
@@ -91,19 +91,19 @@ impl DepthTextureArray {
         self.layers.len()
     }
 
-    /// A layer, the last one beyond the end.
+    /// Returns a layer, or the last one if `layer` is out of bounds.
     pub fn layer(&self, layer: usize) -> &DepthTexture {
         &self.layers[layer.min(self.layers.len() - 1)]
     }
 
-    /// The depth of `layer` at `coord`, or the nearest one on the border if `coord` lies outside; of the last layer beyond the
-    /// end.
+    /// Returns the depth of `layer` at `coord`, or the nearest one on the border if `coord` is outside. A layer out of bounds is
+    /// the last one.
     pub fn load<P: PerLane<IVec2>>(&self, coord: P, layer: usize) -> P::Of<f32> {
         self.layer(layer).load(coord)
     }
 
-    /// How much of what lies at `uv` in `layer`, the last one beyond the end, passes the comparison with `reference`: 0 to 1.
-    /// Beyond the border lie its texels.
+    /// Returns the share of `uv` in `layer` that passes the comparison with `reference`: 0 to 1. A layer out of bounds is the
+    /// last one. Coordinates are clamped to the border.
     pub fn compare<P: PerLane<Vec2>>(
         &self,
         sampler: &ComparisonSampler,
@@ -115,14 +115,14 @@ impl DepthTextureArray {
     }
 }
 
-/// Depths around a point, to be compared: the shadow map of a point light. Bound as a `texture_depth_cube`.
+/// A cube of depths for comparison: the shadow map of a point light. Bound as a `texture_depth_cube`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthCube {
     faces: [DepthTexture; 6],
 }
 
 impl DepthCube {
-    /// A cube from its faces, +X, -X, +Y, -Y, +Z, -Z, each with the upper row first as Vulkan and WebGPU have it. Panics
+    /// Creates a cube from its faces, +X, -X, +Y, -Y, +Z, -Z, each with the top row first as in Vulkan and WebGPU. Panics
     /// unless they are square and of one size.
     pub fn new(faces: [DepthTexture; 6]) -> Self {
         let size = faces[0].size();
@@ -138,13 +138,13 @@ impl DepthCube {
         self.faces[0].size()
     }
 
-    /// The faces, +X, -X, +Y, -Y, +Z, -Z.
+    /// Faces in the order +X, -X, +Y, -Y, +Z, -Z.
     pub fn faces(&self) -> &[DepthTexture; 6] {
         &self.faces
     }
 
-    /// How much of what lies in `direction`, which may have any length but 0, passes the comparison with `reference`: 0 to 1.
-    /// Edges are filtered as those of a [`TextureCube`](super::TextureCube).
+    /// Returns the share of `direction`, of any length but 0, that passes the comparison with `reference`: 0 to 1.
+    /// Edges are filtered like those of a [`TextureCube`](super::TextureCube).
     pub fn compare<P: PerLane<Vec3>>(
         &self,
         sampler: &ComparisonSampler,

@@ -1,9 +1,9 @@
-//! What a sampler makes of texels: the arithmetic of [`Filter`], of smaller levels and of cubes.
+//! Sampling: the arithmetic of [`Filter`], of smaller levels and of cubes.
 
 use super::{Filter, Filterable, Sampler};
 use glam::{IVec2, IVec3, UVec2, UVec3, Vec2, Vec3, Vec4};
 
-/// What `sampler` makes of an image of `size` at `uv`; `texel` is only asked inside.
+/// Samples an image of `size` at `uv`. `texel` is called only with coordinates inside the image.
 pub(in crate::prelude) fn sample<T: Filterable>(
     size: UVec2,
     sampler: &Sampler,
@@ -15,14 +15,14 @@ pub(in crate::prelude) fn sample<T: Filterable>(
     })
 }
 
-/// The four texels that a linear filter would weigh: lower left, lower right, upper right, upper left.
+/// The four texels that a linear filter would weight: lower left, lower right, upper right, upper left.
 pub(in crate::prelude) fn gather(size: UVec2, sampler: &Sampler, uv: Vec2, texel: impl Fn(IVec2) -> f32) -> Vec4 {
     let (corner, _) = footprint(uv * size.as_vec2());
     let tap = |x, y| texel(sampler.address.inside(corner + IVec2::new(x, y), size));
     Vec4::new(tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0))
 }
 
-/// What a filter makes of the texels around a place.
+/// Filters the texels around a position.
 pub(super) fn filtered<T: Filterable>(filter: Filter, at: Vec2, texel: impl Fn(IVec2) -> T) -> T {
     match filter {
         Filter::Nearest => texel(at.floor().as_ivec2()),
@@ -36,7 +36,7 @@ pub(super) fn filtered<T: Filterable>(filter: Filter, at: Vec2, texel: impl Fn(I
     }
 }
 
-/// The upper left of the four texels around a place, and the weights of those to the right and below.
+/// The upper left of the four texels around a position, and the weights of those to the right and below.
 fn footprint(at: Vec2) -> (IVec2, Vec2) {
     let from = at - 0.5;
     let corner = from.floor();
@@ -44,10 +44,10 @@ fn footprint(at: Vec2) -> (IVec2, Vec2) {
     (corner.as_ivec2().clamp(-far, far), from - corner)
 }
 
-/// A column, row or slice this far from a texture stands for all beyond, so that its neighbour has a number, too.
+/// Limit of a texel's coordinate, so that its neighbour's coordinate does not overflow. All texels farther out are alike.
 const FARTHEST: i32 = 1 << 30;
 
-/// What `sampler` makes of a volume of `size` at `place`; `texel` is only asked inside.
+/// Samples a volume of `size` at `place`. `texel` is called only with coordinates inside the volume.
 pub(super) fn sample_volume<T: Filterable>(
     size: UVec3,
     sampler: &Sampler,
@@ -68,8 +68,8 @@ pub(super) fn sample_volume<T: Filterable>(
     }
 }
 
-/// What a sampler makes of a texture of so many levels at `level`, each of which `read` reads. A level outside is the nearest
-/// one.
+/// Samples a texture with `levels` levels at `level`; `read` samples one level. A level out of range is clamped to the nearest
+/// level.
 pub(super) fn between_levels<T: Filterable>(levels: usize, mip: Filter, level: f32, read: impl Fn(usize) -> T) -> T {
     let last = levels - 1;
     let level = level.max(0.0).min(last as f32);
@@ -87,15 +87,15 @@ pub(super) fn between_levels<T: Filterable>(levels: usize, mip: Filter, level: f
     }
 }
 
-/// The level at which one step of `ddx`, or of `ddy` if that is longer, is one texel of an image whose finest level has
+/// The level at which one step of the longer of `ddx` and `ddy` spans one texel of an image whose finest level has
 /// `size`.
 pub(super) fn level_of(size: UVec2, ddx: Vec2, ddy: Vec2) -> f32 {
     let size = size.as_vec2();
     (ddx * size).length().max((ddy * size).length()).log2()
 }
 
-/// The face of a cube that a direction points to, +X, -X, +Y, -Y, +Z, -Z, and the place on it from 0 to 1. Where two are as
-/// near, Z goes before Y, and Y before X.
+/// The face of a cube that a direction points to, +X, -X, +Y, -Y, +Z, -Z, and the position on it from 0 to 1. On a
+/// tie, Z precedes Y, and Y precedes X.
 fn face(direction: Vec3) -> (usize, Vec2) {
     let size = direction.abs();
     let (face, s, t, major) = if size.z >= size.x && size.z >= size.y {
@@ -117,9 +117,9 @@ fn face(direction: Vec3) -> (usize, Vec2) {
     (face, Vec2::new(0.5 * (s / major) + 0.5, 0.5 * (t / major) + 0.5))
 }
 
-/// The texel of a cube of `n` texels a side that lies where a face has one just outside: of the face beyond that edge.
+/// The texel of the adjacent face at `coord` just outside `face`, for a cube with `n` texels a side.
 fn beyond(face: usize, coord: IVec2, n: i32) -> (usize, IVec2) {
-    // The direction of its middle, in halves of a texel.
+    // Direction of the texel's centre, in half texels.
     let (s, t) = (2 * coord.x + 1 - n, 2 * coord.y + 1 - n);
     let [x, y, z] = match face {
         0 => [n, -t, -s],
@@ -142,8 +142,8 @@ fn beyond(face: usize, coord: IVec2, n: i32) -> (usize, IVec2) {
     (face, IVec2::new(texel(s), texel(t)))
 }
 
-/// What a filter makes of a cube of `n` texels a side in a direction. Texels beyond an edge are those of the next face; where
-/// three faces meet there are three texels, and what would be the fourth is their mean.
+/// Filters a cube of `n` texels a side in a direction. Texels beyond an edge are those of the adjacent face. Where
+/// three faces meet there are only three texels, and their mean replaces the fourth.
 pub(super) fn sample_cube<T: Filterable>(
     n: u32,
     filter: Filter,
@@ -170,7 +170,7 @@ pub(super) fn sample_cube<T: Filterable>(
         }
     };
     let taps = [tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1)];
-    // At most one lies beyond a corner.
+    // At most one tap lies beyond a corner.
     let mean = |missing: usize| {
         let other = |k: usize| taps[(missing + k) % 4];
         match (other(1), other(2), other(3)) {
@@ -200,7 +200,7 @@ mod tests {
             assert_eq!(read(Filter::Nearest, far, Address::Clamp), 3.0);
             assert_eq!(read(Filter::Nearest, -far, Address::Clamp), 0.0);
             for address in [Address::Clamp, Address::Repeat, Address::Mirror] {
-                // A weight may be infinity less infinity; the texels are there.
+                // A weight may be infinity minus infinity; the texels are still inside.
                 read(Filter::Linear, far, address);
                 read(Filter::Linear, -far, address);
             }

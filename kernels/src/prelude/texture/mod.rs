@@ -1,4 +1,4 @@
-//! Images of any size, and how they are filtered.
+//! Images of any size, and their samplers.
 
 mod cube;
 mod depth;
@@ -18,12 +18,12 @@ pub use layered::{Multisampled, TextureArray};
 pub use sampler::{Address, Comparison, ComparisonSampler, Filter, Sampler};
 pub use volume::Texture3D;
 
-/// What a texel can be: `f32`, `i32`, `u32`, and vectors of 2 to 4 of them.
+/// Type of a texel: `f32`, `i32`, `u32`, and vectors of 2 to 4 of them.
 pub trait Texel: Copy {}
 
-/// What a sampler can weigh: `f32` and vectors of 2 to 4 of them.
+/// Type that a sampler can filter: `f32` and vectors of 2 to 4 of them.
 pub trait Filterable: Texel + Add<Output = Self> + Mul<f32, Output = Self> {
-    /// Component `k` of up to four; 0 beyond the last.
+    /// Returns component `k` of up to four; 0 past the last.
     fn component(self, k: usize) -> f32;
 }
 
@@ -53,28 +53,28 @@ filterable! { Vec2 Vec3 Vec4 }
 
 /// A single-sampled image of any size. Bound as a `texture_2d` of `f32`, `i32` or `u32`.
 ///
-/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`, or their like of `i32` or `u32`: the components that the kernel uses. Integers are
-/// read texel by texel alone.
+/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`, or the same of `i32` or `u32`: the components that the kernel uses. Images of
+/// integers cannot be filtered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture<T> {
     size: UVec2,
     levels: Vec<Vec<T>>,
 }
 
-/// A side of a level: half of that of the level before, rounded down but at least 1.
+/// Side of a level: `side` halved `level` times, rounded down but at least 1.
 fn smaller(side: u32, level: usize) -> u32 {
     side.checked_shr(level as u32).unwrap_or(0).max(1)
 }
 
 impl<T: Texel> Texture<T> {
-    /// An image of `size` texels from rows, top row first. Panics unless there is one texel for each place
-    /// and at least one of them.
+    /// Creates an image of `size` from its texels, row by row from the top. Panics unless there is one texel for each position
+    /// and at least one position.
     pub fn new(size: UVec2, texels: Vec<T>) -> Self {
         Texture::with_levels(size, vec![texels])
     }
 
-    /// An image with smaller levels, the finest first: each has half the width and height of the one before, rounded down but
-    /// at least 1. Panics unless each level has one texel for each place and there is at least one of them.
+    /// Creates an image with smaller levels, the finest first. Each has half the width and height of the previous, rounded down
+    /// but at least 1. Panics unless each level has one texel for each position and there is at least one level.
     pub fn with_levels(size: UVec2, levels: Vec<Vec<T>>) -> Self {
         assert!(size.x > 0 && size.y > 0, "an image needs at least one texel");
         assert!(!levels.is_empty(), "an image needs at least one level");
@@ -99,7 +99,7 @@ impl<T: Texel> Texture<T> {
         self.levels.len()
     }
 
-    /// Width and height of `level`, 0 the finest, or of the smallest one beyond the end.
+    /// Width and height of `level`. Level 0 is the finest; a level out of bounds is the smallest.
     pub fn size_of_level(&self, level: usize) -> UVec2 {
         let level = level.min(self.levels.len() - 1);
         UVec2::new(smaller(self.size.x, level), smaller(self.size.y, level))
@@ -110,25 +110,25 @@ impl<T: Texel> Texture<T> {
         &self.levels[0]
     }
 
-    /// All texels of a level that there is, row by row from the top.
+    /// All texels of an existing level, row by row from the top.
     pub fn texels_of_level(&self, level: usize) -> &[T] {
         &self.levels[level]
     }
 
-    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside. At four coordinates of a quad, four
-    /// texels.
+    /// Returns the texel at `coord`, or the nearest one on the border if `coord` is outside. For a quad of coordinates,
+    /// returns a quad of texels.
     pub fn load<P: PerLane<IVec2>>(&self, coord: P) -> P::Of<T> {
         coord.each(|coord| self.at(coord, Address::Clamp))
     }
 
-    /// The texel of `level`, 0 the finest and the smallest one beyond the end, at `coord`, or the nearest one on the border if
-    /// `coord` lies outside.
+    /// Returns the texel of `level` at `coord`, or the nearest one on the border if `coord` is outside. Level 0 is the finest; a
+    /// level out of bounds is the smallest.
     pub fn load_level<P: PerLane<IVec2>>(&self, coord: P, level: usize) -> P::Of<T> {
         let level = level.min(self.levels.len() - 1);
         coord.each(|coord| self.at_level(level, coord, Address::Clamp))
     }
 
-    /// Whether it has the size and the number of levels of another.
+    /// Returns whether the size and the number of levels equal those of another texture.
     fn is_like(&self, other: &Texture<T>) -> bool {
         self.size == other.size && self.levels.len() == other.levels.len()
     }
@@ -145,35 +145,35 @@ impl<T: Texel> Texture<T> {
 }
 
 impl<T: Filterable> Texture<T> {
-    /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads its finest level.
-    /// A GPU weighs texels in steps of 1/256.
+    /// Samples the finest level at `uv` with `sampler`. (0, 0) is the upper left corner and (1, 1) the lower right.
+    /// A GPU quantises filter weights to 1/256.
     pub fn sample<P: PerLane<Vec2>>(&self, sampler: &Sampler, uv: P) -> P::Of<T> {
         uv.each(|uv| self.sampled(0, sampler, uv))
     }
 
-    /// The image at `uv` and `level`, 0 the finest; between two levels as `sampler.mip` says, outside the nearest one. A GPU
-    /// weighs levels, as texels, in steps of 1/256; half-way between two, one that takes the nearest may take either.
+    /// Samples at `uv` and `level`; 0 is the finest. Between two levels `sampler.mip` applies; a level out of range is clamped.
+    /// A GPU quantises level weights to 1/256 as well. Half-way between two levels, a nearest filter may take either.
     pub fn sample_level<P: PerLane<Vec2>>(&self, sampler: &Sampler, uv: P, level: P::Of<f32>) -> P::Of<T> {
         uv.with(level, |uv, level| {
             filter::between_levels(self.levels(), sampler.mip, level, |k| self.sampled(k, sampler, uv))
         })
     }
 
-    /// The image at `uv`, of the level at which a step of `ddx` or of `ddy`, of the longer one, is one texel. A GPU may take for
-    /// that length anything between the larger and the sum of the step's two components, and has few bits of the logarithm: it
-    /// is off by up to half a level.
+    /// Samples at `uv`, at the level where a step of the longer of `ddx` and `ddy` is one texel. For that length a GPU may take
+    /// anything between the larger component of the step and the sum of both. Its logarithm has few bits: the level is off by
+    /// up to a half.
     pub fn sample_grad(&self, sampler: &Sampler, uv: Vec2, ddx: Vec2, ddy: Vec2) -> T {
         self.sample_level(sampler, uv, filter::level_of(self.size, ddx, ddy))
     }
 
-    /// Component `component` of the four texels that a linear filter would weigh at `uv`: lower left, lower right,
+    /// Returns component `component` of the four texels that a linear filter would weight at `uv`: lower left, lower right,
     /// upper right, upper left.
     pub fn gather<P: PerLane<Vec2>>(&self, component: usize, sampler: &Sampler, uv: P) -> P::Of<Vec4> {
         let texel = |coord| self.at(coord, Address::Clamp).component(component);
         uv.each(|uv| gather(self.size, sampler, uv, texel))
     }
 
-    /// A level that there is, at `uv`.
+    /// Samples an existing level at `uv`.
     fn sampled(&self, level: usize, sampler: &Sampler, uv: Vec2) -> T {
         sample(self.size_of_level(level), sampler, uv, |coord| {
             self.at_level(level, coord, Address::Clamp)

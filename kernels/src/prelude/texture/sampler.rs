@@ -1,26 +1,26 @@
-//! How textures are read between their texels.
+//! Samplers: how textures are read between their texels.
 
 use glam::{IVec2, IVec3, UVec2, UVec3};
 
-/// How texels between which a coordinate falls are weighed.
+/// Weights of the texels around a coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// The nearest counts alone.
+    /// Only the nearest texel.
     Nearest,
-    /// The four around it, by their distance.
+    /// The four texels around it, weighted by distance.
     #[default]
     Linear,
 }
 
-/// What lies beyond the border.
+/// Address mode: texels beyond the border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Address {
     /// The border's texels.
     #[default]
     Clamp,
-    /// The image again.
+    /// The image, repeated.
     Repeat,
-    /// The image mirrored.
+    /// The image, mirrored.
     Mirror,
 }
 
@@ -48,18 +48,18 @@ impl Address {
     }
 }
 
-/// How a [`Texture`](super::Texture) is read between its texels. Bound as a `sampler`, which the host makes.
+/// Filter and address mode of a [`Texture`](super::Texture). Bound as a `sampler`, which the host creates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sampler {
-    /// How texels are weighed.
+    /// Filter between texels.
     pub filter: Filter,
-    /// What lies beyond the border.
+    /// Address mode beyond the border.
     pub address: Address,
-    /// How the two levels between which one falls are weighed, where a level is asked for.
+    /// Filter between levels, where a level is given.
     pub mip: Filter,
 }
 
-/// When a comparison holds: reference, comparison, stored depth.
+/// Condition of a comparison: reference, operator, stored depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Comparison {
     /// `reference < depth`.
@@ -74,7 +74,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// 1 if it holds of a reference and a stored depth, else 0.
+    /// Returns 1 if the comparison of `reference` with the stored `depth` holds, else 0.
     pub(super) fn of(self, reference: f32, depth: f32) -> f32 {
         let holds = match self {
             Comparison::Less => reference < depth,
@@ -86,11 +86,11 @@ impl Comparison {
     }
 }
 
-/// How a [`DepthTexture`](super::DepthTexture) is compared. Bound as a `sampler_comparison`, which the host makes.
+/// Comparison and filter of a [`DepthTexture`](super::DepthTexture). Bound as a `sampler_comparison`, which the host creates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ComparisonSampler {
-    /// When a texel counts as 1.
+    /// Condition under which a texel counts as 1.
     pub comparison: Comparison,
-    /// How results are weighed.
+    /// Filter between the results.
     pub filter: Filter,
 }

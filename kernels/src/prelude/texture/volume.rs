@@ -1,4 +1,4 @@
-//! Volumes: tables of colours, clouds, distances.
+//! Volumes: colour tables, clouds, distance fields.
 
 use super::filter::{between_levels, sample_volume};
 use super::{Filterable, Sampler, Texel, smaller};
@@ -7,7 +7,7 @@ use glam::{IVec3, UVec3, Vec3};
 
 /// A volume of any size. Bound as a `texture_3d` of `f32`, `i32` or `u32`.
 ///
-/// `T` is as of [`Texture`](super::Texture).
+/// `T` is as for [`Texture`](super::Texture).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture3D<T> {
     size: UVec3,
@@ -15,13 +15,13 @@ pub struct Texture3D<T> {
 }
 
 impl<T: Texel> Texture3D<T> {
-    /// A volume of `size` texels from slices of rows. Panics unless there is one texel for each place and at least one of them.
+    /// Creates a volume from its texels, slice by slice. Panics unless there is one texel for each position and at least one.
     pub fn new(size: UVec3, texels: Vec<T>) -> Self {
         Texture3D::with_levels(size, vec![texels])
     }
 
-    /// A volume with smaller levels, the finest first: each has half the width, height and depth of the one before, rounded
-    /// down but at least 1. Panics unless each level has one texel for each place and there is at least one of them.
+    /// Creates a volume with smaller levels, the finest first. Each has half the width, height and depth of the previous, rounded
+    /// down but at least 1. Panics unless each level has one texel for each position and there is at least one level.
     pub fn with_levels(size: UVec3, levels: Vec<Vec<T>>) -> Self {
         assert!(size.min_element() > 0, "a volume needs at least one texel");
         assert!(!levels.is_empty(), "a volume needs at least one level");
@@ -46,12 +46,12 @@ impl<T: Texel> Texture3D<T> {
         self.levels.len()
     }
 
-    /// All texels of a level that there is, slice by slice and row by row.
+    /// All texels of an existing level, slice by slice and row by row.
     pub fn texels_of_level(&self, level: usize) -> &[T] {
         &self.levels[level]
     }
 
-    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside.
+    /// Returns the texel at `coord`, or the nearest one on the border if `coord` is outside.
     pub fn load<P: PerLane<IVec3>>(&self, coord: P) -> P::Of<T> {
         coord.each(|coord| self.at(0, coord.clamp(IVec3::ZERO, self.size.as_ivec3() - 1)))
     }
@@ -67,13 +67,13 @@ impl<T: Texel> Texture3D<T> {
 }
 
 impl<T: Filterable> Texture3D<T> {
-    /// The volume at `place`, (0, 0, 0) and (1, 1, 1) opposite corners, as `sampler` reads its finest level. A GPU weighs texels
-    /// in steps of 1/256.
+    /// Samples the finest level at `place` with `sampler`; (0, 0, 0) and (1, 1, 1) are opposite corners. A GPU quantises filter
+    /// weights to 1/256.
     pub fn sample<P: PerLane<Vec3>>(&self, sampler: &Sampler, place: P) -> P::Of<T> {
         place.each(|place| self.sampled(0, sampler, place))
     }
 
-    /// The volume at `place` and `level`, 0 the finest; between two levels as `sampler.mip` says, outside the nearest one.
+    /// Samples at `place` and `level`; 0 is the finest. Between levels `sampler.mip` applies; a level out of range is clamped.
     pub fn sample_level<P: PerLane<Vec3>>(&self, sampler: &Sampler, place: P, level: P::Of<f32>) -> P::Of<T> {
         place.with(level, |place, level| {
             between_levels(self.levels(), sampler.mip, level, |k| self.sampled(k, sampler, place))

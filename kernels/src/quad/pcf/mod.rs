@@ -1,4 +1,4 @@
-//! Percentage-closer filtering of shadow maps, its comparisons shared over the quad (§2.9).
+//! Percentage-closer filtering of shadow maps, with comparisons shared over the quad (§2.9).
 
 mod table;
 mod weights;
@@ -12,50 +12,50 @@ pub use table::table;
 pub use weights::ShadowWeights;
 
 options! {
-    /// How a shadow map is filtered.
+    /// Options of the shadow filter.
     pub struct Pcf {
-        /// Who takes which comparisons.
+        /// Distribution of the comparisons.
         pub method: Method = Method::Quad,
-        /// Texels that count, across and down.
+        /// Width of the filter in texels, across and down.
         pub width: Width = Width::Eight,
-        /// How texels are weighed.
+        /// Weights of the texels.
         pub weights: ShadowWeights = ShadowWeights::Box,
-        /// How the pixels of a quad, which share a value, are told apart; of `quad` alone.
+        /// Method by which the pixels of a quad, which share a value, get different results. `method=quad` only.
         pub gradient: Gradient = Gradient::None,
-        /// Distance between comparisons over that of a dense filter: more than 1 covers a wider footprint sparsely, for
-        /// shadow maps that are seen from afar. Of `quad` alone.
+        /// Distance between comparisons relative to that of a dense filter: more than 1 covers a wider footprint sparsely, for
+        /// distant shadow maps. `method=quad` only.
         pub spread: f32 [1.0..=64.0] = 1.0,
-        /// Where the comparisons of a lane lie; of `quad`, and not of four texels.
+        /// Positions of a lane's comparisons. `method=quad` only, and not `width=four`.
         pub mirroring: Mirroring = Mirroring::Local,
-        /// Tests of coordinates that are not finite or far from the map, and of the table's weights.
+        /// Tests for coordinates that are not finite or far from the map, and for the table's weights.
         pub guards: Guards = Guards::Inline,
     }
 }
 
-/// Where the comparisons of a lane lie in the shadow map (figure 2.6).
+/// Positions of a lane's comparisons in the shadow map (figure 2.6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mirroring {
-    /// Beside those of the other lanes: what the quad reads at once lies in 4×4 texels, which is kind to caches.
+    /// Next to those of the other lanes. The quad's simultaneous reads lie within 4×4 texels, which suits caches.
     Local,
-    /// All in the lane's own quarter: simpler, and what the quad reads at once lies as far apart as the filter is wide.
+    /// All in the lane's own quarter. Simpler, but the quad's simultaneous reads lie as far apart as the filter is wide.
     Simple,
 }
 
-/// Who takes which comparisons.
+/// Distribution of the comparisons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Each pixel one for each texel.
+    /// Each pixel takes one comparison for each texel.
     Naive,
-    /// Each pixel one between every 2×2 texels, placed so that the sampler's filter weighs them.
+    /// Each pixel takes one comparison between every 2×2 texels, placed so that the sampler's filter weights them.
     Bilinear,
-    /// The quad one between every 2×2 texels around its mean place: a quarter of those for each lane.
+    /// The quad takes one comparison between every 2×2 texels around its mean position; each lane takes a quarter of them.
     Quad,
-    /// The quad gathers 8×8 texels around its mean place, and each pixel weighs those for itself, 6×6 around its own
-    /// place, which is at most a texel off. All compare with the quad's mean depth.
+    /// The quad gathers 8×8 texels around its mean position. Each pixel weights 6×6 of them around its own
+    /// position, which is at most a texel off. All comparisons use the quad's mean depth.
     Gather,
 }
 
-/// Texels that count, across and down; `gather` takes 8.
+/// Width of the filter in texels, across and down. `method=gather` needs 8.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
     /// 4 by 4.
@@ -68,32 +68,32 @@ pub enum Width {
     Sixteen,
 }
 
-/// How the pixels of a quad are told apart.
+/// Method by which the pixels of a quad get different results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gradient {
-    /// Not at all: they have one value.
+    /// None: all pixels have one value.
     None,
-    /// By the slope that a Prewitt operator finds in the comparisons, as if they lay in the middle of their texels.
+    /// The slope from a Prewitt operator on the comparisons, as if they lay in the middle of their texels.
     Prewitt,
-    /// By the slope of the plane through the comparisons where they really lie.
+    /// The slope of the plane through the comparisons at their actual positions.
     Fitted,
 }
 
-/// How much light comes to each pixel of a quad, 0 to 1, in every component.
+/// Light on each pixel of a quad, 0 to 1, in every component.
 ///
-/// `coord` is interpolated: a place in the shadow map, 0 to 1, and the depth to compare. Over 2×2 texels the sampler's own
-/// filter weighs: give one that filters linearly.
+/// `coord` is interpolated: a position in the shadow map, 0 to 1, and the depth to compare. The sampler weights 2×2 texels,
+/// so it must filter linearly.
 ///
 /// The chapter's `g01 = g0 = g1` is a sum, its `a.xxyy` is `a.xyxy`, and its gradient is corrected: for taps at -3, -1, 1
-/// and 3 texels the slope is their moment over 80, and a pixel's value lies towards it, from the middle of what was
-/// weighed.
+/// and 3 texels the slope is their moment divided by 80, and a pixel's value is offset by it from the middle of the
+/// weighted texels.
 ///
-/// `lookup` is read by `weights=lookup` alone, through a sampler that filters linearly and clamps: [`table`] makes it.
+/// `lookup` is read only with `weights=lookup`, through a sampler that filters linearly and clamps. [`table`] creates it.
 ///
-/// The light is a number from 0 to 1 whatever `coord` and `lookup` are. A lane whose coordinates are not finite, or so far from the map
-/// that the filter reads its border alone, does not move the quad's mean place. By itself it counts as a place beside the map, and as the
-/// map's first corner with a depth of 0 if its coordinates are not finite. `guards=none` leaves these tests out, as a promise that
-/// coordinates are finite, at most a map's width away from the map, and that the table has weights.
+/// The light is a number from 0 to 1 for every `coord` and `lookup`. A lane whose coordinates are not finite, or so far from the
+/// map that the filter reads only its border, does not move the quad's mean position. Its own result is that of a position beside
+/// the map, or of the map's first corner at depth 0 if its coordinates are not finite. `guards=none` omits these tests; it is a
+/// promise that coordinates are finite and at most a map's width away from the map, and that the table has weights.
 pub fn pcf(
     cfg: &Pcf,
     shadow: &DepthTexture,
@@ -149,12 +149,12 @@ pub fn pcf(
     Vec4::ONE * lit
 }
 
-/// How far a place lies beyond the middle of the texel to its upper left, 0 to 1 on each axis.
+/// Offset of a position past the centre of the texel to its upper left, 0 to 1 on each axis.
 fn fraction(shadow: &DepthTexture, coord: Quad<Vec3>) -> Quad<Vec2> {
     fract(coord.truncate() * shadow.size().as_vec2() - 0.5)
 }
 
-/// Each pixel compares every texel, in its middle.
+/// Each pixel compares every texel, at its centre.
 fn naive(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<f32> {
     let size = shadow.size().as_vec2();
     let a = fraction(shadow, coord);
@@ -176,8 +176,8 @@ fn naive(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, c
     sum / total
 }
 
-/// Two neighbouring texels of a row and of a column: where between them the sampler weighs them as the filter does, and
-/// the sum of their weights (Sigg and Hadwiger 2005).
+/// Two adjacent texels of a row and of a column: the position between them where the sampler weights them as the filter does,
+/// and the sum of their weights (Sigg and Hadwiger 2005).
 struct Pair {
     place: Quad<Vec2>,
     weight: Quad<Vec2>,
@@ -209,17 +209,17 @@ fn pair(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad
     }
 }
 
-/// What the table says of the texels at `first` and one farther.
+/// Looks up the pair that starts at `first` in the table.
 fn looked_up(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad<f32>) -> Quad<Vec2> {
     let half = cfg.width.half();
     let texels = lookup.size().x as f32;
-    // Between the middles of the first and of the last texel of the table.
+    // Between the centres of the first and the last texel of the table.
     let at = (first + half) / (2.0 * half - 1.0) * (texels - 1.0) + 0.5;
     let at = Quad::from_xy(at / texels, Quad::splat(0.5));
     let found = lookup.sample_level(lookup_sampler, at, Quad::splat(0.0)).xy();
     match cfg.guards {
         Guards::Inline => {
-            // A weight that is not above 0, or not a number, is none.
+            // A weight that is not above 0, or is NaN, counts as 0.
             let (weight, place) = (found.x(), found.y());
             let weight = weight.gt(0.0).select(weight.min(HEAVIEST), Quad::splat(0.0));
             let place = place.gt(0.0).select(place.min(1.0), Quad::splat(0.0));
@@ -229,13 +229,13 @@ fn looked_up(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first:
     }
 }
 
-/// Most that a table's weight counts.
+/// Upper bound on a table's weight.
 const HEAVIEST: f32 = 1.0e10;
 
-/// Sums of weights up to this are of a table that has none here.
+/// A sum of weights up to this counts as 0: the table has no weights here.
 const LIGHTEST: f32 = 1.0e-20;
 
-/// Light over the weight that it was summed up with; of a table without weights all is lit.
+/// Divides the light by the sum of its weights. Where a table has no weights, everything is lit.
 fn over(cfg: &Pcf, lit: Quad<f32>, weight: Quad<f32>) -> Quad<f32> {
     if cfg.has_doubtful_weights() {
         weight.gt(LIGHTEST).select(lit / weight, Quad::splat(1.0))
@@ -271,7 +271,7 @@ fn bilinear(
     over(cfg, sum, total)
 }
 
-/// The quad compares between every 2×2 texels around its mean place, `N` of those each lane.
+/// The quad compares between every 2×2 texels around its mean position, with `N` comparisons for each lane.
 fn shared<const N: usize>(
     cfg: &Pcf,
     shadow: &DepthTexture,
@@ -286,16 +286,16 @@ fn shared<const N: usize>(
     join(cfg, taps, fraction(shadow, centre), away)
 }
 
-/// What a lane's comparison says: how much is lit, where, in texels from the quad's mean place, and with which weight.
+/// Comparison of a lane: its result, its position in texels from the quad's mean position, and its weight.
 #[derive(Clone, Copy)]
 pub struct Tap {
-    /// The comparison's result.
+    /// Result of the comparison.
     pub lit: Quad<f32>,
-    /// Where it was taken.
+    /// Position of the comparison.
     pub place: Quad<Vec2>,
-    /// As if it had been taken in the middle of its texels: the place by its number.
+    /// Position as if the comparison had been taken in the middle of its texels.
     pub middle: Quad<Vec2>,
-    /// Its weight.
+    /// Weight of the comparison.
     pub weight: Quad<f32>,
 }
 
@@ -318,7 +318,7 @@ fn compare<const N: usize>(
     }; N];
     let n = cfg.width.lane_taps() as usize;
     for k in 0..N {
-        // The same few columns and rows for all.
+        // All taps use the same few columns and rows.
         let (i, j) = (first_texel(cfg, k % n), first_texel(cfg, k / n));
         let column = pair(cfg, lookup, lookup_sampler, i - a);
         let row = pair(cfg, lookup, lookup_sampler, j - a);
@@ -333,7 +333,7 @@ fn compare<const N: usize>(
     taps
 }
 
-/// Column, or row, `k` of a lane's comparisons: where its first texel lies from the middle of all.
+/// Offset of the first texel of column, or row, `k` of a lane's comparisons from the middle of the filter.
 fn first_texel(cfg: &Pcf, k: usize) -> Quad<Vec2> {
     match cfg.mirroring {
         Mirroring::Local => quad_vector() + cfg.width.away(k),
@@ -341,8 +341,8 @@ fn first_texel(cfg: &Pcf, k: usize) -> Quad<Vec2> {
     }
 }
 
-/// One value from all lanes' comparisons, and for each pixel what the slope adds. `fraction` is that of the quad's mean
-/// place, `away` how far each pixel lies from it, in texels.
+/// Joins the comparisons of all lanes to one value, and adds the slope for each pixel. `fraction` is that of the quad's mean
+/// position; `away` is the offset of each pixel from it, in texels.
 pub fn join<const N: usize>(cfg: &Pcf, taps: [Tap; N], fraction: Quad<Vec2>, away: Quad<Vec2>) -> Quad<f32> {
     let mut sums = Quad::splat(Vec4::ZERO);
     for k in 0..N {
@@ -350,7 +350,7 @@ pub fn join<const N: usize>(cfg: &Pcf, taps: [Tap; N], fraction: Quad<Vec2>, awa
         sums += weighed.extend(taps[k].lit * taps[k].weight);
     }
     let (lit, middle) = match (cfg.weights, cfg.gradient) {
-        // Weights of 1: their sum is known, and their middle lies between two texels.
+        // Weights of 1: their sum is known, and their centroid lies midway between two texels.
         (ShadowWeights::Box, _) => {
             let share = 1.0 / N as f32;
             (sums.w().average() * share, (0.5 - fraction) * cfg.spread)
@@ -376,7 +376,7 @@ pub fn join<const N: usize>(cfg: &Pcf, taps: [Tap; N], fraction: Quad<Vec2>, awa
     }
 }
 
-/// Change of light for each texel, of taps at -1 and 1, or -3, -1, 1 and 3, and so on: the moment over the sum of the squares.
+/// Change of light per texel, for taps at -1 and 1, or -3, -1, 1 and 3, and so on: the moment over the sum of squares.
 fn prewitt<const N: usize>(cfg: &Pcf, taps: [Tap; N]) -> Quad<Vec2> {
     let mut moment = Quad::splat(Vec2::ZERO);
     for k in 0..N {
@@ -391,7 +391,7 @@ fn prewitt<const N: usize>(cfg: &Pcf, taps: [Tap; N]) -> Quad<Vec2> {
     moment.sum() / (squares * cfg.spread * cfg.spread)
 }
 
-/// Change of light for each texel, of the plane that fits the taps best.
+/// Change of light per texel, from the plane that fits the taps best.
 fn fitted<const N: usize>(taps: [Tap; N]) -> Quad<Vec2> {
     let mut lit = Quad::splat(0.0);
     let mut place = Quad::splat(Vec2::ZERO);
@@ -413,7 +413,7 @@ fn fitted<const N: usize>(taps: [Tap; N]) -> Quad<Vec2> {
     moments.xy() / moments.zw()
 }
 
-/// Each lane gathers its quarter of 8×8 texels and passes them on; each pixel weighs those around its own place.
+/// Each lane gathers its quarter of 8×8 texels and passes them on. Each pixel weights those around its own position.
 fn gathered(
     cfg: &Pcf,
     shadow: &DepthTexture,
@@ -423,8 +423,8 @@ fn gathered(
 ) -> Quad<f32> {
     let size = shadow.size().as_vec2();
     let a = fraction(shadow, centre);
-    // From the pixel's own place to the texel at the upper left of the quad's. Where the quad covers more texels than there
-    // are to spare, its pixels take the nearest place that has all of its own.
+    // Offset of the pixel's own position from the quad's. Where the quad covers more texels than the filter has to spare, a
+    // pixel takes the nearest position for which all texels are available.
     let away = ((coord.truncate() - centre.truncate()) * size)
         .max(-Vec2::ONE)
         .min(Vec2::ONE);
@@ -437,7 +437,7 @@ fn gathered(
         let texels = shadow.gather_compare(shadow_sampler, centre.truncate() + place / size, centre.z());
         let messages = texels.gather();
         for lane in 0..4 {
-            // The sender's texels: mirrored where it lies on the other side.
+            // The sending lane's texels, mirrored if it lies on the other side.
             let [x0, x1] = columns(cfg, shift + i, lane % 2 == 1);
             let [y0, y1] = columns(cfg, shift + j, lane / 2 == 1);
             let from = messages[lane];
@@ -449,7 +449,7 @@ fn gathered(
     sum / total
 }
 
-/// The weights of two neighbouring columns, and rows, of texels that a lane gathered.
+/// Weights of two adjacent columns, and rows, of texels that a lane gathered.
 fn columns(cfg: &Pcf, shift: Quad<Vec2>, mirrored: bool) -> [Quad<Vec2>; 2] {
     let first = if mirrored {
         shift - quad_vector()
@@ -460,14 +460,14 @@ fn columns(cfg: &Pcf, shift: Quad<Vec2>, mirrored: bool) -> [Quad<Vec2>; 2] {
 }
 
 impl Pcf {
-    /// Whether weights come from a table that may have none.
+    /// Returns whether weights come from a table, which may have none.
     fn has_doubtful_weights(&self) -> bool {
         self.weights == ShadowWeights::Lookup && self.guards == Guards::Inline
     }
 }
 
 impl Width {
-    /// Comparisons of a lane on an axis: 4×4 texels are one for each lane.
+    /// Comparisons of a lane per axis. For 4×4 texels there is one for each lane.
     fn lane_taps(self) -> i32 {
         match self {
             Width::Four => 1,
@@ -481,12 +481,12 @@ impl Width {
         4 * self.lane_taps()
     }
 
-    /// Distance from the middle at which weights end, in texels.
+    /// Distance from the middle to the end of the filter, in texels.
     fn half(self) -> f32 {
         (2 * self.lane_taps()) as f32
     }
 
-    /// How far column, or row, `k` of a lane's comparisons lies from where one alone would.
+    /// Offset of column, or row, `k` of a lane's comparisons from that of a lane with only one comparison.
     fn away(self, k: usize) -> f32 {
         (4 * k as i32 - 2 * (self.lane_taps() - 1)) as f32
     }

@@ -1,10 +1,10 @@
-//! Tables of weights, for `weights=lookup`.
+//! Weight tables for `weights=lookup`.
 
 use crate::prelude::*;
 
-/// The table of a filter that ends at `half` texels from its middle, 2 of 4×4 texels and 4 of 8×8, `texels` wide: for the
-/// distance of a texel, from `-half` to `half - 1`, the weight of it and its neighbour in x, and in y where between the two one
-/// comparison weighs both as the filter does, 0 to 1 (Sigg and Hadwiger 2005). `weight` is by distance, and not negative.
+/// Creates the table of a filter that ends at `half` texels from its middle (2 for 4×4 texels, 4 for 8×8), `texels` wide. For
+/// each distance of a texel, from `-half` to `half - 1`, x is the summed weight of it and its neighbour. y is the position, 0 to
+/// 1, where one comparison weights both as the filter does (Sigg and Hadwiger 2005). `weight` maps a distance to a weight >= 0.
 ///
 /// A shader interpolates between texels of the table: 64 are enough for a cubic B-spline, to a 1000th.
 pub fn table(half: f32, texels: u32, weight: impl Fn(f32) -> f32) -> Texture<Vec4> {

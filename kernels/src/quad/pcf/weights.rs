@@ -1,17 +1,17 @@
-//! How texels of a shadow map are weighed by their distance.
+//! Weights of a shadow map's texels by distance.
 
 use crate::prelude::*;
 
-/// How texels are weighed by their distance on each axis. All but the box end at zero, so that no texel comes in at once.
+/// Weights of texels by their distance on each axis. All but the box end at zero, so that no texel enters abruptly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShadowWeights {
-    /// All alike.
+    /// All equal.
     Box,
-    /// 1 up to half of the way, then straight down.
+    /// 1 up to half the distance, then linear to 0.
     LinearStep,
-    /// 1 up to a quarter of the way, then down in a cubic.
+    /// 1 up to a quarter of the distance, then cubic to 0.
     SmoothStep,
-    /// A Gaussian whose sigma is half of the way, less what it has at the end.
+    /// A Gaussian whose sigma is half the distance, minus its value at the end.
     Gaussian,
     /// A linear B-spline: a tent.
     Linear,
@@ -19,20 +19,20 @@ pub enum ShadowWeights {
     Quadratic,
     /// A cubic B-spline.
     Cubic,
-    /// As a table says ([`table`](super::table)), of any filter: of `quad` and `bilinear` alone.
+    /// From a table ([`table`](super::table)), for any filter. `method=quad` and `method=bilinear` only.
     Lookup,
 }
 
 /// exp(-2): a Gaussian at two sigma.
 const AT_TWO_SIGMA: f32 = 0.135_335_28;
 
-/// The weights on each axis at `offset` texels from the middle of a filter that ends at `half`.
+/// Weights on each axis at `offset` texels from the middle of a filter that ends at `half`.
 pub fn weigh(weights: ShadowWeights, half: f32, offset: Quad<Vec2>) -> Quad<Vec2> {
     let away = offset.abs();
     match weights {
-        // Of a table pairs of texels alone have weights: no method that comes here takes it.
+        // A table has weights only for pairs of texels, and no method that uses them calls this.
         ShadowWeights::Box | ShadowWeights::Lookup => {
-            // Of a texel at the very end half counts.
+            // A texel at the very end counts half.
             saturate(half + 0.5 - away)
         }
         ShadowWeights::LinearStep => saturate((away - half) / (0.5 * half - half)),

@@ -25,8 +25,8 @@ impl Picture {
     }
 }
 
-/// The image as a convolution takes it, whose weights' sizes sum up to `heaviest`: a pixel with a component that is not finite, or too large
-/// for the sum, is 0.
+/// The image as a convolution takes it, whose weights' sizes sum up to `heaviest`: a pixel with a component that is not
+/// finite, or too large for the sum, is 0.
 pub fn bounded_image(image: &Picture, heaviest: f64) -> Picture {
     let counts = |texel: &[f64; 4]| texel.iter().all(|c| c.abs() < BRIGHTEST / heaviest);
     Picture {
@@ -57,7 +57,7 @@ pub fn convolve_pixel(image: &Picture, radius: i64, weight: impl Fn(i64, i64) ->
 /// or row, by its number outwards from the middle.
 pub fn fit_plane(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
     let corner = [x - x.rem_euclid(2), y - y.rem_euclid(2)];
-    // Of a column, or row: the two pixels, from the quad's first, the share of the farther, the place and the weight.
+    // For a column or row: the two pixels, from the quad's first, the share of the farther, the place and the weight.
     let mut axis = Vec::new();
     for k in (0..=radius).step_by(2) {
         let (near, far) = (weight(k), weight(k + 1));
@@ -110,7 +110,7 @@ pub fn pascal(n: i64, k: i64) -> f64 {
     factorial(n) / factorial(k) / factorial(n - k) / 2.0f64.powi(n as i32)
 }
 
-/// Depths are at most this, by definition of the filters; what is infinite or not a number is as deep.
+/// Maximum depth by definition of the filters; infinities and NaN get the same depth.
 const DEEPEST: f64 = 1.0e30_f32 as f64;
 
 /// Colours are less than this, by definition of the filters; a texel with another has no weight.
@@ -185,7 +185,7 @@ pub struct Tap {
     pub away: f64,
     /// 1 less the cosine between normals, in units of its sigma; 0 if normals do not count.
     pub turned: f64,
-    /// Sum of the sizes of the cosine's products; 0 where they tell nothing.
+    /// Sum of the absolute products of the cosine; 0 if irrelevant.
     pub products: f64,
     /// Exponent of exp(-1/2) in the weight by difference of surfaces.
     pub exponent: f64,
@@ -232,8 +232,8 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
     })
 }
 
-/// The four texels of low resolution around the pixel's centre, weighed: by their distance on the screen, times Gaussians. Where none is of a like
-/// surface, the one with the nearest depth.
+/// The four texels of low resolution around the pixel's centre, weighed: by their distance on the screen, times Gaussians.
+/// Where none is of a like surface, the one with the nearest depth.
 pub fn upsample_pixel(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
     let taps = upsampling_taps(inputs, at);
     let (mut sum, mut total) = ([0.0; 4], 0.0);

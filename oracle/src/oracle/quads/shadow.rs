@@ -68,8 +68,8 @@ pub struct Counted {
     pub counts: bool,
 }
 
-/// `coord` as it counts, of a filter that reaches `reach` texels in a map of `size`: 0 if a component is no number or too large, and at
-/// most as far from the map as the filter reaches.
+/// `coord` as it counts, of a filter that reaches `reach` texels in a map of `size`: 0 if a component is no number or too
+/// large, and at most as far from the map as the filter reaches.
 pub fn counted_coordinates(coord: [f64; 3], size: [i64; 2], reach: f64) -> Counted {
     if !coord.iter().all(|c| c.abs() < FARTHEST) {
         return Counted {

@@ -15,7 +15,7 @@ pub fn sky(direction: Vec3) -> Vec3 {
     HORIZON.lerp(ZENITH, (up * 2.2).min(1.0).sqrt())
 }
 
-/// The colour of what a ray has met.
+/// Returns the colour of the surface that a ray hits.
 pub fn shade_hit(at: Vec3, direction: Vec3, met: &Hit) -> Vec3 {
     let (albedo, shine) = hit_material(at, met);
     let normal = met.normal;

@@ -15,7 +15,7 @@ const GUARD: f32 = 8.0;
 pub(super) struct ScreenTriangle {
     /// Corners in steps from the picture's upper left corner, clockwise as seen (y down), of an area above 0.
     pub corners: [[i32; 2]; 3],
-    /// Of the whole triangle: the scene's.
+    /// Index of the whole triangle in the scene.
     pub source: u32,
     /// True if the side that normals point to is seen.
     pub front: bool,
@@ -63,7 +63,7 @@ pub(super) fn project_triangle(source: u32, corners: [Vec4; 3], near: f32, size:
         found: [None; MAX_CORNERS - 2],
         next: 0,
     };
-    // All on the far side of one edge of the picture, or nearer than what is drawn.
+    // All corners are outside one edge of the picture, or in front of the near plane.
     let outside = |far: fn(Vec4) -> bool| corners.iter().all(|corner| far(*corner));
     if outside(|c| c.x > c.w)
         || outside(|c| c.x < -c.w)

@@ -49,7 +49,7 @@ impl Visible {
     ) -> Self {
         let width = size.x as usize;
         let mut visible = vec![NONE; width * size.y as usize];
-        // Reciprocals of depth; what is not there is infinitely far.
+        // Reciprocals of depth; without a surface, infinitely far.
         let mut nearest = vec![0.0_f32; visible.len()];
         for &at in inside {
             let triangle = &triangles[at as usize];

@@ -5,10 +5,10 @@ use super::resources::{DEPTH_FORMAT, Resources};
 use crate::scene::Vertex;
 use wgpu::{CompareFunction, TextureFormat, TextureView};
 
-/// A pipeline that draws the scene's triangles, or what is behind them.
+/// A pipeline that draws the scene's triangles, or the background.
 pub(super) struct Drawn<'a> {
     pub label: &'static str,
-    /// Of a view, and of textures.
+    /// Layouts of a view, and of textures.
     pub layouts: [&'a wgpu::BindGroupLayout; 2],
     pub module: &'a wgpu::ShaderModule,
     /// Entry points of vertices and fragments.
@@ -16,7 +16,7 @@ pub(super) struct Drawn<'a> {
     pub targets: &'a [TextureFormat],
     /// Samples of a pixel.
     pub samples: u32,
-    /// Drawn without vertices, where nothing else was.
+    /// `true` for the background, drawn without vertices where nothing else was drawn.
     pub behind: bool,
 }
 
@@ -43,7 +43,7 @@ impl Drawn<'_> {
             },
             // Both sides are drawn; counter-clockwise is the front.
             primitive: wgpu::PrimitiveState::default(),
-            // The nearest surface, by the reciprocal of depth. Cleared to 0, which is what is behind everything.
+            // The nearest surface, by the reciprocal of depth. Cleared to 0: the background.
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(!self.behind),
@@ -120,7 +120,7 @@ pub(super) struct Drawing<'a> {
     pub targets: &'a [Target<'a>],
     /// For the depth test.
     pub tested: &'a TextureView,
-    /// Draws what is behind the scene, with the same group.
+    /// Pipeline of the background, with the same group.
     pub behind: Option<&'a wgpu::RenderPipeline>,
     pub timestamps: Option<wgpu::RenderPassTimestampWrites<'a>>,
 }

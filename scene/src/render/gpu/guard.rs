@@ -5,13 +5,13 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-/// Runs `work`, and makes an error of what wgpu complained about meanwhile.
+/// Runs `work`, and returns wgpu's error during it, if any.
 ///
-/// Without a scope wgpu hands errors to the device's own handler, which by default panics.
+/// Without a scope wgpu passes errors to the device's own handler, which by default panics.
 ///
 /// # Errors
 ///
-/// [`RenderError::Device`] with `doing` and what wgpu said.
+/// [`RenderError::Device`] with `doing` and wgpu's message.
 pub fn with_error_scope<T>(
     device: &wgpu::Device,
     doing: &'static str,

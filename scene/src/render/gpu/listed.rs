@@ -72,8 +72,9 @@ impl<'a> Listed<'a> {
 
     /// Linear colour of each pixel that is listed, shaded at the one of `samples` that its entry names; 0 of all others.
     ///
-    /// `counts` and `list` are as `sraa_extra` left them: 4 numbers of 32 bits, usable for indirect dispatches and as storage, and 2 numbers
-    /// an entry. The G-buffer is drawn once for each sample, as this renderer keeps no more than one, and what is listed there is shaded.
+    /// `counts` and `list` are as `sraa_extra` left them: 4 numbers of 32 bits, usable for indirect dispatches and as
+    /// storage, and 2 numbers an entry. The G-buffer is drawn once for each sample, as this renderer keeps no more than
+    /// one, and what is listed there is shaded.
     ///
     /// # Errors
     ///

@@ -7,10 +7,10 @@ use crate::scene::{Scene, Vertex};
 use glam::{UVec2, Vec4};
 use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 
-/// Of both G-buffer textures: whole floats, so that the processor's renderer gives the same.
+/// Format of both G-buffer textures: full floats, so that the CPU renderer gives the same values.
 pub(super) const TEXEL_FORMAT: TextureFormat = TextureFormat::Rgba32Float;
 
-/// Of the depth test, which runs on the reciprocal of depth.
+/// Format of the depth test, which uses the reciprocal of depth.
 pub(super) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub(super) struct Resources {
     pub shading_group: wgpu::BindGroup,
 }
 
-/// Refuses what the device has no room for, before wgpu does it in its own words.
+/// Rejects sizes beyond the device's limits, before wgpu does in its own words.
 pub(super) fn check_limits(device: &wgpu::Device, scene: &Scene, size: UVec2) -> Result<(), RenderError> {
     let limits = device.limits();
     let most = limits.max_texture_dimension_2d;

@@ -124,7 +124,8 @@ fn check_part(part: &Part) -> Result<(), String> {
     }
 }
 
-/// Texels to a unit of length around each position: by the areas in the image and in space of the triangles that it is a corner of.
+/// Texels to a unit of length around each position: by the areas in the image and in space of the triangles that it is a
+/// corner of.
 fn texel_densities(part: &Part, paint: &Paint) -> Vec<f32> {
     let mut areas = vec![DVec2::ZERO; part.positions.len()];
     let texels = paint.size.as_dvec2();

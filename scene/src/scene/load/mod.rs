@@ -16,19 +16,19 @@ use straightline_files as files;
 /// Most triangles that are read from a file.
 pub const MAX_TRIANGLES: usize = 1 << 25;
 
-/// Reads a model, by the extension of `path`: glTF 2.0 (`gltf` with the files that it names, or `glb`) or Wavefront
-/// OBJ (with its material libraries). Upper or lower case.
+/// Reads a model, by the extension of `path`: glTF 2.0 (`gltf` with the files that it names, or `glb`) or Wavefront OBJ
+/// (with its material libraries). Upper or lower case.
 ///
-/// - Every triangle of the default scene is read, at its node's place; skins, morph targets and animations are not
-///   applied, points and lines not drawn.
-/// - A surface's colour is the base colour (`Kd` in OBJ, taken as linear) times the vertices' own, times the base colour texture
-///   (PNG or JPEG), filtered, which repeats. Where the texture's alpha is below glTF's cutoff, or one half of what is blended there
-///   and of OBJ (the alpha of `map_Kd`, or the brightness of `map_d`), there is a hole: nothing is drawn half transparent.
-/// - Missing normals are made: the faces' own for glTF, as it asks, and for OBJ smoothed across edges of less than
-///   55°.
-/// - The model is moved and scaled so that its bounding box is centred on the origin and has a diagonal of 10
-///   units, so that steps between its surfaces are of the size that filters expect; and the camera has the whole
-///   box in a picture that is not higher than wide.
+/// - Every triangle of the default scene is read, at its node's place; skins, morph targets and animations are not applied,
+///   points and lines not drawn.
+/// - A surface's colour is the base colour (`Kd` in OBJ, taken as linear) times the vertices' own, times the base colour
+///   texture (PNG or JPEG), filtered, which repeats. Where the texture's alpha is below glTF's cutoff, or one half of what
+///   is blended there and of OBJ (the alpha of `map_Kd`, or the brightness of `map_d`), there is a hole: nothing is drawn
+///   half transparent.
+/// - Missing normals are made: the faces' own for glTF, as it asks, and for OBJ smoothed across edges of less than 55°.
+/// - The model is moved and scaled so that its bounding box is centred on the origin and has a diagonal of 10 units, so
+///   that steps between its surfaces are of the size that filters expect; and the camera has the whole box in a picture
+///   that is not higher than wide.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Colours that are bright, dark, or no numbers.
+//! Cases of colours: bright, dark, and not finite.
 
 use super::two_walls;
 use crate::hard::case::{Case, Place, Seen};

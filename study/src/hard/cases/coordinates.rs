@@ -1,4 +1,4 @@
-//! Coordinates in shadow maps that are no numbers or far away, and maps that are hardly any.
+//! Cases of shadow-map coordinates that are not finite or far away, and of tiny maps.
 
 use super::two_walls;
 use crate::hard::case::{Case, Place};

@@ -1,4 +1,4 @@
-//! Depths that are far, near, equal, encoded in few bits, or no numbers.
+//! Cases of depths: far, near, equal, encoded in few bits, and not finite.
 
 use super::{noisy_surface, steps_from, two_walls};
 use crate::hard::case::{Case, Place, Seen};

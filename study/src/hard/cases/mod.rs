@@ -1,4 +1,4 @@
-//! The hard cases.
+//! List of the hard cases.
 
 mod color;
 mod coordinates;
@@ -10,7 +10,7 @@ mod shape;
 use super::case::{Case, Normal, Place, Seen};
 use glam::{Vec3, vec3};
 
-/// All of them.
+/// Returns all cases.
 pub fn all_cases() -> Vec<Case> {
     [
         shape::CASES,
@@ -23,7 +23,7 @@ pub fn all_cases() -> Vec<Case> {
     .concat()
 }
 
-/// A wall before another, both facing the viewer a little askance: depths 5 and 8.
+/// A wall in front of another, both slightly slanted: depths 5 and 8.
 fn two_walls(place: &Place) -> Seen {
     match place.is_behind() {
         true => noisy_surface(place, 8.0, vec3(0.6, 0.0, 0.8)),
@@ -31,7 +31,7 @@ fn two_walls(place: &Place) -> Seen {
     }
 }
 
-/// A surface with noise for colour.
+/// A surface with noise as its colour.
 fn noisy_surface(place: &Place, depth: f32, normal: Vec3) -> Seen {
     Seen {
         depth,
@@ -40,7 +40,7 @@ fn noisy_surface(place: &Place, depth: f32, normal: Vec3) -> Seen {
     }
 }
 
-/// The number that follows so many others of its sign.
+/// Returns the `steps`-th floating-point number after `x`, of the same sign.
 fn steps_from(x: f32, steps: u32) -> f32 {
     f32::from_bits(x.to_bits() + steps)
 }

@@ -1,4 +1,4 @@
-//! Normals that are none.
+//! Cases of invalid normals.
 
 use super::{noisy_surface, steps_from, two_walls};
 use crate::hard::case::{Case, Normal, Place, Seen};
@@ -114,7 +114,7 @@ pub const CASES: &[Case] = &[
     .mark_common(),
 ];
 
-/// Walls, the rear one with another normal.
+/// Two walls; the rear one has the given normal.
 fn normal_behind(place: &Place, normal: Vec3) -> Seen {
     let mut seen = two_walls(place);
     if place.is_behind() {
@@ -123,7 +123,7 @@ fn normal_behind(place: &Place, normal: Vec3) -> Seen {
     seen
 }
 
-/// Walls, of the rear one the texel as it is.
+/// Two walls; the rear one has the given texel as its normal.
 fn texel_behind(place: &Place, texel: Vec4) -> Seen {
     let mut seen = two_walls(place);
     if place.is_behind() {

@@ -1,4 +1,4 @@
-//! Options and uniforms at the ends of their ranges, and beyond.
+//! Cases of options and uniforms at the ends of their ranges, and beyond.
 
 use super::{noisy_surface, two_walls};
 use crate::hard::case::{Case, Place, Seen};
@@ -85,7 +85,7 @@ pub const CASES: &[Case] = &[
     .with_options(&[("difference", "relative")]),
 ];
 
-/// Walls that recede: differences of all sizes.
+/// Receding walls, with depth differences of all sizes.
 fn slanted_walls(place: &Place) -> Seen {
     let mut seen = two_walls(place);
     seen.depth += 0.003 * place.at.x + 0.000_3 * place.at.y * place.at.y;

@@ -1,4 +1,4 @@
-//! Sizes of pictures, and surfaces that lie awkwardly.
+//! Cases of picture sizes, and of surfaces in unfavourable positions.
 
 use super::{noisy_surface, steps_from, two_walls};
 use crate::hard::case::{Case, Place, Seen};
@@ -93,7 +93,7 @@ pub const CASES: &[Case] = &[
 ];
 
 fn wire(place: &Place) -> Seen {
-    // Half a pixel wide and beside the centres.
+    // Half a pixel wide, and next to the pixel centres.
     let across = (place.at.x + 0.25 * place.at.y).rem_euclid(6.0);
     match place.sample.is_some() && (0.6..1.0).contains(&across) {
         true => noisy_surface(place, 2.0, Vec3::Z),

@@ -33,15 +33,15 @@ use straightline_oracle::oracle::quads::{self, Picture};
 
 /// Expected result of a form.
 pub struct Expected {
-    /// By definition, pixel by pixel.
+    /// Colours by definition, pixel by pixel.
     pub colors: Vec<[f64; 4]>,
-    /// Most that the interpreter may be off in each pixel.
+    /// Maximum error of the interpreter in each pixel.
     pub bounds: Vec<f64>,
-    /// Most that a device may be off.
+    /// Maximum error of a device.
     pub device_bounds: Vec<f64>,
-    /// Most that either may be off in `f16`, where that has been analysed.
+    /// Maximum error of either in `f16`, where that has been analysed.
     pub half_bounds: Option<Vec<f64>>,
-    /// Components that count: the fourth of some is a depth, or always 1.
+    /// Number of compared components: the fourth of some is a depth, or always 1.
     pub lanes: usize,
 }
 
@@ -70,7 +70,7 @@ pub fn expected_result(form: &Form, options: &OptionValues, reads: &Reads) -> Re
     }
 }
 
-/// A step of an 8-bit picture, of what the case's colours are at the brightest; of light, of 1.
+/// Returns a step of an 8-bit picture, relative to the case's brightest colour; for light, relative to 1.
 pub fn half_limit(case: &Case, family: Family) -> f64 {
     if family.gives_light() {
         return 1.0 / 255.0;
@@ -97,8 +97,7 @@ fn number_or(options: &OptionValues, name: &str, default: f64) -> f64 {
     options.number(name).unwrap_or(default)
 }
 
-/// Decisions closer than this, of numbers relative to what they are computed from, may go either way: products of three,
-/// their sums, a reciprocal of 2.5 ULP.
+/// Relative margin within which a decision may go either way: products of three, their sums, a reciprocal of 2.5 ULP.
 const CLOSE: f64 = 32.0 * Rounding::SINGLE.unit;
 
 fn expected_edges(family: Family, options: &OptionValues, inputs: &Inputs) -> Expected {
@@ -172,7 +171,7 @@ impl Around {
         let (mut low, mut high, mut all_good, mut long_normals) = (Vec4::INFINITY, Vec4::NEG_INFINITY, true, false);
         for place in places {
             let texel = color.load(place);
-            // Black stands for a bad colour.
+            // Black replaces an invalid colour.
             let counted = if texel.is_finite() { texel } else { Vec4::ZERO };
             (low, high) = (low.min(counted), high.max(counted));
             all_good &= texel.is_finite();
@@ -189,8 +188,8 @@ impl Around {
         }
     }
 
-    /// Returns whether 32 bits decide as 64 do, and a sampler reads nothing that is bad. A cosine of long normals is a
-    /// difference of large numbers, which its margin does not take into account.
+    /// Returns whether 32 bits decide as 64 do, and the sampler reads nothing invalid. A cosine of long normals is a
+    /// difference of large numbers, which the margin does not cover.
     fn is_sure(&self, edge: &Edge) -> bool {
         edge.margin > CLOSE && self.all_good && !self.long_normals
     }
@@ -209,8 +208,8 @@ fn pixel_positions(inputs: &Inputs) -> impl Iterator<Item = [i64; 2]> {
     (0..size.y).flat_map(move |y| (0..size.x).map(move |x| [i64::from(x), i64::from(y)]))
 }
 
-/// A Gaussian weight `tent` exp(−`exponent`), and the most that it may be off, `off` being the most that the exponent is beside
-/// the rounding of the squares that it is a sum of.
+/// Returns a Gaussian weight `tent` exp(−`exponent`), and its maximum error. `off` is the maximum error of the exponent in
+/// addition to the rounding of the squares that it sums.
 fn gaussian_weight(tent: f64, exponent: f64, off: f64) -> (f64, f64) {
     let rounding = &Rounding::SINGLE;
     let weight = tent * (-exponent).exp();
@@ -305,7 +304,7 @@ fn expected_upsampling(options: &OptionValues, inputs: &Inputs) -> Expected {
     }
 }
 
-/// Sums of weights near this are of no surface or of one, as they are rounded.
+/// Sums of weights near this may round to no surface or to one.
 const SMALLEST_SUM: f64 = 1.0e-20;
 
 fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
@@ -313,7 +312,7 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     let taps = quads::upsampling_taps(given, at);
     let mut shares = Vec::new();
     for tap in &taps {
-        // A cosine is off by four roundings of its products; its square by twice that times itself.
+        // A cosine has the error of four roundings of its products; its square twice that, times itself.
         let n_off = 8.0 * unit * tap.products / given.normal_sigma.unwrap_or(1.0);
         let off = n_off * tap.turned.abs() + n_off * n_off;
         let (weight, most) = gaussian_weight(tap.screen, 0.5 * tap.exponent, off);
@@ -332,7 +331,7 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     let (low, high) = shares.iter().fold((0.0, 0.0), |(l, h), s| {
         (l + (s.weight - s.off).max(0.0), h + s.weight + s.off)
     });
-    // A sum of products that are infinite in 32 bits may be no number there.
+    // A sum of products that are infinite in 32 bits may be NaN there.
     if taps.iter().any(|tap| tap.products > f64::from(f32::MAX)) {
         return range + rounded;
     }
@@ -342,7 +341,7 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     if high > SMALLEST_SUM {
         return range + rounded;
     }
-    // The nearest depth: the taps that may be it. Of equally near ones any may be.
+    // Taps that may be the nearest: of equally near ones, any may win.
     let nearest = taps.iter().map(|tap| tap.away).fold(f64::INFINITY, f64::min);
     let may_be = |tap: &&quads::Tap| tap.away <= nearest + 4.0 * unit * tap.away;
     let near: Vec<_> = taps.iter().filter(may_be).collect();

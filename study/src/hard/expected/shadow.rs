@@ -1,8 +1,8 @@
-//! Filters of shadow maps: by definition, and between which values roundings may move them.
+//! Shadow filters: the definition, and the range in which roundings may move its result.
 //!
-//! A comparison is 0 or 1, and which texels are compared jumps where a place passes from texel to texel. So the definition is evaluated at
-//! the coordinates that were read and with each of them a little smaller and a little larger: between these results lies every outcome
-//! of those decisions, as all are off by the same.
+//! A comparison is 0 or 1, and the compared texels change abruptly where a position passes from texel to texel. The
+//! definition is therefore evaluated at the coordinates that were read, and with each of them slightly smaller and slightly
+//! larger. Every outcome of those decisions lies between these results, since all have the same error.
 
 use super::{Expected, input_picture, number_or, pixel_positions};
 use crate::hard::form::{self, Family, choice_or};
@@ -42,15 +42,15 @@ pub fn expected_shadow(family: Family, options: &OptionValues, inputs: &Inputs) 
     }
 }
 
-/// A filter of a shadow map.
+/// A shadow filter.
 struct Filter<'a> {
     options: &'a OptionValues,
     family: Family,
     map: Shadow,
     texels: i64,
-    /// Greatest distance of a comparison from the pixel's place, in texels, as the kernel takes it.
+    /// Greatest distance of a comparison from the pixel's position, in texels, as the kernel uses it.
     reach: f64,
-    /// Most that the weights of a table are off.
+    /// Maximum error of the weights in a table.
     table: f64,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Filter<'a> {
         }
     }
 
-    /// Light for a pixel, and the most that an interpreter and a device may be off.
+    /// Returns the light of a pixel, and the maximum errors of an interpreter and a device.
     fn light_with_bounds(&self, own: Counted, mean: [f64; 3]) -> (f64, f64, f64) {
         let unit = Rounding::SINGLE.unit;
         let (value, slant) = self.light_and_slope(own.coord, mean);
@@ -108,13 +108,13 @@ impl<'a> Filter<'a> {
             };
             let (own_there, mean_there) = (moved(own.coord), moved(mean));
             off = off.max((self.light_and_slope(own_there, mean_there).0 - value).abs());
-            // Each depth of a search may be another by itself, and then the penumbra any.
+            // Each depth of a search may differ on its own, and then the penumbra can be anything.
             if self.family == Family::Pcss && self.blockers(own_there, mean_there) != blockers {
                 off = 1.0;
             }
         }
         let rounded = (256.0 * unit + self.table) * (1.0 + slant);
-        // A device weighs texels in steps of 1/256 on each axis, in each comparison.
+        // A device interpolates texels in steps of 1/256 on each axis, in each comparison.
         (value, off + rounded, off + rounded + (1.0 + slant) / 128.0)
     }
 
@@ -128,7 +128,8 @@ impl<'a> Filter<'a> {
         quads::find_blockers(&self.map, place, from[2], number_or(self.options, "search", 16.0))
     }
 
-    /// Light for a pixel at `own` of a quad at `mean`, and by how much an error of all comparisons counts in its slope.
+    /// Returns the light of a pixel at `own` in a quad at `mean`, and the factor by which a common error of all comparisons
+    /// enters through its slope.
     fn light_and_slope(&self, own: [f64; 3], mean: [f64; 3]) -> (f64, f64) {
         let of = |c: [f64; 3]| [0, 1].map(|axis| c[axis] * self.map.size[axis] as f64);
         let (own_place, place) = (of(own), of(mean));

@@ -1,4 +1,4 @@
-//! Convolutions and ambient occlusion, by definition.
+//! Definitions of convolutions and ambient occlusion.
 
 use super::{Expected, input_picture, largest_component, number_or, pixel_positions};
 use crate::hard::form::choice_or;
@@ -7,9 +7,8 @@ use straightline_kernels::OptionValues;
 use straightline_oracle::oracle::bound::Rounding;
 use straightline_oracle::oracle::quads::{self, Ao, Picture};
 
-/// Returns the expected result of a convolution. A sum of n products is off by n + 2 roundings of the largest; bilinear taps by
-/// the place between
-/// texels, too, and on a device by its steps of 1/256 on each axis.
+/// Returns the expected result of a convolution. A sum of n products has an error of n + 2 roundings of the largest.
+/// Bilinear taps add the error of the position between texels, and on a device steps of 1/256 on each axis.
 pub fn expected_convolution(options: &OptionValues, inputs: &Inputs) -> Expected {
     let radius = number_or(options, "radius", 1.0) as i64;
     let is_bilinear = choice_or(options, "taps", "pixels") == "bilinear";
@@ -40,7 +39,8 @@ pub fn expected_convolution(options: &OptionValues, inputs: &Inputs) -> Expected
         let brightest = brightest_around(&image, radius + 1, at);
         let rounded = (width * width + 16.0) * unit * brightest + 64.0 * Rounding::SINGLE.smallest;
         let [placed, by_device] = match is_bilinear {
-            // The sizes of a tap's weights for all lanes sum up to 4 at most, and colours differ by twice the brightest.
+            // The absolute weights of a tap for all lanes sum to at most 4, and colours differ by at most twice the
+            // brightest.
             true => [8.0 * unit * side, 1.0 / 128.0].map(|share| 8.0 * share * brightest),
             false => [0.0; 2],
         };
@@ -63,7 +63,7 @@ fn brightest_around(image: &Picture, radius: i64, [x, y]: [i64; 2]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the expected ambient occlusion, between the least and the most that roundings make of each tap and of its place.
+/// Returns the expected ambient occlusion, between the least and the greatest result of rounding each tap and its position.
 pub fn expected_occlusion(options: &OptionValues, inputs: &Inputs) -> Expected {
     // Options are numbers of 32 bits.
     let option = |name: &str, default: f64| f64::from(number_or(options, name, default) as f32);

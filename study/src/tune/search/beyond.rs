@@ -36,8 +36,8 @@ impl Search {
         self.add(&wanted, progress)
     }
 
-    /// Extends what is next to the best variant, and to the one within the budget that is predicted to be cheapest. Whether all was
-    /// done.
+    /// Extends what is next to the best variant, and to the one within the budget that is predicted to be cheapest. Whether
+    /// all was done.
     pub(in crate::tune) fn refine(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         for _ in 0..LOOKS {
             let known = self.entries.len();
@@ -61,8 +61,8 @@ impl Search {
         Ok(true)
     }
 
-    /// Adds those of some variants that go beyond the paper and are not known yet, with their counts, errors and predictions. Whether
-    /// all was done.
+    /// Adds those of some variants that go beyond the paper and are not known yet, with their counts, errors and
+    /// predictions. Whether all was done.
     pub(in crate::tune) fn add(&mut self, wanted: &[Variant], progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let is_new = |v: &Variant| self.space.without_extensions(*v) != *v && !self.index.contains_key(v);
         let fresh: BTreeSet<Variant> = wanted.iter().copied().filter(is_new).collect();

@@ -148,8 +148,8 @@ impl Ground {
     }
 }
 
-/// Variants that together read all that any of one set of samples does, and of each texture as many components: what a loop chooses a
-/// sample by is read whole. The last reads every texture.
+/// Variants that together read all that any of one set of samples does, and of each texture as many components: what a loop
+/// chooses a sample by is read whole. The last reads every texture.
 fn richest_variants(space: &Space, samples: usize) -> Vec<Variant> {
     let general = space.general().with_value(Term::Samples, samples);
     let most = |v: Variant, term: Term| v.with_value(term, space.term_values(term).len() - 1);
@@ -198,8 +198,8 @@ fn shading_settings(space: &Space, variant: Variant, place: &str) -> Settings {
     settings
 }
 
-/// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was placed, not as
-/// the filter does.
+/// Options of `sraa_place`: the samples, what is fixed for all, and what tells surfaces apart as where the picture was
+/// placed, not as the filter does.
 fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText> {
     let given: Vec<_> = space.fixed.iter().chain(&samples.options).cloned().collect();
     PlacedBy::Depths.instead_of(&spell_settings(&given))

@@ -112,8 +112,8 @@ impl Space {
         &self.terms[term as usize][variant.value_index(term)]
     }
 
-    /// The most general variant: of every term the value that computes most, and nothing beyond the paper that is not set. It is the
-    /// first of [`base_variants`](Self::base_variants).
+    /// The most general variant: of every term the value that computes most, and nothing beyond the paper that is not set.
+    /// It is the first of [`base_variants`](Self::base_variants).
     pub fn general(&self) -> Variant {
         Variant([0; Term::ALL.len()])
     }
@@ -128,8 +128,8 @@ impl Space {
         all
     }
 
-    /// A variant with everything that goes beyond the paper, in all combinations, and nothing else changed. None of one that is not
-    /// [`plain_variant`](Self::plain_variant).
+    /// A variant with everything that goes beyond the paper, in all combinations, and nothing else changed. None of one
+    /// that is not [`plain_variant`](Self::plain_variant).
     pub fn extended_variants(&self, variant: Variant) -> Vec<Variant> {
         let bare = self.without_extensions(variant);
         if self.plain_variant(bare) != bare {
@@ -156,15 +156,16 @@ impl Space {
         Term::BEYOND.into_iter().fold(variant, |v, term| v.with_value(term, 0))
     }
 
-    /// A variant as it can be added to: all pixels filtered, each by its own invocation, in whole floats, by exact mathematics. More is
-    /// not searched, so that the space stays small.
+    /// A variant as it can be added to: all pixels filtered, each by its own invocation, in whole floats, by exact
+    /// mathematics. More is not searched, so that the space stays small.
     pub fn plain_variant(&self, variant: Variant) -> Variant {
         let cheaper = [Term::Mask, Term::Precision, Term::Math, Term::Block];
         cheaper.into_iter().fold(variant, |v, term| v.with_value(term, 0))
     }
 
-    /// Where depth is not compared, how it is compared means nothing, and fast mathematics has next to nothing to do where nothing is
-    /// tested: of variants that mean the same, the one that is searched. Of those with what goes beyond the paper, the plain one.
+    /// Returns the representative of equivalent variants. Without a comparison of depth, its mode is irrelevant; without
+    /// tests, fast mathematics has almost nothing to do. Among equivalent additions beyond the paper, the plain variant is
+    /// chosen.
     pub fn canonical(&self, variant: Variant) -> Variant {
         let variant = match self.without_extensions(variant) == variant {
             true => variant,
@@ -192,9 +193,9 @@ impl Space {
         found
     }
 
-    /// The variant that was run for this one's picture: blocks compute the same picture as single pixels, fast mathematics one that
-    /// differs by roundings (what is measured is judged by its own), and a filter without the finite test the same if all colours are
-    /// finite.
+    /// The variant that was run for this one's picture: blocks compute the same picture as single pixels, fast mathematics
+    /// one that differs by roundings (what is measured is judged by its own), and a filter without the finite test the same
+    /// if all colours are finite.
     pub fn picture_of(&self, variant: Variant, finite: bool) -> Variant {
         let single = variant.with_value(Term::Block, 0).with_value(Term::Math, 0);
         if finite {

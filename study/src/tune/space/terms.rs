@@ -1,4 +1,5 @@
-//! Terms of the filter and the values that each can have, the one that computes most first; of what goes beyond the paper, none first.
+//! Terms of the filter and the values that each can have, the one that computes most first; of what goes beyond the paper,
+//! none first.
 
 use crate::builtin::Setting;
 use straightline_codegen::{Math, Precision};
@@ -239,8 +240,8 @@ fn metric_values(offer: &Offer, left_aside: &mut Vec<String>) -> Vec<Value> {
         .collect()
 }
 
-/// Ways to compare depths. Two of them have a scale of their own, unless one was set: with one a tenth of the depth is a step, and
-/// a floor that recedes to the horizon is one surface; the other is what the steps of the view call for.
+/// Ways to compare depths. Two of them have a scale of their own, unless one was set: with one a tenth of the depth is a
+/// step, and a floor that recedes to the horizon is one surface; the other is what the steps of the view call for.
 fn difference_values(offer: &Offer) -> Vec<Value> {
     let coarse = [
         ("difference", choice_value("relative")),

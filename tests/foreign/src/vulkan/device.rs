@@ -6,7 +6,7 @@ use crate::open;
 use ash::{Instance, vk};
 use std::ffi::CStr;
 
-/// The one device of a driver, with all features that it has but robust access.
+/// A driver's only device, with all of its features except robust access.
 pub struct Device {
     instance: Instance,
     pub(super) device: ash::Device,
@@ -80,7 +80,7 @@ unsafe fn opened(instance: &Instance) -> Result<Opened, String> {
             .queue_family_index(0)
             .queue_priorities(&[1.0])];
         let mut features = instance.get_physical_device_features(physical);
-        // Hosts need not ask for it, and texts read within bounds.
+        // Hosts need not enable it, and the emitted texts read within bounds.
         features.robust_buffer_access = vk::FALSE;
         let info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)

@@ -27,7 +27,7 @@ pub struct Binding {
 pub enum Resource {
     /// A texture that is read.
     Texture(Image),
-    /// A storage image, with what it holds before; afterwards with what it holds then.
+    /// A storage image: initial contents before the dispatch, results after it.
     Target(Image),
     /// A sampler that clamps: linear, or of the nearest texel.
     Sampler {
@@ -36,7 +36,7 @@ pub enum Resource {
     },
     /// A uniform buffer.
     Uniform(Vec<u8>),
-    /// A storage buffer, with what it holds before; afterwards with what it holds then.
+    /// A storage buffer: initial contents before the dispatch, results after it.
     Buffer(Vec<u8>),
 }
 
@@ -51,15 +51,15 @@ pub struct Dispatch<'a> {
     pub groups: [u32; 3],
 }
 
-/// Longest that a dispatch may take, its compilation included.
+/// Time limit of a dispatch, including its compilation.
 const LONGEST: Duration = Duration::from_secs(120);
 
 impl Device {
-    /// Runs a compute shader, and puts into `bindings` what its targets and buffers hold afterwards.
+    /// Runs a compute shader, and stores the final contents of its targets and buffers in `bindings`.
     ///
     /// # Errors
     ///
-    /// The driver refuses the shader or what is bound, or does not end within two minutes.
+    /// If the driver refuses the shader or a binding, or does not finish within two minutes.
     pub fn dispatch(&self, dispatch: &Dispatch<'_>, bindings: &mut [Binding]) -> Result<(), String> {
         let entry = CString::new(dispatch.entry).map_err(|_| "a name with a zero in it")?;
         let refused = |e: vk::Result| format!("{}: {e}", self.name());
@@ -86,7 +86,7 @@ impl Device {
                 seen_by_host(&self.device, commands);
             });
             if let Err(e) = done {
-                // The dispatch may still be running, with all that it uses.
+                // The dispatch may still be running, and using these objects.
                 std::mem::forget((made, bound));
                 return Err(refused(e));
             }
@@ -293,7 +293,7 @@ impl<'d> Made<'d> {
         }
     }
 
-    /// Records commands, submits them and waits for their end.
+    /// Records commands, submits them and waits for completion.
     unsafe fn submitted(&self, queue: vk::Queue, record: impl FnOnce(vk::CommandBuffer)) -> Result<(), vk::Result> {
         // SAFETY: the pool, the buffer and the fence are new, and the submission is waited for.
         unsafe {
@@ -335,7 +335,7 @@ impl Drop for Made<'_> {
     }
 }
 
-/// Records what fills an image from its buffer.
+/// Records the copy of a buffer to its image.
 unsafe fn filled(device: &ash::Device, commands: vk::CommandBuffer, texels: &Texels<'_>) {
     let layout = vk::ImageLayout::GENERAL;
     // SAFETY: the commands are being recorded, and the image is as large as its buffer.
@@ -346,7 +346,7 @@ unsafe fn filled(device: &ash::Device, commands: vk::CommandBuffer, texels: &Tex
     }
 }
 
-/// Records what reads an image into its buffer.
+/// Records the copy of an image to its buffer.
 unsafe fn read(device: &ash::Device, commands: vk::CommandBuffer, texels: &Texels<'_>) {
     let layout = vk::ImageLayout::GENERAL;
     // SAFETY: as in `filled`.
@@ -356,7 +356,7 @@ unsafe fn read(device: &ash::Device, commands: vk::CommandBuffer, texels: &Texel
     }
 }
 
-/// Records that the host sees what was written.
+/// Records a barrier that makes writes visible to the host.
 unsafe fn seen_by_host(device: &ash::Device, commands: vk::CommandBuffer) {
     let (all, host) = (vk::PipelineStageFlags::ALL_COMMANDS, vk::PipelineStageFlags::HOST);
     let memory = vk::MemoryBarrier::default()
@@ -366,7 +366,7 @@ unsafe fn seen_by_host(device: &ash::Device, commands: vk::CommandBuffer) {
     unsafe { device.cmd_pipeline_barrier(commands, all, host, vk::DependencyFlags::empty(), &[memory], &[], &[]) };
 }
 
-/// Records that all before is done before all after, of an image in this layout.
+/// Records a full barrier, for an image in this layout.
 unsafe fn barrier(device: &ash::Device, commands: vk::CommandBuffer, texels: &Texels<'_>, from: vk::ImageLayout) {
     let all = vk::PipelineStageFlags::ALL_COMMANDS;
     let access = vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE;

@@ -1,4 +1,4 @@
-//! Compute shaders on a driver of Vulkan, called directly: neither the loader nor wgpu stands between.
+//! Compute shaders on a Vulkan driver, called directly without the loader and wgpu.
 
 mod device;
 mod dispatch;

@@ -26,7 +26,7 @@ struct Counts {
     failures: u64,
 }
 
-/// Emits kernels in every language, each in one of the forms, and has every text read.
+/// Emits kernels in every language, each in one of the forms, and compiles every text.
 pub fn languages(options: &Options) -> Result<(), String> {
     if options.languages == 0 {
         return Ok(());
@@ -138,7 +138,7 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
     Ok(())
 }
 
-/// A kernel in every language that it can be written in. All of a stage are written at once where they can be.
+/// Emits a kernel in every supported language; all languages of a stage in one call where possible.
 fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(Target, Rc<Emitted>)> {
     let (fragment, compute): (Vec<Target>, Vec<Target>) = Target::ALL
         .into_iter()
@@ -163,7 +163,7 @@ fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(T
     texts
 }
 
-/// Returns whether the kernel is refused because a language or a stage has no such shaders, whatever it computes.
+/// Returns whether the kernel is rejected because a language or a stage lacks such shaders, whatever it computes.
 fn has_no_such_text(error: &Errors) -> bool {
     matches!(
         error.first_code(),

@@ -1,5 +1,5 @@
-//! Looks for random kernels on which two ways to compute them disagree, and for texts that the front end does not
-//! stand. Prints the first, made as small as it can be, and exits with 1.
+//! Searches for random kernels on which two executions disagree, and for texts that crash the front end. Prints the first
+//! one, minimised, and exits with 1.
 
 mod driver;
 mod kernels;

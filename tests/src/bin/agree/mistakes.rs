@@ -4,7 +4,7 @@ use super::options::Options;
 use std::time::Instant;
 use straightline_tests::random::oracle::{self, Rustc, Verdicts};
 
-/// Kernels with a mistake in them: what rustc refuses must be refused.
+/// Tests kernels with a mistake: the generator must reject whatever rustc rejects.
 pub fn mistakes(options: &Options) -> Result<(), String> {
     if options.accepts == 0 {
         return Ok(());

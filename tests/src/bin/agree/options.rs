@@ -3,7 +3,7 @@
 use straightline_tests::random::make::Features;
 use straightline_tests::random::oracle::Ways;
 
-/// The options, and what they are without being given.
+/// Options and their defaults.
 pub const USAGE: &str = "\
 usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATURE]... [--accepts N] [--gpu N]
              [--gpu-languages] [--languages N] [--world W] [--front-minutes M] [--keep-going] [--print]

@@ -8,7 +8,7 @@ use straightline_tests::random::{Texts, survives};
 /// Texts between two reports.
 const CHUNK: u64 = 2000;
 
-/// Texts that are nearly kernels, for some minutes.
+/// Tests mutated kernel texts, for some minutes.
 pub fn texts(options: &Options) -> Result<(), String> {
     let time = Duration::from_secs_f64(options.front_minutes * 60.0);
     if time.is_zero() {
@@ -47,7 +47,7 @@ pub fn texts(options: &Options) -> Result<(), String> {
     Ok(())
 }
 
-/// The most memory that this process had, where the system tells.
+/// Returns the peak memory of this process, if the system reports it.
 fn peak_memory() -> Option<String> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -1,5 +1,5 @@
-//! Parameters and results of kernels. Most kernels have a frame, a buffer, three numbers and their pixel, and return a colour; a share of
-//! them has further shapes.
+//! Parameters and results of kernels. Most kernels have a frame, a buffer, three numbers and their pixel, and return a
+//! colour; a share of them has further shapes.
 
 use super::types::{Structure, Ty};
 use super::{Feature, Lane, Maker};

@@ -1,5 +1,5 @@
-//! What kernels write to buffers and pictures. Each pixel has a slot of its own in every buffer; what all pixels share is changed in ways
-//! whose order shows in nothing, but where kernels need not be compared with a driver.
+//! Generates the writes of kernels to buffers and pictures. Each pixel has its own slot in every buffer. Changes of data
+//! shared by all pixels are independent of their order, except where kernels need not be compared with a driver.
 
 use super::types::{Lane, Ty};
 use super::{Feature, Maker};

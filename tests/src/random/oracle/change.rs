@@ -223,7 +223,7 @@ fn changed(source: &str, random: &mut Random) -> Option<(String, String)> {
             || line.starts_with("#[derive")
             || line.starts_with("///")
             || line.starts_with("pub ")
-            // Whether what is called through a reference changes anything the generator sees where it is called.
+            // Effects of a function called through a reference: the generator may not see them at the call.
             || line.starts_with("fn apply_mut<")
         {
             continue;

@@ -164,7 +164,8 @@ pub(super) fn refuse(errors: &str, lines: &[(usize, usize)], verdicts: &mut [Ver
     }
 }
 
-/// Writes a module for each text that is not refused yet, each with the addition for it; returns the first line of each and its number.
+/// Writes a module for each text that is not refused yet, each with the addition for it; returns the first line of each and
+/// its number.
 pub(super) fn modules(
     texts: &[Text],
     verdicts: &[Verdict],

@@ -96,7 +96,7 @@ fn renamed(source: &str) -> String {
     out
 }
 
-/// `let x: f32 = e;` becomes a call of a function that gives `e`, where `e` is of inputs alone.
+/// `let x: f32 = e;` becomes a call of a function that returns `e`, if `e` only depends on inputs.
 fn outlined(source: &str, random: &mut Random) -> Option<String> {
     let mut lines: Vec<String> = source.lines().map(str::to_owned).collect();
     let begin = lines.iter().position(|l| l.starts_with("pub fn k("))?;

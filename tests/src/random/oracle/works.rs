@@ -1,5 +1,5 @@
-//! Work of compiling kernels as an oracle beside their bits: a kernel that takes a hundred times the work of others of its size shows
-//! that something is evaluated again and again.
+//! Work of compiling kernels as an oracle beside their bits: a kernel that takes a hundred times the work of others of its
+//! size shows that something is evaluated again and again.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -31,8 +31,8 @@ pub struct World {
 }
 
 impl World {
-    /// The inputs of a seed. One float in eight is one at which functions change their ways; the others are multiples of 1/64 below
-    /// 16, so that sums and products of a few are exact. World 0 has those alone.
+    /// The inputs of a seed. One float in eight is one at which functions change their ways; the others are multiples of
+    /// 1/64 below 16, so that sums and products of a few are exact. World 0 has those alone.
     pub fn new(seed: u64) -> World {
         World::with(seed, if seed == 0 { &[] } else { &edges::FLOATS })
     }

@@ -1,4 +1,4 @@
-//! Light by its integrals, and rays by where they meet what they meet.
+//! Light by its integrals, and rays by their intersections.
 
 use super::world::{Picture, World, interleaved, mix};
 use glam::{DVec2, DVec3, DVec4};
@@ -144,7 +144,7 @@ pub fn screen_space_reflections(w: &World, x: i64, y: i64) -> DVec4 {
     met.map_or(here, |there| here.lerp(there, 0.04 + 0.96 * (1.0 - cos).powi(5)))
 }
 
-/// The planes whose depths `two_planes` gives: they face the eye by their own normals.
+/// Planes with the depths of `two_planes`, which face the eye with their own normals.
 pub fn normal_from_depth(w: &World, x: i64, _y: i64) -> DVec4 {
     plane(2 * x < w.width() as i64).0.normalize().extend(1.0)
 }

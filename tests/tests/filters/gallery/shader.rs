@@ -7,7 +7,7 @@ use straightline_bench::execute::{Inputs, test_inputs};
 use straightline_codegen::Settings;
 use straightline_kernels::prelude::*;
 
-/// A shader with what it reads.
+/// A shader with its inputs.
 pub struct Shader {
     pub example: Example,
     pub inputs: Inputs,

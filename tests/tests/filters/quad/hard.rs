@@ -1,5 +1,5 @@
-//! Filters of quads and the examples at inputs that are no numbers, infinite or huge: finite everywhere, by every transport, and what the
-//! interpreter gives. `straightline study hard` compares the built-in ones with their definitions.
+//! Filters of quads and the examples at inputs that are no numbers, infinite or huge: finite everywhere, by every
+//! transport, and what the interpreter gives. `straightline study hard` compares the built-in ones with their definitions.
 
 use super::bounce::kernel::{Bounce, bounce};
 use super::scatter::kernel::{Scatter, scatter};
@@ -57,7 +57,7 @@ fn coordinates(bad: Vec3, is_bad: impl Fn(UVec2) -> bool) -> Frame<Vec4> {
     })
 }
 
-/// Largest difference of two pictures; infinite where either has what is no finite number.
+/// Largest difference of two pictures; infinite if either has a non-finite number.
 fn apart(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
     let off = a
         .iter()
@@ -70,7 +70,8 @@ fn apart(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
     off.fold(0.0, f32::max)
 }
 
-/// Runs a kernel in all forms by the interpreter, whose bits are the native ones, and by the transports on a device; gives the native picture.
+/// Runs a kernel in all forms by the interpreter, whose bits are the native ones, and by the transports on a device; gives
+/// the native picture.
 fn same_everywhere(
     gpu: &Bench,
     [name, words]: [&str; 2],
@@ -240,8 +241,8 @@ fn bad_coordinates_spoil_no_other_lane() {
     }
 }
 
-/// Pixels whose own coordinates are good have nearly what they have without bad ones in their quad, whose mean place is a fifth of a pixel
-/// off then; quads without a bad lane have the same bits.
+/// Pixels whose own coordinates are good have nearly what they have without bad ones in their quad, whose mean place is a
+/// fifth of a pixel off then; quads without a bad lane have the same bits.
 fn neighbours_are_kept(words: &str, is_bad: &dyn Fn(UVec2) -> bool, found: &[[f32; 4]], good: &[[f32; 4]]) {
     for (k, (a, b)) in found.iter().zip(good).enumerate() {
         let at = uvec2(k as u32 % SIZE.x, k as u32 / SIZE.x);

@@ -166,8 +166,8 @@ fn filters_are_as_wide_as_the_quad() {
     }
 }
 
-/// The mean difference of each filter from the light over all texels around each pixel, eight across and as many as twice the quad
-/// is wide: the linear gradient is of use as long as a quad is not much wider than its filter.
+/// The mean difference of each filter from the light over all texels around each pixel, eight across and as many as twice
+/// the quad is wide: the linear gradient is of use as long as a quad is not much wider than its filter.
 #[test]
 fn gradients_fail_from_afar_and_wide_filters_do_not() {
     let side = uvec2(512, 512);

@@ -162,7 +162,7 @@ fn transports_fit_their_stage() {
     says(&error, &["64x64", "1 to 64"]);
 }
 
-/// A pass has no vertices, and asks for what its shader needs.
+/// A pass has no vertices, and its error names the type that the shader needs.
 #[test]
 fn passes_refuse_what_they_cannot_draw() {
     let gpu = bench();

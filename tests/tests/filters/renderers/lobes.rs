@@ -1,4 +1,4 @@
-//! Filters of samples with lobes below zero, beside very bright pixels: no component leaves the range of what is around.
+//! Filters of samples with negative lobes, beside very bright pixels: no component leaves the range of its surroundings.
 
 use crate::common::{bench, same_bits};
 use glam::{UVec2, Vec4, uvec2, vec4};

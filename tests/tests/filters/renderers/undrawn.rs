@@ -1,5 +1,5 @@
-//! Pixels without a surface: renderers clear normals to 0, depth to that of the far plane, or a linear depth to anything. There the filter
-//! goes by depth alone, in every form, and a sky costs nothing.
+//! Pixels without a surface: renderers clear normals to 0, depth to that of the far plane, or a linear depth to anything.
+//! There the filter goes by depth alone, in every form, and a sky costs nothing.
 
 use crate::common::{bench, same_bits};
 use glam::{Mat3, UVec2, Vec3, uvec2};

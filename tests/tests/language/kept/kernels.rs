@@ -203,7 +203,7 @@ fn raised(x: f32, power: i32) -> f32 {
     sum
 }
 
-/// What has to be known comes from a loop in a function, and is in no variable.
+/// The value that must be constant comes from a loop in a function, and is in no variable.
 pub fn called_culprit(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     let mut s = n as f32;
     for j in 0..4 {

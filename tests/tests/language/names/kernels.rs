@@ -63,7 +63,7 @@ pub fn filters(cfg: &Knobs, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     ),
 ];
 
-/// One of [`ROLES`].
+/// Source of a kernel with names in each of [`ROLES`].
 pub fn roles(name: &str, text: &str) -> Source {
     Source {
         texts: vec![text.to_owned()],

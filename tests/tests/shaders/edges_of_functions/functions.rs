@@ -110,7 +110,7 @@ pub const FUNCTIONS: &[Function] = functions! { |x, y, z|
     1 Near(1.0e-4, 0.0), false: x.powf(2.2);
     1 Ulps(8), false: x.powf(0.5);
     1 Ulps(3), false: 1.0 / x;
-    // What a range is known of needs fewer guards.
+    // A known range makes guards unnecessary.
     1 Exact, false: saturate(x.clamp(-2.0, 2.0));
     1 Near(5.0e-4, 1.0e-5), false: x.clamp(-9.0, 9.0).tanh();
     1 Near(5.0e-4, 1.0e-6), false: x.clamp(-88.0, 50.0).sinh();

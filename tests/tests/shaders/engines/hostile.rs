@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use straightline_codegen::{Kernel, Settings};
 use straightline_engines::{Engine, Request, engine_names};
 
-/// Documentation that would end a comment or a string, go on in the next line, be a tag of a template or too long, in some language.
+/// Documentation that would end a comment or a string, go on in the next line, be a tag of a template or too long, in some
+/// language.
 const HOSTILE: [&str; 9] = [
     r"Title */ pwned(); /* \",
     r##"doc */ pwned(); // ` ${pwned()} """; pwned() \"##,

@@ -209,7 +209,7 @@ fn reshade(text: &str) -> Result<(), String> {
     compilers::compiled_hlsl(&format!("{around}{body}"), Stage::Fragment, &shader).map(drop)
 }
 
-/// What a material of Unreal's gives to its Custom node.
+/// Material of Unreal with a Custom node.
 fn unreal(text: &str) -> Result<(), String> {
     let head = text
         .lines()

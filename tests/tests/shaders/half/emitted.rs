@@ -1,4 +1,4 @@
-//! What is emitted and stated, and who is refused.
+//! Emission and manifests in half precision, and the rejected kernels.
 
 use super::*;
 use std::collections::BTreeSet;

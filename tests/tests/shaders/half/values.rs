@@ -1,4 +1,4 @@
-//! What comes in, what is stated, what goes out.
+//! Conversions of inputs, constants and outputs in half precision.
 
 use super::*;
 use straightline_bench::execute::SamplerState;
@@ -178,7 +178,7 @@ fn coordinates_are_coarse() {
     }
 }
 
-/// What is compared has the depth texture's precision, its reference half of that.
+/// A comparison uses the depth texture's precision for the texel, and half precision for the reference.
 #[test]
 fn references_are_compared_in_full_precision() {
     let text = "pub fn k(shadow: &DepthTexture, less: &ComparisonSampler, pixel: IVec2) -> Vec4 {

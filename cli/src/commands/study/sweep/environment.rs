@@ -1,9 +1,9 @@
-//! Environment of a sweep.
+//! Description of the environment of a sweep.
 
 use std::process::Command;
 use straightline_study::record::Environment;
 
-/// Collects what can be found out; nothing here fails.
+/// Collects the available facts; never fails.
 pub fn collect_environment() -> Environment {
     let governor = std::fs::read_to_string("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").ok();
     Environment {
@@ -14,7 +14,7 @@ pub fn collect_environment() -> Environment {
     }
 }
 
-/// The commit of the repository around, if git knows one.
+/// Returns the commit of the surrounding git repository, if any.
 fn git_commit() -> Option<String> {
     let git = |words: &[&str]| {
         let output = Command::new("git").args(words).output().ok()?;

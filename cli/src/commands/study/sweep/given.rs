@@ -1,4 +1,4 @@
-//! Inputs of a sweep's variants: files of the command line, and the test card for all else.
+//! Inputs of a sweep's variants: files of the command line, and the test card for everything else.
 
 use crate::args::{CommonArgs, Executor, GivenArgs, SweepArgs};
 use crate::commands::run::inputs;
@@ -14,11 +14,11 @@ pub struct Given {
     args: GivenArgs,
     /// Names of all inputs that any variant reads.
     names: BTreeSet<String>,
-    /// Size where no picture has one.
+    /// Default size, without a picture.
     size: UVec2,
 }
 
-/// Names of all that a kernel reads.
+/// Returns the names of all inputs of a kernel.
 fn input_names(compiled: &Compiled) -> impl Iterator<Item = &String> {
     let graph = &compiled.graph;
     let textures = graph.textures.iter().map(|texture| &texture.name);
@@ -29,7 +29,7 @@ fn input_names(compiled: &Compiled) -> impl Iterator<Item = &String> {
 }
 
 impl Given {
-    /// For a sweep whose variants read what some of `compiled` read.
+    /// Creates the inputs for a sweep whose variants read the inputs of `compiled`.
     pub fn new(common: &CommonArgs, args: &SweepArgs, compiled: &[Compiled]) -> Given {
         let args = GivenArgs {
             input: args.input.clone(),
@@ -49,12 +49,12 @@ impl Given {
         }
     }
 
-    /// Width and height of the pictures.
+    /// Returns the width and height of the pictures.
     pub fn picture_size(&self, compiled: &Compiled) -> Result<UVec2, Failure> {
         Ok(self.variant_inputs(compiled)?.size)
     }
 
-    /// Returns the inputs of a variant. Inputs that only other variants read are left out.
+    /// Returns the inputs of a variant, without those that only other variants read.
     pub fn variant_inputs(&self, compiled: &Compiled) -> Result<Inputs, Failure> {
         let own: BTreeSet<&String> = input_names(compiled).collect();
         let wanted = |name: &str| own.iter().any(|own| *own == name) || !self.names.contains(name);
@@ -76,7 +76,7 @@ impl Given {
     }
 }
 
-/// Adds what is not there yet.
+/// Adds the missing entries.
 fn add_missing<T>(own: &mut Vec<(String, T)>, card: Vec<(String, T)>) {
     for (name, value) in card {
         if !own.iter().any(|(known, _)| *known == name) {
@@ -86,7 +86,7 @@ fn add_missing<T>(own: &mut Vec<(String, T)>, card: Vec<(String, T)>) {
 }
 
 impl fmt::Display for Given {
-    /// For a record.
+    /// Formats the inputs for a record.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let pairs = self.args.uniform.iter().chain(&self.args.buffer);
         let pairs = pairs.map(|(name, value)| format!("{name}={value}"));

@@ -1,4 +1,4 @@
-//! `study sweep`: one kernel in every combination of options and forms; and what reads such records.
+//! `study sweep`: one kernel in every combination of options and forms; and the commands that read such records.
 
 mod environment;
 mod given;
@@ -17,10 +17,10 @@ use straightline_study::progress::Progress;
 use straightline_study::record::{Record, SweepRecord};
 use straightline_study::sweep::{self, RESERVED, Rival, Space, Sweep, SweepError};
 
-/// Least time that a shader runs for one measurement.
+/// Minimum time for one measurement of a shader.
 const LEAST: Duration = Duration::from_millis(40);
 
-/// Measures, writes the record, prints it.
+/// Measures, writes the record, and prints it.
 pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let kernel = args
         .source
@@ -87,7 +87,7 @@ pub fn merge_shards(common: &CommonArgs, args: &MergeArgs) -> Result<(), Failure
     Ok(())
 }
 
-/// Prints in what two records differ, and fails if they do.
+/// Prints the differences between two records. Fails if there are any.
 pub fn compare_records(args: &RecordsArgs) -> Result<(), Failure> {
     let read = |path| SweepRecord::read(path).map_err(Failure::from_error);
     let (first, second) = (read(&args.first)?, read(&args.second)?);
@@ -117,7 +117,7 @@ fn print_paths(common: &CommonArgs) {
     }
 }
 
-/// Everything that is varied, each value once.
+/// Builds the space of all axes, without duplicate values.
 fn build_space(args: &SweepArgs, kernel: &Kernel) -> Result<Space, Failure> {
     let space = Space {
         options: args.set.clone(),
@@ -178,7 +178,7 @@ fn build_baseline(args: &SweepArgs, kernel: &Kernel) -> Result<BTreeMap<String, 
     Ok(baseline)
 }
 
-/// A variant of each group, compiled. If none can be, the kernel is wrong, or an option's name.
+/// Compiles one variant of each group. If none compiles, the kernel or the name of an option is wrong.
 fn first_of_groups(sweep: &Sweep) -> Result<Vec<Compiled>, Failure> {
     let mut wrong = None;
     let mut compiled = Vec::new();

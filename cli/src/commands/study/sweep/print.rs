@@ -1,4 +1,4 @@
-//! Sweeps for people.
+//! Output of sweeps as text.
 
 use crate::failure::format_count;
 use crate::table;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use straightline_study::record::{SweepRecord, Swept};
 use straightline_study::sweep::{Axis, Compared, Interval};
 
-/// A table of all variants, and why some were refused.
+/// Prints a table of all variants, and the reasons for rejected ones.
 pub fn print_record(record: &SweepRecord) {
     let c = &record.circumstances;
     outln!(
@@ -110,7 +110,7 @@ pub fn print_comparison(record: &SweepRecord, compared: &[Compared]) {
     );
 }
 
-/// Axes of several values, or the baseline's where nothing has several.
+/// Returns the axes with several values, or the baseline's axes if no axis has several.
 fn varied_axes(record: &SweepRecord) -> Vec<&Axis> {
     let several: Vec<&Axis> = record.axes.iter().filter(|axis| axis.values.len() > 1).collect();
     match several.is_empty() {

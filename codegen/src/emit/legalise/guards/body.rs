@@ -1,12 +1,12 @@
-//! A function's statements, written value by value.
+//! Builder for the statements of a function.
 
 use crate::emit::ast::{Block, Expr, Module, Op, StmtKind, Ty, VarId};
 use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
-/// The body of a function that is being written, of one type of floats.
+/// Body of a function under construction, for one float type.
 pub struct Body<'m, 'g> {
     module: &'m mut Module<'g>,
-    /// The type of its floats.
+    /// Float type of the function.
     pub ty: Ty,
     statements: Block<'g>,
 }
@@ -24,42 +24,42 @@ impl<'m, 'g> Body<'m, 'g> {
         self.statements
     }
 
-    /// A number in every component.
+    /// Returns a number in every component.
     pub fn float_constant(&self, x: f32) -> Expr {
         Expr::splat(self.ty, x.to_bits())
     }
 
-    /// A pattern of bits in every component.
+    /// Returns a bit pattern in every component.
     pub fn bits_constant(&self, bits: u32) -> Expr {
         Expr::new(Op::Hex(bits), Vec::new(), self.ty.with_kind(Scalar::U32))
     }
 
-    /// Names a value.
+    /// Declares an immutable variable with this value; returns a read of it.
     pub fn emit_let(&mut self, name: &str, value: Expr) -> Expr {
         let var = self.module.new_variable(name, value.ty);
         self.statements.push(StmtKind::Let(var, value).into());
         self.module.read_variable(var)
     }
 
-    /// A variable that is assigned again.
+    /// Declares a mutable variable.
     pub fn emit_var(&mut self, name: &str, value: Expr) -> VarId {
         let var = self.module.new_variable(name, value.ty);
         self.statements.push(StmtKind::Var(var, Some(value)).into());
         var
     }
 
-    /// The value of a variable.
+    /// Returns the value of a variable.
     pub fn read_variable(&self, var: VarId) -> Expr {
         self.module.read_variable(var)
     }
 
-    /// Gives a variable another value.
+    /// Assigns a value to a variable.
     pub fn emit_assign(&mut self, var: VarId, value: Expr) {
         let place = self.module.read_variable(var);
         self.statements.push(StmtKind::Assign(place, None, value).into());
     }
 
-    /// Repeats what `turn` writes `times` times.
+    /// Emits a loop of `times` iterations, with the body that `turn` emits.
     pub fn emit_loop(&mut self, times: Expr, turn: impl FnOnce(&mut Self)) {
         let counter = self.module.new_variable("turn", Type::I32);
         let outer = std::mem::take(&mut self.statements);
@@ -76,17 +76,17 @@ impl<'m, 'g> Body<'m, 'g> {
         );
     }
 
-    /// The bits of a float.
+    /// Returns the bits of a float.
     pub fn to_bits(&self, x: &Expr) -> Expr {
         x.clone().bits_as(self.ty.with_kind(Scalar::U32))
     }
 
-    /// The bits of a float without its sign.
+    /// Returns the bits of a float without its sign.
     pub fn size_bits(&self, x: &Expr) -> Expr {
         self.to_bits(x).binary(BinaryOp::And, self.bits_constant(0x7fff_ffff))
     }
 
-    /// Tests whether a float is a NaN, by its bits: a compiler may assume that there are no NaNs.
+    /// Tests whether a float is a NaN, by its bits, because a compiler may assume that there are no NaNs.
     pub fn is_nan(&self, x: &Expr) -> Expr {
         self.size_bits(x).binary(BinaryOp::Gt, self.bits_constant(0x7f80_0000))
     }
@@ -96,7 +96,7 @@ impl<'m, 'g> Body<'m, 'g> {
         self.to_bits(x).binary(BinaryOp::Ge, self.bits_constant(0x8000_0000))
     }
 
-    /// A positive float with the sign bit of another.
+    /// Returns a positive float with the sign bit of `of`.
     pub fn with_sign_of(&self, size: Expr, of: &Expr) -> Expr {
         let sign = self.to_bits(of).binary(BinaryOp::And, self.bits_constant(0x8000_0000));
         self.to_bits(&size).binary(BinaryOp::Or, sign).bits_as(self.ty)

@@ -1,14 +1,14 @@
-//! Hyperbolic functions of large arguments, which drivers compute by an `exp` that overflows before they do.
+//! Hyperbolic functions of large arguments. Drivers compute them with an `exp` that overflows before the result does.
 
 use super::Guard;
 use super::body::{binary, unary};
 use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{BinaryOp, UnaryOp};
 
-/// From this size on one of the two exponentials is less than half a rounding of the other.
+/// Size from which one of the two exponentials is less than half a rounding of the other.
 const LARGE: f32 = 10.0;
 
-/// The function for a hyperbolic function.
+/// Returns the guard of a hyperbolic function.
 pub fn hyperbolic_guard(op: UnaryOp) -> Guard {
     let (name, comment) = match op {
         UnaryOp::Sinh => (

@@ -1,8 +1,8 @@
-//! Functions of floats at the edges of their domains, where drivers depart from the kernel language: each by a function of the
-//! shader's own that holds on every driver, or by fewer operations where these do.
+//! Float functions at the edges of their domains, where drivers deviate from the kernel language. Each is replaced by a
+//! function in the shader that works on every driver, or by fewer operations if they suffice.
 //!
-//! `docs/semantics.md` has the table of edges that these functions keep. Only what [`super::super::lower`] could not prove to lie
-//! inside a function's domain comes here.
+//! `docs/semantics.md` has the table of these edge cases. Only operations that [`super::super::lower`] could not prove to
+//! lie inside their domain arrive here.
 
 mod body;
 mod hyperbolic;
@@ -28,27 +28,27 @@ pub enum Overloads {
     Scalars,
 }
 
-/// The result of a guard from its arguments.
+/// Builds the result of a guard from its arguments.
 type Value = Box<dyn Fn(&mut Body<'_, '_>, &[Expr]) -> Expr>;
 
-/// A function to be written: its name, what it is for, how many arguments it takes, and what it returns.
+/// A function to be emitted: its name, its purpose, the number of arguments, and its result.
 struct Guard {
     name: String,
     comment: &'static str,
     arguments: &'static [&'static str],
-    /// A loop in it goes by scalars.
+    /// `true` if the function contains a loop, so that it is emitted for scalars.
     scalar: bool,
     value: Value,
 }
 
-/// The expression without guarded operations: a call of a function, or another expression.
+/// Returns the expression without guarded operations: a call of a function, or another expression.
 pub fn expand_guarded(module: &mut Module<'_>, expr: Expr, overloads: Overloads) -> Expr {
     let Op::Guarded(op, domain) = expr.op.clone() else {
         return expr;
     };
     let ty = expr.ty;
     if ty.half {
-        // By way of `f32`, which holds every `f16`: bits are looked at.
+        // Bits are only inspected by way of `f32`, which holds every `f16`.
         let full = ty.to_full_precision();
         let args = expr.args.into_iter().map(|arg| match arg.as_constant() {
             Some(bits) => Expr::constant(full, *bits),
@@ -67,7 +67,7 @@ pub fn expand_guarded(module: &mut Module<'_>, expr: Expr, overloads: Overloads)
     Expr::new(called, args, ty)
 }
 
-/// The function that stands for an operation.
+/// Returns the function that implements an operation.
 fn select_guard(op: &ir::Op, domain: Domain, args: &[Expr]) -> Guard {
     match op {
         ir::Op::Binary(BinaryOp::Pow) => power::power_guard(domain, args),
@@ -82,7 +82,7 @@ fn select_guard(op: &ir::Op, domain: Domain, args: &[Expr]) -> Guard {
     }
 }
 
-/// Adds a function for a type, and those that it calls.
+/// Adds a function for a type, with the functions that it calls.
 fn add_guard_function(module: &mut Module<'_>, guard: &Guard, ty: Ty, overloads: Overloads) -> Op {
     let by_scalars = guard.scalar || overloads == Overloads::Scalars;
     if !by_scalars || ty.is_scalar() {
@@ -122,7 +122,7 @@ fn build_function<'g>(module: &mut Module<'g>, guard: &Guard, name: &str, ty: Ty
     }
 }
 
-/// A function of vectors that calls one of scalars for each component, under another name.
+/// Adds a function of vectors that calls a scalar function, under another name, for each component.
 fn by_component<'g>(module: &mut Module<'g>, guard: &Guard, scalar: Op, name: &str, ty: Ty) -> Op {
     module.add_function(name, ty, |module: &mut Module<'g>| {
         let params: Vec<_> = guard

@@ -1,4 +1,4 @@
-//! Powers. Drivers compute `exp2(y * log2(x))`, which is a NaN or `|x|^y` where `x` is negative, and anything at 0 and at a NaN.
+//! Powers. Drivers compute `exp2(y * log2(x))`: a NaN or `|x|^y` for negative `x`, and arbitrary results at 0 and at a NaN.
 
 use super::Guard;
 use super::body::{Body, and, binary, not, or, unary};
@@ -6,10 +6,10 @@ use crate::emit::ast::{Domain, Expr};
 use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{BinaryOp, UnaryOp};
 
-/// The largest integral power that is a product.
+/// The largest integer exponent that becomes a product.
 pub const MOST: f32 = 64.0;
 
-/// An exponent that is the same constant in all components.
+/// Returns the exponent if it is the same constant in all components.
 pub fn constant_exponent(args: &[Expr]) -> Option<f32> {
     let bits = args[1].as_constant()?;
     let lanes = usize::from(args[1].ty.component_count());
@@ -20,13 +20,13 @@ pub fn constant_exponent(args: &[Expr]) -> Option<f32> {
         .then(|| f32::from_bits(first))
 }
 
-/// The integer that an exponent is, if the power is a product.
+/// Returns the exponent as an integer, if the power becomes a product.
 pub fn product_of(exponent: f32) -> Option<i32> {
     let integral = exponent.fract() == 0.0 && (1.0..=MOST).contains(&exponent.abs());
     integral.then_some(exponent as i32)
 }
 
-/// The function for a power.
+/// Returns the guard of a power.
 pub fn power_guard(domain: Domain, args: &[Expr]) -> Guard {
     if let Some(n) = constant_exponent(args).and_then(product_of) {
         return product_guard(n);
@@ -89,7 +89,7 @@ fn build_power(b: &mut Body<'_, '_>, args: &[Expr]) -> Expr {
     component_select(is_one, b.float_constant(1.0), defined)
 }
 
-/// A power by squares, the lowest first; for a negative exponent the reciprocal of that.
+/// Computes a power by repeated squaring, lowest bit first; for a negative exponent, the reciprocal.
 fn product_guard(n: i32) -> Guard {
     let name = match n {
         2 => "square".to_owned(),
@@ -128,7 +128,8 @@ fn product_guard(n: i32) -> Guard {
     }
 }
 
-/// The cube root, for which no shader language has a function, by a power, which none has of negative numbers.
+/// Returns the guard of the cube root, computed by a power. No shader language has a cube root, or powers of negative
+/// numbers.
 pub fn cube_root() -> Guard {
     Guard {
         name: "cube_root".to_owned(),

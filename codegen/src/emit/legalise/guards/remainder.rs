@@ -1,5 +1,5 @@
-//! The remainder of floats, which is exact in Rust: drivers compute `x - y * trunc(x / y)`, with the roundings of three
-//! operations, of which the quotient's may be as large as `y`.
+//! The remainder of floats, which is exact in Rust. Drivers compute `x - y * trunc(x / y)`, with the roundings of three
+//! operations; the quotient's rounding may change the result by as much as `y`.
 
 use super::Guard;
 use super::body::{Body, binary, or, unary};
@@ -7,10 +7,10 @@ use crate::emit::ast::{Division, Domain, Expr, Op};
 use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{BinaryOp, Scalar, UnaryOp};
 
-/// Bits of a quotient that one step takes off. With the upper half of the divisor's bits it makes a product without rounding.
+/// Bits of a quotient that one step removes. Times the upper half of the divisor's bits, the product is exact.
 const STEP: u32 = 10;
 
-/// The function for a remainder: without a loop where the quotient is known to be small.
+/// Returns the guard of a remainder, without a loop if the quotient is known to be small.
 pub fn remainder_guard(domain: Domain) -> Guard {
     let (name, comment): (_, &'static str) = match domain.bounded {
         true => (
@@ -49,7 +49,7 @@ fn build_remainder(b: &mut Body<'_, '_>, x: &Expr, y: &Expr, bounded: bool) -> E
     component_select(undefined, b.float_constant(f32::NAN), defined)
 }
 
-/// Remainder of a number less than 2048 times as large as the divisor, computed without rounding.
+/// Computes the remainder of a number less than 2048 times as large as the divisor, without rounding.
 fn short_remainder(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
     let rest = b.emit_let("rest", rest);
     let quotient = b.emit_let(
@@ -66,7 +66,7 @@ fn short_remainder(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
         .binary(BinaryOp::Sub, binary(&quotient, BinaryOp::Mul, &upper))
         .binary(BinaryOp::Sub, quotient.binary(BinaryOp::Mul, lower));
     let left = b.emit_let("left", left);
-    // The quotient may have been rounded to the next integer, either way.
+    // The quotient may have been rounded to the next integer, up or down.
     let below = binary(&left, BinaryOp::Lt, &b.float_constant(0.0));
     let left = component_select(below, binary(&left, BinaryOp::Add, &divisor), left);
     let left = b.emit_let("left", left);
@@ -74,8 +74,8 @@ fn short_remainder(b: &mut Body<'_, '_>, rest: Expr, divisor: Expr) -> Expr {
     component_select(above, binary(&left, BinaryOp::Sub, &divisor), left)
 }
 
-/// Remainder of a scalar: first by the divisor times 2^n, so that each quotient is small. The number of steps is a runtime value: drivers
-/// unroll loops with a constant trip count.
+/// Computes the remainder of a scalar, first by the divisor times 2^n, so that each quotient is small. The number of steps
+/// is a runtime value, because drivers unroll loops with a constant trip count.
 fn by_steps(b: &mut Body<'_, '_>, x: &Expr, size: &Expr) -> Expr {
     let (whole, words) = (b.ty.with_kind(Scalar::I32), b.ty.with_kind(Scalar::U32));
     let integer = |n: u32| Expr::splat(whole, n);
@@ -83,7 +83,7 @@ fn by_steps(b: &mut Body<'_, '_>, x: &Expr, size: &Expr) -> Expr {
     let rest = b.emit_var("rest", unary(UnaryOp::Abs, x));
     let own = b.to_bits(size);
     let own = b.emit_let("size_bits", own);
-    // Doublings after which the divisor is the largest one less than 2^STEP times as small as the rest.
+    // Number of doublings that makes the divisor as large as possible, but less than 2^STEP times smaller than the rest.
     let doublings = |b: &Body<'_, '_>| {
         let exponent = |bits: Expr| bits.binary(BinaryOp::Shr, mantissa()).convert_to(whole);
         let apart = exponent(b.to_bits(&b.read_variable(rest))).binary(BinaryOp::Sub, exponent(own.clone()));

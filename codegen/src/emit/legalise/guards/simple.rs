@@ -1,4 +1,4 @@
-//! Short guards, and expressions that need none.
+//! Short guards, and expressions that need no guard.
 
 use super::body::{binary, not, unary};
 use super::{Guard, is_leaf, power};
@@ -6,7 +6,7 @@ use crate::emit::ast::{Domain, Expr, Op, Ty};
 use crate::emit::legalise::component_select;
 use straightline_evaluator::ir::{self, BinaryOp, UnaryOp};
 
-/// A shorter expression with the same edges, where there is one.
+/// Returns a shorter expression with the same edge cases, if there is one.
 pub fn inline_guard(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Option<Expr> {
     let x = &args[0];
     if *op == ir::Op::Unary(UnaryOp::Fract) && is_short(x) {
@@ -25,7 +25,7 @@ pub fn inline_guard(op: &ir::Op, domain: Domain, args: &[Expr], ty: Ty) -> Optio
     match exponent {
         0.5 if domain.not_negative => Some(unary(UnaryOp::Sqrt, x)),
         -0.5 if domain.positive => Some(unary(UnaryOp::InverseSqrt, x)),
-        // Of -0 too it is infinite.
+        // For -0 the result must be infinite as well.
         -0.5 if domain.not_negative => Some(unary(UnaryOp::InverseSqrt, &unary(UnaryOp::Abs, x))),
         _ => None,
     }
@@ -39,8 +39,8 @@ fn is_name(expr: &Expr) -> bool {
     }
 }
 
-/// Returns whether an expression is as short as its own name would be: at most two operators on names, which compilers merge as a common
-/// subexpression.
+/// Returns whether an expression is as short as its own name would be: at most two operators on names, which compilers
+/// merge as a common subexpression.
 fn is_short(expr: &Expr) -> bool {
     let mut operators = 0;
     expr.visit(&mut |expr| {
@@ -53,7 +53,7 @@ fn is_short(expr: &Expr) -> bool {
     operators <= 2
 }
 
-/// Logarithms, which some drivers have finite at 0, of negative numbers and of a NaN.
+/// Returns the guard of a logarithm. Some drivers return finite values at 0, for negative numbers or for a NaN.
 pub fn logarithm_guard(op: UnaryOp) -> Guard {
     let name = match op {
         UnaryOp::Log2 => "binary_logarithm",
@@ -74,7 +74,7 @@ pub fn logarithm_guard(op: UnaryOp) -> Guard {
     }
 }
 
-/// `x - floor(x)`, which is a NaN of an infinity.
+/// Returns the guard of `x - floor(x)`, which is a NaN for an infinity.
 pub fn fraction_guard() -> Guard {
     Guard {
         name: "fraction".to_owned(),
@@ -85,7 +85,7 @@ pub fn fraction_guard() -> Guard {
     }
 }
 
-/// The arc tangent, which a driver has 0 of a NaN.
+/// Returns the guard of the arc tangent. One driver returns 0 for a NaN.
 pub fn arc_tangent() -> Guard {
     Guard {
         name: "arc_tangent".to_owned(),
@@ -99,8 +99,8 @@ pub fn arc_tangent() -> Guard {
     }
 }
 
-/// The angle of a point, by an arc tangent between 0 and 1: drivers leave open what `atan2` is at the origin, of zeros below 0 and
-/// of infinities.
+/// Returns the guard of a point's angle, computed by an arc tangent between 0 and 1. Drivers leave `atan2` undefined at the
+/// origin, for zeros on the negative side and for infinities.
 pub fn angle_guard() -> Guard {
     Guard {
         name: "angle".to_owned(),
@@ -117,7 +117,7 @@ pub fn angle_guard() -> Guard {
                 component_select(steep.clone(), width.clone(), height.clone()),
             );
             let longer = b.emit_let("longer", component_select(steep.clone(), height, width));
-            // Of equal sides 1, and 0 at the origin.
+            // Equal sides give 1, and the origin gives 0.
             let equal = binary(&shorter, BinaryOp::Eq, &longer);
             let slope = component_select(
                 equal,
@@ -138,8 +138,8 @@ pub fn angle_guard() -> Guard {
     }
 }
 
-/// Compares floats by `!(a == b)`: a NaN is unequal to everything, but some drivers evaluate `!=` to false for it, and none evaluates `==`
-/// to true.
+/// Compares floats by `!(a == b)`: a NaN is unequal to everything, but some drivers evaluate `!=` to false for it, and none
+/// evaluates `==` to true.
 pub fn rewrite_unequal(mut expr: Expr) -> Expr {
     let is_ne = expr.op == Op::Ir(ir::Op::Binary(BinaryOp::Ne));
     if !is_ne || !expr.args[0].ty.is_float() {

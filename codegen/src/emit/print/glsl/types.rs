@@ -4,7 +4,7 @@ use crate::emit::ast::Ty;
 use crate::emit::outputs::BoundOutput;
 use straightline_evaluator::ir::{Scalar, Texture, TextureKind, Type};
 
-/// The type of an image that is written.
+/// Returns the type of a written image.
 pub fn image_type(output: &BoundOutput) -> &'static str {
     match output.ty.scalar_kind() {
         Some(Scalar::I32) => "iimage2D",
@@ -13,7 +13,7 @@ pub fn image_type(output: &BoundOutput) -> &'static str {
     }
 }
 
-/// Suffix of `sampler` and `texture` for a kind of texture.
+/// Returns the suffix of `sampler` and `texture` for a kind of texture.
 pub fn texture_suffix(kind: TextureKind) -> &'static str {
     match kind {
         TextureKind::Flat | TextureKind::Depth => "2D",
@@ -24,7 +24,7 @@ pub fn texture_suffix(kind: TextureKind) -> &'static str {
     }
 }
 
-/// Prefix of the types of a scalar kind.
+/// Returns the prefix of the types of a scalar kind.
 fn type_prefix(scalar: Scalar) -> &'static str {
     match scalar {
         Scalar::I32 => "i",
@@ -33,18 +33,18 @@ fn type_prefix(scalar: Scalar) -> &'static str {
     }
 }
 
-/// The type of a texture with a sampler.
+/// Returns the type of a texture with a sampler.
 pub fn plain_sampler(texture: &Texture) -> String {
     format!("{}sampler{}", type_prefix(texture.scalar), texture_suffix(texture.kind))
 }
 
-/// The type of a texture with a sampler that compares or not.
+/// Returns the type of a texture with a sampler, comparing or not.
 pub fn sampler_of(texture: &Texture, compares: bool) -> String {
     let shadow = if compares { "Shadow" } else { "" };
     plain_sampler(texture) + shadow
 }
 
-/// A variable with its type: arrays have their extent after the name.
+/// Declares a variable with its type; the extent of an array follows the name.
 pub fn variable_declared(name: &str, ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
@@ -52,7 +52,7 @@ pub fn variable_declared(name: &str, ty: Ty) -> String {
     }
 }
 
-/// The type of a sampler by itself.
+/// Returns the type of a separate sampler.
 pub fn sampler_type(comparison: bool) -> &'static str {
     match comparison {
         true => "samplerShadow",
@@ -60,12 +60,12 @@ pub fn sampler_type(comparison: bool) -> &'static str {
     }
 }
 
-/// The type of a texture by itself.
+/// Returns the type of a separate texture.
 pub fn texture_type(texture: &Texture) -> String {
     format!("{}texture{}", type_prefix(texture.scalar), texture_suffix(texture.kind))
 }
 
-/// A type as GLSL spells it.
+/// Returns a type in GLSL's spelling.
 pub fn type_name(ty: Ty) -> String {
     match ty.shape {
         Type::Value { scalar, components: 1 } => match scalar {

@@ -4,13 +4,13 @@ use crate::emit::ast::Ty;
 use crate::emit::resources::Resources;
 use straightline_evaluator::ir::{Access, Element, Scalar, Texture, TextureKind, Type};
 
-/// A texture as it is declared.
+/// Returns the declaration of a texture.
 pub fn texture_declared(resources: &Resources, index: u32) -> String {
     let texture = resources.texture(index);
     format!("{} {}", texture_type(texture), texture.name)
 }
 
-/// A buffer as it is declared.
+/// Returns the declaration of a buffer.
 pub fn buffer_declared(resources: &Resources, index: u32) -> String {
     let buffer = resources.buffer(index);
     let element = match &buffer.element {
@@ -24,7 +24,7 @@ pub fn buffer_declared(resources: &Resources, index: u32) -> String {
     format!("{access}StructuredBuffer<{element}> {}", buffer.name)
 }
 
-/// A sampler as it is declared.
+/// Returns the declaration of a sampler.
 pub fn sampler_declared(resources: &Resources, index: u32) -> String {
     let sampler = resources.sampler(index);
     let ty = match sampler.comparison {
@@ -34,8 +34,8 @@ pub fn sampler_declared(resources: &Resources, index: u32) -> String {
     format!("{ty} {}", sampler.name)
 }
 
-/// Structures of buffers, with padding where the language would pack them closer than the buffer has them: it knows no
-/// alignment but that of a number.
+/// Declares the structures of buffers, with padding where HLSL would pack members closer than the buffer does: HLSL aligns
+/// only to single numbers.
 pub fn structure_declarations(resources: &Resources) -> String {
     let mut out = String::new();
     for structure in resources.read_structures() {
@@ -70,12 +70,12 @@ pub fn structure_declarations(resources: &Resources) -> String {
     out
 }
 
-/// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.
+/// Returns the members of the uniform struct, with padding where HLSL would pack them closer than the buffer does.
 pub fn uniform_members(resources: &Resources) -> Vec<String> {
     let mut lines = Vec::new();
     let mut at = 0;
     for (field, uniform) in resources.fields.iter().zip(&resources.uniforms) {
-        // A member begins at the next word, but for one that would cross a row of four.
+        // A member begins at the next word, unless it would cross a row of four.
         let packed = |at: u32| match at % 16 + field.size > 16 {
             true => at.next_multiple_of(16),
             false => at,
@@ -90,7 +90,7 @@ pub fn uniform_members(resources: &Resources) -> Vec<String> {
     lines
 }
 
-/// A variable with its type: arrays have their extent after the name.
+/// Declares a variable with its type; the extent of an array follows the name.
 pub fn variable_declared(name: &str, ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
@@ -110,7 +110,7 @@ fn texture_type(texture: &Texture) -> String {
     format!("Texture{shape}<{}>", type_name(texel.into()))
 }
 
-/// A type as HLSL spells it.
+/// Returns a type in HLSL's spelling.
 pub fn type_name(ty: Ty) -> String {
     let scalar = match ty.scalar_kind() {
         Some(Scalar::F32) if ty.half => "half",

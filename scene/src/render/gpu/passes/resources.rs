@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use glam::UVec2;
 use wgpu::{BindingType, BufferUsages, ShaderStages, TextureFormat, TextureUsages, TextureView};
 
-/// Of what is shaded: halves can be written by shaders, multisampled and resolved on every device.
+/// Format of shaded colours: half floats can be written by shaders, multisampled and resolved on every device.
 const COLOR: TextureFormat = TextureFormat::Rgba16Float;
 
 /// A sample's place, and where in the layers its colour goes.

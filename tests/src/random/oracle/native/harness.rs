@@ -1,11 +1,11 @@
-/// What a kernel is called with.
+/// Inputs of a kernel call.
 pub struct World {
     a: Frame<Vec4>,
     b: Buffer<f32>,
     c: resources::Resources,
 }
 
-/// What a target or a buffer holds.
+/// Contents of a texel of a target, or an element of a buffer.
 type Texel = [f64; 4];
 
 /// Numbers that a kernel gives.
@@ -64,7 +64,7 @@ macro_rules! tuples {
 
 tuples! { ; A B; A B C; A B C D; }
 
-/// What a kernel of workgroups gives.
+/// Result of a kernel of workgroups.
 pub trait Threads {
     /// Of each thread, row by row.
     fn threads(&self) -> Vec<Vec<Texel>>;
@@ -98,7 +98,7 @@ pub fn pixels(out: &mut Vec<u8>, kernel: &dyn Fn(IVec2) -> Vec<Texel>) {
     }
 }
 
-/// The same of a kernel of workgroups.
+/// Runs a kernel of workgroups, as above.
 pub fn groups<const W: usize, const H: usize>(out: &mut Vec<u8>, kernel: &dyn Fn(&Workgroup<W, H>) -> Vec<Vec<Texel>>) {
     let all: Vec<_> = Workgroup::<W, H>::all(uvec2(SIZE[0], SIZE[1]))
         .map(|group| std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| kernel(&group))).ok())

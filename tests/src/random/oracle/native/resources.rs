@@ -1,5 +1,6 @@
-//! What kernels may read besides `a`, `b`, `p`, `q`, `r` and their pixel, by the names of their parameters. The tests have this
-//! file as a module, and as text it is part of the program that runs kernels natively: both are given the same.
+//! Resources that kernels may read besides `a`, `b`, `p`, `q`, `r` and their pixel, by the names of their parameters. The
+//! tests use this file as a module, and as text in the program that runs kernels natively, so that both read the same
+//! values.
 
 use straightline_kernels::prelude::*;
 
