@@ -27,6 +27,9 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     if args.albedo {
         render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::of)?;
     }
+    if args.guide {
+        render::add_guide(&mut capture, renderer.as_ref()).map_err(Failure::of)?;
+    }
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };
         let bar = scene::bar(&format!("rendering {samples} samples"));

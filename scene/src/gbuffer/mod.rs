@@ -1,6 +1,7 @@
 //! Inputs of an SRAA shader, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
 mod coarse;
+mod guide;
 mod offsets;
 mod pattern;
 mod space;
@@ -13,6 +14,7 @@ use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use coarse::{Coarse, coarse};
+pub(crate) use guide::difference_at;
 pub use offsets::{Misplaced, misplaced};
 pub(crate) use pattern::pattern_of;
 pub use pattern::{PATTERNS, sampled_at, samples};
@@ -147,7 +149,14 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
     if demodulate != "none" {
         images.push(("albedo", needed_of(&capture.albedo, "albedo (albedo.exr)", demodulate)?));
     }
-    let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
+    let has_guide = choice(options, "guide", "none") == "add";
+    if has_guide {
+        images.push(("guide", guide::layers(capture)?.clone()));
+    }
+    let mut inputs = match has_guide {
+        true => guide::colors(capture, options)?,
+        false => Inputs::new(capture.size).image("color", capture.color.clone()),
+    };
     if demodulate == "albedo-shadow" {
         inputs = inputs.image(
             "direct",
@@ -158,7 +167,7 @@ pub fn inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBuff
         let rest = needed_of(&capture.rest, "what does not follow the albedo (rest.exr)", demodulate)?;
         inputs = inputs.image("rest", rest);
     }
-    if !capture.colors.is_empty() {
+    if !capture.colors.is_empty() && !has_guide {
         inputs = inputs.layers("colors", capture.colors.clone());
     }
     if let Some(place) = &capture.place {

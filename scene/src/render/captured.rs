@@ -84,6 +84,7 @@ fn captured(
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
     };
     if capture.shading == ShadingSample::Placed

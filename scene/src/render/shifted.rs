@@ -45,4 +45,8 @@ impl Renderer for Shifted<'_> {
     fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
         self.renderer.direct(surface, place + self.by)
     }
+
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.guide(surface, place + self.by)
+    }
 }

@@ -55,6 +55,13 @@ impl Shot {
                 check(progress)?;
                 render::add_albedo(capture, renderer)?;
             }
+            if let Some(capture) = shot.captures.get_mut(&method.reads())
+                && method.reads_guide()
+                && capture.guide.is_none()
+            {
+                check(progress)?;
+                render::add_guide(capture, renderer)?;
+            }
             if let Some(capture) = shot.captures.get(&method.reads())
                 && method.has_extra()
                 && !shot.extra.contains_key(&method.reads())

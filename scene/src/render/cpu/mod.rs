@@ -5,7 +5,7 @@ mod raster;
 
 use super::frame::{Lighting, Pass};
 use super::paint::painted;
-use super::shade::{self, Surface, direct, paint, shade};
+use super::shade::{self, Surface, direct, guide, paint, shade};
 use super::{RenderError, Renderer};
 use crate::scene::{Camera, Image, Material, Scene, Vertex};
 use clip::ScreenTriangle;
@@ -199,5 +199,9 @@ impl Renderer for CpuRenderer {
 
     fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
         direct(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        guide(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 }
