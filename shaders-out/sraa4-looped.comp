@@ -22,12 +22,12 @@ void main() {
     if (any(greaterThanEqual(pixel, frame))) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:287)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:271)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:139)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     float share = 1.0 / total;
     ivec2 last = frame - 1;
     float weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -51,7 +51,7 @@ void main() {
             ivec2 tap_pixel = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:147)
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), tap_pixel))))) {
                     d = 0.0;
@@ -63,7 +63,7 @@ void main() {
                     ).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:352
+                        // kernels/src/sraa/mod.rs:289
                         shaded_depth = depth_3;
                     }
                     vec3 n_2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(at, 4), 0).xyz;
@@ -73,14 +73,14 @@ void main() {
                         // kernels/src/sraa/metric.rs:160
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:353
+                    // kernels/src/sraa/mod.rs:290
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:157)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         float sum = 0.0;
         float tap_weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (int tap = 0; tap < 9; tap++) {
@@ -92,7 +92,7 @@ void main() {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:185)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -101,11 +101,11 @@ void main() {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:222)
     vec4 result = vec4(0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
+        // what shading gave at a tap (kernels/src/sraa/colors.rs:88)
         ivec2 at = clamp(pixel + ivec2(tap % 3 - 1, tap / 3 - 1), ivec2(0), last);
         vec4 shaded = texelFetch(sampler2D(color, unfiltered), at, 0);
         bool kept = all(lessThan(floatBitsToUint(shaded) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));
@@ -114,12 +114,12 @@ void main() {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:248)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:220)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     vec4 mean = vec4(0.0);
     if (sum > 1e-30) {
         mean = result / sum;

@@ -24,12 +24,12 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     if (any(pixel >= frame)) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:287)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:271)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:139)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     float share = 1.0 / total;
     int2 last = frame - 1;
     float weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
@@ -51,7 +51,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             int2 tap_pixel = int2(tap % 3 - 1, tap / 3 - 1);
             float2 away = float2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:147)
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 float d;
                 if (all(bool2(is_equal, all(int2(0, 0) == tap_pixel)))) {
                     d = 0.0;
@@ -61,7 +61,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                     float depth_3 = depth.Load(int4(at, 4, 0)).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:352
+                        // kernels/src/sraa/mod.rs:289
                         shaded_depth = depth_3;
                     }
                     float3 n_2 = normal.Load(int4(at, 4, 0)).xyz;
@@ -71,14 +71,14 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                         // kernels/src/sraa/metric.rs:160
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:353
+                    // kernels/src/sraa/mod.rs:290
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:157)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         float sum = 0.0;
         float tap_weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         for (int tap_2 = 0; tap_2 < 9; tap_2++) {
@@ -90,7 +90,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:185)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         float scale = share / sum;
         for (int tap_3 = 0; tap_3 < 9; tap_3++) {
             float2 away = float2(int2(tap_3 % 3 - 1, tap_3 / 3 - 1)) - place_at;
@@ -99,11 +99,11 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:222)
     float4 result = float4(0.0, 0.0, 0.0, 0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
+        // what shading gave at a tap (kernels/src/sraa/colors.rs:88)
         int2 at = clamp(pixel + int2(tap % 3 - 1, tap / 3 - 1), int2(0, 0), last);
         float4 shaded = color.Load(int3(at, 0));
         bool kept = all(
@@ -115,12 +115,12 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:248)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:220)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     float4 mean = float4(0.0, 0.0, 0.0, 0.0);
     if (sum > 1e-30) {
         mean = result / sum;

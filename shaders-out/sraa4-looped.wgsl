@@ -20,12 +20,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:287)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:271)
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:139)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     let share = 1.0 / total;
     let last = frame - 1;
     var weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -47,7 +47,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:147)
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 var d: f32;
                 if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;
@@ -57,7 +57,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:352
+                        // kernels/src/sraa/mod.rs:289
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
@@ -67,14 +67,14 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                         // kernels/src/sraa/metric.rs:160
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:353
+                    // kernels/src/sraa/mod.rs:290
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:157)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         var sum = 0.0;
         var tap_weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (var tap = 0; tap < 9; tap++) {
@@ -86,7 +86,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:185)
+        // the mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         let scale = share / sum;
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -95,11 +95,11 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:222)
     var result = vec4f(0.0);
     var sum = 0.0;
     for (var tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
+        // what shading gave at a tap (kernels/src/sraa/colors.rs:88)
         let at = clamp(pixel + vec2i(tap % 3 - 1, tap / 3 - 1), vec2i(0), last);
         let shaded = textureLoad(color, at, 0);
         let kept = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
@@ -108,12 +108,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             w = weights[tap];
         }
         if kept {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:248)
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:220)
+    // the mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     var mean = vec4f(0.0);
     if sum > 1e-30 {
         mean = result / sum;

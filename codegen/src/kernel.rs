@@ -2,9 +2,10 @@
 
 use crate::compiled::Compiled;
 use crate::emit::Emitted;
-use crate::files;
+use crate::files::{self, shorten};
 use crate::pipeline::{self, Observer, Source};
 use crate::spec::{Settings, ShaderSpec};
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
@@ -12,7 +13,10 @@ use straightline_evaluator::eval::{self, OptionInfo};
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::limits::Meter;
-use straightline_kernels::{OptionText, OptionValues};
+use straightline_kernels::{OptionText, OptionValues, Preset};
+
+/// Name of the setting that stands for a set of options.
+const PRESET: &str = "preset";
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
@@ -154,6 +158,7 @@ impl Kernel {
     pub fn option_values(&self, settings: &[OptionText]) -> Result<OptionValues, Errors> {
         let library = deep(|| self.typed_library())?;
         let infos = deep(|| self.option_infos(&library))?;
+        let settings = &*self.with_preset(settings)?;
         eval::parse_settings(&self.source.name, infos, settings).map_err(|found| Errors::new(found, &self.source.files))
     }
 
@@ -163,6 +168,35 @@ impl Kernel {
         }
         let infos = eval::describe_options(library, &self.source.files, &self.source.name)?.into();
         Ok(self.described.get_or_init(|| infos))
+    }
+
+    /// Named sets of the kernel's options, for the setting `preset`. Only built-in kernels have some.
+    pub fn presets(&self) -> &'static [Preset] {
+        self.source.builtin.map_or(&[], |entry| entry.presets)
+    }
+
+    /// Settings with the options of a preset in its place, but those that are set beside it.
+    fn with_preset<'a>(&self, settings: &'a [OptionText]) -> Result<Cow<'a, [OptionText]>, Errors> {
+        let mut named = settings.iter().filter(|(name, _)| name == PRESET);
+        let (Some((_, wanted)), [_, ..]) = (named.next(), self.presets()) else {
+            return Ok(Cow::Borrowed(settings));
+        };
+        let refused =
+            |what: String, help: String| Errors::from_diagnostic(Diagnostic::new(Code::OptionValue, what).help(help));
+        if let Some((_, again)) = named.next() {
+            let what = format!("two presets are set, `{}` and `{}`", shorten(wanted), shorten(again));
+            return Err(refused(what, "set one, and options beside it".to_owned()));
+        }
+        let Some(preset) = self.presets().iter().find(|preset| preset.name == wanted) else {
+            let names: Vec<&str> = self.presets().iter().map(|preset| preset.name).collect();
+            let what = format!("`{}` is not a preset of the kernel `{}`", shorten(wanted), self.name());
+            return Err(refused(what, format!("use one of {}", names.join(", "))));
+        };
+        let beside: Vec<&OptionText> = settings.iter().filter(|(name, _)| name != PRESET).collect();
+        let is_set = |name: &str| beside.iter().any(|(known, _)| known == name);
+        let own = preset.options.iter().filter(|(name, _)| !is_set(name));
+        let own = own.map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        Ok(own.chain(beside.iter().map(|option| (*option).clone())).collect())
     }
 
     /// The tree of all of the kernel's files as its `Debug` form: for tests that ask which constructs a text has.
@@ -231,8 +265,15 @@ impl Kernel {
         deep(|| {
             let _meter = Meter::open(settings.limits());
             let library = self.typed_library()?;
-            let mut compiled = pipeline::compile(&self.source, &library, settings, observer)?;
-            compiled.changed = self.changed_options(&library, settings, &compiled.options)?;
+            let settings = match self.with_preset(&settings.options)? {
+                Cow::Borrowed(_) => Cow::Borrowed(settings),
+                Cow::Owned(options) => Cow::Owned(Settings {
+                    options,
+                    ..settings.clone()
+                }),
+            };
+            let mut compiled = pipeline::compile(&self.source, &library, &settings, observer)?;
+            compiled.changed = self.changed_options(&library, &settings, &compiled.options)?;
             Ok(compiled)
         })
     }

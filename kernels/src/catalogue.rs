@@ -2,6 +2,7 @@
 
 use crate::OptionValues;
 use crate::half::{self, HalfPrecision};
+use crate::presets::{NO_PRESETS, Preset, SRAA_PRESETS};
 
 /// One built-in kernel.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,8 @@ pub struct Entry {
     pub paper: fn(&OptionValues) -> Option<PaperCounts>,
     /// Verdict on half precision for a kernel with these options.
     pub half: fn(&OptionValues) -> HalfPrecision,
+    /// Sets of its options that have a name.
+    pub presets: &'static [Preset],
 }
 
 /// A file of Rust text.
@@ -54,8 +57,11 @@ const SRAA: &[SourceFile] = &[
     source!("sraa/extra.rs"),
     source!("sraa/history.rs"),
     source!("sraa/lobes.rs"),
+    source!("sraa/mask.rs"),
     source!("sraa/pattern.rs"),
+    source!("sraa/fit.rs"),
     source!("sraa/gbuffer.rs"),
+    source!("sraa/guide.rs"),
     source!("sraa/view.rs"),
     source!("sraa/metric.rs"),
     source!("sraa/placed.rs"),
@@ -71,6 +77,7 @@ pub const CATALOGUE: &[Entry] = &[
         sources: SRAA,
         paper: sraa_paper,
         half: half::sraa,
+        presets: SRAA_PRESETS,
     },
     Entry {
         name: "sraa_place",
@@ -78,6 +85,7 @@ pub const CATALOGUE: &[Entry] = &[
         sources: SRAA,
         paper: no_paper,
         half: half::unstudied,
+        presets: SRAA_PRESETS,
     },
     Entry {
         name: "sraa_extra",
@@ -85,6 +93,39 @@ pub const CATALOGUE: &[Entry] = &[
         sources: SRAA,
         paper: no_paper,
         half: half::unstudied,
+        presets: SRAA_PRESETS,
+    },
+    Entry {
+        name: "sraa_guide",
+        summary: "Mean of the guide that sraa with guide=add adds to each pixel",
+        sources: SRAA,
+        paper: no_paper,
+        half: half::unstudied,
+        presets: SRAA_PRESETS,
+    },
+    Entry {
+        name: "sraa_residual",
+        summary: "Colours less the guide, as sraa with guide=add reads them",
+        sources: SRAA,
+        paper: no_paper,
+        half: half::unstudied,
+        presets: SRAA_PRESETS,
+    },
+    Entry {
+        name: "sraa_fit_sums",
+        summary: "Sums over tiles by which sraa_fit scales the guide",
+        sources: SRAA,
+        paper: no_paper,
+        half: half::unstudied,
+        presets: SRAA_PRESETS,
+    },
+    Entry {
+        name: "sraa_fit",
+        summary: "Scale at which the guide of sraa is nearest to the colours",
+        sources: SRAA,
+        paper: no_paper,
+        half: half::unstudied,
+        presets: SRAA_PRESETS,
     },
     Entry {
         name: "stalker",
@@ -96,6 +137,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: no_paper,
         half: half::edge,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "tabula_rasa",
@@ -107,6 +149,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: no_paper,
         half: half::edge,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "quad_convolution",
@@ -118,6 +161,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: convolution_paper,
         half: half::convolution,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "quad_upsampling",
@@ -125,6 +169,7 @@ pub const CATALOGUE: &[Entry] = &[
         sources: &[source!("quad/surface.rs"), source!("quad/upsampling.rs")],
         paper: upsampling_paper,
         half: half::upsampling,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "downsampling",
@@ -132,6 +177,7 @@ pub const CATALOGUE: &[Entry] = &[
         sources: &[source!("quad/surface.rs"), source!("quad/upsampling.rs")],
         paper: no_paper,
         half: half::unstudied,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "quad_bilateral",
@@ -143,6 +189,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: no_paper,
         half: half::bilateral,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "pcf",
@@ -155,6 +202,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: pcf_paper,
         half: half::shadow,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "pcss",
@@ -166,6 +214,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: no_paper,
         half: half::shadow,
+        presets: NO_PRESETS,
     },
     Entry {
         name: "quad_ssao",
@@ -177,6 +226,7 @@ pub const CATALOGUE: &[Entry] = &[
         ],
         paper: no_paper,
         half: half::unstudied,
+        presets: NO_PRESETS,
     },
 ];
 

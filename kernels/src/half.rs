@@ -27,7 +27,8 @@ pub(crate) fn sraa(options: &OptionValues) -> HalfPrecision {
         Some("normals") if options.choice("normalisation").is_none_or(|how| how == "shifted") => {
             // What is kept of weights says nothing of light that is divided by an albedo.
             // Nor of a frame's place among others.
-            let is_plain = options.choice("demodulate").is_none_or(|how| how == "none");
+            let is_off = |option: &str| options.choice(option).is_none_or(|how| how == "none");
+            let is_plain = is_off("demodulate") && is_off("guide");
             let is_alone = options.get("history").is_none_or(|frames| frames.number() == Some(0.0));
             return match is_plain && is_alone {
                 true => HalfPrecision::Kept,

@@ -18,6 +18,7 @@ pub mod normals;
 mod options;
 #[cfg(feature = "native")]
 pub mod prelude;
+mod presets;
 #[cfg(feature = "native")]
 pub mod quad;
 #[cfg(feature = "native")]
@@ -27,4 +28,5 @@ mod values;
 pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};
 pub use half::HalfPrecision;
 pub use options::{KernelOptions, option_name, option_text};
+pub use presets::Preset;
 pub use values::{OptionText, OptionValue, OptionValues, kebab};

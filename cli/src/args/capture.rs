@@ -70,6 +70,10 @@ pub struct CaptureArgs {
     /// `demodulate` needs
     #[arg(long)]
     pub albedo: bool,
+    /// Also write an estimate of the colour at every geometry sample, of the sun, its shadow and highlight, and one constant of ambient light: what
+    /// `guide=add` needs
+    #[arg(long)]
+    pub guide: bool,
     /// Also render the reference: this many shaded samples a pixel, 16 or 256
     #[arg(long, value_name = "SAMPLES", value_parser = ["16", "256"])]
     pub reference: Option<String>,

@@ -27,6 +27,9 @@ pub fn render_capture(args: &CaptureArgs) -> Result<(), Failure> {
     if args.albedo {
         render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::from_error)?;
     }
+    if args.guide {
+        render::add_guide(&mut capture, renderer.as_ref()).map_err(Failure::from_error)?;
+    }
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };
         let bar = scene::progress_bar(&format!("rendering {samples} samples"));

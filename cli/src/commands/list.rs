@@ -6,7 +6,7 @@ use crate::table::wrap_text;
 use serde_json::{Value, json};
 use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
 use straightline_engines::{Engine, engine_names};
-use straightline_kernels::{CATALOGUE, Entry};
+use straightline_kernels::{CATALOGUE, Entry, Preset};
 
 /// Columns of a screen.
 const WIDTH: usize = 80;
@@ -89,9 +89,28 @@ fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
         outln!("\nIt has no options.");
         return Ok(());
     }
+    if !kernel.presets().is_empty() {
+        outln!("\nPresets, for `--set preset=NAME`; options set beside one override its own:");
+        kernel.presets().iter().for_each(print_preset);
+    }
     outln!("\nOptions, for `--set OPTION=VALUE`:");
     options.iter().for_each(print_option);
     Ok(())
+}
+
+fn print_preset(preset: &Preset) {
+    outln!();
+    let summary = format!("{}: {}", preset.name, preset.summary);
+    outln!("{}", wrap_text(&summary, WIDTH, "  ", "      "));
+    if !preset.options.is_empty() {
+        outln!("{}", wrap_text(&settings(preset).join(" "), WIDTH, "    ", "    "));
+    }
+}
+
+/// Options of a preset as they are set.
+fn settings(preset: &Preset) -> Vec<String> {
+    let options = preset.options.iter();
+    options.map(|(name, value)| format!("{name}={value}")).collect()
 }
 
 fn print_option(option: &OptionInfo) {
@@ -162,7 +181,12 @@ fn engine_json(engine: &Engine) -> Value {
 fn kernel_json(kernel: &Kernel) -> Result<Value, Failure> {
     let summary = straightline_kernels::find(kernel.name()).map(|entry| entry.summary);
     let options: Vec<Value> = kernel.options()?.iter().map(option_json).collect();
-    Ok(json!({ "name": kernel.name(), "summary": summary, "options": options }))
+    let presets: Vec<Value> = kernel.presets().iter().map(preset_json).collect();
+    Ok(json!({ "name": kernel.name(), "summary": summary, "presets": presets, "options": options }))
+}
+
+fn preset_json(preset: &Preset) -> Value {
+    json!({ "name": preset.name, "summary": preset.summary, "options": settings(preset) })
 }
 
 fn option_json(option: &OptionInfo) -> Value {

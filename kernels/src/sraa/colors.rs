@@ -38,6 +38,9 @@ pub struct Colors {
     pub rest: Frame<Vec4>,
     /// The same of the further shading samples.
     pub extra_rest: Frame<Vec4>,
+    /// Of guide=add: the mean of the guide over the geometry samples of each pixel, in red, green and blue, linear. All colours are
+    /// then differences from the guide where they are shaded.
+    pub guide_mean: Frame<Vec4>,
 }
 
 impl Colors {
@@ -58,6 +61,7 @@ impl Colors {
             extra_direct: frame(),
             rest: frame(),
             extra_rest: frame(),
+            guide_mean: frame(),
         }
     }
 }

@@ -8,8 +8,8 @@
 //! it is.
 
 use super::Inputs;
-use super::colors::{color_at, is_kept, shaded};
-use super::gbuffer::Layout;
+use super::colors::{Colors, color_at, is_kept, shaded};
+use super::gbuffer::texel;
 use super::options::{Guards, Mask, Normalisation, Resolve, Search, Sraa};
 use super::pattern::Place;
 use super::placed::shaded_place;
@@ -36,7 +36,7 @@ pub(super) struct Paint {
 }
 
 /// The largest half: what shines by itself may give what it shines with as its albedo.
-const BRIGHTEST: f32 = 65504.0;
+pub(super) const BRIGHTEST: f32 = 65504.0;
 
 /// What the surface at a sample makes of light.
 pub(super) fn paint(cfg: &Sraa, inputs: &Inputs, place: Place) -> Paint {
@@ -46,7 +46,7 @@ pub(super) fn paint(cfg: &Sraa, inputs: &Inputs, place: Place) -> Paint {
             lit: 1.0,
         },
         Demodulate::Albedo | Demodulate::AlbedoShadow => {
-            let stored = stored(cfg, inputs, place);
+            let stored = stored(cfg, inputs.colors, inputs.pixel + place.pixel, place);
             Paint {
                 albedo: vec3(bounded(cfg, stored.x), bounded(cfg, stored.y), bounded(cfg, stored.z)),
                 lit: share(cfg, stored.w),
@@ -55,16 +55,17 @@ pub(super) fn paint(cfg: &Sraa, inputs: &Inputs, place: Place) -> Paint {
     }
 }
 
-fn stored(cfg: &Sraa, inputs: &Inputs, place: Place) -> Vec4 {
-    let (colors, at) = (inputs.colors, inputs.pixel + place.pixel);
-    match (cfg.layout, place.centre) {
-        (Layout::Layers | Layout::Split, _) => colors.albedo.load(at, place.sample),
-        (_, true) => colors.centre_albedo.load(at),
-        (Layout::Superresolution, _) => colors
-            .albedo_grid
-            .load(cfg.cell(colors.albedo_grid.size(), at, place.sample)),
-        (Layout::Multisampled, _) => colors.albedo_samples.load(at, cfg.own(place.sample)),
-    }
+/// Albedo and the share of the direct light at a sample of a pixel, as the G-buffer has them.
+pub(super) fn stored(cfg: &Sraa, colors: &Colors, at: IVec2, place: Place) -> Vec4 {
+    texel(
+        cfg,
+        &colors.albedo,
+        &colors.albedo_grid,
+        &colors.albedo_samples,
+        &colors.centre_albedo,
+        at,
+        place,
+    )
 }
 
 /// A channel of the albedo that can be divided by; what is not a number is the least.
@@ -83,7 +84,7 @@ fn bounded(cfg: &Sraa, albedo: f32) -> f32 {
 
 /// A share of the direct light; what is not a number is none.
 #[allow(clippy::manual_clamp)] // which would keep it
-fn share(cfg: &Sraa, lit: f32) -> f32 {
+pub(super) fn share(cfg: &Sraa, lit: f32) -> f32 {
     match cfg.guards {
         Guards::Fallback | Guards::None => lit.max(0.0).min(1.0),
         Guards::Inline => {

@@ -163,6 +163,24 @@ impl GBuffer {
     }
 }
 
+/// Texel of a quantity that each layout holds as it holds normals, at a sample of a pixel.
+pub(super) fn texel(
+    cfg: &Sraa,
+    layers: &FrameLayers<Vec4>,
+    grid: &Texture<Vec4>,
+    samples: &Multisampled<Vec4>,
+    centre: &Frame<Vec4>,
+    at: IVec2,
+    place: Place,
+) -> Vec4 {
+    match (cfg.layout, place.centre) {
+        (Layout::Layers | Layout::Split, _) => layers.load(at, place.sample),
+        (_, true) => centre.load(at),
+        (Layout::Superresolution, _) => grid.load(cfg.cell(grid.size(), at, place.sample)),
+        (Layout::Multisampled, _) => samples.load(at, cfg.own(place.sample)),
+    }
+}
+
 impl Sraa {
     /// Columns and rows of the samples of a pixel in a superresolution texture: 2×2, 4×4, or as near as can be.
     pub fn grid(&self) -> IVec2 {

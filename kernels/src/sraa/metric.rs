@@ -98,7 +98,7 @@ const NEAR_FAR: f32 = 0.999;
 
 /// Whether a surface is drawn there, of metric=planes-normals. Where none is, there is no plane to measure from, and depths are compared. Normals
 /// that were cleared to anything else than 0 are told by depth: in world space such a sky would not be even.
-fn is_drawn(cfg: &Sraa, view: &View, surface: &Surface, square: f32) -> bool {
+pub(super) fn is_drawn(cfg: &Sraa, view: &View, surface: &Surface, square: f32) -> bool {
     match cfg.metric {
         Metric::PlanesNormals => {
             let deepest = match cfg.depth {

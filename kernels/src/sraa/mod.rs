@@ -7,9 +7,12 @@
 mod colors;
 mod demodulate;
 mod extra;
+mod fit;
 mod gbuffer;
+mod guide;
 mod history;
 mod lobes;
+mod mask;
 mod metric;
 mod options;
 mod pattern;
@@ -18,11 +21,13 @@ mod search;
 mod view;
 
 use crate::prelude::*;
-use colors::{color, is_kept, own_color};
+use colors::color;
 use demodulate::{may_count, paint, weighed};
 use gbuffer::surface;
+use guide::guided;
 use history::{own_tap, remembered, shift};
 use lobes::within_range;
+use mask::masked;
 use metric::{FAR, Sample, distance};
 use pattern::{Place, tent};
 use placed::shaded_place;
@@ -31,7 +36,9 @@ use search::{Searched, Sum, searched};
 pub use colors::Colors;
 pub use demodulate::Demodulate;
 pub use extra::sraa_extra;
+pub use fit::{sraa_fit, sraa_fit_sums};
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
+pub use guide::{Estimate, Guide, Guiding, sraa_guide, sraa_residual};
 pub use history::History;
 pub use metric::{Difference, Metric, Plane};
 pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn, Variation};
@@ -59,7 +66,7 @@ pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, history
         history,
         pixel,
     };
-    match (cfg.side(), cfg.shading_samples()) {
+    let filtered = match (cfg.side(), cfg.shading_samples()) {
         (3, 1) => masked::<9, 3>(cfg, &inputs),
         (3, 2) => masked::<18, 3>(cfg, &inputs),
         (3, _) => masked::<36, 3>(cfg, &inputs),
@@ -69,31 +76,8 @@ pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, history
         (_, 1) => masked::<49, 7>(cfg, &inputs),
         (_, 2) => masked::<98, 7>(cfg, &inputs),
         (_, _) => masked::<196, 7>(cfg, &inputs),
-    }
-}
-
-/// Filters the pixel, or keeps its own colour where there is no geometric variation.
-fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
-    match cfg.mask {
-        Mask::None => filtered::<TAPS, SIDE>(cfg, inputs),
-        Mask::Select => {
-            let own = own_color(cfg, inputs);
-            if is_even::<TAPS, SIDE>(cfg, inputs) && is_kept(cfg, own) {
-                own
-            } else {
-                filtered::<TAPS, SIDE>(cfg, inputs)
-            }
-        }
-        Mask::Branch => {
-            let own = own_color(cfg, inputs);
-            #[cfg_attr(false, branch)]
-            if is_even::<TAPS, SIDE>(cfg, inputs) && is_kept(cfg, own) {
-                own
-            } else {
-                filtered::<TAPS, SIDE>(cfg, inputs)
-            }
-        }
-    }
+    };
+    guided(cfg, &inputs, filtered)
 }
 
 /// The pixel's colour from the `TAPS` shading samples of the `SIDE` × `SIDE` pixels around it.
@@ -288,53 +272,6 @@ fn total_share(cfg: &Sraa) -> f32 {
         total += cfg.share(sample);
     }
     total
-}
-
-/// Whether no surface that the mask looks at differs from that of its sample.
-fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
-    let largest = match cfg.variation {
-        Variation::Around => variation_around::<TAPS, SIDE>(cfg, inputs),
-        // Unrolled, all surfaces would wait in registers for the filter behind the branch.
-        Variation::Within if cfg.mask == Mask::Branch && cfg.samples() > 8 => variation_one_by_one(cfg, inputs),
-        Variation::Within => variation_within(cfg, inputs),
-    };
-    largest <= cfg.mask_threshold
-}
-
-/// The largest difference of a geometry sample and a tap.
-fn variation_around<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> f32 {
-    let mut largest = 0.0f32;
-    for sample in 0..cfg.reconstructed() {
-        if cfg.share(sample) != 0.0 {
-            let place = cfg.place(sample);
-            let centre = geometry_sample(cfg, inputs, place);
-            for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
-                    largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
-                }
-            }
-        }
-    }
-    largest
-}
-
-/// The largest difference of the pixel's own geometry samples and shading samples.
-fn variation_within(cfg: &Sraa, inputs: &Inputs) -> f32 {
-    let mut largest = 0.0f32;
-    for sample in 0..cfg.samples() {
-        let place = cfg.geometry_sample(IVec2::ZERO, sample);
-        let seen = geometry_sample(cfg, inputs, place);
-        for tap in 0..cfg.shading_samples() {
-            largest = largest.max(difference(cfg, inputs, place, &seen, cfg.tap(tap, 1)));
-        }
-    }
-    largest
-}
-
-/// The same in a loop.
-#[cfg_attr(false, unroll(none))]
-fn variation_one_by_one(cfg: &Sraa, inputs: &Inputs) -> f32 {
-    variation_within(cfg, inputs)
 }
 
 /// What is seen at a geometry sample.

@@ -4,6 +4,7 @@ use crate::prelude::*;
 
 use super::demodulate::Demodulate;
 use super::gbuffer::{Depth, Layout, Normals};
+use super::guide::{Estimate, Guide};
 use super::metric::{Difference, Metric, Plane};
 use super::pattern::{Pattern, Shading};
 use super::view::Projection;
@@ -71,6 +72,13 @@ options! {
         /// Of demodulate: whether the image `rest` holds what of each pixel's colour does not follow the albedo: highlights, mirror
         /// images, haze. That is borrowed as it is.
         pub rest: bool = false,
+        /// Whether colours are differences from a guide, an estimate of the colour that is known at every geometry sample: edges of paint and
+        /// of shadow are then supersampled as far as it knows them.
+        pub guide: Guide = Guide::None,
+        /// Of the kernels `sraa_guide` and `sraa_residual`: what the guide is made of.
+        pub estimate: Estimate = Estimate::Given,
+        /// Of the same: whether the guide is multiplied by the image `guide_scale`, which the kernels `sraa_fit_sums` and `sraa_fit` make.
+        pub fitted: bool = false,
         /// How many earlier frames give shading samples too.
         pub history: i32 [0..=4] = 0,
         /// Whether pixels without geometric variation keep their own colour.
@@ -79,6 +87,9 @@ options! {
         pub variation: Variation = Variation::Around,
         /// Of mask: the largest difference that is no variation.
         pub mask_threshold: f32 [0.0..=16.0] = 0.002,
+        /// Of mask: the largest step of a colour from one of the four neighbours on the pixel's plane that is no variation either, as a display
+        /// shows it, in shares of white. With 1 colours are not looked at.
+        pub mask_step: f32 [0.0..=1.0] = 1.0,
         /// What a colour that is infinite or not a number does.
         pub non_finite: NonFinite = NonFinite::Skip,
         /// How far apart two normals are.

@@ -180,6 +180,7 @@ impl Sraa {
         self.check_projection();
         self.check_extra();
         self.check_demodulate();
+        self.check_guide();
         self.check_history();
         assert!(
             self.normals != Normals::Packed

@@ -77,6 +77,7 @@ pub struct GBuffer<'a> {
     albedo: Option<Stored<'a>>,
     direct: Option<&'a Frame<Vec4>>,
     rest: Option<&'a Frame<Vec4>>,
+    guide_mean: Option<&'a Frame<Vec4>>,
     depth: Option<Stored<'a>>,
     normal: Option<Stored<'a>>,
     rays: Option<[[f64; 3]; 3]>,
@@ -105,7 +106,7 @@ pub struct Light {
 }
 
 /// A quantity at all samples.
-struct Stored<'a> {
+pub(super) struct Stored<'a> {
     images: Cow<'a, [Frame<Vec4>]>,
     centre: Option<&'a Frame<Vec4>>,
 }
@@ -139,6 +140,10 @@ impl<'a> GBuffer<'a> {
         let rest = match params.demodulate {
             Demodulate::Albedo | Demodulate::AlbedoShadow if params.rest => Some(&find_images(inputs, "rest", 1)?[0]),
             _ => None,
+        };
+        let guide_mean = match params.guide {
+            true => Some(&find_images(inputs, "guide_mean", 1)?[0]),
+            false => None,
         };
         let place = match params.shading {
             Shading::Placed => Some(find_integers(inputs, "place")?),
@@ -189,6 +194,7 @@ impl<'a> GBuffer<'a> {
             albedo,
             direct,
             rest,
+            guide_mean,
             depth,
             normal,
             rays,
@@ -237,6 +243,11 @@ impl<'a> GBuffer<'a> {
             rest: self.light_part(extra.rest, pixel),
         };
         (sample < self.samples).then_some((sample, light))
+    }
+
+    /// Mean of the guide of `pixel`, if there is a guide.
+    pub(super) fn guide_mean(&self, pixel: [i32; 2]) -> Option<[f64; 3]> {
+        self.guide_mean.map(|_| self.light_part(self.guide_mean, pixel))
     }
 
     fn light_part(&self, of: Option<&Frame<Vec4>>, pixel: [i32; 2]) -> [f64; 3] {
@@ -401,7 +412,7 @@ impl<'a> GBuffer<'a> {
         reading
     }
 
-    fn texel(&self, stored: &Stored, pixel: [i32; 2], sample: usize) -> [f64; 4] {
+    pub(super) fn texel(&self, stored: &Stored<'_>, pixel: [i32; 2], sample: usize) -> [f64; 4] {
         if let (Some(centre), true) = (stored.centre, sample == self.samples) {
             return texel_to_f64(texel(centre, pixel));
         }
@@ -417,7 +428,7 @@ impl<'a> GBuffer<'a> {
         texel_to_f64(texel(&stored.images[0], at))
     }
 
-    fn clamp_pixel(&self, pixel: [i32; 2]) -> [i32; 2] {
+    pub(super) fn clamp_pixel(&self, pixel: [i32; 2]) -> [i32; 2] {
         [pixel[0].clamp(0, self.width - 1), pixel[1].clamp(0, self.height - 1)]
     }
 
@@ -449,7 +460,7 @@ impl<'a> GBuffer<'a> {
 }
 
 /// The images of `name` in the layout of the options.
-fn find_stored<'a>(
+pub(super) fn find_stored<'a>(
     inputs: &'a Inputs,
     params: &SraaParams,
     samples: usize,
@@ -496,7 +507,7 @@ fn frames_of(inputs: &Inputs, name: &str, count: usize) -> Result<Vec<Frame<Vec4
     }
 }
 
-fn find_images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame<Vec4>], OracleError> {
+pub(super) fn find_images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame<Vec4>], OracleError> {
     let found = inputs.images.iter().rev().find(|(known, _)| known == name);
     match found {
         Some((_, images)) if images.len() >= count => Ok(images),
@@ -516,7 +527,7 @@ fn find_integers<'a>(inputs: &'a Inputs, name: &str) -> Result<&'a Frame<UVec4>,
     })
 }
 
-fn find_vector<const N: usize>(inputs: &Inputs, name: &str) -> Result<[f64; N], OracleError> {
+pub(super) fn find_vector<const N: usize>(inputs: &Inputs, name: &str) -> Result<[f64; N], OracleError> {
     let found = inputs.uniforms.iter().rev().find(|(known, _)| known == name);
     found
         .and_then(|(_, lanes)| lanes.as_slice().try_into().ok())

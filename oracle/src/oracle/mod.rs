@@ -21,12 +21,16 @@
 //! mean of those shading samples of a larger square that do not, weighed by a Gaussian with a standard deviation of a pixel; if
 //! there are any. Pixels that are shaded once more give such samples, within the square or the nine pixels around, that sample, too. With earlier frames, C(s) is the mean over the shading samples of all of them, each where it has moved to; of this
 //! frame's the nearest weighs 2⁻⁴⁰ at least.
+//!
+//! With a guide, colours are differences from it, and its mean is added to C(p); no channel of the sum is below 0.
 
 pub mod bound;
 pub mod edge;
 mod extra;
 mod gbuffer;
+mod guide;
 mod history;
+mod mask;
 mod params;
 mod pattern;
 mod place;
@@ -39,9 +43,10 @@ use std::collections::BTreeMap;
 use straightline_scene::inputs::Inputs;
 
 pub use extra::extra_samples;
+pub use guide::{guide, residual, scale};
 pub use params::{
-    Demodulate, Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError,
-    Pattern, Plane, Projection, Resolve, Search, Shading, SraaParams, Turn, Variation,
+    Demodulate, Depth, Difference, Estimate, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
+    OracleError, Pattern, Plane, Projection, Resolve, Search, Shading, SraaParams, Turn, Variation,
 };
 pub use place::{Placed, place_shading};
 
@@ -82,7 +87,7 @@ pub fn resolve_sraa(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Resolved
     let pixels = (0..height).into_par_iter();
     Ok(pixels
         .flat_map_iter(|y| (0..width).map(move |x| [x, y]))
-        .map(|pixel| definition.resolve_pixel(pixel))
+        .map(|pixel| guide::guided(&definition.gbuffer, pixel, definition.resolve_pixel(pixel)))
         .collect())
 }
 
@@ -142,7 +147,9 @@ impl<'a> Definition<'a> {
             let threshold = self.params.mask_threshold;
             let is_kept = self.params.non_finite == NonFinite::Spread || is_finite(&own);
             sure &= (largest - threshold).abs() > 1.0e-3 * threshold.max(1.0e-3) || !is_kept || largest == threshold;
-            if largest <= threshold && is_kept {
+            let (step, is_decided) = self.step(pixel);
+            sure &= is_decided || largest > threshold;
+            if largest <= threshold && is_kept && step <= self.params.mask_step {
                 return Resolved { color: own, sure };
             }
         }

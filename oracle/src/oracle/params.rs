@@ -240,6 +240,18 @@ choices! {
 }
 
 choices! {
+    /// Source of the guide at a sample.
+    Estimate {
+        /// Images.
+        Given = "given",
+        /// Albedo times light.
+        Diffuse = "diffuse",
+        /// The same, and emitted light.
+        Emissive = "emissive",
+    }
+}
+
+choices! {
     /// Treatment of a colour that is not finite.
     NonFinite {
         /// The colour counts.
@@ -304,6 +316,12 @@ pub struct SraaParams {
     pub unseen_floor: f64,
     /// True if the part of the colour that does not follow the albedo is known.
     pub rest: bool,
+    /// True if colours are differences from a guide, whose mean is added afterwards.
+    pub guide: bool,
+    /// Source of the guide at a sample.
+    pub estimate: Estimate,
+    /// True if the guide is multiplied by a scale.
+    pub fitted: bool,
     /// Number of earlier frames that give shading samples too.
     pub history: usize,
     /// Mask by which pixels without geometric variation keep their colour.
@@ -312,6 +330,8 @@ pub struct SraaParams {
     pub variation: Variation,
     /// The largest difference that is no variation.
     pub mask_threshold: f64,
+    /// The largest step of a colour from a neighbour on the pixel's plane that is no variation, as a display shows it.
+    pub mask_step: f64,
     /// Treatment of a colour that is not finite.
     pub non_finite: NonFinite,
     /// Distance of two normals.
@@ -356,10 +376,14 @@ impl Default for SraaParams {
             albedo_floor: 0.04,
             unseen_floor: 0.25,
             rest: false,
+            guide: false,
+            estimate: Estimate::Given,
+            fitted: false,
             history: 0,
             mask: Mask::None,
             variation: Variation::Around,
             mask_threshold: 0.002,
+            mask_step: 1.0,
             non_finite: NonFinite::Skip,
             turn: Turn::Cosine,
             renormalise: false,
@@ -450,10 +474,14 @@ impl SraaParams {
             "albedo-floor" => self.albedo_floor = parse_number(option, value)?,
             "unseen-floor" => self.unseen_floor = parse_number(option, value)?,
             "rest" => self.rest = parse_flag(option, value)?,
+            "guide" => self.guide = value.choice() == Some("add"),
+            "estimate" => self.estimate = parse_choice(option, value, Estimate::ALL, Estimate::name)?,
+            "fitted" => self.fitted = parse_flag(option, value)?,
             "history" => self.history = parse_number(option, value)? as usize,
             "mask" => self.mask = parse_choice(option, value, Mask::ALL, Mask::name)?,
             "variation" => self.variation = parse_choice(option, value, Variation::ALL, Variation::name)?,
             "mask-threshold" => self.mask_threshold = parse_number(option, value)?,
+            "mask-step" => self.mask_step = parse_number(option, value)?,
             "non-finite" => self.non_finite = parse_choice(option, value, NonFinite::ALL, NonFinite::name)?,
             "turn" => self.turn = parse_choice(option, value, Turn::ALL, Turn::name)?,
             "renormalise" => self.renormalise = parse_flag(option, value)?,

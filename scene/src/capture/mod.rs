@@ -30,6 +30,7 @@ const PLACE: &str = "place.exr";
 const ALBEDO: &str = "albedo.exr";
 const DIRECT: &str = "direct.exr";
 const REST: &str = "rest.exr";
+const GUIDE: &str = "guide.exr";
 const REFERENCE: &str = "reference.exr";
 
 /// The layer of `place.exr`, and its channel.
@@ -37,7 +38,7 @@ const PLACE_LAYER: &str = "place";
 const PLACE_CHANNEL: &str = "Y";
 
 /// Every file that a capture may hold.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     DESCRIPTION,
     COLOR,
     PLACE,
@@ -46,6 +47,7 @@ const FILES: [&str; 9] = [
     ALBEDO,
     DIRECT,
     REST,
+    GUIDE,
     REFERENCE,
 ];
 
@@ -80,6 +82,8 @@ pub struct Capture {
     pub direct: Option<Frame<Vec4>>,
     /// Linear RGB of `color` that does not follow the albedo: highlights, mirror images, haze. Only of one shading sample a pixel.
     pub rest: Option<Frame<Vec4>>,
+    /// Linear RGB that estimates the colour cheaply, in the layers that `depth` has: a filter with an additive guide needs it.
+    pub guide: Option<FrameLayers<Vec4>>,
     /// Linear colour that a perfect filter would give.
     pub reference: Option<Frame<Vec4>>,
 }

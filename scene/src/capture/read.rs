@@ -2,7 +2,7 @@
 
 use super::description::{Description, STATED_BY};
 use super::{
-    ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
+    ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, GUIDE, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
     REFERENCE, REST, ShadingSample, layer_count, layer_name, mean_frame,
 };
 use crate::picture::PictureError;
@@ -44,7 +44,13 @@ impl Capture {
             }
             None => None,
         };
-        let albedo = layout.optional_path(ALBEDO).map(|_| layout.read_albedo()).transpose()?;
+        let in_layers = |file: &str| {
+            layout
+                .optional_path(file)
+                .map(|_| layout.colors_of_layers(file))
+                .transpose()
+        };
+        let (albedo, guide) = (in_layers(ALBEDO)?, in_layers(GUIDE)?);
         let once = |file: &str, what: &str| {
             layout
                 .optional_path(file)
@@ -74,6 +80,7 @@ impl Capture {
             albedo,
             direct,
             rest,
+            guide,
             reference,
             camera: description.camera,
         })
@@ -198,12 +205,12 @@ impl Layout<'_> {
         Ok((color, colors))
     }
 
-    /// The albedo of every layer of the geometry.
-    fn read_albedo(&self) -> Result<FrameLayers<Vec4>, CaptureError> {
+    /// A colour of every layer of the geometry.
+    fn colors_of_layers(&self, file: &str) -> Result<FrameLayers<Vec4>, CaptureError> {
         let samples = self.description.sample_offsets().len();
         let count = layer_count(samples, &self.description.shading());
         let names: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
-        let layers = self.color_layers(ALBEDO, &names, &format!("a layer a sample with {RGB}"))?;
+        let layers = self.color_layers(file, &names, &format!("a layer a sample with {RGB}"))?;
         Ok(FrameLayers::new(layers))
     }
 

@@ -3,8 +3,8 @@
 use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
 use super::{
-    ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, FILES, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
-    REFERENCE, REST, ShadingSample, layer_name,
+    ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, FILES, GUIDE, NORMAL, PLACE, PLACE_CHANNEL,
+    PLACE_LAYER, REFERENCE, REST, ShadingSample, layer_name,
 };
 use crate::picture::exr::{self, Layer};
 use crate::picture::{self, PictureError};
@@ -78,6 +78,9 @@ impl Capture {
         }
         if let Some(albedo) = &self.albedo {
             self.check_layers(dir, ALBEDO, albedo)?;
+        }
+        if let Some(guide) = &self.guide {
+            self.check_layers(dir, GUIDE, guide)?;
         }
         if let Some(direct) = &self.direct {
             self.check_size(dir, DIRECT, "its colour", direct.size())?;
@@ -170,6 +173,9 @@ impl Capture {
         }
         if let Some(rest) = &self.rest {
             picture::write_exr(&dir.join(REST), rest)?;
+        }
+        if let Some(guide) = &self.guide {
+            self.write_layers(&dir.join(GUIDE), guide, picture::color_channels)?;
         }
         if let Some(reference) = &self.reference {
             picture::write_exr(&dir.join(REFERENCE), reference)?;

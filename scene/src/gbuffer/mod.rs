@@ -1,6 +1,7 @@
 //! Inputs of an SRAA shader, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
 mod coarse;
+mod guide;
 mod offsets;
 mod pattern;
 mod space;
@@ -13,6 +14,7 @@ use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use coarse::{Coarse, detect_coarse_depth};
+pub(crate) use guide::difference_at;
 pub use offsets::{Misplaced, find_misplaced};
 pub(crate) use pattern::pattern_of;
 pub use pattern::{PATTERNS, pattern_offsets, sampled_at};
@@ -150,7 +152,14 @@ pub fn sraa_inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, 
     if demodulate != "none" {
         images.push(("albedo", needed_of(&capture.albedo, "albedo (albedo.exr)", demodulate)?));
     }
-    let mut inputs = Inputs::new(capture.size).with_image("color", capture.color.clone());
+    let has_guide = choice_or_default(options, "guide", "none") == "add";
+    if has_guide {
+        images.push(("guide", guide::layers(capture)?.clone()));
+    }
+    let mut inputs = match has_guide {
+        true => guide::colors(capture, options)?,
+        false => Inputs::new(capture.size).with_image("color", capture.color.clone()),
+    };
     if demodulate == "albedo-shadow" {
         inputs = inputs.with_image(
             "direct",
@@ -161,7 +170,7 @@ pub fn sraa_inputs(capture: &Capture, options: &OptionValues) -> Result<Inputs, 
         let rest = needed_of(&capture.rest, "what does not follow the albedo (rest.exr)", demodulate)?;
         inputs = inputs.with_image("rest", rest);
     }
-    if !capture.colors.is_empty() {
+    if !capture.colors.is_empty() && !has_guide {
         inputs = inputs.with_layers("colors", capture.colors.clone());
     }
     if let Some(place) = &capture.place {

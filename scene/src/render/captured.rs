@@ -88,6 +88,7 @@ fn capture_with(
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
     };
     if capture.shading == ShadingSample::Placed

@@ -40,10 +40,20 @@ impl Extra {
     pub fn sraa_inputs(&self, capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
         let mut alone = options.clone();
         alone.remove("extra");
+        let inputs = gbuffer::sraa_inputs(capture, &alone)?;
+        // With a guide all colours are differences from it.
+        let scale = inputs.images.iter().find(|(name, _)| name == "guide_scale");
+        let color = match (&capture.guide, scale) {
+            (Some(guide), Some((_, scale))) => {
+                let scale = scale[0].texels()[0].x;
+                gbuffer::difference_at(&self.color, guide, &self.sample, scale)
+            }
+            _ => self.color.clone(),
+        };
         let counts = COUNTS.map(|count| [f64::from(count), 0.0, 0.0, 1.0]);
-        Ok(gbuffer::sraa_inputs(capture, &alone)?
+        Ok(inputs
             .with_integers("extra", vec![gbuffer::encode_places(&self.sample)])
-            .with_image("extra_color", self.color.clone())
+            .with_image("extra_color", color)
             .with_buffer("extra_counts", counts.to_vec())
             .with_buffer("extra_list", vec![[0.0; 4]; self.budget]))
     }

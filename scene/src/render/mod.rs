@@ -12,6 +12,7 @@ mod error;
 mod extra;
 mod frame;
 mod gpu;
+mod guide;
 mod paint;
 mod placed;
 mod reference;
@@ -32,7 +33,8 @@ pub use error::RenderError;
 pub use extra::{Extra, listing_options, shade_extra};
 pub use gpu::guard::with_error_scope;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples, Timestamps};
-pub(crate) use placed::gather_placed;
+pub use guide::add_guide;
+pub(crate) use placed::{OFFSETS, gather_placed};
 pub use placed::{Placed, PlacedBy, shade_placed};
 pub use reference::{grid_offsets, render_reference};
 pub use shade::Surface;
@@ -85,6 +87,10 @@ pub trait Renderer {
 
     /// Linear RGB that the sun adds to [`shade_surface`](Self::shade_surface) of a surface where no shadow falls.
     fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3;
+
+    /// Returns a cheap estimate of [`shade`](Self::shade), as `guide=add` needs it: the albedo times the sun's light where no shadow falls and
+    /// one constant of ambient light, the sun's highlight, and the light that the surface emits; 0 in the sky. It has no haze.
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3;
 
     /// Albedo of what is seen `offset` from each pixel's centre, linear RGB, and in alpha the share of the sun's light that no
     /// shadow keeps away. Of what shines by itself the albedo is what it shines with; of the sky 1.

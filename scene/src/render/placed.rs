@@ -10,7 +10,7 @@ use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_kernels::sraa::{Difference, GBuffer, Metric, Pattern, Sraa, View, sraa_place};
 
 /// Offsets that differ: with this metric it is only counted how many there are.
-static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
+pub(crate) static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
     let mut offsets = [0.0; 2 * MAX_SAMPLES];
     let mut k = 0;
     while k < offsets.len() {

@@ -51,6 +51,41 @@ pub(super) fn surface_paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -
     reflected.extend(sun_visibility(lighting, surface, ray))
 }
 
+/// Returns an estimate of a surface's colour without haze: the sun with its highlight, one constant of ambient light for all directions,
+/// and emission; 0 of the sky.
+pub(super) fn guide(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    if surface.depth >= SKY_DEPTH {
+        return Vec3::ZERO;
+    }
+    if surface.material as u32 == Material::Emissive as u32 {
+        return surface.color * EMISSION;
+    }
+    let facing = surface.normal.dot(lighting.sun_direction.truncate()).max(0.0);
+    let facing = facing * sun_visibility(lighting, surface, ray);
+    let sun = lighting.sun_color.truncate();
+    let ambient = 0.5 * (lighting.ground + lighting.zenith).truncate();
+    surface_albedo(lighting, surface, ray) * (ambient + sun * facing) + sun * highlight(lighting, surface, ray, facing)
+}
+
+/// Returns the sun's highlight on a surface that faces as much of its light.
+fn highlight(lighting: &Lighting, surface: &Surface, ray: Vec3, facing: f32) -> f32 {
+    let view = -ray.normalize();
+    let halfway = (view + lighting.sun_direction.truncate()).normalize();
+    let s1 = surface.normal.dot(halfway).max(0.0);
+    let s2 = s1 * s1;
+    let s4 = s2 * s2;
+    let s8 = s4 * s4;
+    let s16 = s8 * s8;
+    let mut specular = 0.08 * s16 * facing;
+    if surface.material as u32 == Material::Glossy as u32 {
+        let s32 = s16 * s16;
+        let s64 = s32 * s32;
+        let s128 = s64 * s64;
+        specular += 6.0 * s128 * s128 * facing;
+    }
+    specular
+}
+
 /// Returns the place of a surface in the world.
 fn world_position(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     (lighting.to_world * (ray * surface.depth).extend(1.0)).truncate()
@@ -92,19 +127,9 @@ fn shade_sunlit(lighting: &Lighting, surface: &Surface, ray: Vec3, visible: f32)
     let facing = normal.dot(lighting.sun_direction.truncate()).max(0.0) * visible;
     let upwards = 0.5 + 0.5 * normal.dot(lighting.up.truncate());
     let ambient = lighting.ground.truncate().lerp(lighting.zenith.truncate(), upwards);
-    let halfway = (view + lighting.sun_direction.truncate()).normalize();
-    let s1 = normal.dot(halfway).max(0.0);
-    let s2 = s1 * s1;
-    let s4 = s2 * s2;
-    let s8 = s4 * s4;
-    let s16 = s8 * s8;
-    let mut specular = 0.08 * s16 * facing;
+    let specular = highlight(lighting, surface, ray, facing);
     let mut most = 1.0;
     if is(Material::Glossy) {
-        let s32 = s16 * s16;
-        let s64 = s32 * s32;
-        let s128 = s64 * s64;
-        specular += 6.0 * s128 * s128 * facing;
         most = MOST;
     }
     let mut lit = albedo * (ambient + sun * facing) + sun * specular;

@@ -45,4 +45,8 @@ impl Renderer for Shifted<'_> {
     fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
         self.renderer.direct_light(surface, place + self.by)
     }
+
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.guide(surface, place + self.by)
+    }
 }

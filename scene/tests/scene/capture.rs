@@ -49,6 +49,10 @@ fn example(shading: ShadingSample) -> Capture {
         albedo: Some(albedo),
         direct: is_one.then(|| frame(SIZE, |i| vec4(i.sin(), 2.0, i, 0.0))),
         rest: is_one.then(|| frame(SIZE, |i| vec4(0.5, i.cos(), 0.0, 0.0))),
+        guide: Some(FrameLayers::new(vec![
+            frame(SIZE, |i| vec4(0.2, -i, i.sin(), 1.0));
+            layers
+        ])),
         reference: Some(frame(SIZE, Vec4::splat)),
     }
 }
@@ -119,6 +123,7 @@ fn what_is_written_is_read() {
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
         ..example(ShadingSample::Sample(2))
     };
@@ -157,6 +162,7 @@ fn a_capture_is_replaced_and_leaves_no_file_of_the_old_one() {
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
         ..example(ShadingSample::Sample(0))
     };
@@ -255,6 +261,13 @@ fn a_capture_that_contradicts_itself_is_not_written() {
         ),
         (
             Capture {
+                guide: Some(FrameLayers::new(vec![frame(SIZE, Vec4::splat); 3])),
+                ..good.clone()
+            },
+            &["guide.exr", "3 layers"],
+        ),
+        (
+            Capture {
                 direct: Some(frame(other, Vec4::splat)),
                 ..good.clone()
             },
@@ -274,6 +287,7 @@ fn a_capture_that_contradicts_itself_is_not_written() {
                 depth: layers(4),
                 normal: None,
                 albedo: None,
+                guide: None,
                 ..good.clone()
             },
             &["direct.exr", "several times a pixel", "leave the file out"],
@@ -544,6 +558,7 @@ fn surplus_and_double_layers_are_refused() {
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
         ..example(ShadingSample::Sample(0))
     };

@@ -19,13 +19,13 @@ use straightline_kernels::{OptionText, OptionValue, OptionValues};
 /// # Errors
 ///
 /// [`HardError::NotStudied`] for a kernel that has no hard cases, for ambient occlusion and bilinear taps, whose pictures here are too
-/// small, and for demodulated colours and earlier frames, which none has; others if it does not compile.
+/// small, and for demodulated colours, guides and earlier frames, which none has; others if it does not compile.
 pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
     let form = Form::from_kernel(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
     let values = form.option_values(&options)?;
     let is_plain = |value: &OptionValue| value.choice() == Some("none") || value.number() == Some(0.0);
-    for name in ["demodulate", "history"] {
+    for name in ["demodulate", "guide", "history"] {
         if let Some(value) = values.get(name).filter(|value| !is_plain(value)) {
             return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
         }

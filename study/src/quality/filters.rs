@@ -234,6 +234,11 @@ fn make_runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Qu
                 let placing = method.placed_by().instead_of(method.options());
                 shaders.push(Shader::new(bench, &Kernel::builtin("sraa_place")?, &placing)?);
             }
+            if method.reads_guide() {
+                for name in ["sraa_residual", "sraa_guide"] {
+                    shaders.push(Shader::new(bench, &Kernel::builtin(name)?, method.options())?);
+                }
+            }
             if method.has_extra() {
                 let listing = render::listing_options(method.options());
                 shaders.push(Shader::new(bench, &Kernel::builtin("sraa_extra")?, &listing)?);

@@ -242,6 +242,11 @@ impl Method {
         self.values.choice("demodulate").is_some_and(|what| what != "none")
     }
 
+    /// Returns whether the method reads a guide at every geometry sample.
+    pub fn reads_guide(&self) -> bool {
+        self.values.choice("guide") == Some("add")
+    }
+
     /// Returns whether some pixels are shaded once more for the method.
     pub fn has_extra(&self) -> bool {
         self.values.flag("extra") == Some(true)
@@ -303,6 +308,7 @@ pub fn list_methods(quick: bool) -> Vec<Method> {
         sraa("SRAA 16", &[("pattern", "latin16")]).main().with_gap_analysis(),
     ];
     all.extend(extension_variants());
+    all.extend(presets());
     all.extend(metric_variants());
     all.extend(radius_variants());
     all.extend(resolve_variants());
@@ -398,6 +404,24 @@ fn extension_variants() -> Vec<Method> {
             )
             .with_picture(),
         ]);
+    }
+    all
+}
+
+/// The presets of the filter.
+fn presets() -> Vec<Method> {
+    let mut all = Vec::new();
+    for (samples, pattern) in [("4", "latin4"), ("16", "latin16")] {
+        for name in ["fast", "edges", "full", "guided"] {
+            let options = [("preset", name), ("pattern", pattern)];
+            all.push(Method::new(&format!("SRAA {samples}, {name}"), Kind::Sraa, &options));
+        }
+        let options = [("preset", "guided"), ("pattern", pattern), ("fitted", "true")];
+        all.push(Method::new(
+            &format!("SRAA {samples}, guided, scaled"),
+            Kind::Sraa,
+            &options,
+        ));
     }
     all
 }

@@ -55,6 +55,13 @@ impl Shot {
                 check_stopped(progress)?;
                 render::add_albedo(capture, renderer)?;
             }
+            if let Some(capture) = shot.captures.get_mut(&method.capture_name())
+                && method.reads_guide()
+                && capture.guide.is_none()
+            {
+                check_stopped(progress)?;
+                render::add_guide(capture, renderer)?;
+            }
             if let Some(capture) = shot.captures.get(&method.capture_name())
                 && method.has_extra()
                 && !shot.extra.contains_key(&method.capture_name())

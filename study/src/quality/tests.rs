@@ -82,6 +82,7 @@ fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>)
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
     };
     let shaded = layers[..4].iter().map(colors).collect();

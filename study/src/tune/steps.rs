@@ -77,6 +77,7 @@ mod tests {
             albedo: None,
             direct: None,
             rest: None,
+            guide: None,
             reference: None,
         }
     }

@@ -159,10 +159,10 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         let kept = layers.iter().map(|k| normal.layers()[*k].clone());
         FrameLayers::new(kept.collect())
     });
-    let albedo = capture.albedo.as_ref().map(|albedo| {
-        let kept = layers.iter().map(|k| albedo.layers()[*k].clone());
-        FrameLayers::new(kept.collect())
-    });
+    let colors_of = |all: &Option<FrameLayers<Vec4>>| {
+        let kept = |all: &FrameLayers<Vec4>| layers.iter().map(|k| all.layers()[*k].clone()).collect();
+        all.as_ref().map(|all| FrameLayers::new(kept(all)))
+    };
     let place = |old: &usize| kept.iter().position(|k| k == old).unwrap_or(0);
     Capture {
         size: capture.size,
@@ -180,9 +180,10 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         place: capture.place.clone(),
         depth: FrameLayers::new(depth),
         normal,
-        albedo,
+        albedo: colors_of(&capture.albedo),
         direct: capture.direct.clone(),
         rest: capture.rest.clone(),
+        guide: colors_of(&capture.guide),
         reference: None,
     }
 }
@@ -218,6 +219,7 @@ mod tests {
             albedo: Some(FrameLayers::new(albedo.collect())),
             direct: Some(Frame::new(size, vec![Vec4::ONE; 2])),
             rest: None,
+            guide: None,
             reference: None,
             samples,
         }

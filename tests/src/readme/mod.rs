@@ -16,6 +16,7 @@ mod isa;
 mod loops;
 mod motion;
 mod planes;
+mod presets;
 mod quads;
 mod quality;
 mod rank;
@@ -89,6 +90,9 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "planes" => Ok(planes::scenes(&QualityRecord::read(first).map_err(why)?)),
         "even" => Ok(planes::even(&QualityRecord::read(first).map_err(why)?)),
+        "presets" => presets::presets(&QualityRecord::read(first).map_err(why)?),
+        "guide" => Ok(presets::scenes(&QualityRecord::read(first).map_err(why)?)),
+        "guide-goals" => presets::goals(files),
         "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
         "motion" => Ok(motion::methods(&MotionRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
@@ -130,7 +134,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

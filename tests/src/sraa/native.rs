@@ -5,8 +5,9 @@ use glam::{UVec2, Vec3, ivec2, vec2};
 use straightline_bench::execute::Inputs;
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
-    Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, History, Layout, Mask, Metric, NonFinite,
-    Normalisation, Normals, Pattern, Plane, Projection, Resolve, Search, Shading, Sraa, Turn, Variation, View, sraa,
+    Colors, Demodulate, Depth, Difference, Estimate, Falloff, GBuffer, Guards, Guide, History, Layout, Mask, Metric,
+    NonFinite, Normalisation, Normals, Pattern, Plane, Projection, Resolve, Search, Shading, Sraa, Turn, Variation,
+    View, sraa,
 };
 
 /// Every pixel, by the native kernel.
@@ -91,6 +92,11 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "albedo-floor" => cfg.albedo_floor = number(value),
         "unseen-floor" => cfg.unseen_floor = number(value),
         "rest" => cfg.rest = value == "true",
+        "guide" => cfg.guide = one_of!(value, Guide: "none" => None, "add" => Add),
+        "fitted" => cfg.fitted = value == "true",
+        "estimate" => {
+            cfg.estimate = one_of!(value, Estimate: "given" => Given, "diffuse" => Diffuse, "emissive" => Emissive);
+        }
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
         "variation" => cfg.variation = one_of!(value, Variation: "around" => Around, "within" => Within),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),
@@ -105,6 +111,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "sharpness" => cfg.sharpness = number(value),
         "sigma" => cfg.sigma = number(value),
         "mask-threshold" => cfg.mask_threshold = number(value),
+        "mask-step" => cfg.mask_step = number(value),
         other => panic!("no option `{other}`"),
     }
 }
@@ -170,6 +177,7 @@ fn colors(inputs: &Inputs) -> Colors {
             "extra_color" => colors.extra_color = first.clone(),
             "extra_direct" => colors.extra_direct = first.clone(),
             "extra_rest" => colors.extra_rest = first.clone(),
+            "guide_mean" => colors.guide_mean = first.clone(),
             _ => {}
         }
     }

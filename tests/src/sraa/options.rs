@@ -82,6 +82,9 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
         if refusal(&set) == Some(MASK_REFUSED) {
             set.retain(|(name, _)| name != "mask");
         }
+        if refusal(&set) == Some(GUIDE_REFUSED) {
+            set.retain(|(name, _)| name != "guide");
+        }
         set
     };
     (0..count).map(|_| set()).collect()
@@ -92,6 +95,9 @@ const SEARCH_REFUSED: &str = "what sets samples apart needs one shading sample a
 
 /// Refusal of taking light apart from paint.
 const MASK_REFUSED: &str = "a mask leaves paint as it is";
+
+/// Refusal of a guide with light that is taken apart.
+const GUIDE_REFUSED: &str = "differences from a guide are no light that an albedo divides";
 
 /// Why the kernel refuses a set, by what the options' documentation says; `None` if it takes it.
 pub fn refusal(options: &Options) -> Option<&'static str> {
@@ -121,6 +127,9 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     ];
     if value(options, "demodulate", "none") != "none" && value(options, "mask", "none") != "none" {
         return Some(MASK_REFUSED);
+    }
+    if value(options, "demodulate", "none") != "none" && is("guide", "add") {
+        return Some(GUIDE_REFUSED);
     }
     if is("demodulate", "albedo-shadow") && is("shading", "listed") {
         return Some("direct light is that of one shading sample");

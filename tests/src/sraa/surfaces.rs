@@ -58,6 +58,7 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
         albedo: Some(albedo(&mut Random(seed ^ 0xa1bed0), size, layers.len())),
         direct: Some(colors(&mut Random(seed ^ 0xd1ec7), size)),
         rest: Some(colors(&mut Random(seed ^ 0x4e57), size)),
+        guide: Some(albedo(&mut Random(seed ^ 0x6_41de), size, layers.len())),
         depth: FrameLayers::new(depth.collect()),
         normal: Some(FrameLayers::new(normal.collect())),
         reference: None,

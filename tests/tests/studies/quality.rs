@@ -351,6 +351,7 @@ fn a_capture_that_lacks_something_says_so() {
         albedo: None,
         direct: None,
         rest: None,
+        guide: None,
         reference: None,
         ..spheres()
     };

@@ -5,7 +5,7 @@ mod raster;
 
 use super::frame::{Lighting, Pass};
 use super::paint::sample_texture;
-use super::shade::{self, Surface, direct_light, shade_surface, surface_paint};
+use super::shade::{self, Surface, direct_light, guide, shade_surface, surface_paint};
 use super::{RenderError, Renderer};
 use crate::scene::{Camera, Image, Material, Scene, Vertex};
 use clip::ScreenTriangle;
@@ -205,5 +205,9 @@ impl Renderer for CpuRenderer {
 
     fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
         direct_light(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        guide(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 }

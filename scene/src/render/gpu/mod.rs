@@ -10,7 +10,7 @@ mod read;
 mod resources;
 
 use super::frame::{Lighting, Pass};
-use super::shade::{Surface, direct_light, shade_surface, surface_paint};
+use super::shade::{Surface, direct_light, guide, shade_surface, surface_paint};
 use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
@@ -126,6 +126,10 @@ impl Renderer for GpuRenderer {
 
     fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3 {
         direct_light(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        guide(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
     /// Adds up on the device, in 32 bits, and reads back once.

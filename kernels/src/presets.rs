@@ -1,0 +1,77 @@
+//! Presets: sets of a built-in kernel's options with a name.
+
+/// A set of options with a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Name, as `--set preset=NAME` has it.
+    pub name: &'static str,
+    /// One line on what it does and what it needs.
+    pub summary: &'static str,
+    /// Options and their values; all others have their defaults.
+    pub options: &'static [(&'static str, &'static str)],
+}
+
+/// The presets of a kernel that has none.
+pub(crate) const NO_PRESETS: &[Preset] = &[];
+
+/// The presets of the kernels of SRAA.
+pub(crate) const SRAA_PRESETS: &[Preset] = &[
+    Preset {
+        name: "paper",
+        summary: "the paper's filter: all defaults",
+        options: &[],
+    },
+    Preset {
+        name: "fast",
+        summary: "depth alone, no normals; tests of colours and depths only where a pixel is not finite",
+        options: &[
+            ("metric", "depth"),
+            ("difference", "relative"),
+            ("depth-scale", "3"),
+            ("guards", "fallback"),
+        ],
+    },
+    Preset {
+        name: "edges",
+        summary: "planes, and a search for surfaces that no tap shows: depth and normals are all it needs",
+        options: &[
+            ("metric", "planes-normals"),
+            ("difference", "relative"),
+            ("depth-scale", "10"),
+            ("search", "five"),
+            ("search-threshold", "0.004"),
+        ],
+    },
+    Preset {
+        name: "full",
+        summary: "the same, shaded where `sraa_place` says; pixels of one plane and even shading keep their colour",
+        options: &[
+            ("metric", "planes-normals"),
+            ("difference", "relative"),
+            ("depth-scale", "10"),
+            ("unseen", "0.003"),
+            ("search", "five"),
+            ("search-threshold", "0.004"),
+            ("shading", "placed"),
+            ("mask", "branch"),
+            ("variation", "within"),
+            ("mask-step", "0.03"),
+        ],
+    },
+    Preset {
+        name: "guided",
+        summary: "the same with a guide, an estimate of the colour at every geometry sample",
+        options: &[
+            ("metric", "planes-normals"),
+            ("difference", "relative"),
+            ("depth-scale", "10"),
+            ("unseen", "0.003"),
+            ("search", "five"),
+            ("search-threshold", "0.004"),
+            ("shading", "placed"),
+            ("mask", "branch"),
+            ("variation", "within"),
+            ("guide", "add"),
+        ],
+    },
+];

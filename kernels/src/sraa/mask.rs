@@ -1,0 +1,111 @@
+//! The mask: pixels that keep their own colour, as neither geometry nor shading varies there (paper §3.3).
+
+use super::colors::{color, is_kept, own_color};
+use super::options::{Mask, Sraa, Variation};
+use super::placed::shaded_place;
+use super::{Inputs, difference, falloff, filtered, geometry_sample, least};
+use crate::prelude::*;
+
+/// Filters the pixel, or keeps its own colour where there is no geometric variation.
+pub(super) fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
+    match cfg.mask {
+        Mask::None => filtered::<TAPS, SIDE>(cfg, inputs),
+        Mask::Select => {
+            let own = own_color(cfg, inputs);
+            if is_even::<TAPS, SIDE>(cfg, inputs) && is_smooth(cfg, inputs) && is_kept(cfg, own) {
+                own
+            } else {
+                filtered::<TAPS, SIDE>(cfg, inputs)
+            }
+        }
+        Mask::Branch => {
+            let own = own_color(cfg, inputs);
+            #[cfg_attr(false, branch)]
+            if is_even::<TAPS, SIDE>(cfg, inputs) && is_smooth(cfg, inputs) && is_kept(cfg, own) {
+                own
+            } else {
+                filtered::<TAPS, SIDE>(cfg, inputs)
+            }
+        }
+    }
+}
+
+/// Whether no surface that the mask looks at differs from that of its sample.
+fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
+    let largest = match cfg.variation {
+        Variation::Around => variation_around::<TAPS, SIDE>(cfg, inputs),
+        // Unrolled, all surfaces would wait in registers for the filter behind the branch.
+        Variation::Within if cfg.mask == Mask::Branch && cfg.samples() > 8 => variation_one_by_one(cfg, inputs),
+        Variation::Within => variation_within(cfg, inputs),
+    };
+    largest <= cfg.mask_threshold
+}
+
+/// The largest difference of a geometry sample and a tap.
+fn variation_around<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> f32 {
+    let mut largest = 0.0f32;
+    for sample in 0..cfg.reconstructed() {
+        if cfg.share(sample) != 0.0 {
+            let place = cfg.place(sample);
+            let centre = geometry_sample(cfg, inputs, place);
+            for tap in 0..TAPS {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
+                    largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
+                }
+            }
+        }
+    }
+    largest
+}
+
+/// The largest difference of the pixel's own geometry samples and shading samples.
+fn variation_within(cfg: &Sraa, inputs: &Inputs) -> f32 {
+    let mut largest = 0.0f32;
+    for sample in 0..cfg.samples() {
+        let place = cfg.geometry_sample(IVec2::ZERO, sample);
+        let seen = geometry_sample(cfg, inputs, place);
+        for tap in 0..cfg.shading_samples() {
+            largest = largest.max(difference(cfg, inputs, place, &seen, cfg.tap(tap, 1)));
+        }
+    }
+    largest
+}
+
+/// The same in a loop.
+#[cfg_attr(false, unroll(none))]
+fn variation_one_by_one(cfg: &Sraa, inputs: &Inputs) -> f32 {
+    variation_within(cfg, inputs)
+}
+
+/// Whether no colour of the four neighbours that lie on the pixel's own plane differs from its own by more than `mask_step`.
+fn is_smooth(cfg: &Sraa, inputs: &Inputs) -> bool {
+    let mut largest = 0.0f32;
+    if cfg.mask_step < 1.0 {
+        let several = cfg.shading_samples();
+        let place = shaded_place(cfg, &inputs.colors.place, inputs.pixel, cfg.tap(4 * several, 3));
+        let seen = geometry_sample(cfg, inputs, place);
+        let own = color(cfg, inputs, 4 * several, 3);
+        for k in 0..4 {
+            let tap = (2 * k + 1) * several;
+            let away = step(own, color(cfg, inputs, tap, 3));
+            if away > largest && difference(cfg, inputs, place, &seen, cfg.tap(tap, 3)) <= cfg.mask_threshold {
+                largest = away;
+            }
+        }
+    }
+    largest <= cfg.mask_step
+}
+
+/// The largest difference of two colours in a channel, as a display shows them.
+fn step(a: Vec4, b: Vec4) -> f32 {
+    let red = (displayed(a.x) - displayed(b.x)).abs();
+    let green = (displayed(a.y) - displayed(b.y)).abs();
+    let blue = (displayed(a.z) - displayed(b.z)).abs();
+    red.max(green).max(blue)
+}
+
+/// A channel at a gamma of 2, from -1 to 1; what is not a number is 1.
+fn displayed(channel: f32) -> f32 {
+    let bright = if channel.abs() < 1.0 { channel.abs() } else { 1.0 };
+    if channel < 0.0 { -bright.sqrt() } else { bright.sqrt() }
+}

@@ -1,0 +1,24 @@
+//! Inputs of a filter with an additive guide.
+
+use super::{RenderError, Renderer, demodulated};
+use crate::capture::Capture;
+use glam::Vec2;
+use straightline_kernels::prelude::FrameLayers;
+
+/// Gives a capture of what `renderer` draws the guide in every layer of its geometry: see [`Renderer::guide`].
+///
+/// # Errors
+///
+/// What the renderer refuses.
+pub fn add_guide(capture: &mut Capture, renderer: &dyn Renderer) -> Result<(), RenderError> {
+    let mut places = capture.samples.clone();
+    if places.len() < capture.layer_count() {
+        places.push(Vec2::ZERO);
+    }
+    let layers: Result<Vec<_>, _> = places
+        .iter()
+        .map(|place| demodulated::map_surfaces(renderer, *place, |surface, at| renderer.guide(surface, at).extend(0.0)))
+        .collect();
+    capture.guide = Some(FrameLayers::new(layers?));
+    Ok(())
+}

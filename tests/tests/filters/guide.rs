@@ -1,0 +1,475 @@
+//! The additive guide (`guide=add`): its kernels and the filter against their definitions in f64, hard cases included, and what it is
+//! worth on scenes whose colour varies within surfaces.
+
+use crate::common;
+
+use common::bench;
+use glam::{UVec2, Vec4, uvec2, vec4};
+use straightline_bench::execute::{Bench, Inputs, interpret_kernel};
+use straightline_codegen::{Compiled, Stage, Unroll};
+use straightline_kernels::prelude::Frame;
+use straightline_oracle::metrics::psnr;
+use straightline_oracle::oracle::{self, SraaParams};
+use straightline_scene::capture::{Capture, ShadingSample, mean_frame};
+use straightline_scene::render::{self, CpuRenderer, PlacedBy, Renderer};
+use straightline_scene::scene::Scene;
+use straightline_scene::{gbuffer, picture};
+use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, values};
+use straightline_tests::sraa::{self, Random, native, surfaces};
+
+const SIZE: UVec2 = uvec2(21, 17);
+
+/// The color of a pixel, and whether 32 bits decide as 64 do.
+type Expected = Vec<([f64; 4], bool)>;
+
+fn compiled(kernel: &str, set: &Options, unroll: Unroll) -> Compiled {
+    sraa::kernel(kernel, set, unroll).unwrap_or_else(|errors| panic!("{kernel}, {set:?}:\n{errors}"))
+}
+
+fn with(set: &Options, more: &[(&str, &str)]) -> Options {
+    [set.clone(), options(more)].concat()
+}
+
+/// Where the guide lies, where shading does, what the pixel is made of, and how normals and depths are stored.
+fn sets() -> Vec<Options> {
+    let others: [&[(&str, &str)]; 19] = [
+        &[],
+        &[("pattern", "latin16")],
+        &[("layout", "superresolution")],
+        &[("layout", "superresolution"), ("pattern", "listed")],
+        &[("layout", "multisampled")],
+        &[("layout", "split"), ("normals", "octahedral")],
+        &[("shading", "sample0"), ("depth", "reversed-infinite")],
+        &[("shading", "placed")],
+        &[
+            ("shading", "placed"),
+            ("layout", "superresolution"),
+            ("depth", "perspective"),
+        ],
+        &[("shading", "placed"), ("layout", "multisampled"), ("search", "seven")],
+        &[("resolve", "tent"), ("normals", "unorm")],
+        &[("resolve", "mitchell"), ("resolve-radius", "1.5")],
+        &[("metric", "depth"), ("normals", "float"), ("guards", "fallback")],
+        &[
+            ("metric", "planes-normals"),
+            ("mask", "branch"),
+            ("variation", "within"),
+        ],
+        &[("mask", "select"), ("renormalise", "true"), ("normals", "unorm")],
+        &[
+            ("metric", "planes-normals"),
+            ("mask", "branch"),
+            ("variation", "within"),
+            ("mask-step", "0.6"),
+        ],
+        &[
+            ("mask", "select"),
+            ("variation", "within"),
+            ("shading", "placed"),
+            ("mask-step", "0.4"),
+        ],
+        &[("guards", "none"), ("normals", "packed")],
+        &[("non-finite", "spread"), ("normalisation", "epsilon")],
+    ];
+    let sets = others
+        .iter()
+        .map(|own| completed(with(&options(own), &[("guide", "add")])));
+    sets.filter(|set| refusal(set).is_none()).collect()
+}
+
+/// Random surfaces, colours and guides, and all that an estimate is made of.
+fn inputs(set: &Options, seed: u64) -> Inputs {
+    let mut inputs = surfaces::inputs(set, SIZE, seed);
+    let guides: Vec<(String, Vec<Frame<Vec4>>)> = inputs.images.clone();
+    for (name, images) in guides {
+        let (Some(kind), false) = (name.find("guide"), name == "guide_mean") else {
+            continue;
+        };
+        let named = |other: &str| format!("{}{other}{}", &name[..kind], &name[kind + "guide".len()..]);
+        let scaled = |image: &Frame<Vec4>| {
+            let texels = image.texels().iter().map(|texel| 0.25 * texel.truncate().extend(0.0));
+            Frame::new(image.size(), texels.collect())
+        };
+        inputs = inputs
+            .with_layers(&named("albedo"), images.clone())
+            .with_layers(&named("emission"), images.iter().map(scaled).collect());
+    }
+    for (name, images) in &mut inputs.images {
+        if name == "guide_scale" {
+            *images = vec![Frame::new(UVec2::ONE, vec![Vec4::splat(0.75)])];
+        }
+    }
+    inputs
+        .with_uniform("light_direction", &[0.48, 0.6, 0.64])
+        .with_uniform("light_color", &[2.0, 1.5, 0.5])
+        .with_uniform("ambient", &[0.125, 0.25, 0.5])
+}
+
+/// The largest difference to the definition, as a share of what is larger than `scale`; all of it is finite.
+fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &Expected, what: &str, scale: f64) -> f64 {
+    let (mut largest, mut compared) = (0.0f64, 0);
+    for (k, (found, (color, is_sure))) in found.into_iter().zip(expected).enumerate() {
+        let at = (k as u32 % SIZE.x, k as u32 / SIZE.x);
+        let is_finite = |color: &[f64; 4]| color.iter().all(|axis| axis.is_finite());
+        assert!(is_finite(color), "{what} at {at:?}: {color:?} is expected");
+        assert!(is_finite(&found), "{what} at {at:?}: {found:?}");
+        if *is_sure {
+            compared += 1;
+            for (a, b) in found.into_iter().zip(color) {
+                largest = largest.max((a - b).abs() / b.abs().max(scale));
+            }
+        }
+    }
+    assert!(2 * compared > expected.len(), "{what}: {compared} pixels compared");
+    largest
+}
+
+/// Definition of a kernel's pictures.
+fn defined(kernel: &str, set: &Options, inputs: &Inputs) -> Expected {
+    let params = SraaParams::from_options(&values(set)).expect("options");
+    let failed = |error| panic!("{kernel}, {set:?}: {error}");
+    match kernel {
+        "sraa" => {
+            let pixels = oracle::resolve_sraa(inputs, &params).unwrap_or_else(failed);
+            pixels.iter().map(|pixel| (pixel.color, pixel.sure)).collect()
+        }
+        "sraa_guide" => {
+            let means = oracle::guide(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"));
+            means.iter().map(|[r, g, b]| ([*r, *g, *b, 0.0], true)).collect()
+        }
+        _ => {
+            let differences = oracle::residual(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"));
+            differences.into_iter().map(|color| (color, true)).collect()
+        }
+    }
+}
+
+/// How far a kernel is off its definition: in f64, in f32, and on the device.
+fn distances(bench: &Bench, kernel: &str, set: &Options, inputs: &Inputs, scale: f64) -> [f64; 3] {
+    let expected = defined(kernel, set, inputs);
+    let [mut in_f64, mut in_f32, mut on_device] = [0.0f64; 3];
+    for unroll in [Unroll::Full, Unroll::None] {
+        let (compiled, what) = (compiled(kernel, set, unroll), format!("{kernel}, {set:?} {unroll}"));
+        let exact = interpret_kernel::<f64>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        in_f64 = in_f64.max(off(exact.targets[0].texels.iter().copied(), &expected, &what, scale));
+        let single = interpret_kernel::<f32>(&compiled, inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+        in_f32 = in_f32.max(off(single.targets[0].texels.iter().copied(), &expected, &what, scale));
+        if unroll == Unroll::Full && samples_needed(set) <= 4 {
+            for stage in [Stage::Compute, Stage::Fragment] {
+                let picture = bench.run(&compiled, stage, inputs);
+                let picture = picture.unwrap_or_else(|e| panic!("{what}: {e}"));
+                let texels = picture.texels().iter().map(|texel| texel.to_array().map(f64::from));
+                on_device = on_device.max(off(texels, &expected, &format!("{what} {stage:?}"), scale));
+            }
+        }
+    }
+    [in_f64, in_f32, on_device]
+}
+
+/// Inputs of a filter by depth have no normals.
+fn way_is_there(set: &Options, way: &str) -> bool {
+    way == "given" || values(set).choice("metric") != Some("depth")
+}
+
+#[test]
+fn every_form_gives_what_the_definition_says() {
+    let bench = bench();
+    let mut largest = [0.0f64; 3];
+    for (k, set) in sets().into_iter().enumerate() {
+        let inputs = inputs(&set, 31);
+        let mut judge = |kernel: &str, set: &Options| {
+            let found = distances(&bench, kernel, set, &inputs, 1.0);
+            largest = [0, 1, 2].map(|axis| largest[axis].max(found[axis]));
+        };
+        judge("sraa", &set);
+        let ways = [("given", "false"), ("diffuse", "true"), ("emissive", "false")];
+        // Each layout and encoding with one of them at least, the first few with all.
+        for (n, (way, fitted)) in ways.into_iter().enumerate() {
+            if way_is_there(&set, way) && (k < 4 || k % ways.len() == n) {
+                let own = with(&set, &[("estimate", way), ("fitted", fitted)]);
+                judge("sraa_guide", &own);
+                judge("sraa_residual", &own);
+            }
+        }
+        let texels = native::run(&set, &inputs).into_iter().map(|texel| texel.map(f64::from));
+        largest[1] = largest[1].max(off(texels, &defined("sraa", &set, &inputs), "natively", 1.0));
+    }
+    let [in_f64, in_f32, on_device] = largest;
+    println!("off the definition: {in_f64:.1e} in f64, {in_f32:.1e} in f32, {on_device:.1e} on the device");
+    assert!(in_f64 < 1.0e-5 && in_f32 < 1.0e-4 && on_device < 1.0e-4);
+}
+
+/// With texels here and there that are not finite, that no half holds, or far brighter than any colour.
+fn hard(inputs: Inputs, names: &[&str], bad: &[f32]) -> Inputs {
+    let mut random = Random(77);
+    let mut inputs = inputs;
+    for (name, images) in &mut inputs.images {
+        if names.iter().any(|known| name.contains(known)) {
+            for image in images {
+                let texels = image.texels().iter().map(|texel| {
+                    let mut texel = *texel;
+                    if random.unit() < 0.2 {
+                        texel[random.choose(&[0, 1, 2])] = random.choose(bad);
+                    }
+                    texel
+                });
+                *image = Frame::new(image.size(), texels.collect());
+            }
+        }
+    }
+    inputs
+}
+
+#[test]
+fn a_guide_that_is_not_finite_is_left_out() {
+    let bench = bench();
+    let mut largest = 0.0f64;
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 65536.0, -1.0e9, f32::MAX];
+    for set in sets() {
+        let values = values(&set);
+        // Of colours that are not finite lobes may leave a sum of weights near 0.
+        if values.choice("guards") == Some("none")
+            || values.choice("non-finite") == Some("spread")
+            || values.choice("resolve") == Some("mitchell")
+        {
+            continue;
+        }
+        // Halves are what multisampled images hold: larger numbers become the largest there.
+        let bad = match values.choice("layout") {
+            Some("multisampled") => &bad[..3],
+            _ => &bad,
+        };
+        let of_guides = hard(inputs(&set, 32), &["guide", "emission", "albedo"], bad);
+        let mut judge = |kernel: &str, set: &Options, inputs: &Inputs, scale: f64| {
+            let found = distances(&bench, kernel, set, inputs, scale)[2];
+            assert!(found < 1.0e-4, "{kernel}, {set:?}: {found}");
+            largest = largest.max(found);
+        };
+        for (kernel, way) in [
+            ("sraa_guide", "given"),
+            ("sraa_guide", "emissive"),
+            ("sraa_residual", "given"),
+        ] {
+            if way_is_there(&set, way) {
+                judge(kernel, &with(&set, &[("estimate", way)]), &of_guides, 65536.0);
+            }
+        }
+        let of_means = hard(inputs(&set, 33), &["guide_mean"], bad);
+        judge("sraa", &set, &of_means, 1.0);
+        // A difference that is not finite has no weight, as any colour.
+        if values.choice("guards") == Some("inline") {
+            let of_colors = hard(inputs(&set, 34), &["color"], &bad[..3]);
+            judge("sraa", &set, &of_colors, 1.0);
+        }
+    }
+    println!("off the definition: {largest:.1e}");
+    assert!(largest < 1.0e-4);
+}
+
+#[test]
+fn the_scale_is_that_of_the_definition() {
+    let bench = bench();
+    for own in [
+        &[][..],
+        &[("shading", "placed"), ("estimate", "emissive")],
+        &[("layout", "superresolution"), ("estimate", "diffuse")],
+    ] {
+        let set = with(&options(own), &[("guide", "add")]);
+        let params = SraaParams::from_options(&values(&set)).expect("options");
+        let bad = [f32::NAN, f32::INFINITY, 1.0e30];
+        for (seed, bright) in [(41, 0.2), (42, 0.45), (43, 0.6), (44, 1.0)] {
+            let mut inputs = inputs(&set, seed);
+            // Colours, not their differences from the guide.
+            let mut random = Random(seed);
+            let mut texel = |_| bright * vec4(random.unit(), random.unit(), random.unit(), 1.0);
+            let texels = (0..SIZE.x * SIZE.y).map(&mut texel).collect();
+            for (name, images) in &mut inputs.images {
+                if name == "color" {
+                    *images = vec![Frame::new(SIZE, texels)];
+                    break;
+                }
+            }
+            let inputs = if seed == 44 {
+                hard(inputs, &["color", "guide", "albedo"], &bad)
+            } else {
+                inputs
+            };
+            let expected = oracle::scale(&inputs, &params).expect("a scale");
+            assert!((0.01..1.5).contains(&expected), "{expected}");
+            let [sums, fit] = ["sraa_fit_sums", "sraa_fit"].map(|kernel| compiled(kernel, &set, Unroll::Full));
+            let sums = bench.run(&sums, Stage::Compute, &inputs).expect("sums");
+            let of_sums = Inputs::new(UVec2::ONE).with_image("sums", sums);
+            let found = bench.run(&fit, Stage::Compute, &of_sums).expect("a scale");
+            let found = f64::from(found.texels()[0].x);
+            println!("{set:?}: {found}, {expected} is expected");
+            assert!(
+                (found - expected).abs() < 1.0e-5,
+                "{set:?}: {found}, {expected} is expected"
+            );
+        }
+    }
+}
+
+/// The colour that differences and a mean are made of, in a capture of an even surface.
+fn even(color: Vec4, guide: Vec4) -> [f32; 4] {
+    let set = options(&[("guide", "add")]);
+    let mut capture = surfaces::capture(&set, SIZE, 3);
+    let filled = |texel: Vec4| Frame::new(SIZE, vec![texel; (SIZE.x * SIZE.y) as usize]);
+    capture.color = filled(color);
+    let layers = capture.layer_count();
+    capture.guide = Some(straightline_kernels::prelude::FrameLayers::new(vec![
+        filled(guide);
+        layers
+    ]));
+    let inputs = surfaces::inputs_of(&capture, &set, 3);
+    native::run(&set, &inputs)[0]
+}
+
+/// What is lost where a guide is far brighter than the colour is a rounding of the guide; a colour beyond a half stays.
+#[test]
+fn a_guide_costs_no_more_than_its_own_rounding() {
+    let color = vec4(0.25, 3.0e4, 1.0e9, 1.0);
+    for bright in [0.0f32, 1.0, 1000.0, 65504.0] {
+        let found = even(color, Vec4::splat(bright));
+        for (axis, found) in found.into_iter().enumerate().take(3) {
+            let rounding = 4.0 * f32::EPSILON * color[axis].max(bright);
+            assert!((found - color[axis]).abs() <= rounding, "{axis} of {bright}: {found}");
+        }
+        assert_eq!(found[3], 1.0);
+    }
+}
+
+#[test]
+fn the_colour_itself_is_supersampled_and_none_changes_nothing() {
+    let scene = Scene::from_name("posters").expect("a scene");
+    let renderer = CpuRenderer::new(&scene, uvec2(64, 36)).expect("a renderer");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let mut capture = render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture");
+    let mut layers: Vec<Frame<Vec4>> = samples
+        .iter()
+        .map(|at| renderer.draw_shaded(*at).expect("a picture"))
+        .collect();
+    let supersampled = mean_frame(&layers).expect("a mean");
+    layers.push(capture.color.clone());
+    let bench = bench();
+    let filtered = |capture: &Capture, own: &[(&str, &str)]| {
+        let compiled = compiled("sraa", &options(own), Unroll::Full);
+        let inputs = gbuffer::sraa_inputs(capture, &compiled.options).expect("inputs");
+        bench.run(&compiled, Stage::Compute, &inputs).expect("a picture")
+    };
+    let plain = filtered(&capture, &[]);
+    capture.guide = Some(straightline_kernels::prelude::FrameLayers::new(layers));
+    let found = filtered(&capture, &[("guide", "add")]);
+    let pairs = found.texels().iter().zip(supersampled.texels());
+    let largest = pairs
+        .map(|(a, b)| (a.truncate() - b.truncate()).abs().max_element())
+        .fold(0.0, f32::max);
+    assert!(largest < 1.0e-6, "{largest}");
+    let nothing = Frame::new(capture.size, vec![Vec4::ZERO; plain.texels().len()]);
+    capture.guide = Some(straightline_kernels::prelude::FrameLayers::new(vec![nothing; 5]));
+    assert_eq!(filtered(&capture, &[("guide", "add")]).texels(), plain.texels());
+}
+
+#[test]
+fn what_a_guide_cannot_go_with_is_refused_with_the_reason() {
+    let set = options(&[("guide", "add"), ("demodulate", "albedo")]);
+    let refused = sraa::kernel("sraa", &set, Unroll::Full)
+        .expect_err("refused")
+        .to_string();
+    assert!(refused.contains("demodulate=none"), "{refused}");
+    let set = options(&[("shading", "listed"), ("shaded", "0,3")]);
+    let refused = sraa::kernel("sraa_residual", &set, Unroll::Full)
+        .expect_err("refused")
+        .to_string();
+    assert!(refused.contains("shade once a pixel"), "{refused}");
+    let capture = Capture {
+        guide: None,
+        ..surfaces::capture(&Options::new(), SIZE, 1)
+    };
+    let set = values(&options(&[("guide", "add")]));
+    let refused = gbuffer::sraa_inputs(&capture, &set).expect_err("no guide").to_string();
+    assert!(
+        refused.contains("guide.exr") && refused.contains("capture --guide"),
+        "{refused}"
+    );
+}
+
+/// A scene's PSNR in dB: `full`, `guided`, and shaded at every sample.
+fn judged(name: &str, pattern: &str) -> [f64; 3] {
+    let scene = Scene::from_name(name).expect("a scene");
+    let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
+    let samples = gbuffer::pattern_offsets(pattern).expect("a pattern");
+    let mut capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
+    render::add_guide(&mut capture, &renderer).expect("a guide");
+    let reference =
+        picture::at_eight_bits(&render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
+    let bench = bench();
+    let filtered = |preset: &str| {
+        let compiled = compiled(
+            "sraa",
+            &options(&[("preset", preset), ("pattern", pattern)]),
+            Unroll::Full,
+        );
+        let inputs = gbuffer::sraa_inputs(&capture, &compiled.options).expect("inputs");
+        let made = bench.run(&compiled, Stage::Compute, &inputs).expect("a picture");
+        psnr(&picture::at_eight_bits(&made), &reference)
+    };
+    let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.draw_shaded(*at)).collect();
+    let supersampled = mean_frame(&shaded.expect("pictures")).expect("a mean");
+    let all = [
+        filtered("full"),
+        filtered("guided"),
+        psnr(&picture::at_eight_bits(&supersampled), &reference),
+    ];
+    println!("{name} {pattern}: {all:.2?}");
+    all
+}
+
+/// A guide that is three times too bright harms, and does not if it is scaled.
+#[test]
+fn a_scaled_guide_may_be_too_bright() {
+    let scene = Scene::from_name("posters").expect("a scene");
+    let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let mut capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
+    render::add_guide(&mut capture, &renderer).expect("a guide");
+    let reference =
+        picture::at_eight_bits(&render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
+    let bench = bench();
+    let filtered = |capture: &Capture, own: &[(&str, &str)]| {
+        let compiled = compiled("sraa", &options(own), Unroll::Full);
+        let inputs = gbuffer::sraa_inputs(capture, &compiled.options).expect("inputs");
+        let made = bench.run(&compiled, Stage::Compute, &inputs).expect("a picture");
+        psnr(&picture::at_eight_bits(&made), &reference)
+    };
+    let none = filtered(&capture, &[("preset", "full")]);
+    let right = filtered(&capture, &[("preset", "guided")]);
+    let scaled = filtered(&capture, &[("preset", "guided"), ("fitted", "true")]);
+    let layers = capture.guide.take().expect("a guide");
+    let brighter = layers.layers().iter().map(|layer| {
+        let texels = layer.texels().iter().map(|texel| 3.0 * *texel);
+        Frame::new(layer.size(), texels.collect())
+    });
+    capture.guide = Some(straightline_kernels::prelude::FrameLayers::new(brighter.collect()));
+    let bright = filtered(&capture, &[("preset", "guided")]);
+    let mended = filtered(&capture, &[("preset", "guided"), ("fitted", "true")]);
+    println!("none {none:.2}, right {right:.2}, scaled {scaled:.2}, bright {bright:.2}, scaled {mended:.2} dB");
+    assert!(bright < none && mended > none + 2.0, "{none}, {bright}, {mended}");
+    // The scale of a good guide is near 1, and stays so.
+    assert!(scaled > right - 0.01, "{right}, {scaled}");
+}
+
+/// With a guide that knows the sun, its shadow and one constant of ambient light, paint and shadow are as supersampled.
+#[test]
+fn paint_and_shadow_come_close_to_supersampling() {
+    for name in ["posters", "awning"] {
+        for (pattern, gap) in [("latin4", 0.3), ("latin16", 1.0)] {
+            let [full, guided, supersampled] = judged(name, pattern);
+            assert!(guided > full + 2.0, "{name} {pattern}: {guided} of {full}");
+            assert!(
+                supersampled - guided < gap,
+                "{name} {pattern}: {guided} of {supersampled}"
+            );
+        }
+    }
+}
