@@ -50,6 +50,10 @@ impl Evaluator<'_> {
                 let each = elements.iter().map(|e| self.ascribe(e.clone(), Some(element), span));
                 Ok(Value::array(each.collect::<Eval<_>>()?))
             }
+            (Some(SourceType::Array(_, len)), Value::Table(table)) => {
+                check_length(len.as_deref(), table.len, span)?;
+                Ok(Value::Table(table))
+            }
             (Some(SourceType::Array(_, len)), Value::Node(id)) => {
                 if let Type::Array { len: found, .. } = self.ty(id) {
                     check_length(len.as_deref(), found as usize, span)?;

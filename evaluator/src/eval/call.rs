@@ -344,12 +344,7 @@ impl<'a> Evaluator<'a> {
                 let value = self.read(&place.clone(), Span::default()).ok()?;
                 self.array_length(&value)
             }
-            Value::Array(elements) => Some(elements.len()),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => Some(len as usize),
-                _ => None,
-            },
-            _ => None,
+            other => self.array_len(other),
         }
     }
 

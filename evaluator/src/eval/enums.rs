@@ -181,7 +181,7 @@ impl Evaluator<'_> {
             (Value::Tuple(a), Value::Tuple(b)) if a.len() == b.len() => {
                 a.iter().cloned().zip(b.iter().cloned()).collect()
             }
-            (Value::Array(_), _) | (_, Value::Array(_)) => {
+            (Value::Array(_) | Value::Table(_), _) | (_, Value::Array(_) | Value::Table(_)) => {
                 let (a, b) = (self.listed_array(a, span)?, self.listed_array(b, span)?);
                 if a.len() != b.len() {
                     return Ok(None);
@@ -230,14 +230,7 @@ impl Evaluator<'_> {
     }
 
     fn listed_array(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
-        let len = match value {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            _ => 0,
-        };
+        let len = self.array_len(value).unwrap_or(0);
         self.elements(value, len, span)
     }
 

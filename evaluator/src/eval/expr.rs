@@ -315,15 +315,10 @@ impl Evaluator<'_> {
 
     /// All elements of an array of a length.
     pub fn elements(&mut self, value: &Value, len: usize, span: Span) -> Eval<Vec<Value>> {
-        let found = match value {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            Value::Poison => return Ok(vec![Value::Poison; len]),
-            _ => 0,
-        };
+        if matches!(value, Value::Poison) {
+            return Ok(vec![Value::Poison; len]);
+        }
+        let found = self.array_len(value).unwrap_or(0);
         if found != len {
             return Err(Diagnostic::at(
                 Code::Pattern,
@@ -345,6 +340,9 @@ impl Evaluator<'_> {
                 Some(element) => Ok(element.clone()),
                 None => Err(out_of_range(k, elements.len(), span).into()),
             };
+        }
+        if let Value::Table(table) = base {
+            return self.row_of_table(table, index, span);
         }
         if let Value::Node(id) = base
             && matches!(self.ty(*id), Type::Value { components: 2.., .. })

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{BinaryOp, Op, Type};
+use crate::ir::{BinaryOp, Op};
 
 /// Methods of iterators.
 pub const METHODS: [&str; 20] = [
@@ -47,14 +47,8 @@ impl Evaluator<'_> {
                     Err(self.demand_of(&[value], error))
                 }
             },
-            Value::Node(id) if self.ty(*id).is_array() => {
-                let Type::Array { len, .. } = self.ty(*id) else {
-                    return Err(Exit::Noted);
-                };
-                (0..i64::from(len))
-                    .map(|k| self.element(value, &Value::Int(k), span))
-                    .collect()
-            }
+            Value::Table(_) => self.rows(value, span),
+            Value::Node(id) if self.ty(*id).is_array() => self.rows(value, span),
             Value::Ref(_) => match self.elements_mut(value, span)? {
                 Value::Array(elements) => Ok(elements.to_vec()),
                 _ => Err(Exit::Noted),

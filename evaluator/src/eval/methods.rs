@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, Function};
-use crate::ir::{BinaryOp, Type};
+use crate::ir::BinaryOp;
 use std::rc::Rc;
 
 /// Methods that known integers have beyond those of runtime values, or with the 64 bits of a known `usize`.
@@ -95,14 +95,16 @@ impl<'a> Evaluator<'a> {
                 self.range_method(range, name, &args, span)
             }
             Value::Range(_) => self.iterator_method(&value, name, &args, span),
-            Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
-                Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
-                None => {
-                    let place = self.temporary(value);
-                    self.elements_mut(&Value::Ref(Rc::new(place)), span)
+            Value::Array(_) | Value::Table(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => {
+                match place {
+                    Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
+                    None => {
+                        let place = self.temporary(value);
+                        self.elements_mut(&Value::Ref(Rc::new(place)), span)
+                    }
                 }
-            },
-            Value::Array(_) => self.iterator_method(&value, name, &args, span),
+            }
+            Value::Array(_) | Value::Table(_) => self.iterator_method(&value, name, &args, span),
             Value::Node(id) if self.ty(*id).is_array() => self.iterator_method(&value, name, &args, span),
             Value::Int(_) | Value::Node(_) if args.len() <= 1 && INTEGERS.contains(&name) => {
                 match self.known_integer_method(&value, name, &args, span)? {
@@ -160,20 +162,14 @@ impl<'a> Evaluator<'a> {
             return Err(Exit::Noted);
         };
         let place = self.followed((**place).clone(), span)?;
-        let len = match self.read(&place, span)? {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) if self.ty(id).is_array() => match self.ty(id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            other => {
-                return Err(Diagnostic::at(
-                    Code::MismatchedTypes,
-                    span,
-                    format!("{} has no elements to change", other.describe()),
-                )
-                .into());
-            }
+        let array = self.read(&place, span)?;
+        let Some(len) = self.array_len(&array) else {
+            return Err(Diagnostic::at(
+                Code::MismatchedTypes,
+                span,
+                format!("{} has no elements to change", array.describe()),
+            )
+            .into());
         };
         let element = |k: usize| Value::Ref(Rc::new(place.part(Step::Index(Value::Int(k as i64)))));
         Ok(Value::array((0..len).map(element).collect()))

@@ -43,6 +43,7 @@ mod scope;
 mod sequence;
 mod shape;
 mod states;
+mod tables;
 mod textures;
 mod traits;
 mod value;
@@ -427,6 +428,7 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => self.name_each(parts, called, naming, span),
             Value::Array(parts) => self.name_each(parts, called, naming, span),
+            Value::Table(table) => self.name_parts(&table.element, called, naming, span),
             Value::Enum(choice) if choice.names_something() => {
                 let (tag, inside) = self.choice_names(choice, &called.to_string());
                 if let Some((id, name)) = tag {

@@ -143,7 +143,7 @@ impl Evaluator<'_> {
         // Taken out, so that an array that nothing else holds is changed where it is.
         let old = self.scope.set(place.slot, Value::Poison);
         let new = self.replace(old, &place.path, value, span)?;
-        if matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
+        if matches!(&new, Value::Table(_)) || matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
             self.name(&new, &name, span);
         }
         self.scope.set(place.slot, new);

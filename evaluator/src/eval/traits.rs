@@ -33,7 +33,7 @@ impl<'a> Evaluator<'a> {
     fn is_of(&self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
         match (ty.bare(), value) {
             (SourceType::Name(name, _), _) if generics.iter().any(|generic| generic.name() == name) => true,
-            (SourceType::Name(name, _), Value::Array(_)) => self.is_unknown_name(name),
+            (SourceType::Name(name, _), Value::Array(_) | Value::Table(_)) => self.is_unknown_name(name),
             (SourceType::Name(name, _), _) => {
                 let names = self.type_names(value);
                 names.is_empty() || names.contains(name) || self.is_unknown_name(name)
@@ -41,7 +41,7 @@ impl<'a> Evaluator<'a> {
             (SourceType::Tuple(types), Value::Tuple(parts)) => {
                 types.len() == parts.len() && parts.iter().zip(types).all(|(part, ty)| self.is_of(part, ty, generics))
             }
-            (SourceType::Array(..), Value::Array(_)) => true,
+            (SourceType::Array(..), Value::Array(_) | Value::Table(_)) => true,
             (SourceType::Array(..), Value::Node(id)) => self.ty(*id).is_array(),
             (SourceType::Fn(..), value) => value.is_called(),
             _ => false,

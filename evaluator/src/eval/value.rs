@@ -31,6 +31,8 @@ pub enum Value {
     Tuple(Vec<Value>),
     /// An array with known indices; shared until it is changed.
     Array(Rc<Elements>),
+    /// An array of structures, tuples, enums or arrays that is indexed at run time.
+    Table(Rc<Table>),
     /// Counters from a first to one before an end, for a loop.
     Range(Range),
     /// A text: the name in `tally`.
@@ -94,6 +96,29 @@ impl Deref for Elements {
 impl DerefMut for Elements {
     fn deref_mut(&mut self) -> &mut Vec<Value> {
         &mut self.elements
+    }
+}
+
+/// An array by columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Number of elements.
+    pub len: usize,
+    /// An element with an array in place of each number: the numbers of all elements. Where an element is an array, it is a table whose
+    /// arrays hold the numbers of all rows one after the other.
+    pub element: Value,
+    /// Row of the first element, an `i32`: set for a row of a table of arrays, which reads the arrays of the whole.
+    pub from: Option<NodeId>,
+}
+
+impl Table {
+    /// An array that is no part of another one.
+    pub fn whole(len: usize, element: Value) -> Value {
+        Value::Table(Rc::new(Table {
+            len,
+            element,
+            from: None,
+        }))
     }
 }
 
@@ -202,6 +227,7 @@ impl Value {
             Value::Struct { fields, .. } => fields.iter().all(|(_, value)| value.is_plain()),
             Value::Tuple(parts) => parts.iter().all(Value::is_plain),
             Value::Array(parts) => parts.iter().all(Value::is_plain),
+            Value::Table(table) => table.element.is_plain(),
             Value::Enum(choice) => choice.all().all(|(_, value)| value.is_plain()),
             Value::Int(_) | Value::Node(_) | Value::Unset | Value::Blank => true,
             _ => false,
@@ -224,6 +250,7 @@ impl Value {
             Value::Tuple(parts) => Box::new(parts.iter()),
             Value::Array(parts) => Box::new(parts.iter()),
             Value::Enum(choice) => Box::new(choice.all().map(|(_, value)| value)),
+            Value::Table(table) => return table.len.saturating_mul(table.element.parts(limit)),
             _ => return 1,
         };
         let mut sum = 1;
@@ -246,6 +273,7 @@ impl Value {
             Value::Tuple(parts) if parts.is_empty() => "`()`".to_owned(),
             Value::Tuple(parts) => format!("a tuple of {}", parts.len()),
             Value::Array(parts) => format!("an array of {}", parts.len()),
+            Value::Table(table) => format!("an array of {}", table.len),
             Value::Range(_) => "a range".to_owned(),
             Value::Str(_) => "a text".to_owned(),
             Value::Texture(_) => "a texture".to_owned(),
