@@ -62,7 +62,10 @@ impl Evaluator<'_> {
                 Statement::Let(pattern, ty, init, span) => {
                     self.step(*span)?;
                     let value = match init {
-                        Some(init) => match self.expr(init).and_then(|v| self.ascribe(v, ty.as_ref(), init.span)) {
+                        Some(init) => match self
+                            .expecting(init, ty.as_ref())
+                            .and_then(|v| self.ascribe(v, ty.as_ref(), init.span))
+                        {
                             Ok(value) => value,
                             Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
                                 self.note(exit);

@@ -203,6 +203,10 @@ impl Evaluator<'_> {
             if self.known_bool(all) == Some(false) {
                 break;
             }
+            // Constants of one type are equal.
+            if matches!((&a, &b), (Value::Const(_), Value::Const(_))) {
+                continue;
+            }
             let same = self.binary(BinaryOp::Eq, &a, &b, span)?;
             let same = self.node(&same, span)?;
             all = self.and(all, same);
@@ -313,13 +317,16 @@ impl Evaluator<'_> {
     /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
     pub fn choice_names(&self, choice: &Choice, name: &str) -> ChoiceNames {
         let library = self.library;
-        let variants = library.enums.get(&*choice.ty).map_or(&[][..], |e| &e.variants);
+        let variants: Vec<&str> = match library.enums.get(&*choice.ty) {
+            Some(known) => known.variants.iter().map(|variant| variant.name.as_str()).collect(),
+            None => self.implementers.clone(),
+        };
         let tag = match choice.tag {
             Tag::Known(_) => None,
             Tag::Node(id) => Some((
                 id,
-                match variants {
-                    [_, second] => format!("{name}_is_{}", snake(&second.name)),
+                match variants.as_slice() {
+                    [_, second] => format!("{name}_is_{}", snake(second)),
                     _ => format!("{name}_kind"),
                 },
             )),
@@ -331,8 +338,8 @@ impl Evaluator<'_> {
                     && fields.iter().flatten().count() == 1;
                 let name = match (only, field.parse::<usize>().is_ok(), fields.iter().flatten().count()) {
                     (true, ..) => name.to_owned(),
-                    (false, true, 1) => format!("{name}_{}", snake(&variant.name)),
-                    (false, _, _) => format!("{name}_{}_{field}", snake(&variant.name)),
+                    (false, true, 1) => format!("{name}_{}", snake(variant)),
+                    (false, _, _) => format!("{name}_{}_{field}", snake(variant)),
                 };
                 inside.push((value.clone(), name));
             }

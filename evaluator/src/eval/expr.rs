@@ -65,7 +65,7 @@ impl Evaluator<'_> {
                 let values = self.all(args)?;
                 self.invoke(&callee, values, span)
             }
-            ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
+            ExprKind::Method(receiver, name, constants, args) => self.method(receiver, name, constants, args, span),
             ExprKind::Field(base, name) => {
                 let base = self.value(base)?;
                 self.field(&base, name, span)
@@ -223,7 +223,7 @@ impl Evaluator<'_> {
         }
         let made = match variant {
             Some((ty, k, _)) => Choice::known(ty, &library.enums[ty], k, values),
-            None => Value::structure(name, values),
+            None => self.structure_of(name, values, span),
         };
         self.bounded(made, span)
     }

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, Op};
 
 /// Methods of iterators.
-pub const METHODS: [&str; 20] = [
+pub const METHODS: [&str; 22] = [
     "all",
     "any",
     "chain",
@@ -14,6 +14,8 @@ pub const METHODS: [&str; 20] = [
     "copied",
     "count",
     "enumerate",
+    "flat_map",
+    "flatten",
     "fold",
     "for_each",
     "into_iter",
@@ -113,6 +115,24 @@ impl Evaluator<'_> {
                     Ok(Value::array(mapped.collect::<Eval<_>>()?))
                 })
             }
+            ("flat_map", [f]) => {
+                self.only_reads(f, name, span)?;
+                self.at_once(name, span, |this| {
+                    let mut all = Vec::new();
+                    for item in items {
+                        let inner = this.called(f, vec![item], span)?;
+                        all.extend(this.listed_items(&inner, name, span)?);
+                    }
+                    Ok(Value::array(all))
+                })
+            }
+            ("flatten", []) => {
+                let mut all = Vec::new();
+                for item in items {
+                    all.extend(self.listed_items(&item, name, span)?);
+                }
+                Ok(Value::array(all))
+            }
             ("for_each", [f]) => {
                 for item in items {
                     self.called(f, vec![item], span)?;
@@ -192,6 +212,21 @@ impl Evaluator<'_> {
             .label("not supported")
             .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
             .into()),
+        }
+    }
+
+    /// The values of an iterator among those of another one.
+    fn listed_items(&mut self, inner: &Value, method: &str, span: Span) -> Eval<Vec<Value>> {
+        match inner {
+            Value::Enum(choice) => Err(Diagnostic::at(
+                Code::UnknownMethod,
+                span,
+                format!("`{method}` of values of type `{}`", choice.ty),
+            )
+            .label("not supported")
+            .help("use `filter_map`, which leaves out what is `None`")
+            .into()),
+            other => self.listed(other, span),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Methods of what is not a number: textures, arrays, ranges, and the kernel's own types.
 
 use super::Evaluator;
+use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, Function};
@@ -19,12 +20,17 @@ const INTEGERS: [&str; 7] = [
 ];
 
 impl<'a> Evaluator<'a> {
-    pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
+    pub fn method(&mut self, receiver: &Expr, name: &str, constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let writing = name == "iter_mut" || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
         let (value, place) = self.receiver(receiver, writing)?;
         let args = self.all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
+        }
+        if let Value::Enum(choice) = &value
+            && choice.ty == OBJECT
+        {
+            return self.method_of_object(choice, name, args, span);
         }
         let own = match self.own_method(&value, name) {
             None if !name.contains("::") => self.method_of_trait(&value, name, &args, span)?,
@@ -39,7 +45,8 @@ impl<'a> Evaluator<'a> {
                 _ => value,
             };
             let all = std::iter::once(receiver).chain(args).collect();
-            return self.inline(method, &[], all, span);
+            let constants = self.constants_for(Some(function), constants)?;
+            return self.inline(method, &constants, all, span);
         }
         let args = args
             .into_iter()
@@ -123,7 +130,7 @@ impl<'a> Evaluator<'a> {
 
     /// The function of the library that a method of a value stands for: inference has written its path, or it is one of a
     /// type of the kernel's own. In a generic function only the value tells.
-    fn own_method(&self, value: &Value, name: &str) -> Option<(&'a str, &'a Function)> {
+    pub fn own_method(&self, value: &Value, name: &str) -> Option<(&'a str, &'a Function)> {
         let library = self.library;
         let method = match value {
             _ if name.contains("::") => name.to_owned(),

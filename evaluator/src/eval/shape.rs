@@ -195,6 +195,7 @@ impl Evaluator<'_> {
                 let (l, r) = self.agree_all(left, right, span)?;
                 (Value::array(l), Value::array(r))
             }
+            (a, b) if self.are_objects(a, b) => return self.unify_objects(a, b, span),
             (Value::Enum(left), Value::Enum(right)) if left.ty == right.ty => {
                 return self.agree_choices(left, right, span);
             }

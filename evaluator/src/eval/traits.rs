@@ -2,6 +2,7 @@
 //! parameter. A value knows its type, so that a call finds its function by the values alone.
 
 use super::Evaluator;
+use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Generic, Type as SourceType};
@@ -18,9 +19,10 @@ fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
 
 impl<'a> Evaluator<'a> {
     /// What functions of a value's type go by. A known integer is of any type.
-    fn type_names(&self, value: &Value) -> Vec<String> {
+    pub fn type_names(&self, value: &Value) -> Vec<String> {
         match value {
             Value::Struct { ty, .. } => vec![ty.to_string()],
+            Value::Enum(choice) if choice.ty == OBJECT => Vec::new(),
             Value::Enum(choice) => vec![choice.ty.to_string()],
             Value::Int(_) => vec!["usize".to_owned(), "i32".to_owned(), "u32".to_owned()],
             Value::Node(id) if self.ty(*id).is_array() => Vec::new(),

@@ -59,6 +59,8 @@ pub enum Value {
     OneOf(NodeId, Rc<Vec<Value>>),
     /// `array::from_fn(f)`, of which only the type that is stated for it tells the length.
     Elements(Rc<Value>),
+    /// A constant parameter of a structure's type, a hidden field: the 3 of `Window<3>`, or 1 for `true`.
+    Const(i64),
     /// What a type parameter stands for, by the name of the type.
     Type(String),
     /// What a variable of a closure holds that is a variable around it.
@@ -229,7 +231,7 @@ impl Value {
             Value::Array(parts) => parts.iter().all(Value::is_plain),
             Value::Table(table) => table.element.is_plain(),
             Value::Enum(choice) => choice.all().all(|(_, value)| value.is_plain()),
-            Value::Int(_) | Value::Node(_) | Value::Unset | Value::Blank => true,
+            Value::Int(_) | Value::Const(_) | Value::Node(_) | Value::Unset | Value::Blank => true,
             _ => false,
         }
     }
@@ -286,6 +288,7 @@ impl Value {
             Value::Function(path) => format!("the function `{}`", path.join("::")),
             Value::OneOf(..) => "one of several functions".to_owned(),
             Value::Elements(_) => "an array of which no type states the length".to_owned(),
+            Value::Const(n) => format!("the constant {n}"),
             Value::Type(ty) => format!("the type `{ty}`"),
             Value::Alias(_) => "a variable".to_owned(),
             Value::Blank => "any value".to_owned(),

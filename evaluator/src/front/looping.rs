@@ -160,7 +160,7 @@ impl<'l> Parts<'l> {
             ExprKind::For(f) => self.loops.push(f.unroll),
             ExprKind::While(.., unroll) => self.loops.push(*unroll),
             ExprKind::Call(path, ..) => self.calls.extend(path.last().map(String::as_str)),
-            ExprKind::Method(_, name, _) => drop(self.calls.insert(last(name))),
+            ExprKind::Method(_, name, ..) => drop(self.calls.insert(last(name))),
             ExprKind::Path(path) => self.paths.extend(path.last().map(String::as_str)),
             ExprKind::Closure(closure) => {
                 let mut inside = Parts::default();
@@ -250,7 +250,7 @@ impl Scan<'_> {
             ExprKind::For(f) => self.stays(f.unroll),
             ExprKind::While(.., unroll) => self.stays(*unroll),
             ExprKind::Call(path, ..) => self.values || is_named(path),
-            ExprKind::Method(_, name, _) => self.values || self.words.contains(last(name)),
+            ExprKind::Method(_, name, ..) => self.values || self.words.contains(last(name)),
             ExprKind::Invoke(..) => self.values,
             ExprKind::Path(path) => is_named(path),
             _ => self.operators && is_operator(e),

@@ -2,7 +2,7 @@
 
 use super::{Known, KnownItems};
 use crate::diagnostic::Span;
-use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type};
+use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type, generic_arguments};
 use std::sync::Arc;
 
 /// Gives each literal the type that was found for it, and each method of a number the function that it stands for.
@@ -88,7 +88,8 @@ fn expr(e: &mut Expr, known: &Known) {
                 *constants = arguments(std::mem::take(constants), types, e.span);
             }
         }
-        ExprKind::Method(receiver, name, args) => {
+        ExprKind::Method(receiver, name, constants, args) => {
+            constants.iter_mut().for_each(|e| expr(e, known));
             if let Some(function) = known.methods.get(&e.span) {
                 name.clone_from(function);
             }
@@ -96,7 +97,7 @@ fn expr(e: &mut Expr, known: &Known) {
             args.iter_mut().for_each(go);
             // Only a call has a place for types.
             if let Some((key, types)) = known.instances.get(&e.span) {
-                let constants = arguments(Vec::new(), types, e.span);
+                let constants = arguments(std::mem::take(constants), types, e.span);
                 let mut receiver = (**receiver).clone();
                 // A function with a `&mut` receiver borrows it, as a method does.
                 if changes_array(key) {
@@ -160,7 +161,9 @@ fn expr(e: &mut Expr, known: &Known) {
 
 /// Generic arguments with the types that were found: those that are stated, then the others. What is not known is `()`.
 fn arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Expr> {
-    let mut stated = stated.into_iter();
+    let owner = generic_arguments(&stated).1.and_then(|_| stated.last().cloned());
+    let count = stated.len() - usize::from(owner.is_some());
+    let mut stated = stated.into_iter().take(count);
     let each = types.iter().map(|ty| {
         let given = stated.next();
         let kind = match (ty, given) {
@@ -170,7 +173,7 @@ fn arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Exp
         };
         Expr { kind, span }
     });
-    each.collect()
+    each.chain(owner).collect()
 }
 
 fn pattern(p: &mut Pattern, known: &Known) {

@@ -188,6 +188,11 @@ impl<'l> Checker<'l> {
                 }
             }
             ("map", [f]) => iter(self.mapped(item, f)),
+            ("flat_map", [f]) => {
+                let inner = self.mapped(item, f);
+                iter(self.items(&inner).unwrap_or(Ty::Unknown))
+            }
+            ("flatten", []) => iter(self.items(item).unwrap_or(Ty::Unknown)),
             ("for_each", [f]) => {
                 self.against(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::UNIT)));
                 Ty::UNIT

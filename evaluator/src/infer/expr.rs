@@ -193,13 +193,16 @@ impl<'l> Checker<'l> {
             ExprKind::Assign(target, op, value) => self.assign(target, *op, value, expr),
             ExprKind::Call(path, constants, args) => self.call(path, constants, args, span),
             ExprKind::Invoke(callee, args) => self.invoked(callee, args, span),
-            ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
+            ExprKind::Method(receiver, name, constants, args) => self.method(receiver, name, constants, args, span),
             ExprKind::If(condition, then, otherwise, _) => {
                 self.against(condition, &Ty::Bool);
                 let left = self.block(then, wanted);
                 match otherwise {
                     Some(otherwise) => {
+                        let at = then.value.as_ref().map_or(span, |value| value.span);
+                        let left = self.as_object(left, wanted, at);
                         let right = self.expr(otherwise, wanted);
+                        let right = self.as_object(right, wanted, otherwise.span);
                         self.joined(left, right, otherwise.span)
                     }
                     None => {
@@ -219,6 +222,7 @@ impl<'l> Checker<'l> {
                         self.against(guard, &Ty::Bool);
                     }
                     let found = self.expr(&arm.body, wanted);
+                    let found = self.as_object(found, wanted, arm.body.span);
                     self.locals.truncate(mark);
                     all = self.joined(all, found, arm.body.span);
                 }
@@ -321,6 +325,21 @@ impl<'l> Checker<'l> {
             Ty::Unknown
         } else {
             ty
+        }
+    }
+
+    /// The type of an arm where `&dyn Trait` is wanted: each arm may refer to another type.
+    fn as_object(&mut self, found: Ty, wanted: Option<&Ty>, span: Span) -> Ty {
+        let Some(wanted) = wanted.map(|ty| self.table.shallow(ty)) else {
+            return found;
+        };
+        let is_object = |ty: &Ty| matches!(ty, Ty::Param(name) if name.starts_with("dyn "));
+        match &wanted {
+            Ty::Ref(_, inner) if is_object(&self.table.shallow(inner)) && self.table.shallow(&found) != Ty::Never => {
+                self.coerce(&wanted, &found, span);
+                wanted
+            }
+            _ => found,
         }
     }
 

@@ -10,7 +10,14 @@ use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
     /// The type of `receiver.name(args)`.
-    pub fn method(&mut self, receiver: &'l Expr, name: &str, args: &'l [Expr], span: Span) -> Ty {
+    pub fn method(
+        &mut self,
+        receiver: &'l Expr,
+        name: &str,
+        constants: &'l [Expr],
+        args: &'l [Expr],
+        span: Span,
+    ) -> Ty {
         let (ty, access) = self.place(receiver);
         if self.table.kind(&self.peeled(&ty).0) == Some(Kind::Any) {
             self.solve();
@@ -41,7 +48,7 @@ impl<'l> Checker<'l> {
                     if !matches!(settled, Ty::Struct(..) | Ty::Enum(..)) || key.starts_with('<') {
                         self.methods.insert(span, (*key).to_owned());
                     }
-                    return self.signature(key, function, &[], Some(&ty), args, span);
+                    return self.signature(key, function, constants, Some(&ty), args, span);
                 }
                 let mut found = vec![settled];
                 found.extend(args.iter().map(|arg| self.expr(arg, None)));
@@ -159,6 +166,7 @@ impl<'l> Checker<'l> {
                         | "cloned"
                         | "copied"
                         | "enumerate"
+                        | "flat_map"
                         | "fold"
                         | "for_each"
                         | "product"
