@@ -207,5 +207,6 @@ fn ty(t: &mut Type, known: &Known) {
 
 /// Returns whether a method of arrays in the library changes its receiver.
 fn changes_array(key: &str) -> bool {
-    matches!(key, "Array::swap" | "Array::reverse" | "Array::fill")
+    key.strip_prefix("Array::")
+        .is_some_and(|name| crate::front::CHANGING.contains(&name))
 }

@@ -61,7 +61,7 @@ impl<'l> Checker<'l> {
         if name == "clone" && args.is_empty() && !matches!(bare, Ty::Iter(_) | Ty::Texture(..)) {
             return bare;
         }
-        let changes = matches!(bare, Ty::Array(_)) && matches!(name, "swap" | "reverse" | "fill");
+        let changes = matches!(bare, Ty::Array(_)) && crate::front::CHANGING.contains(&name);
         if name == "iter_mut" || changes {
             self.borrowed(access, reference, receiver);
         }
