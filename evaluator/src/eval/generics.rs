@@ -40,10 +40,15 @@ impl Evaluator<'_> {
                 found = self.constant_between(&function.result, expected, name);
             }
             let Some(value) = found else {
-                let of_self = function.params.first().is_some_and(|own| own.name == "self");
-                let help = match of_self && !function.generics.iter().take(1).any(|first| first.name() == name) {
-                    true => "state the type of the value: `let x: Type<3> = ...`".to_owned(),
-                    false => format!("state it: `::<{name}>`"),
+                let of_type = match &function.of {
+                    Some(SourceType::Name(of, args)) if args.iter().any(|arg| arg.is_parameter(name)) => Some(of),
+                    _ => None,
+                };
+                let help = match of_type {
+                    Some(of) => {
+                        format!("state the type of the value: `let x: {of}<3> = ...`, or `{of}::<3>` where it is made")
+                    }
+                    None => format!("state it: `::<{name}>`"),
                 };
                 return Err(Diagnostic::at(
                     Code::TypeNeeded,
