@@ -101,3 +101,14 @@ pub fn arrays_from_functions(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let taps: [f32; 4] = std::array::from_fn(|k| color.load(pixel + ivec2(k as i32, 0)).x);
     Vec4::from_array(taps)
 }
+
+//// `flat_map` and `flatten` of iterators
+pub fn flattened(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut s = Vec4::ZERO;
+    for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) { s += color.load(pixel + ivec2(i, j)) * 0.1; }
+    let rows = [[1.0, 2.0], [3.0, 4.0]];
+    let t: f32 = rows.iter().flatten().sum();
+    let u: f32 = rows.iter().flat_map(|r| r.iter().map(|x| x * 2.0)).sum();
+    let n = (0..3).flat_map(|y| (0..y).map(move |x| x * y)).filter(|v| v % 2 == 0).count();
+    s + vec4(t, u, n as f32, 0.0)
+}

@@ -283,3 +283,237 @@ pub fn matrices_of_arrays(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let least = Vec2::INFINITY.min(here.xy()) + Vec2::NEG_INFINITY.max(here.zw()) + Vec2::NEG_Y;
     vec4(turned.x + turned.y, turned.z + back[1], (beside.x * 3 + beside.y) as f32, least.x - least.y)
 }
+
+//// Arrays of structures changed in loops with runtime bounds
+struct G { sum: f32, n: f32 }
+pub fn structures_in_loops(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut g = [G { sum: 0.0, n: 0.0 }, G { sum: 1.0, n: 0.0 }];
+    for x in 0..taps {
+        g[0].sum += color.load(pixel + ivec2(x, 0)).x;
+        g[1].n += 1.0;
+    }
+    vec4(g[0].sum, g[1].n, g[1].sum, 1.0)
+}
+
+//// Arrays of structures changed at run time
+#[derive(Clone, Copy, Default)]
+struct Bin { count: u32, sum: Vec3, best: Best }
+#[derive(Clone, Copy, Default)]
+struct Best { value: f32, at: IVec2 }
+pub fn structures_by_bins(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut bins = [Bin::default(); 6];
+    for y in 0..taps {
+        for x in -taps..=taps {
+            let c = color.load(pixel + ivec2(x, y));
+            let k = (c.x * 5.99) as usize;
+            let bin = &mut bins[k];
+            bin.count += 1;
+            bin.sum += c.truncate();
+            if c.y > bin.best.value {
+                bin.best = Best { value: c.y, at: ivec2(x, y) };
+            }
+        }
+    }
+    let mut top = bins[0];
+    for bin in bins.iter().skip(1) {
+        if bin.count > top.count { top = *bin; }
+    }
+    let m = top.sum / top.count.max(1) as f32;
+    vec4(m.x, m.y, top.best.value, (top.best.at.x * 10 + top.best.at.y) as f32)
+}
+
+//// Structures in an array: whole, by `&mut`, by components, and with some fields of another
+#[derive(Clone, Copy)]
+struct S { x: f32, at: Vec3, n: i32 }
+pub fn structures_written(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut a = [S { x: 0.5, at: Vec3::ONE, n: 1 }; 4];
+    a[(pixel.x & 3) as usize].x = 3.0;
+    a[(pixel.y & 3) as usize].at.y += 2.0;
+    let k = ((pixel.x + pixel.y) & 3) as usize;
+    a[k].n -= 3;
+    a[k].at[(pixel.x & 1) as usize] *= 0.25;
+    let b = a[(pixel.x & 1) as usize];
+    a[3] = b;
+    a[k] = S { x: 9.0, ..a[0] };
+    vec4(a[0].x + a[3].x, a[1].at.y + a[2].at.x, a[k].n as f32 + b.x, a[2].x)
+}
+
+//// Structures in an array: swapped and sorted
+#[derive(Clone, Copy, PartialEq)]
+struct Hit { t: f32, id: u32 }
+pub fn structures_sorted(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut hits = [Hit { t: 9.0, id: 99 }; 5];
+    let mut n = 0;
+    for k in 0..taps {
+        let c = color.load(pixel + ivec2(k, k));
+        if c.x > 0.3 {
+            hits[n] = Hit { t: c.x, id: k as u32 };
+            n += 1;
+        }
+    }
+    for i in 1..n {
+        let mut j = i;
+        while j > 0 && hits[j - 1].t > hits[j].t {
+            hits.swap(j - 1, j);
+            j -= 1;
+        }
+    }
+    let mut out = Vec4::ZERO;
+    for (k, hit) in hits.iter().enumerate() {
+        if *hit == hits[0] { out.w += 1.0; }
+        out.x += hit.t * (k + 1) as f32;
+    }
+    out.y = hits[0].id as f32;
+    out.z = hits[1].t;
+    out
+}
+
+//// Arrays of arrays changed at run time
+pub fn rows_changed(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut m = [[0.0f32; 4]; 3];
+    for k in 0..taps {
+        let c = color.load(pixel + ivec2(k, 0));
+        let (i, j) = (k as u32 as usize % 3, (k & 3) as usize);
+        m[i][j] += c.x;
+        m[(i + 1) % 3][2] -= c.y;
+        m[1][j] *= 0.5;
+        let row = m[j % 3];
+        m[i] = row;
+        m[2] = [c.z, row[0], row[1] + row[i], 1.0];
+        for r in m.iter_mut() { r[j] += 0.125; }
+    }
+    let s: f32 = m.iter().map(|r| r.iter().sum::<f32>()).sum();
+    vec4(m[0][1], m[1][(pixel.x & 3) as usize], m[(pixel.y & 1) as usize][3], s)
+}
+
+//// Arrays of tuples changed at run time
+pub fn tuples_stacked(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut stack = [(0u32, 0.0f32, ivec2(0, 0)); 8];
+    let mut top = 1i32;
+    stack[0] = (3, 1.0, pixel);
+    let mut sum = 0.0;
+    let mut steps = 0;
+    while top > 0 && steps < 20 {
+        top -= 1;
+        steps += 1;
+        let (depth, w, at) = stack[top as usize];
+        let c = color.load(at);
+        sum += c.x * w;
+        if depth > 0 && top + 2 <= 8 {
+            stack[top as usize] = (depth - 1, w * 0.5, at + ivec2(1, 0));
+            top += 1;
+            if c.y > 0.4 {
+                stack[top as usize] = (depth - 1, w * 0.25, at + ivec2(0, taps));
+                top += 1;
+            }
+        }
+    }
+    vec4(sum, steps as f32, stack[1].1, stack[2].0 as f32)
+}
+
+//// Arrays of enums changed at run time
+#[derive(Clone, Copy)]
+enum Cell { Empty, Wall(f32), Light { c: Vec3, id: i32 } }
+pub fn cells_changed(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut cells = [Cell::Empty; 4];
+    for k in 0..taps {
+        let c = color.load(pixel + ivec2(k, 1));
+        let at = (c.z * 3.99) as usize;
+        cells[at] = if c.x > 0.5 { Cell::Wall(c.y) } else { Cell::Light { c: c.truncate(), id: k } };
+        if let Cell::Wall(h) = &mut cells[(k & 3) as usize] { *h += 0.5; }
+    }
+    let mut out = Vec4::ZERO;
+    for cell in cells {
+        match cell {
+            Cell::Empty => out.w += 1.0,
+            Cell::Wall(h) => out.x += h,
+            Cell::Light { c, id } => { out.y += c.x; out.z += id as f32; }
+        }
+    }
+    out
+}
+
+//// Arrays of matrices and of options changed at run time
+pub fn matrices_changed(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut ms = [Mat2::IDENTITY; 3];
+    let mut best: [Option<f32>; 3] = [None; 3];
+    for k in 0..taps {
+        let c = color.load(pixel + ivec2(0, k));
+        let i = k as u32 as usize % 3;
+        ms[i] = ms[i] * Mat2::from_cols(c.xy(), c.zw());
+        ms[(i + 1) % 3].x_axis.y += 0.25;
+        if c.x > 0.25 { best[(c.y * 2.99) as usize] = Some(c.x); }
+    }
+    let v = ms[(pixel.x % 3) as usize] * vec2(1.0, 2.0);
+    vec4(v.x, v.y, best[0].unwrap_or(-1.0), best[(pixel.y % 3) as usize].map_or(7.0, |x| x * 2.0))
+}
+
+//// Arrays in structures in arrays
+#[derive(Clone, Copy)]
+struct P { w: [[f32; 2]; 2], t: (f32, [Vec2; 2]) }
+pub fn structures_of_arrays(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut ps = [P { w: [[0.0; 2]; 2], t: (1.0, [Vec2::ZERO; 2]) }; 3];
+    for k in 0..taps {
+        let c = color.load(pixel + ivec2(k, -k));
+        let (i, j, l) = (k as u32 as usize % 3, (k & 1) as usize, (c.x * 1.99) as usize);
+        ps[i].w[j][l] += c.y;
+        ps[i].t.1[l].y = c.z;
+        ps[l].t.0 *= 0.5;
+        let copy = ps[i].w[l];
+        ps[(i + 1) % 3].w[j] = copy;
+        ps[2].w = ps[i].w;
+    }
+    let p = &ps[(pixel.x % 3) as usize];
+    vec4(p.w[0][1] + p.w[1][0], p.t.0, p.t.1[(pixel.y & 1) as usize].y, ps[2].w[1][1])
+}
+
+//// Arrays of structures behind methods and `&mut`
+#[derive(Clone, Copy)]
+struct Node { value: f32, kids: [f32; 3] }
+struct Tree { nodes: [Node; 5], used: usize }
+impl Tree {
+    fn push(&mut self, value: f32) -> &mut Node {
+        let k = self.used % 5;
+        self.used += 1;
+        self.nodes[k].value = value;
+        &mut self.nodes[k]
+    }
+    fn node(&self, k: usize) -> &Node { &self.nodes[k] }
+}
+fn bump(x: &mut f32, by: f32) { *x += by; }
+pub fn nodes_of_a_tree(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut tree = Tree { nodes: [Node { value: 0.0, kids: [0.0; 3] }; 5], used: 0 };
+    for k in 0..taps + 2 {
+        let c = color.load(pixel + ivec2(k, 0));
+        let n = tree.push(c.x);
+        n.kids[(c.y * 2.99) as usize] += c.z;
+        bump(&mut tree.nodes[(k % 4) as usize].value, 0.5);
+        bump(&mut tree.nodes[(k % 4) as usize].kids[(k % 3) as usize], c.w);
+    }
+    let n = tree.node((pixel.x % 5) as usize);
+    vec4(n.value, n.kids[0] + n.kids[2], tree.nodes[2].kids[1], tree.used as f32)
+}
+
+//// Arrays of arrays of booleans: a cellular automaton
+pub fn cells_of_a_grid(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let mut g = [[false; 4]; 4];
+    for y in 0..4 { for x in 0..4 { g[y][x] = color.load(pixel + ivec2(x as i32, y as i32)).x > 0.5; } }
+    for _ in 0..taps {
+        let old = g;
+        let mut any = false;
+        for y in 0..4usize {
+            for x in 0..4usize {
+                let mut n = 0;
+                for (dy, dx) in [(0usize, 1usize), (1, 0), (1, 1), (3, 0), (0, 3), (3, 3)] {
+                    if old[(y + dy) % 4][(x + dx) % 4] { n += 1; }
+                }
+                g[y][x] = n == 3 || (old[y][x] && n == 2);
+                any |= g[y][x];
+            }
+        }
+        if !any { break; }
+    }
+    let mut s = 0.0;
+    for row in &g { for c in row { s = s * 0.5 + if *c { 1.0 } else { 0.0 }; } }
+    vec4(s, 0.0, 0.0, 1.0)
+}

@@ -132,3 +132,53 @@ pub fn swapped(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let old = std::mem::replace(&mut a, 0.5);
     vec4(a, b, old, 1.0)
 }
+
+//// `sort` and its like of arrays, `copy_from_slice`, `is_empty`
+pub fn arrays_sorted(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut luma: [f32; 5] = std::array::from_fn(|k| color.load(pixel + ivec2(k as i32, 0)).x);
+    let mut levels = luma.map(|x| (x * 16.0) as i32);
+    let mut pairs = luma.map(|x| ((x * 4.0) as u32, x));
+    luma.sort_by(|a, b| b.total_cmp(a));
+    levels.sort();
+    pairs.sort_by_key(|pair| pair.0);
+    let mut copy = [0; 5];
+    copy.copy_from_slice(&levels);
+    copy.sort_unstable_by(|a, b| b.cmp(a));
+    let empty = if copy.is_empty() { 1.0 } else { 0.0 };
+    vec4(luma[2] + empty, levels[1] as f32 + copy[0] as f32, pairs[2].1, pairs[4].0 as f32)
+}
+
+//// `min_by`, `max_by`, `min_by_key`, `max_by_key`, `last` and `nth` of iterators
+pub fn iterators_by_keys(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps = [0, 1, 2, 3].map(|k| color.load(pixel + ivec2(k, 1)));
+    let least = taps.iter().min_by(|a, b| a.x.total_cmp(&b.x)).map_or(0.0, |tap| tap.y);
+    let most = taps.iter().map(|tap| tap.z).max_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal)).unwrap_or(0.0);
+    let first = [5, 2, 7, 2].into_iter().min_by_key(|k| (k - pixel.x).abs()).unwrap_or(0);
+    let other = [5, 2, 7, 2].into_iter().max_by_key(|k| k * pixel.y % 5).unwrap_or(0);
+    let last = taps.iter().map(|tap| tap.w).last().unwrap_or(9.0);
+    let second = taps.iter().nth(1).map_or(8.0, |tap| tap.x);
+    vec4(least + last, most + second, first as f32, other as f32)
+}
+
+//// `ilog2`, `isqrt`, `next_power_of_two`, `swap_bytes`, `cmp`
+pub fn integers_of_bits(ids: &Frame<u32>, pixel: IVec2) -> Vec4 {
+    let h = ids.load(pixel).wrapping_mul(0x9e37_79b9);
+    let order = match (h & 7).cmp(&(h >> 29)) {
+        std::cmp::Ordering::Less => 1.0,
+        std::cmp::Ordering::Equal => 2.0,
+        std::cmp::Ordering::Greater => 3.0,
+    };
+    let roots = (h.isqrt() & 0xfff) as f32 + (h >> 12).isqrt() as f32;
+    let logs = (h | 1).ilog2() + (pixel.x + 1).ilog2() + (h >> 5).next_power_of_two().ilog2();
+    vec4(roots, logs as f32, (h.swap_bytes() >> 12) as f32, order + (pixel.y - 4).wrapping_abs() as f32)
+}
+
+//// `bitmask`, `with_xy`, `try_normalize`, `from_axis_angle`
+pub fn vectors_more(color: &Frame<Vec4>, strength: f32, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let mask = here.cmplt(Vec4::splat(0.5)).bitmask();
+    let turn = Mat3::from_axis_angle(Vec3::Y, here.x) * Mat3::from_scale(here.yz()) * Mat3::from_translation(here.zw());
+    let v = turn * here.with_xy(here.zw()).with_zw(here.xy()).truncate();
+    let unit = (v - strength * 0.25).try_normalize().unwrap_or(Vec3::X);
+    vec4(v.x, v.y + unit.z, unit.x, mask as f32)
+}

@@ -123,7 +123,7 @@ fn the_page_shows_messages_as_they_are() {
         "round_fract_signum",
         "while_unrolled_by_attribute",
         "argument_of_another_type",
-        "array_of_structures_at_run_time",
+        "array_of_textures_at_run_time",
     ];
     let shown: String = chosen
         .iter()

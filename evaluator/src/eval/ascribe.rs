@@ -24,6 +24,10 @@ impl Evaluator<'_> {
         }
         match (ty, value) {
             (Some(SourceType::Name(_, args)), Value::Enum(choice)) => self.ascribe_choice(choice, args, span),
+            (Some(SourceType::Name(name, args)), value @ Value::Struct { .. }) if !args.is_empty() => {
+                let value = self.with_constants(value, args, span)?;
+                self.ascribe_name(value, name, span)
+            }
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
             (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
                 let len = self.eval_expr(len)?;
@@ -51,6 +55,10 @@ impl Evaluator<'_> {
                     .iter()
                     .map(|e| self.ascribe_type(e.clone(), Some(element), span));
                 Ok(Value::array(each.collect::<Eval<_>>()?))
+            }
+            (Some(SourceType::Array(_, len)), Value::Table(table)) => {
+                check_length(len.as_deref(), table.len, span)?;
+                Ok(Value::Table(table))
             }
             (Some(SourceType::Array(_, len)), Value::Node(id)) => {
                 if let Type::Array { len: found, .. } = self.ty(id) {
@@ -122,6 +130,9 @@ impl Evaluator<'_> {
         match &value {
             Value::Int(n) if stated == Type::U32 => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
             Value::Int(_) if name == "usize" => Ok(value),
+            Value::Const(n) if stated == Type::BOOL => Ok(Value::Node(self.builder.bool(*n != 0))),
+            Value::Const(n) if *n < 0 => Ok(Value::Node(self.builder.i32(*n as i32))),
+            Value::Const(n) => self.ascribe_name(Value::Int(*n), name, span),
             Value::Int(n) if stated == Type::I32 => Ok(Value::Node(self.int_node(*n, Scalar::I32, span)?)),
             Value::Node(id) if self.ty(*id) == stated => Ok(value),
             Value::Node(_) | Value::Int(_) => {

@@ -107,7 +107,7 @@ impl Evaluator<'_> {
                 let parts = self.array_elements(&parts, usize::from(lanes), span)?;
                 self.compose_vector(kind, lanes, &parts, span)
             }
-            (old @ (Value::Array(_) | Value::Node(_)), Step::Index(index)) => {
+            (old @ (Value::Array(_) | Value::Table(_) | Value::Node(_)), Step::Index(index)) => {
                 self.set_element(&old, index, rest, new, span)
             }
             (Value::Node(id), Step::Field(name)) => self.set_lane(id, name, &new, span),
@@ -123,6 +123,14 @@ impl Evaluator<'_> {
 
     /// An element whose index is a runtime value.
     fn set_element(&mut self, old: &Value, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
+        if self.is_tabled(old) {
+            let node = self.index_node(index, span)?;
+            let tabled = self.tabled(old, span);
+            return match self.demand_on_error(&[node], tabled)? {
+                Value::Table(table) => self.set_in_table(&table, index, rest, new, span),
+                array => self.set_element(&array, index, rest, new, span),
+            };
+        }
         let current = self.array_element(old, index, span)?;
         let element = self.replace_part(current.clone(), rest, new, span)?;
         let array = self.array_node(old, span)?;

@@ -4,7 +4,6 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Pattern;
-use crate::ir::Type;
 use std::rc::Rc;
 
 impl Evaluator<'_> {
@@ -127,14 +126,7 @@ impl Evaluator<'_> {
 
     /// How many parts a value is to have so that patterns take it apart.
     fn length_for(&self, value: &Value, patterns: &[Pattern]) -> usize {
-        let has = match value {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            _ => 0,
-        };
+        let has = self.array_len(value).unwrap_or(0);
         match Pattern::part_ranges(patterns, has) {
             Some(_) => has,
             None => patterns.iter().filter(|pattern| !pattern.is_rest()).count(),

@@ -64,7 +64,7 @@ impl Evaluator<'_> {
                     self.count_step(*span)?;
                     let value = match init {
                         Some(init) => match self
-                            .eval_expr(init)
+                            .expecting(init, ty.as_ref())
                             .and_then(|v| self.ascribe_type(v, ty.as_ref(), init.span))
                         {
                             Ok(value) => value,

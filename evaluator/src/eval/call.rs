@@ -4,7 +4,7 @@ use super::departures::Tail;
 use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType, generic_arguments};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -13,6 +13,7 @@ pub use crate::front::tree::vector_named as vector_type;
 
 impl<'a> Evaluator<'a> {
     pub fn eval_call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
+        let expected = self.expected.take();
         let constants = self.generic_constants(path, constants)?;
         let values = self.eval_all(args)?;
         if values.contains(&Value::Poison) {
@@ -31,7 +32,10 @@ impl<'a> Evaluator<'a> {
                 return self.call_value(&callee, values, span);
             }
         }
-        self.call_path(path, &constants, values, span)
+        self.expected = expected;
+        let outcome = self.call_path(path, &constants, values, span);
+        self.expected = None;
+        outcome
     }
 
     /// What stands in `::<>` of a call: the constants; types are found by inference.
@@ -47,27 +51,56 @@ impl<'a> Evaluator<'a> {
                 .functions
                 .get(path.last().filter(|_| crate::front::is_by_last(path))?)
         });
-        let is_type = |k: usize| {
-            let generic = function.and_then(|function| function.generics.get(k));
-            matches!(generic, Some(Generic::Type(_)) | None)
+        self.constants_for(function, stated)
+    }
+
+    /// The same for a function that is known.
+    pub fn constants_for(&mut self, function: Option<&Function>, stated: &[Expr]) -> Eval<Vec<Value>> {
+        let (stated, owner) = generic_arguments(stated);
+        let generics = function.map_or(&[][..], |function| &function.generics);
+        let count = match owner {
+            Some(_) => generics.len(),
+            None => stated.len(),
         };
-        let each = stated.iter().enumerate().map(|(k, expr)| match is_type(k) {
-            true => Ok(match &expr.kind {
-                ExprKind::Path(path) if path.len() == 1 => match self.scope.get(&path[0]) {
-                    Some(ty @ Value::Type(_)) => ty.clone(),
-                    // A type parameter that is not known either.
-                    Some(_) => Value::unit(),
-                    None => Value::Type(path[0].clone()),
+        let mut values = Vec::new();
+        for k in 0..count {
+            let generic = generics.get(k);
+            let of_owner = || generic.and_then(|generic| function?.argument_of(owner?, generic.name()));
+            // `_`: the type before the function or the values tell.
+            let own = stated.get(k).filter(|expr| !is_inferred(expr));
+            values.push(match (own, generic) {
+                (Some(expr), Some(Generic::Const(..))) => self.eval_expr(expr)?,
+                (Some(expr), Some(Generic::Type(_)) | None) => self.type_argument(expr),
+                (None, Some(Generic::Const(..))) => {
+                    let argument = of_owner();
+                    let constant = argument.and_then(|argument| self.constant_argument(argument));
+                    constant.unwrap_or_else(Value::unit)
+                }
+                (None, Some(Generic::Type(_))) => match of_owner() {
+                    Some(SourceType::Name(name, _)) => match self.scope.get(name) {
+                        Some(ty @ Value::Type(_)) => ty.clone(),
+                        Some(_) => Value::unit(),
+                        None => Value::Type(name.clone()),
+                    },
+                    _ => Value::unit(),
                 },
-                _ => Value::unit(),
-            }),
-            // `_`: the values tell.
-            false if matches!(&expr.kind, ExprKind::Path(path) if path == &[crate::front::INFERRED]) => {
-                Ok(Value::unit())
-            }
-            false => self.eval_expr(expr),
-        });
-        each.collect()
+                (None, None) => Value::unit(),
+            });
+        }
+        Ok(values)
+    }
+
+    /// A type in `::<>`.
+    fn type_argument(&self, expr: &Expr) -> Value {
+        match &expr.kind {
+            ExprKind::Path(path) if path.len() == 1 => match self.scope.get(&path[0]) {
+                Some(ty @ Value::Type(_)) => ty.clone(),
+                // A type parameter that is not known either.
+                Some(_) => Value::unit(),
+                None => Value::Type(path[0].clone()),
+            },
+            _ => Value::unit(),
+        }
     }
 
     /// Calls a function by its path.
@@ -125,9 +158,7 @@ impl<'a> Evaluator<'a> {
         match (path, values.as_slice()) {
             ([.., ty, splat], [value]) if splat == "splat" => {
                 let Some((kind, lanes)) = vector_type(ty) else {
-                    return Err(
-                        Diagnostic::error_at(Code::UnknownFunction, span, format!("`{ty}` is not a vector")).into(),
-                    );
+                    return Err(self.unknown_function(path, span));
                 };
                 let value = self.lane_node(value, kind, span)?;
                 Ok(Value::Node(self.build_splat(value, lanes)))
@@ -157,6 +188,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    #[cold]
     fn unknown_function(&self, path: &[String], span: Span) -> Exit {
         let name = path.join("::");
         let mut known: Vec<&str> = self.library.functions.keys().map(String::as_str).collect();
@@ -186,6 +218,14 @@ impl<'a> Evaluator<'a> {
             .into()
     }
 
+    /// The value of an expression for which a type is stated: of a call it tells constants of the function.
+    pub fn expecting(&mut self, expr: &Expr, ty: Option<&SourceType>) -> Eval {
+        if matches!(expr.kind, ExprKind::Call(..)) {
+            self.expected = ty.cloned().map(Box::new);
+        }
+        self.eval_expr(expr)
+    }
+
     /// Evaluates a function's body with its parameters bound.
     pub fn inline_function(&mut self, name: &str, constants: &[Value], args: Vec<Value>, span: Span) -> Eval {
         let library = self.library;
@@ -209,34 +249,14 @@ impl<'a> Evaluator<'a> {
         args: Vec<Value>,
         span: Span,
     ) -> Eval {
+        let expected = self.expected.take();
         if args.len() != function.params.len() {
-            return Err(Diagnostic::error_at(
-                Code::ArgumentCount,
-                span,
-                format!(
-                    "`{name}` takes {} argument{}, not {}",
-                    function.params.len(),
-                    if function.params.len() == 1 { "" } else { "s" },
-                    args.len()
-                ),
-            )
-            .label("called here")
-            .label_at(function.span, "defined here")
-            .into());
+            return Err(miscounted(name, function, args.len(), span));
         }
         if self.calls.len() >= MAX_CALLS {
-            let error = Diagnostic::error_at(
-                Code::Recursion,
-                span,
-                format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
-            )
-            .label("recursion that does not end?")
-            .help(
-                "let it end by a condition that is a compile-time constant; where runtime values decide, write a loop",
-            );
-            return Err(self.demand_constants(&self.decides_within(name), error));
+            return Err(self.too_deep(name, span));
         }
-        let mut bound = self.constants_of(function, constants, &args, span)?;
+        let mut bound = self.constants_of(function, constants, &args, expected.as_deref(), span)?;
         bound.extend(self.types_of(function, constants, &args, span)?);
         let of_library = function.span.file == crate::front::std::FILE;
         let outer = self.scope.enter_function();
@@ -299,65 +319,17 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Constant parameters of a generic function: those given, or the lengths of the arrays that it is given.
-    fn constants_of(
-        &mut self,
-        function: &Function,
-        given: &[Value],
-        args: &[Value],
-        span: Span,
-    ) -> Eval<Vec<(String, Value)>> {
-        let mut bound = Vec::new();
-        for (k, generic) in function.generics.iter().enumerate() {
-            let Generic::Const(name, ty) = generic else { continue };
-            let from_array = || {
-                function.params.iter().zip(args).find_map(|(param, value)| {
-                    let SourceType::Array(_, Some(stated)) = param.ty.peel_refs() else {
-                        return None;
-                    };
-                    let len = self.array_length(value)?;
-                    match &stated.kind {
-                        ExprKind::Path(path) if path == std::slice::from_ref(name) => Some(Value::Int(len as i64)),
-                        _ => None,
-                    }
-                })
-            };
-            let stated = given.get(k).filter(|value| **value != Value::unit());
-            match stated.cloned().or_else(from_array) {
-                Some(value) => {
-                    let value = self.ascribe_type(value, Some(ty), span)?;
-                    bound.push((name.clone(), value));
-                }
-                None => {
-                    return Err(Diagnostic::error_at(
-                        Code::TypeNeeded,
-                        span,
-                        format!("the constant `{name}` of this call is not known"),
-                    )
-                    .label("called here")
-                    .label_at(function.span, "defined here")
-                    .help(format!("state it: `::<{name}>`"))
-                    .into());
-                }
-            }
-        }
-        Ok(bound)
-    }
-
-    /// How many elements an array has, through a reference too.
-    fn array_length(&mut self, value: &Value) -> Option<usize> {
-        match value {
-            Value::Ref(place) => {
-                let value = self.read_place(&place.clone(), Span::default()).ok()?;
-                self.array_length(&value)
-            }
-            Value::Array(elements) => Some(elements.len()),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => Some(len as usize),
-                _ => None,
-            },
-            _ => None,
-        }
+    /// An error of calls that are nested too deep.
+    #[cold]
+    fn too_deep(&self, name: &str, span: Span) -> Exit {
+        let error = Diagnostic::error_at(
+            Code::Recursion,
+            span,
+            format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
+        )
+        .label("recursion that does not end?")
+        .help("let it end by a condition that is a compile-time constant; where runtime values decide, write a loop");
+        self.demand_constants(&self.decides_within(name), error)
     }
 
     /// `Name(a, b)` of a structure without field names.
@@ -386,7 +358,7 @@ impl<'a> Evaluator<'a> {
         for ((field, ty, _), value) in definition.fields.iter().zip(values) {
             fields.push((field.clone(), self.ascribe_type(value.clone(), Some(ty), span)?));
         }
-        Ok(Some(Value::structure(name, fields)))
+        Ok(Some(self.structure_of(name, fields, span)))
     }
 
     /// A vector from its components, or from shorter vectors and components.
@@ -493,4 +465,28 @@ fn result_name(function: &str) -> Cow<'_, str> {
         Some((_, method)) => method.into(),
         None => function.into(),
     }
+}
+
+/// Whether a generic argument is `_`, or what inference leaves open.
+fn is_inferred(stated: &Expr) -> bool {
+    match &stated.kind {
+        ExprKind::Path(path) => path == &[crate::front::INFERRED],
+        ExprKind::Tuple(parts) => parts.is_empty(),
+        _ => false,
+    }
+}
+
+/// An error of a call with another number of arguments than the function has parameters.
+#[cold]
+fn miscounted(name: &str, function: &Function, given: usize, span: Span) -> Exit {
+    let wanted = function.params.len();
+    let plural = if wanted == 1 { "" } else { "s" };
+    Diagnostic::error_at(
+        Code::ArgumentCount,
+        span,
+        format!("`{name}` takes {wanted} argument{plural}, not {given}"),
+    )
+    .label("called here")
+    .label_at(function.span, "defined here")
+    .into()
 }

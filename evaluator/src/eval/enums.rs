@@ -183,7 +183,7 @@ impl Evaluator<'_> {
             (Value::Tuple(a), Value::Tuple(b)) if a.len() == b.len() => {
                 a.iter().cloned().zip(b.iter().cloned()).collect()
             }
-            (Value::Array(_), _) | (_, Value::Array(_)) => {
+            (Value::Array(_) | Value::Table(_), _) | (_, Value::Array(_) | Value::Table(_)) => {
                 let (a, b) = (self.listed_array(a, span)?, self.listed_array(b, span)?);
                 if a.len() != b.len() {
                     return Ok(None);
@@ -204,6 +204,10 @@ impl Evaluator<'_> {
         for (a, b) in pairs {
             if self.known_bool(all) == Some(false) {
                 break;
+            }
+            // Constants of one type are equal.
+            if matches!((&a, &b), (Value::Const(_), Value::Const(_))) {
+                continue;
             }
             let same = self.eval_binary(BinaryOp::Eq, &a, &b, span)?;
             let same = self.value_node(&same, span)?;
@@ -232,14 +236,7 @@ impl Evaluator<'_> {
     }
 
     fn listed_array(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
-        let len = match value {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            _ => 0,
-        };
+        let len = self.array_len(value).unwrap_or(0);
         self.array_elements(value, len, span)
     }
 
@@ -324,13 +321,16 @@ impl Evaluator<'_> {
     /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
     pub fn choice_names(&self, choice: &EnumValue, name: &str) -> EnumNames {
         let library = self.library;
-        let variants = library.enums.get(&*choice.ty).map_or(&[][..], |e| &e.variants);
+        let variants: Vec<&str> = match library.enums.get(&*choice.ty) {
+            Some(known) => known.variants.iter().map(|variant| variant.name.as_str()).collect(),
+            None => self.implementers.clone(),
+        };
         let tag = match choice.tag {
             Tag::Known(_) => None,
             Tag::Node(id) => Some((
                 id,
-                match variants {
-                    [_, second] => format!("{name}_is_{}", to_snake_case(&second.name)),
+                match variants.as_slice() {
+                    [_, second] => format!("{name}_is_{}", to_snake_case(second)),
                     _ => format!("{name}_kind"),
                 },
             )),
@@ -348,8 +348,8 @@ impl Evaluator<'_> {
                     && fields.iter().flatten().count() == 1;
                 let name = match (only, field.parse::<usize>().is_ok(), fields.iter().flatten().count()) {
                     (true, ..) => name.to_owned(),
-                    (false, true, 1) => format!("{name}_{}", to_snake_case(&variant.name)),
-                    (false, _, _) => format!("{name}_{}_{field}", to_snake_case(&variant.name)),
+                    (false, true, 1) => format!("{name}_{}", to_snake_case(variant)),
+                    (false, _, _) => format!("{name}_{}_{field}", to_snake_case(variant)),
                 };
                 inside.push((value.clone(), name));
             }

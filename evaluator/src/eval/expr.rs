@@ -65,7 +65,9 @@ impl Evaluator<'_> {
                 let values = self.eval_all(args)?;
                 self.call_value(&callee, values, span)
             }
-            ExprKind::Method(receiver, name, args) => self.eval_method(receiver, name, args, span),
+            ExprKind::Method(receiver, name, constants, args) => {
+                self.eval_method(receiver, name, constants, args, span)
+            }
             ExprKind::Field(base, name) => {
                 let base = self.eval_value(base)?;
                 self.value_field(&base, name, span)
@@ -223,7 +225,7 @@ impl Evaluator<'_> {
         }
         let made = match variant {
             Some((ty, k, _)) => EnumValue::with_variant(ty, &library.enums[ty], k, values),
-            None => Value::structure(name, values),
+            None => self.structure_of(name, values, span),
         };
         self.check_size(made, span)
     }
@@ -321,15 +323,10 @@ impl Evaluator<'_> {
 
     /// All elements of an array of a length.
     pub fn array_elements(&mut self, value: &Value, len: usize, span: Span) -> Eval<Vec<Value>> {
-        let found = match value {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) => match self.ty(*id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            Value::Poison => return Ok(vec![Value::Poison; len]),
-            _ => 0,
-        };
+        if matches!(value, Value::Poison) {
+            return Ok(vec![Value::Poison; len]);
+        }
+        let found = self.array_len(value).unwrap_or(0);
         if found != len {
             return Err(Diagnostic::error_at(
                 Code::Pattern,
@@ -351,6 +348,9 @@ impl Evaluator<'_> {
                 Some(element) => Ok(element.clone()),
                 None => Err(out_of_range(k, elements.len(), span).into()),
             };
+        }
+        if let Value::Table(table) = base {
+            return self.row_of_table(table, index, span);
         }
         if let Value::Node(id) = base
             && matches!(self.ty(*id), Type::Value { components: 2.., .. })

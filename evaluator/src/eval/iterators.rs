@@ -3,10 +3,10 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{BinaryOp, Op, Type};
+use crate::ir::{BinaryOp, Op};
 
 /// Methods of iterators.
-pub const METHODS: [&str; 20] = [
+pub const METHODS: [&str; 22] = [
     "all",
     "any",
     "chain",
@@ -14,6 +14,8 @@ pub const METHODS: [&str; 20] = [
     "copied",
     "count",
     "enumerate",
+    "flat_map",
+    "flatten",
     "fold",
     "for_each",
     "into_iter",
@@ -47,14 +49,8 @@ impl Evaluator<'_> {
                     Err(self.demand_of(&[value], error))
                 }
             },
-            Value::Node(id) if self.ty(*id).is_array() => {
-                let Type::Array { len, .. } = self.ty(*id) else {
-                    return Err(Exit::Noted);
-                };
-                (0..i64::from(len))
-                    .map(|k| self.array_element(value, &Value::Int(k), span))
-                    .collect()
-            }
+            Value::Table(_) => self.rows(value, span),
+            Value::Node(id) if self.ty(*id).is_array() => self.rows(value, span),
             Value::Ref(_) => match self.elements_mut(value, span)? {
                 Value::Array(elements) => Ok(elements.to_vec()),
                 _ => Err(Exit::Noted),
@@ -124,6 +120,24 @@ impl Evaluator<'_> {
                         .map(|item| this.call_item_closure(f, vec![item], span));
                     Ok(Value::array(mapped.collect::<Eval<_>>()?))
                 })
+            }
+            ("flat_map", [f]) => {
+                self.only_reads(f, name, span)?;
+                self.at_once(name, span, |this| {
+                    let mut all = Vec::new();
+                    for item in items {
+                        let inner = this.call_item_closure(f, vec![item], span)?;
+                        all.extend(this.listed_items(&inner, name, span)?);
+                    }
+                    Ok(Value::array(all))
+                })
+            }
+            ("flatten", []) => {
+                let mut all = Vec::new();
+                for item in items {
+                    all.extend(self.listed_items(&item, name, span)?);
+                }
+                Ok(Value::array(all))
             }
             ("for_each", [f]) => {
                 for item in items {
@@ -204,6 +218,21 @@ impl Evaluator<'_> {
             .label("not supported")
             .help(crate::suggest::suggest_name(name, &METHODS, "iterators have"))
             .into()),
+        }
+    }
+
+    /// The values of an iterator among those of another one.
+    fn listed_items(&mut self, inner: &Value, method: &str, span: Span) -> Eval<Vec<Value>> {
+        match inner {
+            Value::Enum(choice) => Err(Diagnostic::error_at(
+                Code::UnknownMethod,
+                span,
+                format!("`{method}` of values of type `{}`", choice.ty),
+            )
+            .label("not supported")
+            .help("use `filter_map`, which leaves out what is `None`")
+            .into()),
+            other => self.collect_items(other, span),
         }
     }
 

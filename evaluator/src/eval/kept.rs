@@ -281,6 +281,7 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => self.name_params_each(parts, name, span),
             Value::Array(parts) => self.name_params_each(parts, name, span),
+            Value::Table(table) => self.name_params(&table.element, name, span),
             Value::Enum(choice) => {
                 let (tag, inside) = self.choice_names(choice, name);
                 if let Some((id, name)) = tag {

@@ -7,7 +7,7 @@ use super::partial::LoopCount;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, ForLoop, Pattern};
-use crate::ir::{Counter, Type};
+use crate::ir::Counter;
 use crate::policy::{Asked, Unroll};
 use std::sync::Arc;
 
@@ -105,16 +105,8 @@ impl Evaluator<'_> {
                 Value::Array(elements) => elements.to_vec(),
                 _ => return Err(Exit::Noted),
             },
-            Value::Node(id) if self.ty(id).is_array() => {
-                let Type::Array { len, .. } = self.ty(id) else {
-                    unreachable!("just matched")
-                };
-                let mut elements = Vec::new();
-                for k in 0..len {
-                    elements.push(self.array_element(&items, &Value::Int(i64::from(k)), span)?);
-                }
-                elements
-            }
+            Value::Table(_) => self.rows(&items, f.over.span)?,
+            Value::Node(id) if self.ty(id).is_array() => self.rows(&items, f.over.span)?,
             Value::Poison => return Err(Exit::Noted),
             other => {
                 return Err(Diagnostic::error_at(

@@ -1,10 +1,11 @@
 //! Methods of what is not a number: textures, arrays, ranges, and the kernel's own types.
 
 use super::Evaluator;
+use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Expr, Function};
-use crate::ir::{BinaryOp, Type};
+use crate::ir::BinaryOp;
 use std::rc::Rc;
 
 /// Methods that known integers have beyond those of runtime values, or with the 64 bits of a known `usize`.
@@ -19,12 +20,17 @@ const INTEGERS: [&str; 7] = [
 ];
 
 impl<'a> Evaluator<'a> {
-    pub fn eval_method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
+    pub fn eval_method(&mut self, receiver: &Expr, name: &str, constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let writing = name == "iter_mut" || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
         let (value, place) = self.eval_receiver(receiver, writing)?;
         let args = self.eval_all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
+        }
+        if let Value::Enum(choice) = &value
+            && choice.ty == OBJECT
+        {
+            return self.method_of_object(choice, name, args, span);
         }
         let own = match self.own_method(&value, name) {
             None if !name.contains("::") => self.method_of_trait(&value, name, &args, span)?,
@@ -39,7 +45,8 @@ impl<'a> Evaluator<'a> {
                 _ => value,
             };
             let all = std::iter::once(receiver).chain(args).collect();
-            return self.inline_function(method, &[], all, span);
+            let constants = self.constants_for(Some(function), constants)?;
+            return self.inline_function(method, &constants, all, span);
         }
         let args = args
             .into_iter()
@@ -95,14 +102,16 @@ impl<'a> Evaluator<'a> {
                 self.range_method(range, name, &args, span)
             }
             Value::Range(_) => self.iterator_method(&value, name, &args, span),
-            Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
-                Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
-                None => {
-                    let place = self.add_temporary(value);
-                    self.elements_mut(&Value::Ref(Rc::new(place)), span)
+            Value::Array(_) | Value::Table(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => {
+                match place {
+                    Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
+                    None => {
+                        let place = self.add_temporary(value);
+                        self.elements_mut(&Value::Ref(Rc::new(place)), span)
+                    }
                 }
-            },
-            Value::Array(_) => self.iterator_method(&value, name, &args, span),
+            }
+            Value::Array(_) | Value::Table(_) => self.iterator_method(&value, name, &args, span),
             Value::Node(id) if self.ty(*id).is_array() => self.iterator_method(&value, name, &args, span),
             Value::Int(_) | Value::Node(_) if args.len() <= 1 && INTEGERS.contains(&name) => {
                 match self.known_integer_method(&value, name, &args, span)? {
@@ -121,7 +130,7 @@ impl<'a> Evaluator<'a> {
 
     /// The function of the library that a method of a value stands for: inference has written its path, or it is one of a
     /// type of the kernel's own. In a generic function only the value tells.
-    fn own_method(&self, value: &Value, name: &str) -> Option<(&'a str, &'a Function)> {
+    pub fn own_method(&self, value: &Value, name: &str) -> Option<(&'a str, &'a Function)> {
         let library = self.library;
         let method = match value {
             _ if name.contains("::") => name.to_owned(),
@@ -160,20 +169,14 @@ impl<'a> Evaluator<'a> {
             return Err(Exit::Noted);
         };
         let place = self.follow_references((**place).clone(), span)?;
-        let len = match self.read_place(&place, span)? {
-            Value::Array(elements) => elements.len(),
-            Value::Node(id) if self.ty(id).is_array() => match self.ty(id) {
-                Type::Array { len, .. } => len as usize,
-                _ => 0,
-            },
-            other => {
-                return Err(Diagnostic::error_at(
-                    Code::MismatchedTypes,
-                    span,
-                    format!("{} has no elements to change", other.describe()),
-                )
-                .into());
-            }
+        let array = self.read_place(&place, span)?;
+        let Some(len) = self.array_len(&array) else {
+            return Err(Diagnostic::error_at(
+                Code::MismatchedTypes,
+                span,
+                format!("{} has no elements to change", array.describe()),
+            )
+            .into());
         };
         let element = |k: usize| Value::Ref(Rc::new(place.with_step(Step::Index(Value::Int(k as i64)))));
         Ok(Value::array((0..len).map(element).collect()))

@@ -20,6 +20,7 @@ mod entry;
 mod enums;
 mod expr;
 mod functions;
+mod generics;
 mod integers;
 mod iterators;
 mod kept;
@@ -29,6 +30,7 @@ mod matching;
 mod math;
 mod matrix;
 mod methods;
+mod objects;
 mod operators;
 mod options;
 mod partial;
@@ -43,6 +45,7 @@ mod scope;
 mod sequence;
 mod shape;
 mod states;
+mod tables;
 mod textures;
 mod traits;
 mod value;
@@ -164,6 +167,8 @@ const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { 100_
 
 struct Evaluator<'a> {
     library: &'a Library,
+    /// Types that implement traits of the kernel's.
+    implementers: Vec<&'a str>,
     builder: Builder<'a>,
     /// What becomes of loops and branches, in the function that is being evaluated.
     policy: Policy,
@@ -205,6 +210,8 @@ struct Evaluator<'a> {
     most_nodes: usize,
     /// Whether a limit has been reached.
     exhausted: bool,
+    /// Type that is stated for the call that is evaluated next.
+    expected: Option<Box<crate::front::tree::Type>>,
     /// Expressions that are being evaluated, one inside of the other.
     depth: u32,
     /// Who has left the blocks that are being evaluated, first to last.
@@ -243,6 +250,7 @@ impl<'a> Evaluator<'a> {
         builder.set_exact(policy.math == Math::Strict);
         Evaluator {
             library,
+            implementers: objects::implementers(library),
             builder,
             policy: policy.clone(),
             files: Arc::clone(files),
@@ -267,6 +275,7 @@ impl<'a> Evaluator<'a> {
             last_check: 0,
             most_nodes: MAX_NODES,
             exhausted: false,
+            expected: None,
             depth: 0,
             early_exits: Vec::new(),
             loop_depth: 0,
@@ -427,6 +436,7 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => self.name_each(parts, called, naming, span),
             Value::Array(parts) => self.name_each(parts, called, naming, span),
+            Value::Table(table) => self.name_parts(&table.element, called, naming, span),
             Value::Enum(choice) if choice.names_something() => {
                 let (tag, inside) = self.choice_names(choice, &called.to_string());
                 if let Some((id, name)) = tag {

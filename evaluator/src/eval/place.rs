@@ -146,7 +146,7 @@ impl Evaluator<'_> {
         // Taken out, so that an array that nothing else holds is changed where it is.
         let old = self.scope.set_value(place.slot, Value::Poison);
         let new = self.replace_part(old, &place.path, value, span)?;
-        if matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
+        if matches!(&new, Value::Table(_)) || matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
             self.name_value(&new, &name, span);
         }
         self.scope.set_value(place.slot, new);

@@ -7,7 +7,7 @@
 use super::Evaluator;
 use super::loops::LoopBody;
 use super::shape::same_shape;
-use super::value::{Eval, Value};
+use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Pattern;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
@@ -263,17 +263,30 @@ impl Evaluator<'_> {
                     let row = row.collect();
                     return Ok(Some(Value::array(row)));
                 }
-                let columns = self.by_columns(elements, span)?;
-                Ok(Some(self.element_at(&columns, index)))
+                self.row_of_list(base, elements, index, span)
             }
-            Some(Value::Struct { .. } | Value::Tuple(_) | Value::Enum(_)) => {
-                let columns = self.by_columns(elements, span)?;
-                Ok(Some(self.element_at(&columns, index)))
+            Some(Value::Array(_) | Value::Struct { .. } | Value::Tuple(_) | Value::Enum(_) | Value::Table(_)) => {
+                self.row_of_list(base, elements, index, span)
             }
+            Some(Value::Node(id)) if self.ty(*id).is_array() => self.row_of_list(base, elements, index, span),
             Some(first) if first.is_called() && elements.iter().all(Value::is_called) => {
                 Ok(Some(self.called_at(elements, index)))
             }
             _ => Ok(self.element_of_row(elements, index)),
+        }
+    }
+
+    /// An element of a list by columns, or by a table where there are arrays in the elements.
+    fn row_of_list(&mut self, base: &Value, elements: &[Value], index: NodeId, span: Span) -> Eval<Option<Value>> {
+        let error = match self.by_columns(elements, span) {
+            Ok(columns) => return Ok(Some(self.element_at(&columns, index))),
+            Err(Exit::Error(error)) => error,
+            Err(exit) => return Err(exit),
+        };
+        match self.tabled(base, span) {
+            Ok(Value::Table(table)) => Ok(Some(self.row_at(&table.element, index))),
+            Err(exit @ Exit::Demand(_)) => Err(exit),
+            _ => Err(Exit::Error(error)),
         }
     }
 

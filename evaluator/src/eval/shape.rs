@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::enums::Tag;
-use super::value::{Eval, Value};
+use super::value::{Eval, Table, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{NodeId, Op, Scalar, Type};
 use std::rc::Rc;
@@ -15,6 +15,10 @@ impl Value {
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| field.flatten(out)),
             Value::Tuple(parts) => parts.iter().for_each(|part| part.flatten(out)),
             Value::Array(parts) => parts.iter().for_each(|part| part.flatten(out)),
+            Value::Table(table) => {
+                table.element.flatten(out);
+                out.extend(table.from);
+            }
             Value::Enum(choice) => {
                 if let Tag::Node(id) = choice.tag {
                     out.push(id);
@@ -38,6 +42,11 @@ impl Value {
             }
             Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| p.unflatten(nodes)).collect()),
             Value::Array(parts) => Value::array(parts.iter().map(|p| p.unflatten(nodes)).collect()),
+            Value::Table(table) => Value::Table(Rc::new(Table {
+                len: table.len,
+                element: table.element.unflatten(nodes),
+                from: table.from.map(|from| nodes.next().unwrap_or(from)),
+            })),
             Value::Enum(choice) => {
                 let tag = match choice.tag {
                     Tag::Node(id) => Tag::Node(nodes.next().unwrap_or(id)),
@@ -53,7 +62,8 @@ impl Value {
 }
 
 impl Evaluator<'_> {
-    /// The value with every integer a node and every array of numbers one node, as a structured loop needs it.
+    /// The value with every integer a node and every array of numbers one node, as a structured loop needs it. A short array of
+    /// structures, tuples or arrays stays a list of its elements, so that indices that are constants select variables.
     pub fn make_runtime_form(&mut self, value: &Value, span: Span) -> Eval {
         Ok(match value {
             Value::Int(n) => Value::Node(self.int_node(*n, Scalar::Usize, span)?),
@@ -68,7 +78,15 @@ impl Evaluator<'_> {
                 let parts: Eval<Vec<Value>> = parts.iter().map(|p| self.make_runtime_form(p, span)).collect();
                 Value::Tuple(parts?)
             }
+            Value::Array(elements) if self.is_tabled(value) => {
+                if value.count_parts(MAX_VARIABLES) > MAX_VARIABLES {
+                    return self.tabled(value, span);
+                }
+                let settled = elements.iter().map(|element| self.make_runtime_form(element, span));
+                Value::array(settled.collect::<Eval<_>>()?)
+            }
             Value::Array(_) => Value::Node(self.array_node(value, span)?),
+            Value::Table(_) => self.tabled(value, span)?,
             Value::Enum(choice) => {
                 let mut settled = (**choice).clone();
                 for (_, value) in settled.variants.iter_mut().flatten().flatten() {
@@ -106,32 +124,13 @@ impl Evaluator<'_> {
             }
         };
         if elements.len() > MAX_INDEXED {
-            return Err(Diagnostic::error_at(
-                Code::TooLarge,
-                span,
-                format!(
-                    "an array of {} elements is indexed at run time, or changed in a loop",
-                    elements.len()
-                ),
-            )
-            .label(format!("more than {MAX_INDEXED}"))
-            .help("read it from a `&Buffer`, or unroll the loop")
-            .into());
+            return Err(too_many_elements(elements.len(), span).into());
         }
         let mut nodes = Vec::new();
         for element in &elements {
             match element {
                 Value::Int(_) | Value::Node(_) => nodes.push(self.value_node(element, span)?),
-                other => {
-                    return Err(Diagnostic::error_at(
-                        Code::RuntimeIndex,
-                        span,
-                        format!("an array of {} cannot be indexed at run time", element_kind(other)),
-                    )
-                    .label("the index is a runtime value")
-                    .help("unroll the loop, or keep an array for each number in it")
-                    .into());
-                }
+                other => return Err(not_indexed(other, span).into()),
             }
         }
         let element = self.ty(nodes[0]);
@@ -186,6 +185,11 @@ impl Evaluator<'_> {
                 }
                 (Value::structure(ty.clone(), l), Value::structure(ty.clone(), r))
             }
+            (Value::Table(_), _) | (_, Value::Table(_))
+                if self.array_len(a).is_some() && self.array_len(a) == self.array_len(b) =>
+            {
+                return self.unify_tables(a, b, span);
+            }
             (Value::Tuple(left), Value::Tuple(right)) if left.len() == right.len() => {
                 let (l, r) = self.agree_all(left, right, span)?;
                 (Value::Tuple(l), Value::Tuple(r))
@@ -194,6 +198,7 @@ impl Evaluator<'_> {
                 let (l, r) = self.agree_all(left, right, span)?;
                 (Value::array(l), Value::array(r))
             }
+            (a, b) if self.are_objects(a, b) => return self.unify_objects(a, b, span),
             (Value::Enum(left), Value::Enum(right)) if left.ty == right.ty => {
                 return self.agree_choices(left, right, span);
             }
@@ -240,17 +245,38 @@ impl Evaluator<'_> {
 }
 
 /// Elements of an array that is one value of a shader: an instruction of SPIR-V has 65535 words at most.
-const MAX_INDEXED: usize = 65_000;
+pub const MAX_INDEXED: usize = 65_000;
 
-/// What an array is of, for a message.
-fn element_kind(element: &Value) -> String {
-    match element {
-        Value::Struct { ty, .. } => format!("`{ty}`"),
-        Value::Enum(choice) => format!("`{}`", choice.ty),
-        Value::Tuple(_) => "tuples".to_owned(),
-        Value::Array(_) => "arrays".to_owned(),
+/// Numbers in an array of structures, tuples or arrays beyond which a loop does not carry each of them as a variable.
+const MAX_VARIABLES: usize = 48;
+
+/// An array of too many elements for a shader's variable.
+pub fn too_many_elements(count: usize, span: Span) -> Diagnostic {
+    Diagnostic::error_at(
+        Code::TooLarge,
+        span,
+        format!("an array of {count} elements is indexed at run time, or changed in a loop"),
+    )
+    .label(format!("more than {MAX_INDEXED}"))
+    .help("read it from a `&Buffer`, or unroll the loop")
+}
+
+/// An array of what no shader can choose by a runtime index.
+pub fn not_indexed(element: &Value, span: Span) -> Diagnostic {
+    let elements = match element {
+        Value::Texture(_) => "textures".to_owned(),
+        Value::Sampler(_) => "samplers".to_owned(),
+        Value::Buffer(_) => "buffers".to_owned(),
+        Value::Ref(_) => "mutable references".to_owned(),
         other => other.describe(),
-    }
+    };
+    Diagnostic::error_at(
+        Code::RuntimeIndex,
+        span,
+        format!("an array of {elements} cannot be indexed at run time"),
+    )
+    .label("the index is a runtime value")
+    .help("unroll the loop, or choose by a `match`: `match k { 0 => a.load(p), _ => b.load(p) }`")
 }
 
 /// Whether two settled values differ in their nodes alone.
@@ -273,6 +299,9 @@ pub fn same_shape(a: &Value, b: &Value) -> bool {
         }
         (Value::Tuple(a), Value::Tuple(b)) => all_same(a, b),
         (Value::Array(a), Value::Array(b)) => all_same(a, b),
+        (Value::Table(a), Value::Table(b)) => {
+            a.len == b.len && a.from.is_some() == b.from.is_some() && same_shape(&a.element, &b.element)
+        }
         (Value::Enum(a), Value::Enum(b)) => {
             let tags = match (a.tag, b.tag) {
                 (Tag::Node(_), Tag::Node(_)) => true,

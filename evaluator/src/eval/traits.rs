@@ -2,6 +2,7 @@
 //! parameter. A value knows its type, so that a call finds its function by the values alone.
 
 use super::Evaluator;
+use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Generic, Type as SourceType};
@@ -18,9 +19,10 @@ fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
 
 impl<'a> Evaluator<'a> {
     /// What functions of a value's type go by. A known integer is of any type.
-    fn type_names(&self, value: &Value) -> Vec<String> {
+    pub fn type_names(&self, value: &Value) -> Vec<String> {
         match value {
             Value::Struct { ty, .. } => vec![ty.to_string()],
+            Value::Enum(choice) if choice.ty == OBJECT => Vec::new(),
             Value::Enum(choice) => vec![choice.ty.to_string()],
             Value::Int(_) => vec!["usize".to_owned(), "i32".to_owned(), "u32".to_owned()],
             Value::Node(id) if self.ty(*id).is_array() => Vec::new(),
@@ -33,7 +35,7 @@ impl<'a> Evaluator<'a> {
     fn is_of(&self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
         match (ty.peel_refs(), value) {
             (SourceType::Name(name, _), _) if generics.iter().any(|generic| generic.name() == name) => true,
-            (SourceType::Name(name, _), Value::Array(_)) => self.is_unknown_name(name),
+            (SourceType::Name(name, _), Value::Array(_) | Value::Table(_)) => self.is_unknown_name(name),
             (SourceType::Name(name, _), _) => {
                 let names = self.type_names(value);
                 names.is_empty() || names.contains(name) || self.is_unknown_name(name)
@@ -41,7 +43,7 @@ impl<'a> Evaluator<'a> {
             (SourceType::Tuple(types), Value::Tuple(parts)) => {
                 types.len() == parts.len() && parts.iter().zip(types).all(|(part, ty)| self.is_of(part, ty, generics))
             }
-            (SourceType::Array(..), Value::Array(_)) => true,
+            (SourceType::Array(..), Value::Array(_) | Value::Table(_)) => true,
             (SourceType::Array(..), Value::Node(id)) => self.ty(*id).is_array(),
             (SourceType::Fn(..), value) => value.is_called(),
             _ => false,

@@ -31,6 +31,8 @@ pub enum Value {
     Tuple(Vec<Value>),
     /// An array with known indices; shared until it is changed.
     Array(Rc<Elements>),
+    /// An array of structures, tuples, enums or arrays that is indexed at run time.
+    Table(Rc<Table>),
     /// Counters from a first to one before an end, for a loop.
     Range(Range),
     /// A text: the name in `tally`.
@@ -57,6 +59,8 @@ pub enum Value {
     OneOf(NodeId, Rc<Vec<Value>>),
     /// `array::from_fn(f)`, of which only the type that is stated for it tells the length.
     Elements(Rc<Value>),
+    /// A constant parameter of a structure's type, a hidden field: the 3 of `Window<3>`, or 1 for `true`.
+    Const(i64),
     /// What a type parameter stands for, by the name of the type.
     Type(String),
     /// What a variable of a closure holds that is a variable around it.
@@ -94,6 +98,29 @@ impl Deref for Elements {
 impl DerefMut for Elements {
     fn deref_mut(&mut self) -> &mut Vec<Value> {
         &mut self.elements
+    }
+}
+
+/// An array by columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Number of elements.
+    pub len: usize,
+    /// An element with an array in place of each number: the numbers of all elements. Where an element is an array, it is a table whose
+    /// arrays hold the numbers of all rows one after the other.
+    pub element: Value,
+    /// Row of the first element, an `i32`: set for a row of a table of arrays, which reads the arrays of the whole.
+    pub from: Option<NodeId>,
+}
+
+impl Table {
+    /// An array that is no part of another one.
+    pub fn whole(len: usize, element: Value) -> Value {
+        Value::Table(Rc::new(Table {
+            len,
+            element,
+            from: None,
+        }))
     }
 }
 
@@ -202,8 +229,9 @@ impl Value {
             Value::Struct { fields, .. } => fields.iter().all(|(_, value)| value.is_plain()),
             Value::Tuple(parts) => parts.iter().all(Value::is_plain),
             Value::Array(parts) => parts.iter().all(Value::is_plain),
+            Value::Table(table) => table.element.is_plain(),
             Value::Enum(choice) => choice.all_fields().all(|(_, value)| value.is_plain()),
-            Value::Int(_) | Value::Node(_) | Value::Unset | Value::Undef => true,
+            Value::Int(_) | Value::Const(_) | Value::Node(_) | Value::Unset | Value::Undef => true,
             _ => false,
         }
     }
@@ -224,6 +252,7 @@ impl Value {
             Value::Tuple(parts) => Box::new(parts.iter()),
             Value::Array(parts) => Box::new(parts.iter()),
             Value::Enum(choice) => Box::new(choice.all_fields().map(|(_, value)| value)),
+            Value::Table(table) => return table.len.saturating_mul(table.element.count_parts(limit)),
             _ => return 1,
         };
         let mut sum = 1;
@@ -246,6 +275,7 @@ impl Value {
             Value::Tuple(parts) if parts.is_empty() => "`()`".to_owned(),
             Value::Tuple(parts) => format!("a tuple of {}", parts.len()),
             Value::Array(parts) => format!("an array of {}", parts.len()),
+            Value::Table(table) => format!("an array of {}", table.len),
             Value::Range(_) => "a range".to_owned(),
             Value::Str(_) => "a text".to_owned(),
             Value::Texture(_) => "a texture".to_owned(),
@@ -258,6 +288,7 @@ impl Value {
             Value::Function(path) => format!("the function `{}`", path.join("::")),
             Value::OneOf(..) => "one of several functions".to_owned(),
             Value::Elements(_) => "an array of which no type states the length".to_owned(),
+            Value::Const(n) => format!("the constant {n}"),
             Value::Type(ty) => format!("the type `{ty}`"),
             Value::Alias(_) => "a variable".to_owned(),
             Value::Undef => "any value".to_owned(),

@@ -224,9 +224,13 @@ impl Lower {
             syn::Expr::Call(e) => self.lower_call(e),
             syn::Expr::MethodCall(e) => {
                 let receiver = self.lower_link(&e.receiver);
+                // Values alone tell the type of a sum.
+                let is_sum = e.method == "sum" || e.method == "product";
+                let stated = e.turbofish.as_ref().filter(|_| !is_sum);
                 ExprKind::Method(
                     receiver,
                     e.method.to_string(),
+                    stated.map(|list| self.listed_arguments(list)).unwrap_or_default(),
                     e.args.iter().map(|a| self.lower_expr(a)).collect(),
                 )
             }
@@ -286,19 +290,8 @@ impl Lower {
 
     /// `None::<T>`: a `None` where its type is stated.
     fn typed_none(&mut self, held: Type, at: proc_macro2::Span) -> ExprKind {
-        let span = self.token_span(at);
-        let none = self.path_expr(vec!["Option".to_owned(), "None".to_owned()], at);
-        let ty = Type::Name("Option".to_owned(), vec![held]);
-        ExprKind::Block(Block {
-            statements: vec![Statement::Let(
-                Pattern::Name("#none".into(), false, span),
-                Some(ty),
-                Some(none),
-                span,
-            )],
-            value: Some(Box::new(self.path_expr(vec!["#none".to_owned()], at))),
-            exact: false,
-        })
+        let none = ExprKind::Path(vec!["Option".to_owned(), "None".to_owned()]);
+        self.typed(none, Type::Name("Option".to_owned(), vec![held]), at)
     }
 
     fn refuse_expr(&mut self, expr: &syn::Expr) -> ExprKind {
@@ -411,8 +404,35 @@ impl Lower {
         let args = e.args.iter().map(|a| self.lower_expr(a)).collect();
         match &*e.func {
             syn::Expr::Path(path) if self.of_type(path).is_some() => {
-                let constants = self.generic_arguments(&path.path);
-                ExprKind::Call(self.of_type(path).unwrap_or_default(), constants, args)
+                let mut constants = self.generic_arguments(&path.path);
+                let called = self.of_type(path).unwrap_or_default();
+                let count = path.path.segments.len();
+                let is_type = path
+                    .path
+                    .segments
+                    .last()
+                    .is_some_and(|last| is_made(&last.ident.to_string()));
+                if count == 1
+                    && is_type
+                    && let Some(ty) = self.stated_type(&path.path)
+                {
+                    return self.typed(ExprKind::Call(called, Vec::new(), args), ty, e.span());
+                }
+                let mut owner = path.path.clone();
+                owner.segments.pop();
+                owner.segments.pop_punct();
+                if let Some(ty) = self.stated_type(&owner) {
+                    let span = self.token_span(owner.span());
+                    let unit = Box::new(Expr {
+                        kind: ExprKind::Tuple(Vec::new()),
+                        span,
+                    });
+                    constants.push(Expr {
+                        kind: ExprKind::Cast(unit, ty),
+                        span,
+                    });
+                }
+                ExprKind::Call(called, constants, args)
             }
             other => ExprKind::Invoke(self.lower_link(other), args),
         }
@@ -423,6 +443,10 @@ impl Lower {
         let Some(syn::PathArguments::AngleBracketed(list)) = path.segments.last().map(|s| &s.arguments) else {
             return Vec::new();
         };
+        self.listed_arguments(list)
+    }
+
+    fn listed_arguments(&mut self, list: &syn::AngleBracketedGenericArguments) -> Vec<Expr> {
         let mut constants = Vec::new();
         for arg in &list.args {
             let kind = match arg {
@@ -464,7 +488,40 @@ impl Lower {
         for field in &e.fields {
             fields.push((member_name(&field.member), self.lower_expr(&field.expr)));
         }
-        ExprKind::Struct(path, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
+        let made = ExprKind::Struct(path, fields, e.rest.as_ref().map(|rest| self.boxed(rest)));
+        match self.stated_type(&e.path) {
+            Some(ty) => self.typed(made, ty, e.span()),
+            None => made,
+        }
+    }
+
+    /// The type that a path with generic arguments names: `Window::<3>`.
+    fn stated_type(&mut self, path: &syn::Path) -> Option<Type> {
+        let last = path.segments.last()?;
+        if last.arguments.is_none() {
+            return None;
+        }
+        Some(self.lower_type(&syn::Type::Path(syn::TypePath {
+            attrs: Vec::new(),
+            qself: None,
+            path: path.clone(),
+        })))
+    }
+
+    /// A value where its type is stated.
+    fn typed(&mut self, value: ExprKind, ty: Type, at: proc_macro2::Span) -> ExprKind {
+        let span = self.token_span(at);
+        let name = "#typed";
+        ExprKind::Block(Block {
+            statements: vec![Statement::Let(
+                Pattern::Name(name.into(), false, span),
+                Some(ty),
+                Some(Expr { kind: value, span }),
+                span,
+            )],
+            value: Some(Box::new(self.path_expr(vec![name.to_owned()], at))),
+            exact: false,
+        })
     }
 
     fn lower_range(&mut self, e: &syn::ExprRange) -> ExprKind {
@@ -483,6 +540,11 @@ impl Lower {
 
 /// Placeholder for a generic argument that is `_`.
 pub const INFERRED: &str = "_";
+
+/// Returns whether a call by a name of one word makes a structure: `Window::<3>(x)`, but not `Some::<f32>(x)`.
+fn is_made(name: &str) -> bool {
+    name.starts_with(char::is_uppercase) && !matches!(name, "Some" | "Ok" | "Err")
+}
 
 /// The type in `None::<T>` and `Option::<T>::None`.
 pub fn held_by_none(path: &syn::Path) -> Option<&syn::Type> {

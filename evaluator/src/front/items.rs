@@ -322,6 +322,7 @@ impl Items {
             docs: doc_text(attrs),
             unroll: lower.unroll_of_function(attrs),
             generics,
+            of: of.map(|of| of.ty.clone()),
             bounds,
             params,
             result,

@@ -169,7 +169,7 @@ impl<'l> Parts<'l> {
             ExprKind::For(f) => self.loops.push(f.unroll),
             ExprKind::While(.., unroll) => self.loops.push(*unroll),
             ExprKind::Call(path, ..) => self.calls.extend(path.last().map(String::as_str)),
-            ExprKind::Method(_, name, _) => drop(self.calls.insert(last_segment(name))),
+            ExprKind::Method(_, name, ..) => drop(self.calls.insert(last_segment(name))),
             ExprKind::Path(path) => self.paths.extend(path.last().map(String::as_str)),
             ExprKind::Closure(closure) => {
                 let mut inside = Parts::default();
@@ -259,7 +259,7 @@ impl Scan<'_> {
             ExprKind::For(f) => self.keeps_loop(f.unroll),
             ExprKind::While(.., unroll) => self.keeps_loop(*unroll),
             ExprKind::Call(path, ..) => self.values || is_named(path),
-            ExprKind::Method(_, name, _) => self.values || self.words.contains(last_segment(name)),
+            ExprKind::Method(_, name, ..) => self.values || self.words.contains(last_segment(name)),
             ExprKind::Invoke(..) => self.values,
             ExprKind::Path(path) => is_named(path),
             _ => self.operators && is_operator(e),

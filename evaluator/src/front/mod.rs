@@ -54,6 +54,19 @@ pub use traits::is_of_rust;
 pub use tree::Library;
 pub use whiles::guard_body;
 
+/// Methods of arrays in the library that change their receiver.
+pub const CHANGING: [&str; 9] = [
+    "copy_from_slice",
+    "fill",
+    "reverse",
+    "sort",
+    "sort_by",
+    "sort_by_key",
+    "sort_unstable",
+    "sort_unstable_by",
+    "swap",
+];
+
 /// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
 pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];
 

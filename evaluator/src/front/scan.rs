@@ -123,7 +123,7 @@ fn scan_expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             around.note_write(place, out);
             scan_expr(place, out, around);
         }
-        ExprKind::Method(receiver, name, args) => {
+        ExprKind::Method(receiver, name, _, args) => {
             if around.mutates(name) {
                 around.note_write(receiver, out);
             }
@@ -225,9 +225,8 @@ pub fn child_exprs(e: &Expr) -> Vec<&Expr> {
         | ExprKind::Assign(a, _, b) => vec![a, b],
         ExprKind::Call(_, constants, args) => constants.iter().chain(args).collect(),
         ExprKind::Tuple(args) | ExprKind::Array(args) => args.iter().collect(),
-        ExprKind::Method(first, _, args) | ExprKind::Invoke(first, args) => {
-            std::iter::once(&**first).chain(args).collect()
-        }
+        ExprKind::Method(first, _, constants, args) => std::iter::once(&**first).chain(constants).chain(args).collect(),
+        ExprKind::Invoke(first, args) => std::iter::once(&**first).chain(args).collect(),
         ExprKind::Struct(_, fields, rest) => fields.iter().map(|(_, e)| e).chain(rest.as_deref()).collect(),
         ExprKind::Return(value) => value.iter().map(|e| &**e).collect(),
         ExprKind::If(condition, _, otherwise, _) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
@@ -257,7 +256,7 @@ pub fn collect_mentioned(b: &Block, out: &mut BTreeSet<String>) {
 pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
     match &e.kind {
         ExprKind::Path(path) | ExprKind::Call(path, ..) => out.extend(path.iter().cloned()),
-        ExprKind::Method(_, name, _) => {
+        ExprKind::Method(_, name, ..) => {
             out.insert(name.clone());
         }
         ExprKind::Struct(path, ..) => out.extend(path.iter().cloned()),

@@ -47,8 +47,8 @@ pub enum ExprKind {
     Call(Vec<String>, Vec<Expr>, Vec<Expr>),
     /// `(callee)(arguments)`: a call of what an expression gives.
     Invoke(Box<Expr>, Vec<Expr>),
-    /// `receiver.method(arguments)`.
-    Method(Box<Expr>, String, Vec<Expr>),
+    /// `receiver.method::<constants>(arguments)`.
+    Method(Box<Expr>, String, Vec<Expr>, Vec<Expr>),
     /// `base.field`, `base.0`.
     Field(Box<Expr>, Name),
     /// `base[index]`.
@@ -267,6 +267,17 @@ impl Type {
         }
     }
 
+    /// Returns whether an argument of a type is a parameter, by its name.
+    pub fn is_parameter(&self, parameter: &str) -> bool {
+        match self {
+            Type::Name(name, args) => name == parameter && args.is_empty(),
+            Type::Const(value) => {
+                matches!(&value.kind, ExprKind::Path(path) if matches!(path.as_slice(), [name] if name == parameter))
+            }
+            _ => false,
+        }
+    }
+
     /// Returns whether the type is `&mut T`.
     pub fn is_mutable_reference(&self) -> bool {
         matches!(self, Type::Ref(true, _))
@@ -313,6 +324,8 @@ pub struct Function {
     pub unroll: Option<Unroll>,
     /// Generic parameters in order, those of its `impl` last.
     pub generics: Vec<Generic>,
+    /// Type that its `impl` is of, with its arguments.
+    pub of: Option<Type>,
     /// The traits that type parameters have, by their names.
     pub bounds: HashMap<String, Vec<String>>,
     /// Parameters in order.
@@ -323,6 +336,33 @@ pub struct Function {
     pub body: Block,
     /// Source location of its name.
     pub span: Span,
+}
+
+/// Generic arguments of a call: those of the function, and the type before it, if that has arguments: `Window::<3>::new`, which are
+/// lowered as `() as Window<3>` behind the others.
+pub fn generic_arguments(stated: &[Expr]) -> (&[Expr], Option<&Type>) {
+    match stated.split_last() {
+        Some((
+            Expr {
+                kind: ExprKind::Cast(_, ty @ Type::Name(..)),
+                ..
+            },
+            own,
+        )) => (own, Some(ty)),
+        _ => (stated, None),
+    }
+}
+
+impl Function {
+    /// The argument of a type that stands for a parameter of the `impl`: of `Window<3>` for `N` of `impl<const N: usize> Window<N>`.
+    pub fn argument_of<'t>(&self, ty: &'t Type, parameter: &str) -> Option<&'t Type> {
+        let (Some(Type::Name(_, own)), Type::Name(_, args)) = (&self.of, ty) else {
+            return None;
+        };
+        let mut pairs = own.iter().zip(args);
+        let found = pairs.find(|(own, _)| own.is_parameter(parameter));
+        found.map(|(_, arg)| arg)
+    }
 }
 
 /// A constant.

@@ -2,7 +2,7 @@
 
 use super::{Known, KnownItems};
 use crate::diagnostic::Span;
-use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type};
+use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type, generic_arguments};
 use std::sync::Arc;
 
 /// Gives each literal the type that was found for it, and each method of a number the function that it stands for.
@@ -90,7 +90,8 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
                 *constants = fill_arguments(std::mem::take(constants), types, e.span);
             }
         }
-        ExprKind::Method(receiver, name, args) => {
+        ExprKind::Method(receiver, name, constants, args) => {
+            constants.iter_mut().for_each(|e| apply_to_expr(e, known));
             if let Some(function) = known.methods.get(&e.span) {
                 name.clone_from(function);
             }
@@ -98,7 +99,7 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
             args.iter_mut().for_each(go);
             // Only a call has a place for types.
             if let Some((key, types)) = known.instances.get(&e.span) {
-                let constants = fill_arguments(Vec::new(), types, e.span);
+                let constants = fill_arguments(std::mem::take(constants), types, e.span);
                 let mut receiver = (**receiver).clone();
                 // A function with a `&mut` receiver borrows it, as a method does.
                 if changes_array(key) {
@@ -162,7 +163,9 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
 
 /// Generic arguments with the types that were found: those that are stated, then the others. What is not known is `()`.
 fn fill_arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Expr> {
-    let mut stated = stated.into_iter();
+    let owner = generic_arguments(&stated).1.and_then(|_| stated.last().cloned());
+    let count = stated.len() - usize::from(owner.is_some());
+    let mut stated = stated.into_iter().take(count);
     let each = types.iter().map(|ty| {
         let given = stated.next();
         let kind = match (ty, given) {
@@ -172,7 +175,7 @@ fn fill_arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Ve
         };
         Expr { kind, span }
     });
-    each.collect()
+    each.chain(owner).collect()
 }
 
 fn apply_to_pattern(p: &mut Pattern, known: &Known) {
@@ -209,5 +212,6 @@ fn apply_to_type(t: &mut Type, known: &Known) {
 
 /// Returns whether a method of arrays in the library changes its receiver.
 fn changes_array(key: &str) -> bool {
-    matches!(key, "Array::swap" | "Array::reverse" | "Array::fill")
+    key.strip_prefix("Array::")
+        .is_some_and(|name| crate::front::CHANGING.contains(&name))
 }

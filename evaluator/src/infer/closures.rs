@@ -191,6 +191,11 @@ impl<'l> Checker<'l> {
                 }
             }
             ("map", [f]) => iter(self.infer_map_result(item, f)),
+            ("flat_map", [f]) => {
+                let inner = self.infer_map_result(item, f);
+                iter(self.item_type(&inner).unwrap_or(Ty::Unknown))
+            }
+            ("flatten", []) => iter(self.item_type(item).unwrap_or(Ty::Unknown)),
             ("for_each", [f]) => {
                 self.check_expr(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::UNIT)));
                 Ty::UNIT

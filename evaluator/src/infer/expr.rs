@@ -199,13 +199,18 @@ impl<'l> Checker<'l> {
             ExprKind::Assign(target, op, value) => self.infer_assign(target, *op, value, expr),
             ExprKind::Call(path, constants, args) => self.infer_call(path, constants, args, span),
             ExprKind::Invoke(callee, args) => self.infer_invoke(callee, args, span),
-            ExprKind::Method(receiver, name, args) => self.infer_method_call(receiver, name, args, span),
+            ExprKind::Method(receiver, name, constants, args) => {
+                self.infer_method_call(receiver, name, constants, args, span)
+            }
             ExprKind::If(condition, then, otherwise, _) => {
                 self.check_expr(condition, &Ty::Bool);
                 let left = self.infer_block(then, wanted);
                 match otherwise {
                     Some(otherwise) => {
+                        let at = then.value.as_ref().map_or(span, |value| value.span);
+                        let left = self.as_object(left, wanted, at);
                         let right = self.infer_expr(otherwise, wanted);
+                        let right = self.as_object(right, wanted, otherwise.span);
                         self.join_types(left, right, otherwise.span)
                     }
                     None => {
@@ -225,6 +230,7 @@ impl<'l> Checker<'l> {
                         self.check_expr(guard, &Ty::Bool);
                     }
                     let found = self.infer_expr(&arm.body, wanted);
+                    let found = self.as_object(found, wanted, arm.body.span);
                     self.locals.truncate(mark);
                     all = self.join_types(all, found, arm.body.span);
                 }
@@ -327,6 +333,23 @@ impl<'l> Checker<'l> {
             Ty::Unknown
         } else {
             ty
+        }
+    }
+
+    /// The type of an arm where `&dyn Trait` is wanted: each arm may refer to another type.
+    fn as_object(&mut self, found: Ty, wanted: Option<&Ty>, span: Span) -> Ty {
+        let Some(wanted) = wanted.map(|ty| self.table.resolve_shallow(ty)) else {
+            return found;
+        };
+        let is_object = |ty: &Ty| matches!(ty, Ty::Param(name) if name.starts_with("dyn "));
+        match &wanted {
+            Ty::Ref(_, inner)
+                if is_object(&self.table.resolve_shallow(inner)) && self.table.resolve_shallow(&found) != Ty::Never =>
+            {
+                self.coerce(&wanted, &found, span);
+                wanted
+            }
+            _ => found,
         }
     }
 

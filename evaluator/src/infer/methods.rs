@@ -10,7 +10,14 @@ use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
     /// The type of `receiver.name(args)`.
-    pub fn infer_method_call(&mut self, receiver: &'l Expr, name: &str, args: &'l [Expr], span: Span) -> Ty {
+    pub fn infer_method_call(
+        &mut self,
+        receiver: &'l Expr,
+        name: &str,
+        constants: &'l [Expr],
+        args: &'l [Expr],
+        span: Span,
+    ) -> Ty {
         let (ty, access) = self.infer_place(receiver);
         if self.table.variable_kind(&self.peel_refs(&ty).0) == Some(Kind::Any) {
             self.solve_deferred();
@@ -43,7 +50,7 @@ impl<'l> Checker<'l> {
                     if !matches!(settled, Ty::Struct(..) | Ty::Enum(..)) || key.starts_with('<') {
                         self.methods.insert(span, (*key).to_owned());
                     }
-                    return self.infer_function_call(key, function, &[], Some(&ty), args, span);
+                    return self.infer_function_call(key, function, constants, Some(&ty), args, span);
                 }
                 let mut found = vec![settled];
                 found.extend(args.iter().map(|arg| self.infer_expr(arg, None)));
@@ -56,7 +63,7 @@ impl<'l> Checker<'l> {
         if name == "clone" && args.is_empty() && !matches!(bare, Ty::Iter(_) | Ty::Texture(..)) {
             return bare;
         }
-        let changes = matches!(bare, Ty::Array(_)) && matches!(name, "swap" | "reverse" | "fill");
+        let changes = matches!(bare, Ty::Array(_)) && crate::front::CHANGING.contains(&name);
         if name == "iter_mut" || changes {
             self.check_mutable_receiver(access, reference, receiver);
         }
@@ -165,6 +172,7 @@ impl<'l> Checker<'l> {
                         | "cloned"
                         | "copied"
                         | "enumerate"
+                        | "flat_map"
                         | "fold"
                         | "for_each"
                         | "product"

@@ -4,7 +4,7 @@ use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::textures::TextureType;
-use crate::front::tree::{Expr, ExprKind, Function, Generic, Type};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, Type, generic_arguments};
 use std::collections::HashMap;
 
 pub use crate::front::tree::vector_named as vector;
@@ -104,10 +104,10 @@ impl<'l> Checker<'l> {
             "Sampler" => Ty::Sampler,
             "ComparisonSampler" => Ty::ComparisonSampler,
             "_" => self.table.fresh(Kind::Any),
-            // A value of one type or another, which the values tell.
+            // A value of one type or another: its methods are those of the trait.
             _ if name.starts_with("dyn ") => {
                 self.check_trait_object(name, span);
-                Ty::Unknown
+                Ty::Param(name.to_owned())
             }
             _ => match TextureType::from_name(name) {
                 Some(of) if of.kind.is_depth() => Ty::Texture(of, Box::new(Ty::Float)),
@@ -176,11 +176,14 @@ impl<'l> Checker<'l> {
     /// Type parameters of a function as variables: those stated in `::<>`, the others to be found.
     pub fn instantiate_function(&mut self, function: &'l Function, stated: &'l [Expr]) -> HashMap<String, Ty> {
         let mut given = HashMap::new();
+        let (stated, owner) = generic_arguments(stated);
         for (k, generic) in function.generics.iter().enumerate() {
             match generic {
                 Generic::Type(name) => {
-                    let ty = match stated.get(k) {
-                        Some(stated) if !is_inferred(stated) => self.type_argument(stated),
+                    let of_owner = owner.and_then(|owner| function.argument_of(owner, name));
+                    let ty = match (stated.get(k), of_owner) {
+                        (Some(stated), _) if !is_inferred(stated) => self.type_argument(stated),
+                        (_, Some(ty)) => self.convert_type(ty, function.span),
                         _ => self.table.fresh(Kind::Any),
                     };
                     given.insert(name.clone(), ty);

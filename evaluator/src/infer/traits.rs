@@ -178,17 +178,29 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// The traits that a type parameter has, or that a `dyn` names.
+    fn traits_of(&self, parameter: &str) -> Vec<String> {
+        if let Some(traits) = self.bounds.and_then(|bounds| bounds.get(parameter)) {
+            return traits.clone();
+        }
+        let of_object = parameter.strip_prefix("dyn ").into_iter();
+        of_object
+            .flat_map(|traits| traits.split(" + "))
+            .map(str::to_owned)
+            .collect()
+    }
+
     /// The function of a trait that a type parameter has.
     pub fn declared_of(&self, parameter: &str, name: &str) -> Option<&'l Function> {
         let library = self.library;
-        let traits = self.bounds?.get(parameter)?;
+        let traits = self.traits_of(parameter);
         traits.iter().find_map(|of| library.declared_function(of, name))
     }
 
     /// The type of a constant of a type parameter.
     pub fn constant_of(&mut self, parameter: &str, name: &str, span: Span) -> Option<Ty> {
         let library = self.library;
-        let traits = self.bounds?.get(parameter)?;
+        let traits = self.traits_of(parameter);
         let ty = traits.iter().find_map(|of| library.declared_const(of, name))?;
         let given = HashMap::from([("Self".to_owned(), Ty::Param(parameter.to_owned()))]);
         Some(self.substitute_type(ty, &given, span))
@@ -414,12 +426,12 @@ impl<'l> Checker<'l> {
         for Bound { span, ty, traits } in std::mem::take(&mut self.bounded) {
             let found = self.table.resolve_shallow(&ty);
             let of_parameter = match &found {
-                Ty::Param(name) => self.bounds.and_then(|bounds| bounds.get(name)).cloned(),
-                _ => None,
+                Ty::Param(name) => self.traits_of(name),
+                _ => Vec::new(),
             };
             for of in traits.iter().filter(|of| self.library.traits.contains_key(*of)) {
                 let satisfied = match (&found, self.type_name(&found)) {
-                    (Ty::Param(_), _) => of_parameter.iter().flatten().any(|known| self.has_trait(known, of)),
+                    (Ty::Param(_), _) => of_parameter.iter().any(|known| self.has_trait(known, of)),
                     (_, Some(name)) => self.library.implements.contains(&(name, of.clone())),
                     (Ty::Ref(..) | Ty::Tuple(_) | Ty::Array(_), None) => false,
                     _ => true,
@@ -460,7 +472,7 @@ impl<'l> Checker<'l> {
         let mut named = HashMap::new();
         for Instance { span, key, types } in std::mem::take(&mut self.instances) {
             let names = types.iter().map(|ty| match self.table.resolve_shallow(ty.as_ref()?) {
-                Ty::Param(name) => Some(name),
+                Ty::Param(name) => self.params.contains(&name).then_some(name),
                 other => self.type_name(&other),
             });
             named.insert(span, (key, names.collect()));

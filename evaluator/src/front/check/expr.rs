@@ -120,13 +120,8 @@ impl Check {
             }
             E::MethodCall(e) => {
                 self.check_link(&mut e.receiver);
-                let of_numbers = e.method == "sum" || e.method == "product";
-                if let Some(arguments) = e.turbofish.as_ref().filter(|_| !of_numbers) {
-                    self.refuse(
-                        arguments.span(),
-                        "`::<>` of a method",
-                        "leave it out, or call the function by its path: `Type::method::<3>(value)`",
-                    );
+                if let Some(list) = &mut e.turbofish {
+                    self.generic_arguments(list);
                 }
                 self.check_expr_list(&mut e.args);
             }
@@ -190,7 +185,7 @@ impl Check {
         if let Some(qself) = &e.qself {
             self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
         }
-        self.check_path(&mut e.path, false);
+        self.check_path(&mut e.path, true);
         let mut kept = Punctuated::new();
         for mut field in std::mem::take(&mut e.fields) {
             if self.keeps(&mut field.attrs) {

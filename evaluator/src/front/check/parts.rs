@@ -127,7 +127,8 @@ impl Check {
                     continue;
                 }
             };
-            if !last || k + 1 < count {
+            let of_type = segment.ident.to_string().starts_with(char::is_uppercase);
+            if !last || k + 2 < count || (k + 1 < count && !of_type) {
                 let shown = super::super::cfg::as_written(list);
                 let shown = shown.trim_start_matches("::").to_owned();
                 let span = list.span();
@@ -138,15 +139,20 @@ impl Check {
                 );
                 continue;
             }
-            for argument in &mut list.args {
-                match argument {
-                    syn::GenericArgument::Lifetime(_) => {}
-                    syn::GenericArgument::Type(ty) => self.check_type(ty),
-                    syn::GenericArgument::Const(value) => self.check_expr(value),
-                    other => {
-                        let span = other.span();
-                        self.refuse(span, "this generic argument", "give types and constants alone");
-                    }
+            self.generic_arguments(list);
+        }
+    }
+
+    /// Arguments in `<>`: types and constants.
+    pub fn generic_arguments(&mut self, list: &mut syn::AngleBracketedGenericArguments) {
+        for argument in &mut list.args {
+            match argument {
+                syn::GenericArgument::Lifetime(_) => {}
+                syn::GenericArgument::Type(ty) => self.check_type(ty),
+                syn::GenericArgument::Const(value) => self.check_expr(value),
+                other => {
+                    let span = other.span();
+                    self.refuse(span, "this generic argument", "give types and constants alone");
                 }
             }
         }

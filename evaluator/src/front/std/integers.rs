@@ -134,3 +134,141 @@ impl usize {
         if self < other { None } else { Some(self - other) }
     }
 }
+
+enum Ordering {
+    Less,
+    Equal,
+    Greater,
+}
+
+impl Ordering {
+    fn is_lt(self) -> bool {
+        matches!(self, Ordering::Less)
+    }
+
+    fn is_le(self) -> bool {
+        !matches!(self, Ordering::Greater)
+    }
+
+    fn is_gt(self) -> bool {
+        matches!(self, Ordering::Greater)
+    }
+
+    fn is_ge(self) -> bool {
+        !matches!(self, Ordering::Less)
+    }
+
+    fn is_eq(self) -> bool {
+        matches!(self, Ordering::Equal)
+    }
+
+    fn is_ne(self) -> bool {
+        !matches!(self, Ordering::Equal)
+    }
+
+    fn reverse(self) -> Ordering {
+        match self {
+            Ordering::Less => Ordering::Greater,
+            Ordering::Equal => Ordering::Equal,
+            Ordering::Greater => Ordering::Less,
+        }
+    }
+
+    fn then(self, other: Ordering) -> Ordering {
+        match self {
+            Ordering::Equal => other,
+            decided => decided,
+        }
+    }
+}
+
+impl f32 {
+    fn total_cmp(&self, other: &f32) -> Ordering {
+        let (a, b) = (self.to_bits() as i32, other.to_bits() as i32);
+        let (a, b) = (a ^ (((a >> 31) as u32) >> 1) as i32, b ^ (((b >> 31) as u32) >> 1) as i32);
+        a.cmp(&b)
+    }
+
+    fn partial_cmp(&self, other: &f32) -> Option<Ordering> {
+        if *self < *other {
+            Some(Ordering::Less)
+        } else if *self == *other {
+            Some(Ordering::Equal)
+        } else if *self > *other {
+            Some(Ordering::Greater)
+        } else {
+            None
+        }
+    }
+}
+
+impl i32 {
+    fn cmp(&self, other: &i32) -> Ordering {
+        if *self < *other {
+            Ordering::Less
+        } else if *self == *other {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
+    }
+}
+
+impl u32 {
+    fn cmp(&self, other: &u32) -> Ordering {
+        if *self < *other {
+            Ordering::Less
+        } else if *self == *other {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
+    }
+}
+
+impl usize {
+    fn cmp(&self, other: &usize) -> Ordering {
+        if *self < *other {
+            Ordering::Less
+        } else if *self == *other {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
+    }
+}
+
+impl u32 {
+    fn ilog2(self) -> u32 {
+        31_u32.wrapping_sub(self.leading_zeros())
+    }
+
+    fn isqrt(self) -> u32 {
+        let near = ((self as f32).sqrt() as u32).min(65535);
+        if near * near > self {
+            near - 1
+        } else if near < 65535 && (near + 1) * (near + 1) <= self {
+            near + 1
+        } else {
+            near
+        }
+    }
+
+    fn next_power_of_two(self) -> u32 {
+        if self <= 1 { 1 } else { (u32::MAX >> (self - 1).leading_zeros()) + 1 }
+    }
+
+    fn swap_bytes(self) -> u32 {
+        self << 24 | (self & 0xff00) << 8 | self >> 8 & 0xff00 | self >> 24
+    }
+}
+
+impl i32 {
+    fn ilog2(self) -> u32 {
+        31_u32.wrapping_sub(self.leading_zeros())
+    }
+
+    fn wrapping_abs(self) -> i32 {
+        if self < 0 { self.wrapping_neg() } else { self }
+    }
+}

@@ -189,6 +189,39 @@ impl Iterator {
         None
     }
 
+    fn last<T>(items: [T]) -> Option<T> {
+        let mut found = None;
+        for x in items {
+            found = Some(x);
+        }
+        found
+    }
+
+    fn nth<T>(items: [T], n: usize) -> Option<T> {
+        for (k, x) in items.into_iter().enumerate() {
+            if k == n {
+                return Some(x);
+            }
+        }
+        None
+    }
+
+    fn min_by<T>(items: [T], f: impl Fn(&T, &T) -> Ordering) -> Option<T> {
+        Iterator::reduce(items, |least, x| if f(&least, &x).is_gt() { x } else { least })
+    }
+
+    fn max_by<T>(items: [T], f: impl Fn(&T, &T) -> Ordering) -> Option<T> {
+        Iterator::reduce(items, |largest, x| if f(&largest, &x).is_gt() { largest } else { x })
+    }
+
+    fn min_by_key<T, K>(items: [T], f: impl Fn(&T) -> K) -> Option<T> {
+        Iterator::reduce(items, |least, x| if f(&x) < f(&least) { x } else { least })
+    }
+
+    fn max_by_key<T, K>(items: [T], f: impl Fn(&T) -> K) -> Option<T> {
+        Iterator::reduce(items, |largest, x| if f(&x) < f(&largest) { largest } else { x })
+    }
+
     fn find_map<T, U>(items: [T], f: impl Fn(T) -> Option<U>) -> Option<U> {
         for x in items {
             let found = f(x);
@@ -219,6 +252,54 @@ impl Array {
         for k in 0..items.len() {
             items[k] = value;
         }
+    }
+
+    fn sort<T>(items: &mut [T]) {
+        Array::sort_unstable(items);
+    }
+
+    fn sort_unstable<T>(items: &mut [T]) {
+        for i in 1..items.len() {
+            for j in (1..=i).rev() {
+                if items[j] < items[j - 1] {
+                    Array::swap(items, j - 1, j);
+                }
+            }
+        }
+    }
+
+    fn sort_by<T>(items: &mut [T], f: impl Fn(&T, &T) -> Ordering) {
+        for i in 1..items.len() {
+            for j in (1..=i).rev() {
+                if f(&items[j - 1], &items[j]).is_gt() {
+                    Array::swap(items, j - 1, j);
+                }
+            }
+        }
+    }
+
+    fn sort_unstable_by<T>(items: &mut [T], f: impl Fn(&T, &T) -> Ordering) {
+        Array::sort_by(items, f);
+    }
+
+    fn sort_by_key<T, K>(items: &mut [T], f: impl Fn(&T) -> K) {
+        for i in 1..items.len() {
+            for j in (1..=i).rev() {
+                if f(&items[j]) < f(&items[j - 1]) {
+                    Array::swap(items, j - 1, j);
+                }
+            }
+        }
+    }
+
+    fn copy_from_slice<T>(items: &mut [T], from: &[T]) {
+        for k in 0..items.len() {
+            items[k] = from[k];
+        }
+    }
+
+    fn is_empty<T>(items: &[T]) -> bool {
+        items.len() == 0
     }
 
     fn first<T>(items: &[T]) -> Option<&T> {

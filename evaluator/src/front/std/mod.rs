@@ -143,9 +143,12 @@ fn by_lane(text: &mut String, lanes: usize) {
         );
     }
     text.push_str("}\n");
+    let bits = LANES[..lanes].iter().enumerate();
+    let bits = bits.map(|(k, lane)| format!("(self.{lane} as u32) << {k}"));
+    let bits = bits.collect::<Vec<_>>().join(" | ");
     let _ = writeln!(
         text,
-        "impl B{vector} {{\n    fn default() -> B{vector} {{ B{vector}::FALSE }}\n}}"
+        "impl B{vector} {{\n    fn default() -> B{vector} {{ B{vector}::FALSE }}\n    fn bitmask(self) -> u32 {{ {bits} }}\n}}"
     );
     for (prefix, number) in [("", "f32"), ("I", "i32"), ("U", "u32")] {
         let own = format!("{prefix}{vector}");

@@ -26,6 +26,14 @@ impl Vec3 {
         acos_approx(self.dot(other) / (self.length_squared() * other.length_squared()).sqrt())
     }
 
+    fn with_xy(self, xy: Vec2) -> Vec3 {
+        xy.extend(self.z)
+    }
+
+    fn with_yz(self, yz: Vec2) -> Vec3 {
+        vec3(self.x, yz.x, yz.y)
+    }
+
     fn rotate_x(self, angle: f32) -> Vec3 {
         let (sin, cos) = angle.sin_cos();
         vec3(self.x, self.y * cos - self.z * sin, self.y * sin + self.z * cos)
@@ -63,6 +71,20 @@ impl Vec3 {
     }
 }
 
+impl Vec4 {
+    fn with_xy(self, xy: Vec2) -> Vec4 {
+        vec4(xy.x, xy.y, self.z, self.w)
+    }
+
+    fn with_zw(self, zw: Vec2) -> Vec4 {
+        vec4(self.x, self.y, zw.x, zw.y)
+    }
+
+    fn with_xyz(self, xyz: Vec3) -> Vec4 {
+        xyz.extend(self.w)
+    }
+}
+
 impl Mat2 {
     fn from_angle(angle: f32) -> Mat2 {
         let (sin, cos) = angle.sin_cos();
@@ -95,6 +117,28 @@ impl Mat3 {
     fn from_angle(angle: f32) -> Mat3 {
         let (sin, cos) = angle.sin_cos();
         Mat3::from_cols(vec3(cos, sin, 0.0), vec3(-sin, cos, 0.0), Vec3::Z)
+    }
+
+    fn from_axis_angle(axis: Vec3, angle: f32) -> Mat3 {
+        let (sin, cos) = angle.sin_cos();
+        let (of_sin, square) = (axis * sin, axis * axis);
+        let omc = 1.0 - cos;
+        let xy = axis.x * axis.y * omc;
+        let xz = axis.x * axis.z * omc;
+        let yz = axis.y * axis.z * omc;
+        Mat3::from_cols(
+            vec3(square.x * omc + cos, xy + of_sin.z, xz - of_sin.y),
+            vec3(xy - of_sin.z, square.y * omc + cos, yz + of_sin.x),
+            vec3(xz + of_sin.y, yz - of_sin.x, square.z * omc + cos),
+        )
+    }
+
+    fn from_scale(scale: Vec2) -> Mat3 {
+        Mat3::from_cols(vec3(scale.x, 0.0, 0.0), vec3(0.0, scale.y, 0.0), Vec3::Z)
+    }
+
+    fn from_translation(translation: Vec2) -> Mat3 {
+        Mat3::from_cols(Vec3::X, Vec3::Y, translation.extend(1.0))
     }
 
     fn from_rotation_x(angle: f32) -> Mat3 {

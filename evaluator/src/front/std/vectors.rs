@@ -4,6 +4,11 @@ impl Vec3 {
         if scale.is_finite() && scale > 0.0 { self * scale } else { fallback }
     }
 
+    fn try_normalize(self) -> Option<Vec3> {
+        let scale = self.length_recip();
+        if scale.is_finite() && scale > 0.0 { Some(self * scale) } else { None }
+    }
+
     fn normalize_or_zero(self) -> Vec3 {
         self.normalize_or(Vec3::ZERO)
     }

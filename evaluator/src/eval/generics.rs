@@ -1,0 +1,215 @@
+//! Constant parameters of functions and structures: the 3 of `power::<3>(x)`, of `[f32; 3]` and of `Window<3>`.
+//!
+//! A structure with constant parameters has them as hidden fields, from where its type is stated, or from the length of an array in it.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::name::Name;
+use crate::front::tree::{ExprKind, Function, Generic, Type as SourceType};
+use crate::ir::Type;
+use std::rc::Rc;
+
+/// Name of the hidden field of a constant parameter; no kernel can name it.
+fn hidden(parameter: &str) -> Name {
+    format!("#{parameter}").into()
+}
+
+impl Evaluator<'_> {
+    /// Constant parameters of a generic function: those given, or what the types of its arguments or of its result tell.
+    pub fn constants_of(
+        &mut self,
+        function: &Function,
+        given: &[Value],
+        args: &[Value],
+        expected: Option<&SourceType>,
+        span: Span,
+    ) -> Eval<Vec<(String, Value)>> {
+        let mut bound: Vec<(String, Value)> = Vec::new();
+        for (k, generic) in function.generics.iter().enumerate() {
+            let Generic::Const(name, ty) = generic else { continue };
+            let stated = given.get(k).filter(|value| **value != Value::unit()).cloned();
+            let mut found = stated;
+            for (param, value) in function.params.iter().zip(args) {
+                found = match found {
+                    None => self.constant_in(&param.ty, value, name, span),
+                    found => found,
+                };
+            }
+            if let (None, Some(expected)) = (&found, expected) {
+                found = self.constant_between(&function.result, expected, name);
+            }
+            let Some(value) = found else {
+                let of_type = match &function.of {
+                    Some(SourceType::Name(of, args)) if args.iter().any(|arg| arg.is_parameter(name)) => Some(of),
+                    _ => None,
+                };
+                let help = match of_type {
+                    Some(of) => {
+                        format!("state the type of the value: `let x: {of}<3> = ...`, or `{of}::<3>` where it is made")
+                    }
+                    None => format!("state it: `::<{name}>`"),
+                };
+                return Err(Diagnostic::error_at(
+                    Code::TypeNeeded,
+                    span,
+                    format!("the constant `{name}` of this call is not known"),
+                )
+                .label("called here")
+                .label_at(function.span, "defined here")
+                .help(help)
+                .into());
+            };
+            let value = self.ascribe_type(value, Some(ty), span)?;
+            bound.push((name.clone(), value));
+        }
+        Ok(bound)
+    }
+
+    /// A constant parameter of a type by a value of the type.
+    fn constant_in(&mut self, ty: &SourceType, value: &Value, parameter: &str, span: Span) -> Option<Value> {
+        let value = match value {
+            Value::Ref(place) => {
+                let place = self.follow_references((**place).clone(), span).ok()?;
+                self.read_place(&place, span).ok()?
+            }
+            other => other.clone(),
+        };
+        match (ty.peel_refs(), &value) {
+            (SourceType::Array(element, len), array) => {
+                let count = self.array_len(array)?;
+                if len.as_ref().is_some_and(|len| is_parameter(&len.kind, parameter)) {
+                    return Some(Value::Int(count as i64));
+                }
+                let first = (count > 0).then(|| self.array_element(array, &Value::Int(0), span).ok())??;
+                self.constant_in(element, &first, parameter, span)
+            }
+            (SourceType::Tuple(types), Value::Tuple(parts)) => {
+                let mut pairs = types.iter().zip(parts);
+                pairs.find_map(|(ty, part)| self.constant_in(ty, part, parameter, span))
+            }
+            (SourceType::Name(name, args), Value::Struct { ty, fields }) if *ty == name.as_str() => {
+                let definition = self.library.structs.get(name)?;
+                let mut pairs = definition.generics.iter().zip(args);
+                pairs.find_map(|(generic, arg)| match generic {
+                    Generic::Const(own, _) if arg.is_parameter(parameter) => constant_field(fields, own),
+                    _ => None,
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// A constant parameter of a type by a type that is stated for it, whose constants are those of the function around.
+    fn constant_between(&mut self, ty: &SourceType, stated: &SourceType, parameter: &str) -> Option<Value> {
+        match (ty.peel_refs(), stated.peel_refs()) {
+            (SourceType::Array(element, Some(len)), SourceType::Array(other, Some(count))) => {
+                match is_parameter(&len.kind, parameter) {
+                    true => self.eval_expr(count).ok(),
+                    false => self.constant_between(element, other, parameter),
+                }
+            }
+            (SourceType::Tuple(types), SourceType::Tuple(others)) => {
+                let mut pairs = types.iter().zip(others);
+                pairs.find_map(|(ty, other)| self.constant_between(ty, other, parameter))
+            }
+            (SourceType::Name(name, args), SourceType::Name(other, others)) if name == other => {
+                let mut pairs = args.iter().zip(others);
+                pairs.find_map(|(arg, other)| match arg.is_parameter(parameter) {
+                    true => self.constant_argument(other),
+                    false => self.constant_between(arg, other, parameter),
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// The value of a constant that stands among the arguments of a type.
+    pub fn constant_argument(&mut self, argument: &SourceType) -> Option<Value> {
+        match argument {
+            SourceType::Const(value) => self.eval_expr(value).ok(),
+            SourceType::Name(name, args) if args.is_empty() => match self.scope.get(name) {
+                Some(Value::Type(_)) => None,
+                Some(value) => Some(value.clone()),
+                None if self.library.consts.contains_key(name) => {
+                    self.eval_path(std::slice::from_ref(name), Span::default()).ok()
+                }
+                None => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// A structure with the constants of the type that is stated for it.
+    pub fn with_constants(&mut self, value: Value, args: &[SourceType], span: Span) -> Eval {
+        let Value::Struct { ty, fields } = &value else {
+            return Ok(value);
+        };
+        let library = self.library;
+        let generics = library.structs.get(ty.as_str()).map_or(&[][..], |s| &s.generics);
+        let mut added = Vec::new();
+        for (generic, arg) in generics.iter().zip(args) {
+            let Generic::Const(name, _) = generic else { continue };
+            let Some(stated) = self.constant_argument(arg).and_then(|stated| self.as_constant(&stated)) else {
+                continue;
+            };
+            match fields.iter().find(|(field, _)| *field == hidden(name)) {
+                Some((_, Value::Const(known))) if *known != stated => {
+                    return Err(Diagnostic::error_at(
+                        Code::MismatchedTypes,
+                        span,
+                        format!("a `{ty}` whose `{name}` is {known} where {stated} is stated"),
+                    )
+                    .label("of another type")
+                    .help(format!("state {known}, or make a `{ty}` of {stated}"))
+                    .into());
+                }
+                Some(_) => {}
+                None => added.push((hidden(name), Value::Const(stated))),
+            }
+        }
+        if added.is_empty() {
+            return Ok(value);
+        }
+        let all = fields.iter().cloned().chain(added).collect();
+        Ok(Value::structure(ty.clone(), all))
+    }
+
+    /// A structure that is made of its fields, with the constants that they tell.
+    pub fn structure_of(&mut self, name: &str, mut fields: Vec<(Name, Value)>, span: Span) -> Value {
+        let library = self.library;
+        let definition = library.structs.get(name);
+        for generic in definition.iter().flat_map(|definition| &definition.generics) {
+            let Generic::Const(parameter, _) = generic else {
+                continue;
+            };
+            let stated = definition.iter().flat_map(|definition| &definition.fields);
+            let mut pairs = stated.zip(fields.clone());
+            let found = pairs.find_map(|((_, ty, _), (_, value))| self.constant_in(ty, &value, parameter, span));
+            if let Some(constant) = found.and_then(|found| self.as_constant(&found)) {
+                fields.push((hidden(parameter), Value::Const(constant)));
+            }
+        }
+        Value::structure(name, fields)
+    }
+
+    /// A compile-time constant as a number.
+    fn as_constant(&self, value: &Value) -> Option<i64> {
+        match value {
+            Value::Const(known) => Some(*known),
+            Value::Node(id) if self.ty(*id) == Type::BOOL => self.known_bool(*id).map(i64::from),
+            other => self.known_int(other),
+        }
+    }
+}
+
+/// The constant parameter of a structure's value.
+fn constant_field(fields: &Rc<Vec<(Name, Value)>>, parameter: &str) -> Option<Value> {
+    let name = hidden(parameter);
+    let found = fields.iter().find(|(field, _)| *field == name);
+    found.map(|(_, value)| value.clone())
+}
+
+fn is_parameter(length: &ExprKind, parameter: &str) -> bool {
+    matches!(length, ExprKind::Path(path) if matches!(path.as_slice(), [name] if name == parameter))
+}
