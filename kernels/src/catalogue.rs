@@ -4,36 +4,36 @@ use crate::OptionValues;
 use crate::half::{self, HalfPrecision};
 use crate::presets::{NO_PRESETS, Preset, SRAA_PRESETS};
 
-/// One built-in kernel.
+/// A built-in kernel.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Name on the command line and in `build.rs`, and of the kernel's function.
     pub name: &'static str,
-    /// One line on what it does, and in brackets at its end whose it is.
+    /// Description in one line, with the authors in brackets at the end.
     pub summary: &'static str,
-    /// Every file that the kernel is made of.
+    /// Source files of the kernel.
     pub sources: &'static [SourceFile],
-    /// Counts of its publication for a kernel with these options.
+    /// Counts in the kernel's publication, for these options.
     pub paper: fn(&OptionValues) -> Option<PaperCounts>,
-    /// Verdict on half precision for a kernel with these options.
+    /// Effect of half precision, for these options.
     pub half: fn(&OptionValues) -> HalfPrecision,
-    /// Sets of its options that have a name.
+    /// Named sets of its options.
     pub presets: &'static [Preset],
 }
 
-/// A file of Rust text.
+/// A Rust source file.
 #[derive(Clone, Copy, Debug)]
 pub struct SourceFile {
-    /// Path from the root of the workspace; only ever shown.
+    /// Path from the root of the workspace, for display only.
     pub path: &'static str,
     /// Contents.
     pub text: &'static str,
 }
 
-/// A publication's own count of what its kernel does for each pixel.
+/// Counts of a kernel's work per pixel, as stated in its publication.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaperCounts {
-    /// Times that the bilateral weight is computed.
+    /// Evaluations of the bilateral weight.
     pub weight_evaluations: u32,
     /// Reads of the G-buffer.
     pub texture_reads: u32,
@@ -48,7 +48,7 @@ macro_rules! source {
     };
 }
 
-/// What the kernels of SRAA are made of.
+/// Source files of the SRAA kernels.
 const SRAA: &[SourceFile] = &[
     source!("sraa/mod.rs"),
     source!("sraa/options.rs"),
@@ -69,7 +69,7 @@ const SRAA: &[SourceFile] = &[
     source!("normals.rs"),
 ];
 
-/// Every built-in kernel.
+/// All built-in kernels.
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "sraa",
@@ -230,7 +230,7 @@ pub const CATALOGUE: &[Entry] = &[
     },
 ];
 
-/// The built-in kernel called `name`.
+/// Returns the built-in kernel called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     CATALOGUE.iter().find(|entry| entry.name == name)
 }
@@ -266,7 +266,7 @@ fn upsampling_paper(options: &OptionValues) -> Option<PaperCounts> {
     })
 }
 
-/// Section 2.9: N² comparisons each by itself, one for 4×4 texels and four for 8×8 shared.
+/// Section 2.9: N² comparisons without sharing; with sharing, one for 4×4 texels and four for 8×8.
 fn pcf_paper(options: &OptionValues) -> Option<PaperCounts> {
     let on_axis = match options.choice("width")? {
         "four" => 1,
@@ -285,7 +285,7 @@ fn pcf_paper(options: &OptionValues) -> Option<PaperCounts> {
     })
 }
 
-/// Its publication counts nothing.
+/// For kernels whose publications state no counts.
 fn no_paper(_: &OptionValues) -> Option<PaperCounts> {
     None
 }

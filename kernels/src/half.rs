@@ -1,20 +1,20 @@
-//! What half precision does to the picture of a built-in kernel: what hard cases showed (`straightline study hard --precision
-//! f16`), said of options by rules that a test compares with the cases (`tests/tests/filters/hard.rs`).
+//! Effect of half precision on the picture of a built-in kernel, by its options: the results of hard cases (`straightline
+//! study hard --precision f16`) as rules, which a test compares with the cases (`tests/tests/filters/hard.rs`).
 
 use crate::OptionValues;
 
-/// What computing in half precision does to a kernel's picture.
+/// Effect of half precision on a kernel's picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HalfPrecision {
-    /// It changes no case that scenes have by more than can be seen.
+    /// No visible change in any case that occurs in scenes.
     Kept,
-    /// It changes a case visibly, as 11 bits cannot hold this.
+    /// A visible change in some case, because 11 bits cannot hold this.
     Lost(&'static str),
-    /// No case tells.
+    /// No case covers these options.
     Unstudied,
 }
 
-/// No case tells.
+/// Verdict for kernels that no case covers.
 pub(crate) fn unstudied(_: &OptionValues) -> HalfPrecision {
     HalfPrecision::Unstudied
 }
@@ -25,8 +25,8 @@ pub(crate) fn sraa(options: &OptionValues) -> HalfPrecision {
             "lobes below zero make small rounding errors of the samples' weights larger than can be seen"
         }
         Some("normals") if options.choice("normalisation").is_none_or(|how| how == "shifted") => {
-            // What is kept of weights says nothing of light that is divided by an albedo.
-            // Nor of a frame's place among others.
+            // The cases cover weights, but not light that is divided by an albedo,
+            // nor earlier frames.
             let is_off = |option: &str| options.choice(option).is_none_or(|how| how == "none");
             let is_plain = is_off("demodulate") && is_off("guide");
             let is_alone = options.get("history").is_none_or(|frames| frames.number() == Some(0.0));
@@ -72,7 +72,7 @@ pub(crate) fn bilateral(options: &OptionValues) -> HalfPrecision {
 
 pub(crate) fn convolution(options: &OptionValues) -> HalfPrecision {
     match options.choice("taps") {
-        // Places between texels have 11 bits, and the cases' pictures are too small to show it.
+        // Positions between texels have 11 bits. The cases' pictures are too small to show the error.
         Some("bilinear") => HalfPrecision::Unstudied,
         _ => HalfPrecision::Kept,
     }

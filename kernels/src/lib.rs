@@ -1,11 +1,11 @@
 //! Image filters as ordinary Rust.
 //!
-//! Each kernel is a function that rustc compiles and that runs as it stands: the CPU reference. The generator
-//! reads the same text, found in [`CATALOGUE`], and evaluates its loops and branches away.
+//! Each kernel is a function that rustc compiles and that runs unchanged: the CPU reference. The generator
+//! reads the same text, found in [`CATALOGUE`], and resolves its loops and branches at generation time.
 
-// Comparisons are part of the kernel language; `contains` of a range is none of it.
+// The kernel language has comparisons, but not `contains` of a range.
 #![allow(clippy::manual_range_contains)]
-// Kernels are written with counters, as the shaders are that are made of them.
+// Kernels use counters in loops, as the shaders generated from them do.
 #![allow(clippy::needless_range_loop)]
 
 mod catalogue;

@@ -1,20 +1,20 @@
-//! Presets: sets of a built-in kernel's options with a name.
+//! Presets: named sets of a built-in kernel's options.
 
-/// A set of options with a name.
+/// A named set of options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Name, as `--set preset=NAME` has it.
+    /// Name, as in `--set preset=NAME`.
     pub name: &'static str,
-    /// One line on what it does and what it needs.
+    /// Description in one line: effect and requirements.
     pub summary: &'static str,
-    /// Options and their values; all others have their defaults.
+    /// Options and their values. All others have their defaults.
     pub options: &'static [(&'static str, &'static str)],
 }
 
-/// The presets of a kernel that has none.
+/// Presets of a kernel without any.
 pub(crate) const NO_PRESETS: &[Preset] = &[];
 
-/// The presets of the kernels of SRAA.
+/// Presets of the SRAA kernels.
 pub(crate) const SRAA_PRESETS: &[Preset] = &[
     Preset {
         name: "paper",

@@ -20,7 +20,7 @@ pub enum ShadowMask {
 options! {
     /// The tube.
     pub struct Tube {
-        /// How phosphors lie.
+        /// Arrangement of the phosphors.
         pub mask: ShadowMask = ShadowMask::StretchedVga,
     }
 }
@@ -295,9 +295,9 @@ pub enum Technique {
 options! {
     /// Filterable shadows.
     pub struct ShadowOptions {
-        /// Which of them.
+        /// Shadow technique.
         pub technique: Technique = Technique::Moments,
-        /// How much light bleeding is cut off.
+        /// Amount of light bleeding to cut off.
         pub bleeding: f32 [0.0..=0.9] = 0.2,
     }
 }

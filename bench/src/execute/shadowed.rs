@@ -1,4 +1,4 @@
-//! A scene as a forward pass with a shadow map draws it.
+//! A scene drawn by a forward pass with a shadow map.
 
 use super::{Bench, Corner, ExecuteError, Forward, Inputs};
 use glam::{Mat4, UVec2, Vec3, Vec4, vec2, vec4};
@@ -6,29 +6,31 @@ use straightline_codegen::{Kernel, Settings};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::scene::Scene;
 
-/// A scene's triangles with their places in the sun's shadow map, and that map.
+/// A scene's triangles with their positions in the sun's shadow map, and that map.
 #[derive(Clone, Debug)]
 pub struct Shadowed {
     /// Width and height of the picture.
     pub size: UVec2,
-    /// Corners as the camera sees them; their one varying is a place in the shadow map and the depth to compare there.
+    /// Corners in the camera's clip space. Their varying is a position in the shadow map and the depth to compare
+    /// there.
     pub corners: Vec<Corner>,
-    /// Corners at the same places; their one varying is the light that they reflect: of the sun in colour, of the sky in alpha.
+    /// Corners at the same positions. Their varying is the reflected light: of the sun in the colour, of the sky in
+    /// alpha.
     pub shades: Vec<Corner>,
-    /// Depths as the sun sees them, 0 to 1.
+    /// Depths from the sun, 0 to 1.
     pub map: Frame<Vec4>,
 }
 
-/// Passes on what was interpolated.
+/// Kernel that returns the interpolated value unchanged.
 const PASS_ON: &str = "
-/// What was interpolated.
+/// The interpolated value.
 pub fn pass_on(value: Quad<Vec4>) -> Quad<Vec4> {
     value
 }
 ";
 
 impl Shadowed {
-    /// Draws the shadow map: `texels` across and down, of what lies within `radius` scene units of the camera's target.
+    /// Draws the shadow map of `texels` columns and rows, covering `radius` scene units around the camera's target.
     ///
     /// # Errors
     ///
@@ -37,14 +39,14 @@ impl Shadowed {
         let sun = Vec3::from(scene.sun.direction).normalize_or(Vec3::Y);
         let to_sun = sun_space(sun, scene.camera.target.into(), radius);
         let to_clip = scene.camera.projection(size, glam::Vec2::ZERO) * scene.camera.view();
-        // Surfaces at a slant to the sun would shadow themselves; a step along the normal keeps them clear.
+        // Surfaces at grazing angles to the sun would shadow themselves; an offset along the normal prevents that.
         let step = 6.0 * radius / texels as f32;
         let (mut corners, mut shades, mut seen_by_sun) = (Vec::new(), Vec::new(), Vec::new());
         for index in scene.triangles.iter().flatten() {
             let vertex = &scene.vertices[*index as usize];
             let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
             let clip = to_clip * position.extend(1.0);
-            // The camera's depths are reversed, these are not.
+            // The camera's depths are reversed; these are not.
             let clip = vec4(clip.x, clip.y, clip.w - clip.z, clip.w);
             let facing = normal
                 * normal
@@ -74,7 +76,7 @@ impl Shadowed {
             let (x, y) = (k as u32 % texels, k as u32 / texels);
             x == 0 || y == 0 || x == texels - 1 || y == texels - 1
         };
-        // Texels where nothing was drawn, and beyond the map, are lit.
+        // Texels without geometry, and those at the border of the map, are lit.
         let clear = |(k, texel): (usize, &Vec4)| match texel.x == 0.0 || border(k) {
             true => Vec4::ONE,
             false => Vec4::splat(texel.x),
@@ -88,7 +90,7 @@ impl Shadowed {
         })
     }
 
-    /// The pass that draws the image `coord`, for shadow kernels that are dispatched.
+    /// Returns the pass that draws the image `coord`, for shadow kernels that are dispatched.
     ///
     /// # Errors
     ///
@@ -109,7 +111,7 @@ impl Shadowed {
             .with_image("coord", coord))
     }
 
-    /// The picture, of how much sun comes to each pixel.
+    /// Draws the picture, given the sunlight at each pixel.
     ///
     /// # Errors
     ///
@@ -125,7 +127,8 @@ impl Shadowed {
     }
 }
 
-/// World space to the sun's clip space: parallel rays, depth 0 near the sun and 1 far from it.
+/// Returns the transform from world space to the sun's clip space: parallel rays, depth 0 near the sun and 1 far from
+/// it.
 fn sun_space(sun: Vec3, target: Vec3, radius: f32) -> Mat4 {
     let right = if sun.y.abs() > 0.99 {
         Vec3::X

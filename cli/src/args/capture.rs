@@ -1,4 +1,5 @@
-//! Arguments of `capture`, `resolve` and `compare`, and what is rendered by any command that has a choice.
+//! Arguments of `capture`, `resolve` and `compare`, and the view arguments of every command that renders a scene of
+//! choice.
 
 use super::{AdapterArgs, Executor, SettingsArgs, size};
 use clap::{Args, ValueEnum};
@@ -6,7 +7,7 @@ use glam::{UVec2, Vec3};
 use std::path::PathBuf;
 use straightline_codegen::{Stage, shorten};
 
-/// What is rendered, and from where.
+/// Scene to render and its camera.
 #[derive(Debug, Args)]
 pub struct ViewArgs {
     /// Built-in scene to render; `scenes` lists them
@@ -15,27 +16,28 @@ pub struct ViewArgs {
     /// Model to render instead of a built-in scene: .gltf, .glb or .obj
     #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     pub mesh: Option<PathBuf>,
-    /// Where it is seen from: x, y and z, in the model's own space, y up; by default where all of the model is seen
+    /// Camera position: x, y and z, in the model's own space, y up; by default a point from which all of the model is
+    /// visible
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub eye: Option<Vec3>,
-    /// A point in the middle of the picture, in the same space; by default the middle of the model
+    /// Point at the centre of the picture, in the same space; by default the centre of the model
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub target: Option<Vec3>,
-    /// Angle between the picture's upper and lower edge in degrees, 1 to 170
+    /// Vertical field of view in degrees, 1 to 170
     #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub fov: Option<f32>,
 }
 
 #[cfg(feature = "study")]
 impl ViewArgs {
-    /// The scene's name, or that of the model's file.
+    /// Returns the scene's name, or that of the model's file.
     pub fn scene_name(&self) -> String {
         let model = self.mesh.as_deref().and_then(std::path::Path::file_name);
         model.map_or_else(|| self.scene.clone(), |name| name.to_string_lossy().into_owned())
     }
 }
 
-/// What tells surfaces apart where shading is placed.
+/// Metric that distinguishes surfaces when shading samples are placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum PlacedByArg {
     /// Planes and normals: metric=planes-normals difference=relative depth-scale=10 unseen=0.003
@@ -51,30 +53,29 @@ pub struct CaptureArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: UVec2,
-    /// Where in a pixel geometry is sampled: ordered4, latin4, standard8, ordered16, latin16, standard16, or x and y of each
+    /// Geometry samples in a pixel: ordered4, latin4, standard8, ordered16, latin16, standard16, or x and y of each
     /// sample in pixels from the centre: -0.25,0.1,0.25,-0.1
     #[arg(long, value_name = "PATTERN", default_value = "latin4", allow_hyphen_values = true)]
     pub pattern: String,
-    /// Where in a pixel shading is sampled: centre, sample0, placed (where `sraa_place` says), or listed
-    /// in --shaded
+    /// Shading samples in a pixel: centre, sample0, placed (by `sraa_place`), or listed in --shaded
     #[arg(long, value_name = "WHERE", default_value = "centre")]
     pub shading: String,
-    /// With --shading placed: what tells surfaces apart, as the options of docs/sraa.md have it. By default planes, where the pattern has a
-    /// name
+    /// With --shading placed: metric that distinguishes surfaces, by the options of docs/sraa.md; by default planes
+    /// if the pattern has a name
     #[arg(long, value_enum, value_name = "WHAT")]
     pub placed_by: Option<PlacedByArg>,
     /// With --shading listed: the geometry samples that are shaded, counted from 0: one, two or four
     #[arg(long, value_name = "SAMPLES", value_delimiter = ',')]
     pub shaded: Vec<usize>,
-    /// Also write the albedo of every geometry sample with the shadow on it, the direct light, and highlights and haze: what
+    /// Also write the albedo of every geometry sample with its shadow, the direct light, and highlights and haze, as
     /// `demodulate` needs
     #[arg(long)]
     pub albedo: bool,
-    /// Also write an estimate of the colour at every geometry sample, of the sun, its shadow and highlight, and one constant of ambient light: what
-    /// `guide=add` needs
+    /// Also write an estimate of the colour at every geometry sample, from the sun, its shadow and highlight, and one
+    /// constant of ambient light, as `guide=add` needs
     #[arg(long)]
     pub guide: bool,
-    /// Also render the reference: this many shaded samples a pixel, 16 or 256
+    /// Also render the reference with this many shaded samples a pixel, 16 or 256
     #[arg(long, value_name = "SAMPLES", value_parser = ["16", "256"])]
     pub reference: Option<String>,
     /// Folder to write
@@ -94,7 +95,7 @@ pub struct ResolveArgs {
     pub out: PathBuf,
     #[command(flatten)]
     pub options: SettingsArgs,
-    /// What computes the pixels
+    /// Executor that computes the pixels
     #[arg(long, value_enum, default_value = "gpu")]
     pub executor: Executor,
     /// Pipeline stage, on the GPU
@@ -112,10 +113,10 @@ pub struct ResolveArgs {
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// The picture that is judged: .png (sRGB) or .exr (linear floats)
+    /// Picture to judge: .png (sRGB) or .exr (linear floats)
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// What it should be, of the same size: .png or .exr
+    /// Reference picture of the same size: .png or .exr
     #[arg(value_name = "REFERENCE")]
     pub reference: PathBuf,
     /// Print JSON
@@ -123,7 +124,7 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
-/// A place in space.
+/// Parses a point in space.
 fn point(text: &str) -> Result<Vec3, String> {
     let axes: Option<Vec<f32>> = text.split(',').map(|axis| axis.trim().parse().ok()).collect();
     let axes = axes.and_then(|axes| <[f32; 3]>::try_from(axes).ok());
@@ -136,7 +137,7 @@ fn point(text: &str) -> Result<Vec3, String> {
     }
 }
 
-/// An angle of view, in degrees.
+/// Parses a field of view in degrees.
 fn degrees(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(angle) if (1.0..=170.0).contains(&angle) => Ok(angle),

@@ -9,11 +9,11 @@ use crate::ir::{Scalar, Type};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
-    /// integer that type.
+    /// Checks a value against its stated type, as far as shaders distinguish types, and gives a known integer that
+    /// type.
     pub fn ascribe_type(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
         let ty = match ty {
-            // A mutable reference goes on being one; where a value or a shared reference is stated, it is read.
+            // A mutable reference stays one; if a value or a shared reference is stated, it is read.
             Some(SourceType::Ref(true, _)) => return self.ascribe_reference(value, span),
             Some(ty) => Some(ty.peel_refs()),
             None => return Ok(value),
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What an enum holds, by the types of its fields.
+    /// Ascribes types to the fields of an enum's value.
     fn ascribe_choice(&mut self, choice: Rc<EnumValue>, args: &[SourceType], span: Span) -> Eval {
         let holds = choice.all_fields().next().is_some();
         let Some(definition) = self.library.enums.get(&*choice.ty).filter(|_| holds) else {
@@ -100,7 +100,7 @@ impl Evaluator<'_> {
         Ok(Value::Enum(Rc::new(ascribed)))
     }
 
-    /// A value where `&mut T` is stated.
+    /// Checks a value where `&mut T` is stated.
     fn ascribe_reference(&mut self, value: Value, span: Span) -> Eval {
         match value {
             Value::Ref(_) | Value::Poison => Ok(value),
@@ -166,7 +166,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Refuses an array of another length than is stated, where that is a number.
+/// Rejects an array whose length differs from the stated one, if that is a number.
 fn check_length(stated: Option<&Expr>, found: usize, span: Span) -> Eval<()> {
     let Some(ExprKind::Int(stated, _)) = stated.map(|stated| &stated.kind) else {
         return Ok(());

@@ -9,14 +9,15 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// `place = value` or `place op= value`. As in Rust the value is evaluated before the place.
+    /// Evaluates `place = value` or `place op= value`. As in Rust, the value is evaluated before the place.
     pub fn eval_assign(&mut self, target: &Expr, op: Option<BinaryOp>, value: &Expr, span: Span) -> Eval {
         let mut value = self.eval_expr(value)?;
         let Some(mut place) = self.written_place(target)? else {
             return Err(not_a_place(target).into());
         };
         if let Some(op) = op {
-            // `reference.x += 1.0` and `*reference += 1.0` are one thing by now; `vector += ...` of a `&mut self` is not.
+            // `reference.x += 1.0` and `*reference += 1.0` have the same form by now; `vector += ...` of a `&mut
+            // self` does not.
             place = self.follow_references(place, target.span)?;
             let old = self.read_place(&place, target.span)?;
             let right = self.deref_value(value, span)?;
@@ -29,7 +30,7 @@ impl Evaluator<'_> {
         Ok(Value::unit())
     }
 
-    /// `old` with the part at `path` replaced.
+    /// Returns `old` with the part at `path` replaced.
     pub fn replace_part(&mut self, old: Value, path: &[Step], new: Value, span: Span) -> Eval {
         let Some((step, rest)) = path.split_first() else {
             return Ok(new);
@@ -96,7 +97,7 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::Array(elements))
             }
-            // A vector is an array of its components meanwhile.
+            // A vector is temporarily an array of its components.
             (Value::Node(id), Step::Index(_)) if !self.ty(id).is_array() && self.ty(id).component_count() > 1 => {
                 let (kind, lanes) = (
                     self.ty(id).scalar_kind().unwrap_or(Scalar::F32),
@@ -121,7 +122,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// An element whose index is a runtime value.
+    /// Replaces an element at a runtime index.
     fn set_element(&mut self, old: &Value, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
         if self.is_tabled(old) {
             let node = self.index_node(index, span)?;

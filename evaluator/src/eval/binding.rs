@@ -7,12 +7,12 @@ use crate::front::tree::Pattern;
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// Binds the names of a pattern that takes every value to the parts of a value.
+    /// Binds the names of an irrefutable pattern to the parts of a value.
     pub fn bind_pattern(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
         self.bind_parts(pattern, value, false, span)
     }
 
-    /// Binds the names of a pattern that has taken a value.
+    /// Binds the names of a pattern that has matched a value.
     pub fn bind_matched(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
         self.bind_parts(pattern, value, true, span)
     }
@@ -20,7 +20,7 @@ impl Evaluator<'_> {
     fn bind_parts(&mut self, pattern: &Pattern, value: Value, matched: bool, span: Span) -> Eval<()> {
         match pattern {
             Pattern::Wild | Pattern::Rest => Ok(()),
-            // What it compares with has been compared, and names under a `|` are bound by a pattern for each.
+            // The comparison has been made already. Names under a `|` are bound separately for each alternative.
             Pattern::Value(_) | Pattern::Range(..) | Pattern::Or(_) if matched => Ok(()),
             Pattern::At(name, _, inner, at) => {
                 self.name_value(&value, name, *at);
@@ -89,7 +89,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Binds patterns to the parts of a tuple or an array, `name @ ..` to an array of what the others leave.
+    /// Binds patterns to the parts of a tuple or an array, and `name @ ..` to an array of the remaining parts.
     fn each_bound(&mut self, patterns: &[Pattern], parts: &[Value], matched: bool, span: Span) -> Eval<()> {
         for (pattern, taken) in Pattern::part_ranges(patterns, parts.len()).into_iter().flatten() {
             match pattern {
@@ -117,14 +117,14 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The elements of an array that patterns take apart, as many as it has.
+    /// Returns the elements of an array that patterns destructure.
     pub fn elements_of_pattern(&mut self, value: Value, patterns: &[Pattern], at: Span) -> Eval<Vec<Value>> {
         let value = self.taken_apart(value, patterns, at)?;
         let len = self.length_for(&value, patterns);
         self.array_elements(&value, len, at)
     }
 
-    /// How many parts a value is to have so that patterns take it apart.
+    /// Returns the number of parts that a value needs so that the patterns can destructure it.
     fn length_for(&self, value: &Value, patterns: &[Pattern]) -> usize {
         let has = self.array_len(value).unwrap_or(0);
         match Pattern::part_ranges(patterns, has) {
@@ -133,7 +133,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A part of a value; through a mutable reference, a reference to the part.
+    /// Returns a part of a value; through a mutable reference, a reference to the part.
     pub fn part_of_value(&mut self, value: &Value, step: Step, span: Span) -> Eval {
         match (value, &step) {
             (Value::Ref(place), _) => {
@@ -147,7 +147,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A field of a variant that a value may be.
+    /// Returns a field of a possible variant of a value.
     pub fn variant_field(&mut self, value: &Value, variant: usize, name: &str, span: Span) -> Eval {
         let Value::Enum(choice) = value else {
             return match value {
@@ -175,7 +175,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What a pattern of some parts takes apart: of a reference to a tuple or an array, references to their parts.
+    /// Returns the value that patterns destructure: for a reference to a tuple or an array, references to its parts.
     pub fn taken_apart(&mut self, value: Value, patterns: &[Pattern], span: Span) -> Eval {
         let Value::Ref(place) = &value else {
             return Ok(value);

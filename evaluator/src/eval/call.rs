@@ -38,7 +38,7 @@ impl<'a> Evaluator<'a> {
         outcome
     }
 
-    /// What stands in `::<>` of a call: the constants; types are found by inference.
+    /// Returns the constants in the `::<>` of a call; type arguments are inferred.
     fn generic_constants(&mut self, path: &[String], stated: &[Expr]) -> Eval<Vec<Value>> {
         if stated.is_empty() {
             return Ok(Vec::new());
@@ -54,7 +54,7 @@ impl<'a> Evaluator<'a> {
         self.constants_for(function, stated)
     }
 
-    /// The same for a function that is known.
+    /// Returns the constants in the `::<>` of a call of a resolved function.
     pub fn constants_for(&mut self, function: Option<&Function>, stated: &[Expr]) -> Eval<Vec<Value>> {
         let (stated, owner) = generic_arguments(stated);
         let generics = function.map_or(&[][..], |function| &function.generics);
@@ -66,7 +66,7 @@ impl<'a> Evaluator<'a> {
         for k in 0..count {
             let generic = generics.get(k);
             let of_owner = || generic.and_then(|generic| function?.argument_of(owner?, generic.name()));
-            // `_`: the type before the function or the values tell.
+            // For `_`, the type before the function or the values determine the constant.
             let own = stated.get(k).filter(|expr| !is_inferred(expr));
             values.push(match (own, generic) {
                 (Some(expr), Some(Generic::Const(..))) => self.eval_expr(expr)?,
@@ -90,12 +90,12 @@ impl<'a> Evaluator<'a> {
         Ok(values)
     }
 
-    /// A type in `::<>`.
+    /// Returns a type argument of `::<>`.
     fn type_argument(&self, expr: &Expr) -> Value {
         match &expr.kind {
             ExprKind::Path(path) if path.len() == 1 => match self.scope.get(&path[0]) {
                 Some(ty @ Value::Type(_)) => ty.clone(),
-                // A type parameter that is not known either.
+                // A type parameter that is unknown here too.
                 Some(_) => Value::unit(),
                 None => Value::Type(path[0].clone()),
             },
@@ -218,7 +218,7 @@ impl<'a> Evaluator<'a> {
             .into()
     }
 
-    /// The value of an expression for which a type is stated: of a call it tells constants of the function.
+    /// Evaluates an expression with a stated type; for a call, the type determines constants of the function.
     pub fn expecting(&mut self, expr: &Expr, ty: Option<&SourceType>) -> Eval {
         if matches!(expr.kind, ExprKind::Call(..)) {
             self.expected = ty.cloned().map(Box::new);
@@ -240,7 +240,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The same of a function that is known to be there, and is no phase of a workgroup.
+    /// Evaluates the body of an existing function that is not a phase of a workgroup.
     pub(super) fn inline_known(
         &mut self,
         name: &'a str,
@@ -290,14 +290,14 @@ impl<'a> Evaluator<'a> {
         });
         self.policy.unroll = unroll;
         self.calls.pop();
-        // Constant parameters hold in the type of the result too.
+        // Constant parameters are also visible in the result type.
         for (name, value) in &bound {
             self.scope.bind(name, value.clone());
         }
         let result = result.and_then(|value| self.ascribe_type(value, Some(&function.result), function.span));
         self.scope.leave_function(outer);
         if let Ok(value) = &result {
-            // The kernel's own name says nothing of its result.
+            // The kernel's own name does not describe its result.
             let result = if self.calls.is_empty() {
                 Cow::Borrowed("result")
             } else {
@@ -306,7 +306,7 @@ impl<'a> Evaluator<'a> {
             self.name_as(value, &result, Naming::Function, span);
         }
         match result {
-            // What is wrong is how it was called.
+            // The library's body is hidden, so the error belongs to the call.
             Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
             Err(Exit::Demand(needs)) if of_library => Err(Exit::Demand(called_at(needs, span, name))),
             Err(Exit::Left(_)) => {
@@ -319,7 +319,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// An error of calls that are nested too deep.
+    /// Returns an error for calls that are nested too deeply.
     #[cold]
     fn too_deep(&self, name: &str, span: Span) -> Exit {
         let error = Diagnostic::error_at(
@@ -332,7 +332,7 @@ impl<'a> Evaluator<'a> {
         self.demand_constants(&self.decides_within(name), error)
     }
 
-    /// `Name(a, b)` of a structure without field names.
+    /// Evaluates `Name(a, b)` of a tuple structure.
     fn tuple_struct(&mut self, name: &str, values: &[Value], span: Span) -> Eval<Option<Value>> {
         let library = self.library;
         let Some(definition) = library.structs.get(name) else {
@@ -361,7 +361,7 @@ impl<'a> Evaluator<'a> {
         Ok(Some(self.structure_of(name, fields, span)))
     }
 
-    /// A vector from its components, or from shorter vectors and components.
+    /// Composes a vector from components and shorter vectors.
     pub fn compose_vector(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
         let mut parts: Vec<NodeId> = Vec::new();
         for value in values {
@@ -403,7 +403,7 @@ impl<'a> Evaluator<'a> {
         .into())
     }
 
-    /// A known integer as a kind, or a node that is of it already.
+    /// Returns a known integer as a node of a scalar kind, or a node that already has it.
     pub fn int_or_node(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
         self.lane_node(value, kind, span)
     }
@@ -420,7 +420,7 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// Needs of a function of the library, whose text nobody sees.
+/// Moves constant demands inside a library function to its call site.
 fn called_at(needs: Vec<ConstantDemand>, span: Span, name: &str) -> Vec<ConstantDemand> {
     let each = needs.into_iter().map(|need| ConstantDemand {
         error: need.error.called_at(span, name),
@@ -429,7 +429,7 @@ fn called_at(needs: Vec<ConstantDemand>, span: Span, name: &str) -> Vec<Constant
     each.collect()
 }
 
-/// `vec3`, `Vec3::new`, ...
+/// Parses `vec3`, `Vec3::new`, ...
 fn parse_constructor(path: &[String]) -> Option<(Scalar, u8)> {
     match path {
         [.., ty, new] if new == "new" => vector_type(ty),
@@ -449,7 +449,7 @@ fn parse_constructor(path: &[String]) -> Option<(Scalar, u8)> {
     }
 }
 
-/// What a function's result may be called: by the function, of a constructor by its type.
+/// Returns the default name of a function's result: the function's name, or the type for a constructor.
 fn result_name(function: &str) -> Cow<'_, str> {
     match function.rsplit_once("::") {
         Some((ty, "new" | "default" | "from" | "make")) => {
@@ -467,7 +467,7 @@ fn result_name(function: &str) -> Cow<'_, str> {
     }
 }
 
-/// Whether a generic argument is `_`, or what inference leaves open.
+/// `true` if a generic argument is `_`, or left open by inference.
 fn is_inferred(stated: &Expr) -> bool {
     match &stated.kind {
         ExprKind::Path(path) => path == &[crate::front::INFERRED],
@@ -476,7 +476,7 @@ fn is_inferred(stated: &Expr) -> bool {
     }
 }
 
-/// An error of a call with another number of arguments than the function has parameters.
+/// Returns an error for a call with the wrong number of arguments.
 #[cold]
 fn miscounted(name: &str, function: &Function, given: usize, span: Span) -> Exit {
     let wanted = function.params.len();

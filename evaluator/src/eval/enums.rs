@@ -1,5 +1,5 @@
-//! Values of enums. Which variant one is may be a runtime value, its tag; then it has the fields of all variants that it may
-//! be, side by side, of which those of the others are any values that nobody looks at.
+//! Values of enums. The variant may be a runtime value, the tag. The value then holds the fields of every possible
+//! variant, one slot per variant; slots of inactive variants are undefined.
 
 use super::Evaluator;
 use super::departures::Tail;
@@ -16,23 +16,23 @@ use std::rc::Rc;
 pub struct EnumValue {
     /// The enum.
     pub ty: Name,
-    /// Which variant it is.
+    /// Tag of the variant.
     pub tag: Tag,
-    /// What each variant holds, by the names of its fields; `None` of those that it is known not to be.
+    /// Fields of each variant by name; `None` for a variant that is known to be impossible.
     pub variants: Vec<Option<Vec<(Name, Value)>>>,
 }
 
-/// Which variant a value is.
+/// Tag of a value's variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tag {
-    /// The one at this position.
+    /// The variant at this position.
     Known(usize),
-    /// A number: of an enum of two variants whether it is the second, else the position as an `i32`.
+    /// A runtime value: for an enum of two variants, `true` for the second; otherwise the position as an `i32`.
     Node(NodeId),
 }
 
 impl EnumValue {
-    /// A variant that is known.
+    /// Returns a value whose variant is known.
     pub fn with_variant(ty: impl Into<Name>, definition: &Enum, variant: usize, fields: Vec<(Name, Value)>) -> Value {
         let mut held = vec![None; definition.variants.len()];
         held[variant] = Some(fields);
@@ -43,22 +43,22 @@ impl EnumValue {
         }))
     }
 
-    /// What it holds if it is the variant at a position.
+    /// Returns the fields of the variant at a position, if that variant is possible.
     pub fn variant_fields(&self, variant: usize) -> Option<&[(Name, Value)]> {
         self.variants.get(variant)?.as_deref()
     }
 
-    /// All fields of all variants that it may be.
+    /// Returns the fields of all possible variants.
     pub fn all_fields(&self) -> impl Iterator<Item = &(Name, Value)> {
         self.variants.iter().flatten().flatten()
     }
 
-    /// Whether there are numbers or other values in it: it is more than a variant that is known.
+    /// `true` if the value holds more than a known variant: numbers or other values.
     pub fn names_something(&self) -> bool {
         matches!(self.tag, Tag::Node(_)) || self.all_fields().next().is_some()
     }
 
-    /// The same with other fields.
+    /// Returns a copy with every field mapped by `change`.
     pub fn with_fields(&self, mut change: impl FnMut(&Value) -> Value) -> EnumValue {
         let one = |(name, value): &(Name, Value)| (name.clone(), change(value));
         let mut one = one;
@@ -75,7 +75,7 @@ impl EnumValue {
 }
 
 impl Evaluator<'_> {
-    /// The variant that a value is, if that is known.
+    /// Returns the variant of a value, if known.
     pub fn known_variant(&self, choice: &EnumValue) -> Option<usize> {
         let known = match choice.tag {
             Tag::Known(k) => Some(k),
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The tag as a node.
+    /// Returns the tag as a node.
     pub fn tag_node(&mut self, choice: &EnumValue) -> NodeId {
         match choice.tag {
             Tag::Node(id) => id,
@@ -96,7 +96,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a value is the variant at a position.
+    /// Returns the condition that a value is the variant at a position.
     pub fn is_variant(&mut self, choice: &EnumValue, variant: usize) -> NodeId {
         if let Some(known) = self.known_variant(choice) {
             return self.builder.bool(known == variant);
@@ -112,7 +112,8 @@ impl Evaluator<'_> {
         self.builder.add(Op::Binary(BinaryOp::Eq), [tag, wanted], Type::BOOL)
     }
 
-    /// The variant that a path names, with what it holds; `None` of a path that is none. Errors are of the number of values.
+    /// Returns the variant named by a path, with its fields; `None` for any other path. Fails if the number of values
+    /// is wrong.
     pub fn variant_of(&mut self, path: &[String], values: Vec<Value>, span: Span) -> Eval<Option<Value>> {
         let library = self.library;
         let Some((ty, k, variant)) = library.find_variant(path) else {
@@ -136,7 +137,7 @@ impl Evaluator<'_> {
         Ok(Some(EnumValue::with_variant(ty, &library.enums[ty], k, fields)))
     }
 
-    /// Two values of one enum in one shape: both may be what either may be.
+    /// Returns two values of one enum in one shape, in which every variant that either value may be is possible.
     pub fn agree_choices(&mut self, a: &EnumValue, b: &EnumValue, span: Span) -> Eval<(Value, Value)> {
         let (mut left, mut right) = (a.clone(), b.clone());
         if a.tag != b.tag {
@@ -165,8 +166,8 @@ impl Evaluator<'_> {
         each.collect()
     }
 
-    /// Whether two values of one type are equal, part by part, as `#[derive(PartialEq)]` has it; `None` if they are no
-    /// structures, tuples, arrays or enums.
+    /// Returns the condition that two values of one type are equal, part by part, like `#[derive(PartialEq)]`. `None`
+    /// unless they are structures, tuples, arrays or enums.
     pub fn values_equal(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Option<NodeId>> {
         let pairs: Vec<(Value, Value)> = match (a, b) {
             (Value::Enum(a), Value::Enum(b)) if a.ty == b.ty => return self.equal_choices(a, b, span).map(Some),
@@ -240,7 +241,7 @@ impl Evaluator<'_> {
         self.array_elements(value, len, span)
     }
 
-    /// `value?`.
+    /// Evaluates `value?`.
     pub fn eval_try(&mut self, value: &Expr, span: Span) -> Eval {
         let found = self.eval_value(value)?;
         let Value::Enum(choice) = &found else {
@@ -283,7 +284,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `unwrap()` and `expect(..)` of a value that is known to hold something.
+    /// Evaluates `unwrap()` or `expect(..)` on a value known to hold something.
     pub fn eval_unwrap(&mut self, choice: &EnumValue, name: &str, span: Span) -> Eval {
         let good = usize::from(choice.ty == "Option");
         let empty = if choice.ty == "Option" { "None" } else { "Err" };
@@ -318,7 +319,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
+    /// Returns the names of the numbers in a value of an enum, derived from the name of the whole: the tag, and the
+    /// fields of each variant.
     pub fn choice_names(&self, choice: &EnumValue, name: &str) -> EnumNames {
         let library = self.library;
         let variants: Vec<&str> = match library.enums.get(&*choice.ty) {
@@ -358,10 +360,10 @@ impl Evaluator<'_> {
     }
 }
 
-/// A tag with its name, if it is a number, and values with their names.
+/// The tag with its name if it is a node, and values with their names.
 type EnumNames = (Option<(NodeId, String)>, Vec<(Value, String)>);
 
-/// `TwoWords` as `two_words`.
+/// Converts `TwoWords` to `two_words`.
 fn to_snake_case(name: &str) -> String {
     let mut out = String::new();
     for c in name.chars() {

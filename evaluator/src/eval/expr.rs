@@ -10,7 +10,7 @@ use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
 impl Evaluator<'_> {
-    /// The value of an expression; of a mutable reference, what it refers to.
+    /// Evaluates an expression; for a mutable reference, returns its referent.
     pub fn eval_value(&mut self, expr: &Expr) -> Eval {
         let value = self.eval_expr(expr)?;
         self.deref_value(value, expr.span)
@@ -36,7 +36,8 @@ impl Evaluator<'_> {
         let span = expr.span;
         match &expr.kind {
             ExprKind::Int(n, None | Some(IntType::Usize)) => Ok(Value::Int(*n)),
-            // The digits of i32::MIN are one more than there are of i32: its sign is applied to what they wrap to.
+            // The literal of `i32::MIN` without its sign exceeds `i32::MAX`. It wraps here, and the sign is applied
+            // afterwards.
             ExprKind::Int(n, Some(IntType::I32)) => Ok(Value::Node(self.builder.i32(*n as i32))),
             ExprKind::Int(n, Some(IntType::U32)) => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
             ExprKind::Float(x, _) => Ok(Value::Node(self.builder.f32(*x))),
@@ -73,7 +74,7 @@ impl Evaluator<'_> {
                 self.value_field(&base, name, span)
             }
             ExprKind::Index(base, index) => {
-                // Rust reads an element when the index is known, which may have changed the array.
+                // Rust reads an element after evaluating the index, which may have changed the array.
                 match self.base_place(base)? {
                     Some(place) => {
                         let index = self.eval_expr(index)?;
@@ -129,7 +130,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Values of several expressions.
+    /// Evaluates several expressions.
     pub fn eval_all(&mut self, exprs: &[Expr]) -> Eval<Vec<Value>> {
         let mut values = Vec::with_capacity(exprs.len());
         for e in exprs {
@@ -164,7 +165,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A value that is not too large to be worked with.
+    /// Returns a value unless it has too many parts.
     fn check_size(&self, value: Value, span: Span) -> Eval {
         if value.count_parts(MAX_PARTS) > MAX_PARTS {
             return Err(too_many_parts(span));
@@ -201,7 +202,7 @@ impl Evaluator<'_> {
             let given_value = self.eval_expr(value)?;
             given.push((field.clone(), self.ascribe_type(given_value, Some(ty), value.span)?));
         }
-        // As in Rust the base is read last, with what the fields' values have changed of it.
+        // As in Rust, the base is read last, after the changes made by the fields' expressions.
         let rest = rest.map(|e| self.eval_value(e)).transpose()?;
         let mut values = Vec::new();
         for (field, _, _) in stated {
@@ -230,14 +231,14 @@ impl Evaluator<'_> {
         self.check_size(made, span)
     }
 
-    /// `&&` and `||`.
+    /// Evaluates `&&` and `||`.
     fn eval_lazy_op(&mut self, and: bool, left: &Expr, right: &Expr, span: Span) -> Eval {
         let value = self.eval_value(left)?;
         let left = self.value_node(&value, left.span)?;
         self.eval_short_circuit(and, left, |e| e.eval_value(right), span)
     }
 
-    /// `left && right`, or `left || right`, of which the right side is only looked at where it decides.
+    /// Evaluates `left && right` or `left || right`; the right side is evaluated only where it decides.
     pub fn eval_short_circuit(
         &mut self,
         and: bool,
@@ -255,7 +256,7 @@ impl Evaluator<'_> {
                     let op = if and { BinaryOp::And } else { BinaryOp::Or };
                     return self.eval_binary(op, &Value::Node(left), &value, span);
                 }
-                // What the right side assigns, it assigns only where it is looked at.
+                // Assignments in the right side happen only where the right side is evaluated.
                 let decided = Value::Node(self.builder.bool(!and));
                 let after = std::mem::replace(&mut self.scope, before);
                 if and {
@@ -267,7 +268,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A field of a structure, a part of a tuple, or components of a vector.
+    /// Returns a field of a structure, a part of a tuple, or components of a vector.
     pub fn value_field(&mut self, base: &Value, name: &str, span: Span) -> Eval {
         match base {
             Value::Struct { ty, fields } => match fields.iter().find(|(field, _)| field == name) {
@@ -321,7 +322,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// All elements of an array of a length.
+    /// Returns all elements of an array of known length.
     pub fn array_elements(&mut self, value: &Value, len: usize, span: Span) -> Eval<Vec<Value>> {
         if matches!(value, Value::Poison) {
             return Ok(vec![Value::Poison; len]);
@@ -341,7 +342,7 @@ impl Evaluator<'_> {
             .collect()
     }
 
-    /// An element of an array.
+    /// Returns an element of an array.
     pub fn array_element(&mut self, base: &Value, index: &Value, span: Span) -> Eval {
         if let (Value::Array(elements), Some(k)) = (base, self.known_int(index)) {
             return match usize::try_from(k).ok().and_then(|k| elements.get(k)) {
@@ -386,7 +387,7 @@ fn too_many_parts(span: Span) -> Exit {
         .into()
 }
 
-/// An index that is known to be wrong.
+/// Returns an error for an index that is known to be out of range.
 pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
     Diagnostic::error_at(
         Code::IndexOutOfRange,
@@ -400,7 +401,7 @@ pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
     })
 }
 
-/// Number of a component by its name.
+/// Returns the index of a component by its name.
 pub fn component_index(name: &str) -> Option<u8> {
     match name {
         "x" => Some(0),

@@ -1,6 +1,7 @@
 //! Constant parameters of functions and structures: the 3 of `power::<3>(x)`, of `[f32; 3]` and of `Window<3>`.
 //!
-//! A structure with constant parameters has them as hidden fields, from where its type is stated, or from the length of an array in it.
+//! A structure stores its constant parameters as hidden fields. Their values come from the stated type, or from the
+//! length of an array in the structure.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -10,13 +11,14 @@ use crate::front::tree::{ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::Type;
 use std::rc::Rc;
 
-/// Name of the hidden field of a constant parameter; no kernel can name it.
+/// Returns the name of the hidden field of a constant parameter, which no kernel can use.
 fn hidden(parameter: &str) -> Name {
     format!("#{parameter}").into()
 }
 
 impl Evaluator<'_> {
-    /// Constant parameters of a generic function: those given, or what the types of its arguments or of its result tell.
+    /// Returns the constant parameters of a generic function: those stated, or those deduced from the types of its
+    /// arguments or its result.
     pub fn constants_of(
         &mut self,
         function: &Function,
@@ -66,7 +68,7 @@ impl Evaluator<'_> {
         Ok(bound)
     }
 
-    /// A constant parameter of a type by a value of the type.
+    /// Deduces a constant parameter of a type from a value of the type.
     fn constant_in(&mut self, ty: &SourceType, value: &Value, parameter: &str, span: Span) -> Option<Value> {
         let value = match value {
             Value::Ref(place) => {
@@ -100,7 +102,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A constant parameter of a type by a type that is stated for it, whose constants are those of the function around.
+    /// Deduces a constant parameter of a type from a stated type, whose constants are those of the enclosing
+    /// function.
     fn constant_between(&mut self, ty: &SourceType, stated: &SourceType, parameter: &str) -> Option<Value> {
         match (ty.peel_refs(), stated.peel_refs()) {
             (SourceType::Array(element, Some(len)), SourceType::Array(other, Some(count))) => {
@@ -124,7 +127,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The value of a constant that stands among the arguments of a type.
+    /// Returns the value of a constant among the arguments of a type.
     pub fn constant_argument(&mut self, argument: &SourceType) -> Option<Value> {
         match argument {
             SourceType::Const(value) => self.eval_expr(value).ok(),
@@ -140,7 +143,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A structure with the constants of the type that is stated for it.
+    /// Returns a structure with the constants of its stated type.
     pub fn with_constants(&mut self, value: Value, args: &[SourceType], span: Span) -> Eval {
         let Value::Struct { ty, fields } = &value else {
             return Ok(value);
@@ -175,7 +178,7 @@ impl Evaluator<'_> {
         Ok(Value::structure(ty.clone(), all))
     }
 
-    /// A structure that is made of its fields, with the constants that they tell.
+    /// Returns a structure built from its fields, with the constants that they determine.
     pub fn structure_of(&mut self, name: &str, mut fields: Vec<(Name, Value)>, span: Span) -> Value {
         let library = self.library;
         let definition = library.structs.get(name);
@@ -193,7 +196,7 @@ impl Evaluator<'_> {
         Value::structure(name, fields)
     }
 
-    /// A compile-time constant as a number.
+    /// Returns a compile-time constant as a number.
     fn as_constant(&self, value: &Value) -> Option<i64> {
         match value {
             Value::Const(known) => Some(*known),
@@ -203,7 +206,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The constant parameter of a structure's value.
+/// Returns a constant parameter stored in a structure's value.
 fn constant_field(fields: &Rc<Vec<(Name, Value)>>, parameter: &str) -> Option<Value> {
     let name = hidden(parameter);
     let found = fields.iter().find(|(field, _)| *field == name);

@@ -1,4 +1,4 @@
-//! Adaptors of iterators over arrays and ranges. An iterator is the list of its values.
+//! Adaptors of iterators over arrays and ranges. An iterator is represented by the list of its values.
 
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
@@ -32,7 +32,7 @@ pub const METHODS: [&str; 22] = [
 ];
 
 impl Evaluator<'_> {
-    /// The values that an iterator gives.
+    /// Returns the values of an iterator.
     pub(super) fn collect_items(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
         match value {
             Value::Array(elements) => Ok(elements.to_vec()),
@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A method of an iterator over an array or a range.
+    /// Evaluates a method of an iterator over an array or a range.
     pub fn iterator_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval {
         let mut items = self.collect_items(value, span)?;
         match (name, args) {
@@ -166,7 +166,7 @@ impl Evaluator<'_> {
                 if self.builder.effect_counts() == effects {
                     return Ok(all);
                 }
-                // What is behind the first that decides is not to happen.
+                // Evaluation stops after the deciding item, so later effects must not happen.
                 self.return_to(before);
                 self.inline_function(
                     &format!("Iterator::{name}"),
@@ -221,7 +221,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The values of an iterator among those of another one.
+    /// Returns the values of an iterator nested in another one.
     fn listed_items(&mut self, inner: &Value, method: &str, span: Span) -> Eval<Vec<Value>> {
         match inner {
             Value::Enum(choice) => Err(Diagnostic::error_at(
@@ -236,8 +236,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What a method gives whose closure Rust calls for one value at a time, between what takes the values. Here it is called for
-    /// all values first, which is the same but where memory is changed.
+    /// Evaluates a method whose closure Rust calls lazily, one value at a time. Here the closure is called for all
+    /// values first, which is equivalent unless memory is changed.
     fn at_once(&mut self, method: &str, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
         let before = self.builder.effect_counts();
         let value = evaluate(self)?;
@@ -261,7 +261,8 @@ impl Evaluator<'_> {
         self.deref_value(value, span)
     }
 
-    /// `sum` and `product` of those that there are of some options. The others add -0, which changes no sum, or multiply by 1.
+    /// Evaluates `sum` and `product` of the options that hold a value. The others add -0, which changes no sum, or
+    /// multiply by 1.
     pub(super) fn reduced_some(&mut self, name: &str, items: &[Value], span: Span) -> Eval {
         let mut terms = Vec::new();
         for item in items {
@@ -273,7 +274,7 @@ impl Evaluator<'_> {
                 .variant_fields(1)
                 .and_then(|fields| fields.first())
                 .map(|(_, value)| value.clone());
-            // It is known to be nothing.
+            // The option is known to be `None`.
             let Some(held) = held else { continue };
             let value = self.value_node(&held, span)?;
             let ty = self.ty(value);
@@ -292,8 +293,8 @@ impl Evaluator<'_> {
         self.reduce_items(name, terms, span)
     }
 
-    /// `sum` and `product`, in order: of numbers from the first, which is what Rust's `-0.0 + x`, `0 + x` and `1 * x` are; of
-    /// vectors from glam's zero.
+    /// Evaluates `sum` and `product`, in order. Numbers start from the first one, which equals Rust's `-0.0 + x`, `0
+    /// + x` and `1 * x`; vectors start from glam's zero.
     fn reduce_items(&mut self, name: &str, items: Vec<Value>, span: Span) -> Eval {
         if let Some(Value::Struct { ty, .. }) = items.first()
             && let [key, ..] = self.library.method_keys(ty, name).as_slice()

@@ -1,4 +1,4 @@
-//! Loops that are left in the shader: what they carry from one iteration to the next, and how they are left.
+//! Loops left in the shader: the variables that they carry from one iteration to the next, and their exits.
 
 use super::Evaluator;
 use super::departures::{EarlyExit, Side};
@@ -11,8 +11,8 @@ use crate::ir::{Naming, NodeId, Op, Origin, RegionId, Type};
 use std::sync::Arc;
 
 impl Evaluator<'_> {
-    /// A loop of the graph that goes from `start` to `end` by one, both of type `i32` or `u32`: variables that its body
-    /// assigns are carried from one iteration to the next. `iteration` is given the counter.
+    /// Builds a loop of the graph that counts from `start` to `end` by one, both of type `i32` or `u32`. Variables
+    /// that the body assigns are carried from one iteration to the next. `iteration` receives the counter.
     pub fn build_loop(
         &mut self,
         body: &LoopBody<'_>,
@@ -37,7 +37,7 @@ impl Evaluator<'_> {
         let outcome = self.eval_under(&gone, |e| e.carry_widened(body, bounds, iteration, span));
         self.loop_depth -= 1;
         if outcome.is_err() {
-            // Values made inside belong to no place outside.
+            // Values computed inside the loop belong to no place outside.
             self.scope = before;
             self.early_exits.clear();
         }
@@ -45,8 +45,8 @@ impl Evaluator<'_> {
         outcome
     }
 
-    /// Carries values of enums as all the variants that they may be in any iteration, which only the body shows: it is
-    /// evaluated again with what it has assigned, until it assigns nothing new.
+    /// Carries a value of an enum with every variant that it may be in any iteration. Only the body shows these, so
+    /// the body is evaluated again with the variants found so far until no new one appears.
     fn carry_widened(
         &mut self,
         body: &LoopBody<'_>,
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         Err(type_change_error("a variable", span))
     }
 
-    /// One attempt; gives the variables that have to be carried as more than they are, with the values to begin with.
+    /// Makes one attempt. Returns the variables that have to be carried in a wider form, with their initial values.
     fn try_build_loop(
         &mut self,
         body: &LoopBody<'_>,
@@ -117,13 +117,13 @@ impl Evaluator<'_> {
         for slot in &carried {
             let value = self.scope.name_and_value(*slot).1.clone();
             match self.make_runtime_form(&value, span) {
-                // It gets its value in the loop: in the first iteration it has any.
+                // The loop assigns the variable first, so its value before the first iteration is undefined.
                 Ok(value) if *settled.name_and_value(*slot).1 == Value::Unset && value != Value::Unset => {
                     wider.push((*slot, self.undef_like(&value)));
                 }
                 Ok(value) if same_shape(&value, settled.name_and_value(*slot).1) => value.flatten(&mut results),
                 Ok(value) => match self.unify_values(settled.name_and_value(*slot).1, &value, span) {
-                    // It is less than what is carried, or what is carried has to be more.
+                    // Either the new value is narrower than the carried one, or the carried value has to be widened.
                     Ok((first, value))
                         if same_shape(&first, settled.name_and_value(*slot).1) && same_shape(&first, &value) =>
                     {
@@ -194,8 +194,8 @@ impl Evaluator<'_> {
         Ok(Vec::new())
     }
 
-    /// Lets a loop that is left in the shader stop where its body leaves it. Who leaves what is around it too is told by
-    /// further results of the loop, a boolean for each way, with the value that is taken along.
+    /// Adds the stop condition of a loop left in the shader. An exit beyond the loop adds two kinds of loop results:
+    /// a boolean that it was taken, and the value that it carries.
     fn exits_of_loop(
         &mut self,
         region: RegionId,
@@ -243,8 +243,8 @@ impl Evaluator<'_> {
         Ok(ways)
     }
 
-    /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
-    /// variables that it mentions lead to.
+    /// Returns the positions of the variables that a body may write: those that it names, and the referents of
+    /// mutable references in them.
     fn carried_slots(&self, body: &LoopBody<'_>) -> Vec<usize> {
         let effects = scan_effects(body.block, &self.library.mutating);
         let mut carried = body.written.clone();
@@ -256,12 +256,12 @@ impl Evaluator<'_> {
         for slot in effects.mentioned.iter().filter_map(|name| self.scope.find_slot(name)) {
             self.collect_ref_slots(self.scope.name_and_value(slot).1, &mut carried);
         }
-        // A reference itself stays what it is.
+        // The reference itself does not change.
         carried.retain(|slot| !matches!(self.scope.name_and_value(*slot).1, Value::Ref(_)));
         carried
     }
 
-    /// Names a loop's parameters, which are variables in the text.
+    /// Names a loop's parameters, which become variables in the emitted code.
     pub fn name_params(&mut self, value: &Value, name: &str, span: Span) {
         match value {
             Value::Node(id) => {
@@ -302,7 +302,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// A variable's name; of one that no kernel can name, `value`.
+/// Returns a variable's name; `value` if no kernel can use that name.
 fn readable_name(name: &str) -> String {
     match name.strip_prefix('#') {
         Some(hidden) => format!("value{}", &hidden[hidden.find('_').unwrap_or(hidden.len())..]),
@@ -310,7 +310,7 @@ fn readable_name(name: &str) -> String {
     }
 }
 
-/// Attempts after which a variable is taken to change without end.
+/// Attempts after which a carried variable is assumed to widen without end.
 const MAX_WIDENED: usize = 16;
 
 fn type_change_error(name: &str, span: Span) -> Exit {

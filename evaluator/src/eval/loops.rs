@@ -1,4 +1,4 @@
-//! `for`, and what all loops have in common: a loop is left in the shader where that is asked for and can be done.
+//! `for`, and the rules common to all loops: a loop is left in the shader if that is requested and possible.
 
 use super::Evaluator;
 use super::demand::UnrollReason;
@@ -11,39 +11,39 @@ use crate::ir::Counter;
 use crate::policy::{Asked, Unroll};
 use std::sync::Arc;
 
-/// What a loop does in each iteration.
+/// Body of a loop.
 pub struct LoopBody<'a> {
-    /// Its statements.
+    /// Statements of the body.
     pub block: &'a Block,
-    /// What takes each value; `None` of a `while`.
+    /// Pattern bound to each value; `None` for a `while`.
     pub pattern: Option<&'a Pattern>,
-    /// The name of its count in the shader, where the source has one.
+    /// Name of the counter in the shader, if the source has one.
     pub counter: Option<(&'a str, Span)>,
-    /// Its label.
+    /// Label of the loop.
     pub label: Option<&'a str>,
-    /// Positions of variables that it may write through what it runs over.
+    /// Positions of variables that may be written through the iterated value.
     pub written: Vec<usize>,
-    /// Whether its `break` leads just behind the loop of the graph, and not further.
+    /// `true` if `break` leads to the end of the loop in the graph, and no further.
     pub breaks_here: bool,
 }
 
-/// A loop of which the number of iterations is known, and what is asked of it.
+/// A loop with a known number of iterations, and the policy requested for it.
 pub struct LoopRequest {
-    /// What is asked.
+    /// Unroll policy requested for this loop.
     pub asked: Asked,
-    /// How often its body is evaluated.
+    /// Number of evaluations of its body.
     pub iterations: u64,
-    /// The whole of it, by which it is known.
+    /// Span of the whole loop, which identifies it.
     pub span: Span,
-    /// What an error points at.
+    /// Span that an error labels.
     pub head: Span,
 }
 
-/// What became of a wish.
+/// Outcome of a [`LoopRequest`].
 pub enum LoopOutcome {
-    /// It is left in the shader.
+    /// The loop is left in the shader.
     Kept(Unroll),
-    /// It is to be unrolled. If it was asked for by name, the error that this is.
+    /// The loop is to be unrolled. Holds the error if the loop was named in the request.
     Unrolled(Option<Diagnostic>),
 }
 
@@ -62,7 +62,7 @@ impl Evaluator<'_> {
         outcome.map(|_| Value::unit())
     }
 
-    /// Runs a loop as asked, or as it can be; gives what became of it.
+    /// Runs a loop as requested, or as possible; returns the applied policy.
     fn run_for(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
         let counter = match (&f.pattern, &items) {
             (Pattern::Name(name, _, at), Value::Range(_)) => Some((name.as_str(), *at)),
@@ -143,7 +143,7 @@ impl Evaluator<'_> {
         refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
     }
 
-    /// Leaves a loop in the shader if that is asked for and can be done.
+    /// Leaves a loop in the shader if that is requested and possible.
     pub fn try_keep_loop(
         &mut self,
         body: &LoopBody<'_>,
@@ -183,12 +183,12 @@ impl Evaluator<'_> {
             self.structured_loops.mark_unrollable(span);
             match count(self).and_then(|count| self.keep_loop(body, &count, asked.unroll, span)) {
                 Err(exit) if self.exhausted => return Err(exit),
-                // All have left for good, or loops around or before this one are to be unrolled.
+                // All invocations have exited, or a loop around or before this one has to be unrolled.
                 Err(exit @ Exit::Left(_)) => return Err(exit),
                 Err(Exit::Demand(needs)) if needs.iter().all(|need| !need.loops.contains(&span)) => {
                     return Err(Exit::Demand(needs));
                 }
-                // A loop that cannot stay in the shader is unrolled; if that fails too, it says why.
+                // A loop that cannot stay in the shader is unrolled. If that fails too, its error is reported.
                 Err(exit) => {
                     let noted = self.return_to(before);
                     let why = match exit {
@@ -231,7 +231,7 @@ impl Evaluator<'_> {
             if outcome.is_err() {
                 break;
             }
-            // The next round would only find the same errors again.
+            // The next iteration would only report the same errors again.
             if self.errors.len() > noted {
                 return Err(Exit::Noted);
             }
@@ -240,7 +240,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The body for one value of what the loop runs over.
+    /// Evaluates the body for one value of the iterated sequence.
     pub fn eval_body(&mut self, body: &LoopBody<'_>, item: Value, span: Span) -> Eval<()> {
         self.count_step(span)?;
         let (mark, since) = (self.scope.enter(), self.early_exits.len());
@@ -258,7 +258,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The body with a value of the counter bound.
+    /// Evaluates the body with the counter bound to a value.
     fn eval_bound_body(&mut self, pattern: &Pattern, item: Value, body: &LoopBody<'_>, span: Span) -> Eval {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
@@ -281,7 +281,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What a loop goes by in policies: its counter, or the first of the names that it binds.
+/// Returns the name by which policies refer to a loop: its counter, or the first name that it binds.
 fn counter_of(f: &ForLoop) -> String {
     match &f.pattern {
         _ if f.bounded => "while".to_owned(),
@@ -290,7 +290,7 @@ fn counter_of(f: &ForLoop) -> String {
     }
 }
 
-/// An error that is itself the reason why a loop cannot be left in the shader.
+/// Returns an error as the reason why a loop cannot be left in the shader.
 fn one_line_reason(error: Diagnostic) -> UnrollReason {
     let reason = match error.span {
         Some(span) => format!("{} (line {})", error.message, span.line),
@@ -299,7 +299,7 @@ fn one_line_reason(error: Diagnostic) -> UnrollReason {
     UnrollReason { error, reason }
 }
 
-/// The error that a loop cannot be left in the shader as it was asked by name.
+/// Returns the error for a loop that was named in a request but cannot be left in the shader.
 fn refusal_error(wish: &LoopRequest, why: &Diagnostic) -> Diagnostic {
     let asked = match wish.asked.unroll {
         Unroll::Partial(factor) => format!("unroll({factor})"),
@@ -323,7 +323,7 @@ fn refusal_error(wish: &LoopRequest, why: &Diagnostic) -> Diagnostic {
     error
 }
 
-/// The array of which the values are mutable references to all elements, first to last.
+/// Returns the array to whose elements, first to last, the values are mutable references.
 fn array_behind(values: &[Value]) -> Option<Place> {
     let mut array: Option<Place> = None;
     for (k, value) in values.iter().enumerate() {

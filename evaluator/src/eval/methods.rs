@@ -1,4 +1,4 @@
-//! Methods of what is not a number: textures, arrays, ranges, and the kernel's own types.
+//! Methods of values other than numbers: textures, arrays, ranges, and the kernel's own types.
 
 use super::Evaluator;
 use super::objects::OBJECT;
@@ -8,7 +8,7 @@ use crate::front::tree::{Expr, Function};
 use crate::ir::BinaryOp;
 use std::rc::Rc;
 
-/// Methods that known integers have beyond those of runtime values, or with the 64 bits of a known `usize`.
+/// Methods of known integers that runtime values lack, or that need the 64 bits of a known `usize`.
 const INTEGERS: [&str; 7] = [
     "is_multiple_of",
     "rem_euclid",
@@ -128,8 +128,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The function of the library that a method of a value stands for: inference has written its path, or it is one of a
-    /// type of the kernel's own. In a generic function only the value tells.
+    /// Returns the library function that a method call resolves to: inference has written its path, or it belongs to
+    /// one of the kernel's own types. In a generic function only the value determines it.
     pub fn own_method(&self, value: &Value, name: &str) -> Option<(&'a str, &'a Function)> {
         let library = self.library;
         let method = match value {
@@ -145,7 +145,7 @@ impl<'a> Evaluator<'a> {
         Some((method, function))
     }
 
-    /// The value of a method's receiver and, where it is one, the place that it stands for.
+    /// Returns the value of a method's receiver and its place, if it is one.
     fn eval_receiver(&mut self, receiver: &Expr, writing: bool) -> Eval<(Value, Option<Place>)> {
         let before = std::mem::replace(&mut self.writing, writing);
         let place = self.eval_place(receiver);
@@ -163,7 +163,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Mutable references to the elements of an array.
+    /// Returns mutable references to the elements of an array.
     pub fn elements_mut(&mut self, array: &Value, span: Span) -> Eval {
         let Value::Ref(place) = array else {
             return Err(Exit::Noted);
@@ -182,7 +182,7 @@ impl<'a> Evaluator<'a> {
         Ok(Value::array((0..len).map(element).collect()))
     }
 
-    /// Methods of integers that are computed where they are known; `None` where they are not.
+    /// Evaluates a method of known integers; `None` if they are not known.
     fn known_integer_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
         if let Value::Node(id) = value
             && !(self.ty(*id).is_integer() && self.ty(*id).is_scalar())
@@ -224,7 +224,7 @@ impl<'a> Evaluator<'a> {
         }))
     }
 
-    /// A method of integers that are no constants: by the evaluator's own rules, or as the library has it.
+    /// Evaluates a method of runtime integers, by the evaluator's own rules or through the library.
     fn integer_method(&mut self, value: Value, name: &str, args: Vec<Value>, span: Span) -> Eval {
         let known = args
             .first()

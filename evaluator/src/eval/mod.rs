@@ -1,6 +1,7 @@
 //! The partial evaluator: runs a kernel on values some of which are compile-time constants and others runtime values.
 //!
-//! What is known is computed, as rustc's own code would compute it. What is not becomes a node of the graph.
+//! Known values are computed exactly as the code compiled by rustc computes them. Everything else becomes a node of
+//! the graph.
 //! Loops are unrolled or left in the shader, as the [`Unroll`](crate::policy::Unroll) policy says; calls are always inlined.
 
 mod ascribe;
@@ -72,34 +73,35 @@ use value::{Eval, Exit, Value};
 pub use budget::{BUDGET_HELP, LoopReport, name_largest_loops};
 pub use options::{Numeric, OptionInfo, OptionKind, describe_options, parse_settings};
 
-/// A kernel with its options decided.
+/// An evaluated kernel, with its options resolved.
 pub struct Evaluated {
-    /// What is left to compute.
+    /// The remaining computation.
     pub graph: Graph,
-    /// Every option with its value.
+    /// Value of every option.
     pub options: OptionValues,
     /// First paragraph of the kernel's documentation.
     pub docs: String,
-    /// Every loop, in order of the source, with what became of it.
+    /// Every loop in source order, with its outcome.
     pub loops: Vec<LoopReport>,
-    /// Where the kernel's name stands.
+    /// Span of the kernel's name.
     pub span: Span,
-    /// Inputs by their names, with where each is declared.
+    /// Names of the inputs, with the span of each declaration.
     pub inputs: Vec<(String, Span)>,
 }
 
-/// Errors in the parameters of the function `entry` that do not depend on its body: for kernels in which other errors were found.
+/// Returns the errors in the parameters of the function `entry` that do not depend on its body. Used for kernels in
+/// which other errors were found.
 pub fn parameter_errors(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Vec<Diagnostic> {
     Evaluator::new(library, files, &Policy::default()).parameter_errors(&crate::front::raw_name(entry))
 }
 
-/// Evaluates the function `entry` with some options set, the others at their defaults.
+/// Evaluates the function `entry` with the given options; all others have their defaults.
 ///
-/// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.
+/// `invocation` is the unit of work of one invocation, unless the kernel's parameters make it a lane of a quad.
 ///
-/// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs a constant of them, evaluation
-/// goes back to the loop and unrolls it. Only at the end is it known which values a `usize` may have: for their sake the whole is
-/// evaluated again, each time with at least one more loop unrolled.
+/// Variables assigned in a loop left in the shader become runtime values. Where later code needs one of them as a
+/// constant, evaluation returns to the loop and unrolls it. The range of each `usize` is known only at the end. If
+/// one does not fit, the whole kernel is evaluated again, each time with at least one more loop unrolled.
 pub fn evaluate_kernel(
     library: &Library,
     files: &Arc<Vec<File>>,
@@ -133,112 +135,115 @@ pub fn evaluate_kernel(
     }
 }
 
-/// A kernel without a `usize`, if its values fit into 32 bits.
+/// Result of narrowing every `usize` to 32 bits.
 enum Narrowed {
     Fits(Box<Evaluated>),
-    /// Errors of operations that may differ from the native ones, with the loops left in the shader that each depends on.
+    /// Errors of operations that may differ from the native ones, with the loops left in the shader on which each
+    /// depends.
     Refused(Vec<(BTreeSet<Span>, Diagnostic)>),
 }
 
-/// Operations after which a kernel is taken not to end.
+/// Steps after which a kernel is assumed not to terminate.
 const MAX_STEPS: u64 = 20_000_000;
 
-/// Steps after which time and memory are looked at.
+/// Steps between two checks of time and memory.
 const STEPS_BETWEEN_CHECKS: u64 = 1 << 10;
 
-/// Nodes after which a kernel is taken to be unrolled by mistake.
+/// Nodes after which a loop is assumed to be unrolled by mistake.
 const MAX_NODES: usize = 400_000;
 
-/// Parts of one value after which it is taken to be a mistake.
+/// Upper limit for the parts of one value.
 const MAX_PARTS: usize = 1 << 18;
 
-/// Structures of which it is remembered that their parts have names.
+/// Number of structures remembered as already named.
 const NAMED_STRUCTURES: usize = 4;
 
-/// Elements of an array beyond which they are not named one by one.
+/// Upper limit for the array elements that are named one by one.
 const MAX_NAMED: usize = 1024;
 
-/// Depth of calls after which a recursion is taken not to end.
+/// Call depth after which a recursion is assumed not to terminate.
 const MAX_CALLS: usize = 200;
 
-/// Depth of expressions, those of the functions around them counted: WebAssembly has its host's stack, of about a megabyte, and
-/// everywhere else the stack is deep enough for all that the front end and [`MAX_CALLS`] let through.
+/// Depth of nested expressions, those of the calling functions included. WebAssembly uses its host's stack of about
+/// one megabyte. Everywhere else the stack is deep enough for anything that the front end and [`MAX_CALLS`] allow.
 const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { 100_000 };
 
 struct Evaluator<'a> {
     library: &'a Library,
-    /// Types that implement traits of the kernel's.
+    /// Types that implement the kernel's traits.
     implementers: Vec<&'a str>,
     builder: Builder<'a>,
-    /// What becomes of loops and branches, in the function that is being evaluated.
+    /// Policy for loops and branches in the function that is being evaluated.
     policy: Policy,
     /// The kernel's files, for excerpts.
     files: Arc<Vec<File>>,
-    /// Loops that are unrolled whatever the policy says, since a constant is needed that they assign.
+    /// Loops unrolled regardless of the policy, because a constant is needed that they assign.
     forced_unrolls: HashMap<Span, demand::UnrollReason>,
-    /// Times that evaluation has gone back to a loop.
+    /// Number of times evaluation has returned to a loop.
     restarts: usize,
-    /// Statements that may leave a loop in the shader that could be unrolled.
+    /// Statements that may leave an unrollable loop in the shader.
     loop_statements: FxHashSet<Span>,
-    /// Whether all loops that can be unrolled are.
+    /// `true` if every loop that can be unrolled is unrolled.
     unrolls_all: bool,
     loops: budget::LoopTracker,
     structured_loops: demand::StructuredLoops,
     scope: Scope,
-    /// Counters of the unrolled loops around, outermost first.
+    /// Counters of the enclosing unrolled loops, outermost first.
     counters: Arc<[Counter]>,
     /// Functions being evaluated, innermost last.
     calls: Vec<Cow<'a, str>>,
     errors: Vec<Diagnostic>,
-    /// Structures whose parts were named last, and after what: most are given on from function to function.
+    /// The structures whose parts were named last, and after which parameter. Most structures are passed on from
+    /// function to function.
     named: VecDeque<NamedStruct>,
-    /// Constants evaluated so far, with the number of nodes there were then.
+    /// Constants evaluated so far, with the node count at that time.
     consts: HashMap<String, (usize, Value)>,
     /// Reads made so far.
     last_site: u32,
-    /// Whether the threads of a workgroup run what is being evaluated.
+    /// `true` inside a phase of a workgroup.
     in_phase: bool,
-    /// Names of the kernel's parameters and of the fields of those that are structures, and how often each is one.
+    /// Names of the kernel's parameters and of the fields of parameters that are structures, with the number of uses
+    /// of each name.
     parameters: BTreeMap<String, usize>,
-    /// Types of the elements of buffers, by buffer.
+    /// Element type of each buffer.
     elements: Vec<crate::front::tree::Type>,
-    /// Steps of work, those of earlier attempts at the kernel counted.
+    /// Steps of work, earlier attempts at the kernel included.
     steps: u64,
-    /// Steps when time and memory were looked at last.
+    /// Step count at the last check of time and memory.
     last_check: u64,
-    /// Nodes that there may be.
+    /// Upper limit for the number of nodes.
     most_nodes: usize,
-    /// Whether a limit has been reached.
+    /// `true` after a limit has been reached.
     exhausted: bool,
-    /// Type that is stated for the call that is evaluated next.
+    /// Type stated for the next call.
     expected: Option<Box<crate::front::tree::Type>>,
-    /// Expressions that are being evaluated, one inside of the other.
+    /// Depth of nested expressions.
     depth: u32,
-    /// Who has left the blocks that are being evaluated, first to last.
+    /// Early exits from the enclosing blocks, first to last.
     early_exits: Vec<departures::EarlyExit>,
-    /// Loops around that are left in the shader.
+    /// Number of enclosing loops left in the shader.
     loop_depth: u32,
-    /// Whether the place that is being found is to be written.
+    /// `true` if the place that is being resolved will be written.
     writing: bool,
-    /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
-    /// selected, and of those who left before the branches and loops around.
+    /// Conditions under which the current place is reached, each with its required value: those of the selected sides
+    /// of branches, and those of exits taken before the enclosing branches and loops.
     path_conditions: Vec<(NodeId, bool)>,
-    /// Runtime conditions of the branches around, with the number of calls around each.
+    /// Runtime conditions of the enclosing branches, with the number of calls around each.
     branch_conditions: Vec<(usize, NodeId)>,
-    /// Counters of type `usize` that are computed, with the start and the end of their ranges.
+    /// Runtime counters of type `usize`, with the start and end of their ranges.
     counters_of_usize: HashMap<NodeId, (NodeId, NodeId)>,
-    /// Differences of `usize` that wrap by intention.
+    /// Differences of `usize` that wrap intentionally.
     wrapping: HashSet<NodeId>,
-    /// Where each node was made.
+    /// Source span of each node.
     places: Vec<Span>,
-    /// The kernel's inputs, with where each is declared.
+    /// The kernel's inputs, with the span of each declaration.
     inputs: Vec<(String, Span)>,
 }
 
 /// A structure whose parts have been named.
 struct NamedStruct {
     fields: Rc<Vec<(Name, Value)>>,
-    /// The parameter that they are named after.
+    /// The parameter after which they are named.
     after: Name,
 }
 
@@ -290,7 +295,7 @@ impl<'a> Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
-    /// Evaluates a kernel, and narrows its `usize`s.
+    /// Evaluates a kernel and narrows every `usize`.
     fn whole_kernel(&mut self, entry: &str, settings: &[OptionText]) -> Result<Narrowed, Errors> {
         let result = self.eval_kernel(entry, settings);
         if result.is_ok() && self.errors.is_empty() {
@@ -345,7 +350,7 @@ impl Evaluator<'_> {
         Errors::new(std::mem::take(&mut self.errors), &self.files)
     }
 
-    /// Counts a step of work, so that nothing runs for ever.
+    /// Counts a step of work, so that evaluation terminates.
     fn count_step(&mut self, span: Span) -> Eval<()> {
         self.steps += 1;
         limits::count_work(1);
@@ -372,7 +377,7 @@ impl Evaluator<'_> {
         Err(self.loops.name_largest(error).into())
     }
 
-    /// Notes an error; one that is noted already is not noted again.
+    /// Records an error unless it has been recorded already.
     fn record_error(&mut self, exit: Exit) -> Exit {
         let errors = match exit {
             Exit::Error(error) => vec![*error],
@@ -387,14 +392,15 @@ impl Evaluator<'_> {
         Exit::Noted
     }
 
-    /// Runtime conditions that decide what is evaluated inside the outermost call of a function.
+    /// Returns the runtime conditions that control evaluation inside the outermost call of a function.
     fn decides_within(&self, function: &str) -> Vec<NodeId> {
         let outermost = self.calls.iter().position(|name| *name == function).unwrap_or(0);
         let inside = self.branch_conditions.iter().filter(|(calls, _)| *calls > outermost);
         inside.map(|(_, condition)| *condition).collect()
     }
 
-    /// Whether the parts of a structure were named after a parameter not long ago, after which naming them again would change nothing.
+    /// `true` if the parts of a structure were recently named after a parameter, so that naming them again changes
+    /// nothing.
     fn was_named(&mut self, value: &Value, parameter: &Name) -> bool {
         let Value::Struct { fields, .. } = value else {
             return false;
@@ -413,14 +419,14 @@ impl Evaluator<'_> {
         false
     }
 
-    /// Gives nodes the name of the variable that they are assigned to.
+    /// Names nodes after the variable that they are assigned to.
     fn name_value(&mut self, value: &Value, name: &str, span: Span) {
         self.name_as(value, name, Naming::Let, span);
     }
 
-    /// Names the numbers in a value by what they are known as from now on.
+    /// Gives the numbers in a value the names that they have from now on.
     fn name_as(&mut self, value: &Value, name: &str, naming: Naming, span: Span) {
-        // Variables of the library's own are nobody's names.
+        // Variables of the built-in library do not name anything.
         if span.file != crate::front::std::FILE && !name.starts_with('#') {
             self.name_parts(value, &LazyName::Whole(name), naming, span);
         }
@@ -451,7 +457,7 @@ impl Evaluator<'_> {
     }
 
     fn name_each(&mut self, parts: &[Value], called: &LazyName<'_>, naming: Naming, span: Span) {
-        // Nobody reads so many names, and an array is named each time that it is copied.
+        // So many names are of no use to a reader, and an array is named each time it is copied.
         if parts.len() > MAX_NAMED {
             return;
         }
@@ -462,7 +468,7 @@ impl Evaluator<'_> {
 
     fn name_node(&mut self, id: NodeId, called: &LazyName<'_>, naming: Naming, span: Span) {
         let op = &self.builder.graph().node(id).op;
-        // Other variables may be the same constant; what a function gives is that.
+        // Other variables may hold the same constant; the result of a function is unambiguous.
         let is_constant = matches!(op, Op::Const(_));
         if is_constant && naming < Naming::Function {
             return;
@@ -475,7 +481,7 @@ impl Evaluator<'_> {
         }
         let known = self.builder.graph().origin(id);
         if let Some(known) = known.filter(|origin| !origin.name.is_empty() && origin.naming <= naming) {
-            // It has a name that is as good; of the same one what both agree on is kept.
+            // The present name is as good. If the new name is equal, keep only the details that both share.
             if naming > Naming::Let || !called.is_name(&known.name) {
                 return;
             }
@@ -496,7 +502,7 @@ impl Evaluator<'_> {
         self.builder.set_origin(id, &origin);
     }
 
-    /// A value for a message: a known number itself, else its kind.
+    /// Returns a value for a message: the number itself if known, else the kind.
     fn describe_known(&self, value: &Value) -> String {
         match (self.known_int(value), value) {
             (Some(n), _) => n.to_string(),
@@ -516,12 +522,12 @@ impl Evaluator<'_> {
         self.builder.graph().ty(id)
     }
 
-    /// A boolean that is known.
+    /// Returns a boolean if it is known.
     fn known_bool(&self, id: NodeId) -> Option<bool> {
         self.builder.graph().constant_bits(id).map(|bits| bits[0] != 0)
     }
 
-    /// An integer that is known, of whichever type.
+    /// Returns an integer of any type if it is known.
     fn known_int(&self, value: &Value) -> Option<i64> {
         match value {
             Value::Int(n) => Some(*n),
@@ -541,7 +547,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A value as a node.
+    /// Returns a value as a node.
     fn value_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         match value {
             Value::Node(id) => Ok(*id),
@@ -560,7 +566,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A known integer as a node of a kind.
+    /// Returns a known integer as a node of a scalar kind.
     fn int_node(&mut self, n: i64, kind: Scalar, span: Span) -> Eval<NodeId> {
         let bits = match kind {
             Scalar::I32 => i32::try_from(n).map(|n| n as u32).ok(),
@@ -588,7 +594,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The name of a part of a value, put together only where one is given.
+/// The name of a part of a value, assembled only when needed.
 enum LazyName<'n> {
     Whole(&'n str),
     Field(&'n LazyName<'n>, &'n str),
@@ -596,7 +602,7 @@ enum LazyName<'n> {
 }
 
 impl LazyName<'_> {
-    /// Whether this is the name.
+    /// `true` if this name equals `name`.
     fn is_name(&self, name: &str) -> bool {
         match self {
             LazyName::Whole(whole) => *whole == name,

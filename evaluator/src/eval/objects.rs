@@ -1,6 +1,7 @@
-//! `&dyn Trait` of one type or another, chosen by a runtime condition: an enum of all types that implement a trait of the kernel's.
+//! `&dyn Trait` with a type chosen by a runtime condition: an enum of all types that implement the kernel's traits.
 //!
-//! Until a condition chooses, an object is the value that it refers to. A call of a method is a chain of conditions, as of a `match`.
+//! Until a condition chooses, an object is represented by its referent. A method call becomes a chain of conditions,
+//! like a `match`.
 
 use super::Evaluator;
 use super::departures::Tail;
@@ -11,10 +12,10 @@ use crate::front::Library;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-/// Type of an object, a word that no enum can have as its name.
+/// Type of an object; a keyword, so that no enum can have this name.
 pub const OBJECT: &str = "dyn";
 
-/// Names of all types that implement a trait of the kernel's, in the order of the variants of an object.
+/// Returns the names of all types that implement the kernel's traits, in the order of an object's variants.
 pub fn implementers(library: &Library) -> Vec<&str> {
     let own = library
         .implements
@@ -25,7 +26,7 @@ pub fn implementers(library: &Library) -> Vec<&str> {
 }
 
 impl Evaluator<'_> {
-    /// Position of a value's type among those that implement traits.
+    /// Returns the position of a value's type among the implementing types.
     fn implementer(&self, value: &Value) -> Option<usize> {
         match self.type_names(value).as_slice() {
             [name] => self.implementers.binary_search(&name.as_str()).ok(),
@@ -33,7 +34,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether two values are objects, or become objects where a condition chooses one of them.
+    /// `true` if two values are objects, or become objects when a condition chooses one of them.
     pub fn are_objects(&self, a: &Value, b: &Value) -> bool {
         let is_object = |value: &Value| matches!(value, Value::Enum(choice) if choice.ty == OBJECT);
         match (is_object(a), is_object(b)) {
@@ -56,7 +57,7 @@ impl Evaluator<'_> {
         library.traits.keys().any(|of| has(a, of) && has(b, of))
     }
 
-    /// A value as an object.
+    /// Returns a value as an object.
     fn object(&self, value: &Value) -> Option<Rc<EnumValue>> {
         if let Value::Enum(choice) = value
             && choice.ty == OBJECT
@@ -73,7 +74,7 @@ impl Evaluator<'_> {
         }))
     }
 
-    /// Two values as objects of one shape.
+    /// Returns two values as objects of one shape.
     pub fn unify_objects(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
         match (self.object(a), self.object(b)) {
             (Some(a), Some(b)) => self.agree_choices(&a, &b, span),
@@ -81,7 +82,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A method of an object: that of the type that it is.
+    /// Calls a method of an object, dispatched by its variant.
     pub fn method_of_object(&mut self, object: &EnumValue, name: &str, args: Vec<Value>, span: Span) -> Eval {
         let mut possible = Vec::new();
         for (k, fields) in object.variants.iter().enumerate() {

@@ -1,7 +1,8 @@
 //! Places: variables and their parts, which assignments write and mutable references hold.
 //!
-//! A mutable reference is the place that it refers to: a function that takes one writes the caller's variable. Rust's
-//! rules see to it that no two of them overlap and none outlives its variable, so this equals what rustc compiles.
+//! A mutable reference is represented by the place that it refers to: a function that takes one writes the caller's
+//! variable. Rust's borrow checker ensures that no two of them overlap and none outlives its variable, so the result
+//! equals that of rustc.
 
 use super::Evaluator;
 use super::value::{Captured, Eval, Exit, Place, Step, Value};
@@ -10,7 +11,7 @@ use crate::front::tree::{Expr, ExprKind};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// `&mut place`; of what is no place, a reference to a variable of its own.
+    /// Evaluates `&mut place`; an operand that is not a place is stored in a temporary variable first.
     pub fn borrow_mutably(&mut self, operand: &Expr) -> Eval {
         let place = match self.written_place(operand)? {
             Some(place) => place,
@@ -22,7 +23,7 @@ impl Evaluator<'_> {
         Ok(Value::Ref(Rc::new(place)))
     }
 
-    /// What a place expression stands for that is to be written.
+    /// Returns the place of an expression that will be written.
     pub fn written_place(&mut self, expr: &Expr) -> Eval<Option<Place>> {
         let before = std::mem::replace(&mut self.writing, true);
         let place = self.eval_place(expr);
@@ -30,13 +31,13 @@ impl Evaluator<'_> {
         place
     }
 
-    /// A variable without a name that holds a value, for as long as the block around it is evaluated.
+    /// Adds an unnamed variable that holds a value while the enclosing block is evaluated.
     pub fn add_temporary(&mut self, value: Value) -> Place {
         let slot = self.scope.bind("", value);
         self.scope.slot_place(slot)
     }
 
-    /// What a place expression stands for; `None` if it is no place but a value.
+    /// Returns the place of an expression; `None` if it is a value and not a place.
     pub fn eval_place(&mut self, expr: &Expr) -> Eval<Option<Place>> {
         match &expr.kind {
             ExprKind::Path(path) => match path.as_slice() {
@@ -74,7 +75,7 @@ impl Evaluator<'_> {
                 };
                 match self.read_place(&place, expr.span)? {
                     Value::Ref(target) => Ok(Some((*target).clone())),
-                    // What a shared reference refers to.
+                    // The referent of a shared reference.
                     _ => Ok(Some(place)),
                 }
             }
@@ -82,7 +83,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The place that a field or element is a part of: references on the way are followed.
+    /// Returns the place that contains a field or element, with references followed.
     pub fn base_place(&mut self, expr: &Expr) -> Eval<Option<Place>> {
         match self.eval_place(expr)? {
             Some(place) => self.follow_references(place, expr.span).map(Some),
@@ -91,7 +92,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The place that a computed reference holds; a value that is none is kept in a variable of its own.
+    /// Returns the place that a computed reference refers to; any other value is stored in a temporary variable.
     fn referenced_place(&mut self, expr: &Expr) -> Eval<Option<Place>> {
         let place = match self.eval_expr(expr)? {
             Value::Ref(target) => (*target).clone(),
@@ -100,7 +101,7 @@ impl Evaluator<'_> {
         self.follow_references(place, expr.span).map(Some)
     }
 
-    /// A place, or where the references in it lead.
+    /// Returns a place with all references in it followed.
     pub fn follow_references(&mut self, mut place: Place, span: Span) -> Eval<Place> {
         while let Value::Ref(target) = self.read_place(&place, span)? {
             place = (*target).clone();
@@ -108,7 +109,7 @@ impl Evaluator<'_> {
         Ok(place)
     }
 
-    /// What a place holds.
+    /// Returns the value of a place.
     pub fn read_place(&mut self, place: &Place, span: Span) -> Eval {
         self.check_alive(place, span)?;
         let mut value = self.scope.name_and_value(place.slot).1.clone();
@@ -126,7 +127,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A variable that is read before it is given a value.
+    /// Returns an error for a variable that is read before it is assigned.
     pub fn unset_error(&self, name: &str, span: Span) -> Exit {
         Diagnostic::error_at(
             Code::Unassigned,
@@ -138,12 +139,12 @@ impl Evaluator<'_> {
         .into()
     }
 
-    /// Gives a place another value.
+    /// Assigns a value to a place.
     pub fn write_place(&mut self, place: &Place, value: Value, span: Span) -> Eval<()> {
         self.check_alive(place, span)?;
         let name = self.scope.name_and_value(place.slot).0.to_owned();
         self.name_value(&value, &name, span);
-        // Taken out, so that an array that nothing else holds is changed where it is.
+        // The old value is taken out, so that an array without other owners is changed in place.
         let old = self.scope.set_value(place.slot, Value::Poison);
         let new = self.replace_part(old, &place.path, value, span)?;
         if matches!(&new, Value::Table(_)) || matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
@@ -153,7 +154,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// A value, of a mutable reference what it refers to.
+    /// Returns a value, or the referent of a mutable reference.
     pub fn deref_value(&mut self, value: Value, span: Span) -> Eval {
         match value {
             Value::Ref(place) => {
@@ -178,7 +179,7 @@ impl Evaluator<'_> {
         .into())
     }
 
-    /// Positions of the variables that references in a value lead to.
+    /// Collects the positions of the variables that references in a value refer to.
     pub fn collect_ref_slots(&self, value: &Value, out: &mut Vec<usize>) {
         match value {
             Value::Ref(place) | Value::Alias(place) if self.scope.is_alive(place) && !out.contains(&place.slot) => {

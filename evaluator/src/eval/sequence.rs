@@ -1,8 +1,8 @@
 //! Lists of values as functions of a position, so that a loop over them can be left in the shader.
 //!
-//! Values of one shape are taken apart into columns, one for each number in them: a column that is the same everywhere,
-//! one that grows evenly (the counter of `enumerate`), elements of one array at indices that grow evenly (`iter`, `rev`),
-//! or a table of its own.
+//! Values of one shape are split into columns, one for each number in them. A column is one of: a number equal in
+//! every value; an arithmetic progression (the counter of `enumerate`); elements of one array at indices in
+//! arithmetic progression (`iter`, `rev`); or a table of its own.
 
 use super::Evaluator;
 use super::loops::LoopBody;
@@ -13,7 +13,7 @@ use crate::front::tree::Pattern;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
-/// Whether a value has values of enums in it.
+/// `true` if a value contains values of enums.
 pub fn has_choices(value: &Value) -> bool {
     match value {
         Value::Enum(_) => true,
@@ -24,7 +24,7 @@ pub fn has_choices(value: &Value) -> bool {
     }
 }
 
-/// Numbers of one value after which a list of such values is no table.
+/// Upper limit for the numbers in one value of a list stored as a table.
 const MAX_COLUMNS: usize = 64;
 
 /// A list of values of one shape.
@@ -34,17 +34,17 @@ pub struct Columns {
     len: u32,
 }
 
-/// The numbers at one place in each value of a list.
+/// The numbers at one position in each value of a list.
 enum Column {
-    /// The same everywhere.
+    /// A number equal in every value.
     Same(NodeId),
-    /// A first value, and what each has more than the one before it.
+    /// An arithmetic progression.
     Even(Progression, Type),
-    /// Elements of an array.
+    /// Elements of an array at indices in arithmetic progression.
     Of(NodeId, Progression),
 }
 
-/// Numbers that grow evenly, wrapping.
+/// An arithmetic progression, wrapping on overflow.
 #[derive(Clone, Copy)]
 struct Progression {
     first: u32,
@@ -52,14 +52,14 @@ struct Progression {
 }
 
 impl Columns {
-    /// How many values there are.
+    /// Returns the number of values.
     pub fn len(&self) -> u32 {
         self.len
     }
 }
 
 impl Evaluator<'_> {
-    /// The values by columns; an error says why they have none.
+    /// Splits the values into columns; an error says why that is impossible.
     pub fn by_columns(&mut self, values: &[Value], span: Span) -> Eval<Columns> {
         let mut rows = Vec::new();
         for value in values {
@@ -108,7 +108,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The value with integers without a type as nodes, of the type that the same place in `like` has.
+    /// Returns the value with untyped integers as nodes of the type found at the same position in `like`.
     fn known_integers(&mut self, value: &Value, like: &Value) -> Value {
         match (value, like) {
             (Value::Int(n), _) => {
@@ -116,7 +116,7 @@ impl Evaluator<'_> {
                     Value::Node(id) if matches!(self.ty(*id), Type::U32 | Type::I32) => self.ty(*id),
                     _ => Type::USIZE,
                 };
-                // What does not fit stays as it is, and makes the values unlike.
+                // An integer that does not fit stays unchanged, which makes the shapes differ.
                 let fits = match ty {
                     Type::U32 => u32::try_from(*n).is_ok(),
                     Type::I32 => i32::try_from(*n).is_ok(),
@@ -155,7 +155,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Lets values of enums have one shape: that of all variants that any of them may be.
+    /// Gives values of enums one shape, in which every variant that any of them may be is possible.
     fn with_all_variants(&mut self, rows: &mut [Value], span: Span) -> Eval<()> {
         if !rows.first().is_some_and(has_choices) {
             return Ok(());
@@ -214,7 +214,7 @@ impl Evaluator<'_> {
         Ok(Column::Of(array, Progression { first: 0, step: 1 }))
     }
 
-    /// The constants as numbers that grow evenly.
+    /// Returns the constants as an arithmetic progression, if they are one.
     fn find_progression(&self, nodes: &[NodeId]) -> Option<Progression> {
         let graph = self.builder.graph();
         let low = |bits: crate::ir::Bits| (bits[1] == 0).then_some(bits[0]);
@@ -222,12 +222,12 @@ impl Evaluator<'_> {
         let bits = bits?;
         let step = bits.get(1)?.wrapping_sub(bits[0]);
         let evenly = bits.windows(2).all(|pair| pair[1].wrapping_sub(pair[0]) == step);
-        // Steps back wrap, which 64 bits do elsewhere.
+        // A negative step of a `usize` wraps at 32 bits here, but at 64 bits in native code.
         let wide = graph.ty(nodes[0]) == Type::USIZE && step > i32::MAX as u32 && step != u32::MAX;
         (evenly && !wide).then_some(Progression { first: bits[0], step })
     }
 
-    /// The value at a position, an `i32`.
+    /// Returns the value at a position, an `i32`.
     pub fn element_at(&mut self, columns: &Columns, position: NodeId) -> Value {
         let mut nodes = Vec::new();
         for column in &columns.columns {
@@ -247,8 +247,8 @@ impl Evaluator<'_> {
         columns.template.unflatten(&mut nodes.into_iter())
     }
 
-    /// An element, at an index that is not known, of an array of arrays, tuples or structures; `None` of an array of
-    /// numbers that has nothing to be simplified.
+    /// Returns the element at a runtime index of an array of arrays, tuples or structures; `None` for an array of
+    /// numbers that cannot be simplified.
     pub fn element_of_many(&mut self, base: &Value, index: NodeId, span: Span) -> Eval<Option<Value>> {
         let Value::Array(elements) = base else { return Ok(None) };
         match elements.first() {
@@ -276,7 +276,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// An element of a list by columns, or by a table where there are arrays in the elements.
+    /// Returns an element of a list through columns, or through a table if the elements contain arrays.
     fn row_of_list(&mut self, base: &Value, elements: &[Value], index: NodeId, span: Span) -> Eval<Option<Value>> {
         let error = match self.by_columns(elements, span) {
             Ok(columns) => return Ok(Some(self.element_at(&columns, index))),
@@ -290,7 +290,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// An array of arrays of numbers of one type as one array, row by row.
+    /// Concatenates an array of arrays of numbers of one type, row by row.
     fn flatten_rows(&mut self, rows: &[Value]) -> Option<NodeId> {
         let mut nodes = Vec::new();
         for row in rows {
@@ -324,7 +324,7 @@ impl Evaluator<'_> {
         alike.then(|| self.builder.add(Op::MakeArray, nodes, ty))
     }
 
-    /// An element of a row of a flat array: its elements are `flat[from]`, `flat[from + 1]`, ...
+    /// Returns an element of a row of a flat array, whose elements are `flat[from]`, `flat[from + 1]`, ...
     fn element_of_row(&mut self, row: &[Value], index: NodeId) -> Option<Value> {
         let get = |e: &Self, value: &Value| match value {
             Value::Node(id) if e.builder.graph().node(*id).op == Op::ArrayGet => {
@@ -334,7 +334,7 @@ impl Evaluator<'_> {
             _ => None,
         };
         let (flat, from) = get(self, row.first()?)?;
-        // Elements at known indices are left to the rules that fold them.
+        // Elements at known indices are left to the folding rules.
         if row.len() < 2 || self.builder.graph().constant_bits(from).is_some() {
             return None;
         }
@@ -359,7 +359,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::Binary(BinaryOp::Add), [first, far], ty)
     }
 
-    /// Names the count of a loop where the pattern takes it as it is: the first of `enumerate`.
+    /// Names the counter of a loop if the pattern binds it directly: the first part of `enumerate`.
     pub fn name_position(&mut self, body: &LoopBody<'_>, item: &Value, own: NodeId) {
         if let (Some(Pattern::Tuple(parts, _)), Value::Tuple(values)) = (body.pattern, item)
             && let (Some(Pattern::Name(name, _, at)), Some(Value::Node(id))) = (parts.first(), values.first())

@@ -1,4 +1,4 @@
-//! Values as lists of nodes, for crossing the border of a structured loop or branch.
+//! Conversion of values to and from lists of nodes, to pass them into and out of structured loops and branches.
 
 use super::Evaluator;
 use super::enums::Tag;
@@ -8,7 +8,7 @@ use crate::ir::{NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
 impl Value {
-    /// The nodes that a settled value is made of, in order.
+    /// Appends the nodes of a settled value, in order.
     pub fn flatten(&self, out: &mut Vec<NodeId>) {
         match self {
             Value::Node(id) | Value::OneOf(id, _) => out.push(*id),
@@ -29,7 +29,7 @@ impl Value {
         }
     }
 
-    /// A value of the same shape made of other nodes.
+    /// Returns a value of the same shape with other nodes.
     pub fn unflatten(&self, nodes: &mut impl Iterator<Item = NodeId>) -> Value {
         match self {
             Value::Node(id) => Value::Node(nodes.next().unwrap_or(*id)),
@@ -62,8 +62,9 @@ impl Value {
 }
 
 impl Evaluator<'_> {
-    /// The value with every integer a node and every array of numbers one node, as a structured loop needs it. A short array of
-    /// structures, tuples or arrays stays a list of its elements, so that indices that are constants select variables.
+    /// Returns the value with every integer and every array of numbers as one node, the form that a structured loop
+    /// needs. A short array of structures, tuples or arrays stays a list of its elements, so that constant indices
+    /// select variables.
     pub fn make_runtime_form(&mut self, value: &Value, span: Span) -> Eval {
         Ok(match value {
             Value::Int(n) => Value::Node(self.int_node(*n, Scalar::Usize, span)?),
@@ -99,7 +100,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// An array as one node, so that it can be indexed at run time.
+    /// Returns an array as one node, so that it can be indexed at run time.
     pub fn array_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         let elements = match value {
             Value::Node(id) if self.ty(*id).is_array() => return Ok(*id),
@@ -156,7 +157,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Two values of one shape, integers given the type of the other side.
+    /// Returns two values in one shape; an integer takes the type of the other side.
     pub fn unify_values(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
         Ok(match (a, b) {
             _ if a == b => (a.clone(), b.clone()),
@@ -205,7 +206,7 @@ impl Evaluator<'_> {
             (a, b) if a.is_called() && b.is_called() => self.one_of(a, b),
             (Value::Undef, other) => (self.undef_like(other), other.clone()),
             (other, Value::Undef) => (other.clone(), self.undef_like(other)),
-            // Given a value on one side alone, a variable has none afterwards.
+            // A variable assigned on one side only is unset afterwards.
             (Value::Unset, _) | (_, Value::Unset) => (Value::Unset, Value::Unset),
             (Value::Ref(_), Value::Ref(_)) => {
                 return Err(Diagnostic::error_at(
@@ -244,13 +245,14 @@ impl Evaluator<'_> {
     }
 }
 
-/// Elements of an array that is one value of a shader: an instruction of SPIR-V has 65535 words at most.
+/// Upper limit for the elements of an array that is one value of a shader: a SPIR-V instruction has at most 65535
+/// words.
 pub const MAX_INDEXED: usize = 65_000;
 
-/// Numbers in an array of structures, tuples or arrays beyond which a loop does not carry each of them as a variable.
+/// Upper limit for the numbers in an array of structures, tuples or arrays that a loop carries as separate variables.
 const MAX_VARIABLES: usize = 48;
 
-/// An array of too many elements for a shader's variable.
+/// Returns an error for an array with too many elements for a shader variable.
 pub fn too_many_elements(count: usize, span: Span) -> Diagnostic {
     Diagnostic::error_at(
         Code::TooLarge,
@@ -261,7 +263,7 @@ pub fn too_many_elements(count: usize, span: Span) -> Diagnostic {
     .help("read it from a `&Buffer`, or unroll the loop")
 }
 
-/// An array of what no shader can choose by a runtime index.
+/// Returns an error for an array whose elements no shader can select by a runtime index.
 pub fn not_indexed(element: &Value, span: Span) -> Diagnostic {
     let elements = match element {
         Value::Texture(_) => "textures".to_owned(),
@@ -279,7 +281,7 @@ pub fn not_indexed(element: &Value, span: Span) -> Diagnostic {
     .help("unroll the loop, or choose by a `match`: `match k { 0 => a.load(p), _ => b.load(p) }`")
 }
 
-/// Whether two settled values differ in their nodes alone.
+/// `true` if two settled values differ only in their nodes.
 pub fn same_shape(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Node(_), Value::Node(_)) => true,

@@ -1,7 +1,8 @@
-//! Arrays of structures, tuples, enums and arrays that are indexed at run time: an array of numbers for each number of an element.
+//! Arrays of structures, tuples, enums and arrays that are indexed at run time. They are stored as one array of
+//! numbers for each number of an element.
 //!
-//! `[Light; 4]` with a position and a colour becomes two arrays of four vectors, `[[f32; 3]; 8]` one array of 24 numbers, row by row. As
-//! long as all indices are constants, such an array is a list of its elements instead.
+//! `[Light; 4]` with a position and a colour becomes two arrays of four vectors; `[[f32; 3]; 8]` becomes one array of
+//! 24 numbers, row by row. As long as all indices are constants, such an array is a list of its elements instead.
 
 use super::Evaluator;
 use super::enums::{EnumValue, Tag};
@@ -14,7 +15,7 @@ use crate::ir::{BinaryOp, NodeId, Op, Type};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// An array in the form that a runtime index needs: a node of numbers, or a table.
+    /// Returns an array in the form that a runtime index needs: a node of numbers, or a table.
     pub fn tabled(&mut self, value: &Value, span: Span) -> Eval {
         match value {
             Value::Table(table) if table.from.is_none() => Ok(value.clone()),
@@ -31,7 +32,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a value is an array of other things than numbers.
+    /// `true` if a value is an array of anything but numbers.
     pub fn is_tabled(&self, value: &Value) -> bool {
         match value {
             Value::Table(_) => true,
@@ -48,7 +49,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Elements of an array of any form.
+    /// Returns the elements of an array in any form.
     pub fn rows(&mut self, array: &Value, span: Span) -> Eval<Vec<Value>> {
         let len = self.array_len(array).unwrap_or(0);
         (0..len as i64)
@@ -56,7 +57,7 @@ impl Evaluator<'_> {
             .collect()
     }
 
-    /// Number of elements of an array of any form.
+    /// Returns the number of elements of an array in any form.
     pub fn array_len(&self, value: &Value) -> Option<usize> {
         match value {
             Value::Array(elements) => Some(elements.len()),
@@ -69,7 +70,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Two arrays in one form of which one is a table.
+    /// Returns two arrays, at least one of them a table, in one form.
     pub fn unify_tables(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
         let (left, right) = (self.tabled(a, span)?, self.tabled(b, span)?);
         if same_shape(&left, &right) {
@@ -80,7 +81,7 @@ impl Evaluator<'_> {
         Ok((self.tabled(&left, span)?, self.tabled(&right, span)?))
     }
 
-    /// Rows of one shape as a row of arrays.
+    /// Combines rows of one shape into columns.
     fn columns_of(&mut self, mut rows: Vec<Value>, span: Span) -> Eval {
         if rows.len() > MAX_INDEXED {
             return Err(too_many_elements(rows.len(), span).into());
@@ -147,7 +148,7 @@ impl Evaluator<'_> {
                 Ok(Table::whole(len.unwrap_or(0), element))
             }
             Value::Int(_) | Value::Node(_) => Ok(Value::Node(self.array_node(&Value::array(rows), span)?)),
-            // One and the same in all rows, such as a texture.
+            // Equal in all rows, such as a texture.
             other if rows.iter().all(|row| row == other) => Ok(other.clone()),
             other => Err(not_indexed(other, span).into()),
         }
@@ -189,7 +190,7 @@ impl Evaluator<'_> {
         })))
     }
 
-    /// An element of a table.
+    /// Returns an element of a table.
     pub fn row_of_table(&mut self, table: &Table, index: &Value, span: Span) -> Eval {
         if let Some(k) = self.known_int(index)
             && usize::try_from(k).is_ok_and(|k| k >= table.len)
@@ -204,7 +205,7 @@ impl Evaluator<'_> {
         Ok(self.row_at(&table.element, row))
     }
 
-    /// The values of arrays at a row.
+    /// Returns the values of the columns at a row.
     pub fn row_at(&mut self, columns: &Value, row: NodeId) -> Value {
         match columns {
             Value::Node(array) => Value::Node(self.number_at(*array, row)),
@@ -235,7 +236,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::ArrayGet, [array, row], element)
     }
 
-    /// A table with a part of an element replaced.
+    /// Returns a table with a part of one element replaced.
     pub fn set_in_table(&mut self, table: &Table, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
         if let Some(k) = self.known_int(index)
             && usize::try_from(k).is_ok_and(|k| k >= table.len)
@@ -247,7 +248,7 @@ impl Evaluator<'_> {
         Ok(Table::whole(table.len, element))
     }
 
-    /// Columns with a part of a row replaced, the row given with the number of rows.
+    /// Returns columns with a part of one row replaced; the row is passed with the number of rows.
     fn set_row(
         &mut self,
         columns: &Value,
@@ -307,7 +308,7 @@ impl Evaluator<'_> {
         if is_fixed(columns) {
             return self.put_row(columns, at.0, &new, span);
         }
-        // An enum that may be another variant than in any row so far, or another function.
+        // An enum with a variant that no row has had so far, or another function.
         let current = self.row_at(columns, at.0);
         let (new, wider) = self.unify_values(&new, &current, span)?;
         if same_shape(&wider, &current) {
@@ -323,7 +324,7 @@ impl Evaluator<'_> {
         self.put_row(&columns, at.0, &new, span)
     }
 
-    /// Columns with the parts of a value of their shape at a row.
+    /// Returns columns with a row replaced by the parts of a value of the same shape.
     fn put_row(&mut self, columns: &Value, row: NodeId, new: &Value, span: Span) -> Eval {
         Ok(match (columns, new) {
             (Value::Node(array), new) => Value::Node(self.put_number(*array, row, new, span)?),
@@ -380,7 +381,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether a row of any value of the type fits: there is no enum or function in it.
+/// `true` if any value of the type fits into a row: the columns contain no enum or function.
 fn is_fixed(columns: &Value) -> bool {
     match columns {
         Value::Node(_) => true,

@@ -1,5 +1,5 @@
-//! What traits give values: operators of structures, methods told apart by what they are given, what belongs to a type
-//! parameter. A value knows its type, so that a call finds its function by the values alone.
+//! Members that traits add to values: operators of structures, methods overloaded by argument types, members of type
+//! parameters. A value carries its type, so a call resolves its function from the values alone.
 
 use super::Evaluator;
 use super::objects::OBJECT;
@@ -9,7 +9,7 @@ use crate::front::tree::{Function, Generic, Type as SourceType};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::rc::Rc;
 
-/// The trait of an operator and its function.
+/// Returns the trait of an operator and the trait's function.
 fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
     match op {
         BinaryOp::Eq | BinaryOp::Ne => Some(("PartialEq", "eq")),
@@ -18,7 +18,7 @@ fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// What functions of a value's type go by. A known integer is of any type.
+    /// Returns the names under which functions of a value's type are found. A known integer has every integer type.
     pub fn type_names(&self, value: &Value) -> Vec<String> {
         match value {
             Value::Struct { ty, .. } => vec![ty.to_string()],
@@ -31,7 +31,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Whether a value may be of a type that is stated. References have been followed.
+    /// `true` if a value may have the stated type. References have been resolved already.
     fn is_of(&self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
         match (ty.peel_refs(), value) {
             (SourceType::Name(name, _), _) if generics.iter().any(|generic| generic.name() == name) => true,
@@ -50,12 +50,12 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Whether a name is none of a type: what inference has found there the values tell.
+    /// `true` if a name does not denote a type; the values determine what inference found there.
     fn is_unknown_name(&self, name: &str) -> bool {
         matches!(name, "_" | "Self") || !(self.library.has_type(name) || crate::front::is_prelude_type(name))
     }
 
-    /// The function among several that takes some values.
+    /// Returns the overload that accepts the values.
     pub fn find_overload(&mut self, keys: &[&'a str], values: &[Value], span: Span) -> Eval<Option<&'a str>> {
         if keys.len() < 2 {
             return Ok(keys.first().copied());
@@ -89,7 +89,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// An operator that a trait gives its operands; `None` if they are numbers, or what Rust compares by itself.
+    /// Evaluates an operator that a trait defines for its operands; `None` if they are numbers, or values that Rust
+    /// compares natively.
     pub fn operator_of_trait(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval<Option<Value>> {
         let own = |value: &Value| matches!(value, Value::Struct { .. } | Value::Enum(_));
         if !own(left) && !own(right) {
@@ -115,7 +116,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// `place op= value` of a structure or an enum; whether there is such an operator.
+    /// Evaluates `place op= value` of a structure or an enum; returns `false` if no such operator exists.
     pub fn assigned_by_trait(&mut self, op: BinaryOp, place: &Place, value: &Value, span: Span) -> Eval<bool> {
         let old = self.read_place(place, span)?;
         let (Value::Struct { .. } | Value::Enum(_), Some((of, name))) = (&old, trait_of(op)) else {
@@ -136,7 +137,7 @@ impl<'a> Evaluator<'a> {
         Ok(true)
     }
 
-    /// `-value`, `!value` of a structure or an enum.
+    /// Evaluates `-value` or `!value` of a structure or an enum.
     pub fn unary_of_trait(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval<Option<Value>> {
         let (of, name) = match op {
             UnaryOp::Neg => ("Neg", "neg"),
@@ -155,7 +156,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// `base[index]` of a structure; with its place, if the element is to be written.
+    /// Evaluates `base[index]` of a structure; also returns the element's place if it is to be written.
     pub fn index_of_trait(
         &mut self,
         base: &Value,
@@ -184,7 +185,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// A method that several traits give a value's type, or that a trait gives numbers.
+    /// Evaluates a method that several traits define for a value's type, or that a trait defines for numbers.
     pub fn method_of_trait(
         &mut self,
         value: &Value,
@@ -192,7 +193,7 @@ impl<'a> Evaluator<'a> {
         args: &[Value],
         span: Span,
     ) -> Eval<Option<(&'a str, &'a Function)>> {
-        // What numbers have themselves goes before what a trait gives them.
+        // Inherent methods of numbers take precedence over those of a trait.
         if matches!(value, Value::Node(id) if crate::front::methods::has_method(self.ty(*id), name)) {
             return Ok(None);
         }
@@ -215,7 +216,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// What a path of two names goes by: of a type parameter by its type, of a trait by the type of the first value.
+    /// Resolves a path of two segments: a type parameter by its type, a trait by the type of the first value.
     pub fn resolve_path(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
         let [of, name] = path else { return Ok(None) };
         if let Some(Value::Type(ty)) = self.scope.get(of) {
@@ -240,7 +241,8 @@ impl<'a> Evaluator<'a> {
         Ok(found.map(|(key, _)| vec![key.to_owned()]))
     }
 
-    /// The types of type parameters: those given, or those of the values that are given for parameters of these types.
+    /// Returns the types of type parameters: those stated, or those of the arguments whose parameters have these
+    /// types.
     pub fn types_of(
         &mut self,
         function: &Function,
@@ -269,7 +271,7 @@ impl<'a> Evaluator<'a> {
         Ok(bound)
     }
 
-    /// `into()` and `default()` of what the generator itself knows.
+    /// Evaluates `into()` and `default()` for built-in types.
     pub fn eval_conversion(&mut self, key: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
         let Some(ty) = key.strip_suffix("::from") else {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! What a variable holds while a kernel is evaluated.
+//! Values that variables hold while a kernel is evaluated.
 
 use super::enums::EnumValue;
 use crate::diagnostic::{Diagnostic, Span};
@@ -11,31 +11,32 @@ use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// A value of the kernel language. A compile-time constant is known exactly: numbers as constant nodes, all else by itself.
+/// A value of the kernel language. A compile-time constant is known exactly: a number as a constant node, everything
+/// else as the value itself.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A `usize` that is known, never negative.
+    /// A known `usize`, never negative.
     Int(i64),
     /// A scalar or vector, or in a structured loop an array; known if the node is a constant.
     Node(NodeId),
-    /// A value of an enum; shared until it is changed.
+    /// A value of an enum; shared until changed.
     Enum(Rc<EnumValue>),
     /// A structure.
     Struct {
-        /// Its type.
+        /// Type of the structure.
         ty: Name,
-        /// Its fields in order; shared until one is changed.
+        /// Fields in order; shared until one is changed.
         fields: Rc<Vec<(Name, Value)>>,
     },
     /// A tuple; `()` is empty.
     Tuple(Vec<Value>),
-    /// An array with known indices; shared until it is changed.
+    /// An array whose indices are all known; shared until changed.
     Array(Rc<Elements>),
     /// An array of structures, tuples, enums or arrays that is indexed at run time.
     Table(Rc<Table>),
-    /// Counters from a first to one before an end, for a loop.
+    /// Counters of a loop: a half-open or closed range.
     Range(Range),
-    /// A text: the name in `tally`.
+    /// A string: the name in `tally`.
     Str(String),
     /// A texture, by its index in the graph.
     Texture(u32),
@@ -43,41 +44,41 @@ pub enum Value {
     Sampler(u32),
     /// A buffer, by its index in the graph.
     Buffer(u32),
-    /// What a workgroup shares, by its index in the graph.
+    /// Workgroup-shared memory, by its index in the graph.
     Shared(u32),
-    /// A picture that is written, by its index in the graph.
+    /// A writable image, by its index in the graph.
     Image(u32),
-    /// A mutable reference to a variable or a part of one. A shared reference is the value that it refers to: nothing can
-    /// change that meanwhile.
+    /// A mutable reference to a variable or a part of one. A shared reference is represented by the value that it
+    /// refers to, which cannot change while the reference lives.
     Ref(Rc<Place>),
     /// A closure.
     Closure(Rc<ClosureValue>),
     /// A function, by the last two segments of its path.
     Function(Vec<String>),
-    /// One of several functions and closures, by a number that is a runtime value: of two a boolean, `true` for the
-    /// second, of more an `i32`.
+    /// A choice among functions and closures, selected by a runtime value: a boolean for two (`true` selects the
+    /// second), an `i32` for more.
     OneOf(NodeId, Rc<Vec<Value>>),
-    /// `array::from_fn(f)`, of which only the type that is stated for it tells the length.
+    /// `array::from_fn(f)`: the length is known only from the stated type.
     Elements(Rc<Value>),
-    /// A constant parameter of a structure's type, a hidden field: the 3 of `Window<3>`, or 1 for `true`.
+    /// A constant parameter of a structure's type, stored as a hidden field: the 3 of `Window<3>`, or 1 for `true`.
     Const(i64),
-    /// What a type parameter stands for, by the name of the type.
+    /// The type bound to a type parameter, by name.
     Type(String),
-    /// What a variable of a closure holds that is a variable around it.
+    /// A closure's variable that aliases a variable of the enclosing function.
     Alias(Rc<Place>),
-    /// What a variable holds that has been declared and not been given a value.
+    /// An uninitialised variable.
     Unset,
-    /// Any value of any type: what nobody looks at before it is given another one.
+    /// An undefined value of any type.
     Undef,
-    /// What an expression with an error gives; using it is no second error.
+    /// The result of an expression with an error; using it reports no second error.
     Poison,
 }
 
-/// Elements of an array, whose memory is counted.
+/// Elements of an array, counted against the memory limit.
 #[derive(Clone, Debug)]
 pub struct Elements {
     elements: Vec<Value>,
-    /// Counts as long as the elements are held.
+    /// Counts the memory as long as the elements are held.
     _held: Held,
 }
 
@@ -101,20 +102,21 @@ impl DerefMut for Elements {
     }
 }
 
-/// An array by columns.
+/// A table: an array stored by columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     /// Number of elements.
     pub len: usize,
-    /// An element with an array in place of each number: the numbers of all elements. Where an element is an array, it is a table whose
-    /// arrays hold the numbers of all rows one after the other.
+    /// An element in which each number is replaced by an array of that number in all elements. An array in an element
+    /// becomes a table whose arrays hold the numbers of all rows, one row after the other.
     pub element: Value,
-    /// Row of the first element, an `i32`: set for a row of a table of arrays, which reads the arrays of the whole.
+    /// Row of the first element, an `i32`. Set for a row of a table of arrays, which reads from the arrays of the
+    /// whole table.
     pub from: Option<NodeId>,
 }
 
 impl Table {
-    /// An array that is no part of another one.
+    /// An array that is not part of another one.
     pub fn whole(len: usize, element: Value) -> Value {
         Value::Table(Rc::new(Table {
             len,
@@ -124,14 +126,14 @@ impl Table {
     }
 }
 
-/// A closure with the variables that it mentions.
+/// A closure with its captured variables.
 #[derive(Clone, Debug)]
 pub struct ClosureValue {
-    /// What it computes.
+    /// Code of the closure.
     pub code: Arc<Closure>,
-    /// Its variables by name.
+    /// Captured variables by name.
     pub captured: Vec<(String, Captured)>,
-    /// The function that it is made in, by which its loops are known.
+    /// The function that defines the closure; its loops are identified by this name.
     pub function: String,
 }
 
@@ -141,12 +143,12 @@ impl PartialEq for ClosureValue {
     }
 }
 
-/// A variable of a closure.
+/// A captured variable.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Captured {
-    /// One that it only reads.
+    /// A variable that the closure only reads.
     Value(Value),
-    /// One that it writes.
+    /// A variable that the closure writes.
     Place(Rc<Place>),
 }
 
@@ -155,9 +157,9 @@ pub enum Captured {
 pub struct Place {
     /// Position of the variable in the scope.
     pub slot: usize,
-    /// The variable's number, by which it is known to be the same one still.
+    /// Number of the variable, which detects that the slot has been reused.
     pub id: u32,
-    /// The way from the variable to the part.
+    /// Steps from the variable to the part.
     pub path: Vec<Step>,
 }
 
@@ -173,7 +175,7 @@ pub enum Step {
 }
 
 impl Place {
-    /// A part of this place.
+    /// Returns the place of a part of this place.
     pub fn with_step(&self, step: Step) -> Place {
         let mut place = self.clone();
         place.path.push(step);
@@ -181,36 +183,36 @@ impl Place {
     }
 }
 
-/// What a `for` runs over.
+/// Range of a `for` loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
-    /// Its smallest value: a known integer, or a node of type `i32` or `u32`.
+    /// Smallest value: a known integer, or a node of type `i32` or `u32`.
     pub start: Box<Value>,
-    /// Its end, of the same type.
+    /// End, of the same type.
     pub end: Box<Value>,
-    /// Whether the end belongs to it.
+    /// `true` if the range includes its end.
     pub inclusive: bool,
-    /// Whether its steps go from the largest value down: `(a..b).rev()`.
+    /// `true` if the values descend from the largest: `(a..b).rev()`.
     pub down: bool,
-    /// Distance of values, at least 1.
+    /// Distance between consecutive values, at least 1.
     pub step: i64,
-    /// Whether its values then come last to first: `(a..b).step_by(n).rev()`.
+    /// `true` if the stepped values are then reversed: `(a..b).step_by(n).rev()`.
     pub reversed: bool,
 }
 
 impl Value {
-    /// `()`.
+    /// Returns `()`.
     pub fn unit() -> Value {
         Value::Tuple(Vec::new())
     }
 
-    /// An array of its elements.
+    /// Returns an array of these elements.
     pub fn array(elements: Vec<Value>) -> Value {
         let held = Held::new(elements.len() * size_of::<Value>());
         Value::Array(Rc::new(Elements { elements, _held: held }))
     }
 
-    /// A structure.
+    /// Returns a structure of type `ty`.
     pub fn structure(ty: impl Into<Name>, fields: Vec<(Name, Value)>) -> Value {
         Value::Struct {
             ty: ty.into(),
@@ -218,12 +220,12 @@ impl Value {
         }
     }
 
-    /// Whether it can be called.
+    /// `true` if the value can be called.
     pub fn is_called(&self) -> bool {
         matches!(self, Value::Closure(_) | Value::Function(_) | Value::OneOf(..))
     }
 
-    /// Whether all nodes in it are those that [`Value::flatten`] lists: it holds no closure, range or place.
+    /// `true` if [`Value::flatten`] lists every node in the value, which therefore holds no closure, range or place.
     pub fn is_plain(&self) -> bool {
         match self {
             Value::Struct { fields, .. } => fields.iter().all(|(_, value)| value.is_plain()),
@@ -236,7 +238,7 @@ impl Value {
         }
     }
 
-    /// Whether it is a closure that changes variables around it, or may be one.
+    /// `true` if the value is, or may be, a closure that changes captured variables.
     pub fn changes_variables(&self) -> bool {
         match self {
             Value::OneOf(_, all) => all.iter().any(Value::changes_variables),
@@ -245,7 +247,7 @@ impl Value {
         }
     }
 
-    /// Numbers and other parts in it, counted up to `limit`.
+    /// Returns the number of parts, nested ones included, counted up to `limit`.
     pub fn count_parts(&self, limit: usize) -> usize {
         let parts: Box<dyn Iterator<Item = &Value>> = match self {
             Value::Struct { fields, .. } => Box::new(fields.iter().map(|(_, value)| value)),
@@ -265,7 +267,7 @@ impl Value {
         sum
     }
 
-    /// Its kind, for messages.
+    /// Returns the kind of the value, for messages.
     pub fn describe(&self) -> String {
         match self {
             Value::Int(_) => "an integer".to_owned(),
@@ -298,58 +300,58 @@ impl Value {
     }
 }
 
-/// A value that had to be a compile-time constant, and is none because of loops left in the shader.
+/// A value that has to be a compile-time constant, but depends on loops left in the shader.
 #[derive(Debug)]
 pub struct ConstantDemand {
     /// Loops that the value depends on and that can be unrolled.
     pub loops: BTreeSet<Span>,
-    /// The error if they could not be: names the place and the need.
+    /// The error to report if they cannot be unrolled; names the place and the need.
     pub error: Diagnostic,
 }
 
-/// How evaluation of an expression ends other than by its value.
+/// Reason why the evaluation of an expression ended without a value.
 #[derive(Debug)]
 pub enum Exit {
-    /// With an error, not yet noted.
+    /// An error that has not been recorded yet.
     Error(Box<Diagnostic>),
-    /// With an error that has been noted.
+    /// An error that has been recorded.
     Noted,
-    /// With values that had to be compile-time constants, and may be if loops before them are unrolled.
+    /// Values that have to be compile-time constants, and may become so if earlier loops are unrolled.
     Demand(Vec<ConstantDemand>),
-    /// By leaving the blocks around it.
+    /// A jump out of the enclosing blocks.
     Left(Jump),
 }
 
 impl Exit {
-    /// Returns whether evaluation has nothing to go on with.
+    /// `true` if evaluation cannot continue.
     pub fn is_failure(&self) -> bool {
         !matches!(self, Exit::Left(_))
     }
 }
 
-/// How the blocks around are left.
+/// A jump out of the enclosing blocks.
 #[derive(Clone, Debug)]
 pub enum Jump {
-    /// `break`, of the loop with a label.
+    /// `break`, with the label of its loop.
     Break(Option<String>),
-    /// `continue`, of the loop with a label.
+    /// `continue`, with the label of its loop.
     Continue(Option<String>),
     /// `return`.
     Return(Value),
 }
 
 impl Jump {
-    /// Whether it ends the loop with a label, if it stands in its body.
+    /// `true` if the jump, in the body of a loop with this label, ends that loop.
     pub fn breaks_loop(&self, label: Option<&str>) -> bool {
         matches!(self, Jump::Break(of) if of.is_none() || of.as_deref() == label)
     }
 
-    /// Whether it ends an iteration of the loop with a label, if it stands in its body.
+    /// `true` if the jump, in the body of a loop with this label, ends an iteration of that loop.
     pub fn continues_loop(&self, label: Option<&str>) -> bool {
         matches!(self, Jump::Continue(of) if of.is_none() || of.as_deref() == label)
     }
 
-    /// Whether both lead to one place.
+    /// `true` if both jumps have the same target.
     pub fn is_like(&self, other: &Jump) -> bool {
         match (self, other) {
             (Jump::Break(a), Jump::Break(b)) | (Jump::Continue(a), Jump::Continue(b)) => a == b,
@@ -358,7 +360,7 @@ impl Jump {
         }
     }
 
-    /// What is taken along.
+    /// Returns the value carried by the jump.
     pub fn into_value(self) -> Value {
         match self {
             Jump::Return(value) => value,
@@ -373,5 +375,5 @@ impl From<Diagnostic> for Exit {
     }
 }
 
-/// A value, or how the blocks around are left instead.
+/// A value, or the reason why there is none.
 pub type Eval<T = Value> = Result<T, Exit>;

@@ -1,50 +1,50 @@
-//! What the filter borrows: colours of shading samples, and what surfaces make of light.
+//! Colours of the shading samples, and the properties that demodulation and the guide need with them.
 
 use super::Inputs;
 use super::options::{NonFinite, Sraa};
 use super::pattern::Place;
 use crate::prelude::*;
 
-/// Colours of the shading samples, linear, alpha premultiplied if it is not 1; and of demodulate, what surfaces make of light. A
-/// shader binds only what its options need. Natively what is not read may be of any size: see [`Colors::unread`].
+/// Colours of the shading samples, linear, with premultiplied alpha if it is not 1; with demodulate, the albedo of the surfaces
+/// too. A shader binds only what its options need. Natively, inputs that are not read may be of any size: see [`Colors::unread`].
 pub struct Colors {
-    /// One a pixel.
+    /// With one shading sample a pixel: its colour.
     pub color: Frame<Vec4>,
-    /// A layer for each, where there are several a pixel.
+    /// With several shading samples a pixel: their colours, a layer for each.
     pub colors: FrameLayers<Vec4>,
-    /// Of shading=placed: the geometry sample at which each pixel is shaded, or the number of samples for its centre.
+    /// With shading=placed: the geometry sample at which each pixel is shaded, or the number of samples for its centre.
     pub place: Frame<u32>,
-    /// Of extra=true: the geometry sample at which each pixel has a further shading sample, or the number of samples where it has
-    /// none.
+    /// With extra=true: the geometry sample at which each pixel has a further shading sample, or the number of samples where
+    /// it has none.
     pub extra: Frame<u32>,
-    /// Its colour, where it has one.
+    /// With extra=true: colour of the further shading sample, in pixels that have one.
     pub extra_color: Frame<Vec4>,
-    /// Of demodulate with layout=layers and layout=split: in red, green and blue the share of light that the surface at each
-    /// geometry sample reflects diffusely, linear; of demodulate=albedo-shadow in alpha the share of the direct light that
-    /// reaches it, 0 in shadow and 1 out of it. Where nothing is reflected, as in the sky, 1.
+    /// With demodulate, and layout=layers or layout=split: in red, green and blue the share of light that the surface at each
+    /// geometry sample reflects diffusely, linear; with demodulate=albedo-shadow, in alpha the share of the direct light that
+    /// reaches it, 0 in shadow and 1 outside. Where nothing is reflected, as in the sky, 1.
     pub albedo: FrameLayers<Vec4>,
-    /// The same of layout=superresolution.
+    /// `albedo` with layout=superresolution.
     pub albedo_grid: Texture<Vec4>,
-    /// The same of layout=multisampled.
+    /// `albedo` with layout=multisampled.
     pub albedo_samples: Multisampled<Vec4>,
-    /// The same at the pixel's centre, where that is shaded and the layout has no place for it.
+    /// `albedo` at the pixel's centre, if that is shaded and the layout has no place for it.
     pub centre_albedo: Frame<Vec4>,
-    /// Of demodulate=albedo-shadow: what the direct light adds to each pixel's colour where no shadow falls, in red, green and
-    /// blue: the colour is some rest and the share of the direct light that arrives times this.
+    /// With demodulate=albedo-shadow: contribution of the unshadowed direct light to each pixel's colour, in red, green and blue.
+    /// The colour is this times the share of the direct light that arrives, plus a remainder.
     pub direct: Frame<Vec4>,
-    /// The same of the further shading samples.
+    /// `direct` at the further shading samples.
     pub extra_direct: Frame<Vec4>,
-    /// Of demodulate with rest=true: what of each pixel's colour does not follow the albedo, in red, green and blue.
+    /// With demodulate and rest=true: part of each pixel's colour that does not follow the albedo, in red, green and blue.
     pub rest: Frame<Vec4>,
-    /// The same of the further shading samples.
+    /// `rest` at the further shading samples.
     pub extra_rest: Frame<Vec4>,
-    /// Of guide=add: the mean of the guide over the geometry samples of each pixel, in red, green and blue, linear. All colours are
-    /// then differences from the guide where they are shaded.
+    /// With guide=add: mean of the guide over the geometry samples of each pixel, in red, green and blue, linear. All colours are
+    /// then differences from the guide at the position that is shaded.
     pub guide_mean: Frame<Vec4>,
 }
 
 impl Colors {
-    /// Colours of which none may be read: single texels of zero, to be replaced by what the options need.
+    /// No colours: single texels of zero, to be replaced by the inputs that the options need.
     pub fn unread() -> Colors {
         let frame = || Frame::new(UVec2::ONE, vec![Vec4::ZERO]);
         Colors {
@@ -82,7 +82,7 @@ pub(super) fn color_at(inputs: &Inputs, tap: Place) -> Vec4 {
     shaded(inputs, tap, &inputs.colors.color, &inputs.colors.extra_color)
 }
 
-/// What shading gave at a tap: of its pixel's only shading sample, or of its further one.
+/// Value of a shading result at a tap: from the pixel's only shading sample, or from its further one.
 pub(super) fn shaded(inputs: &Inputs, tap: Place, only: &Frame<Vec4>, further: &Frame<Vec4>) -> Vec4 {
     let at = inputs.pixel + tap.pixel;
     if tap.extra { further.load(at) } else { only.load(at) }
@@ -102,7 +102,7 @@ pub(super) fn own_color(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
     }
 }
 
-/// Whether a colour may count.
+/// Returns whether a colour may contribute to the pixel.
 pub(super) fn is_kept(cfg: &Sraa, color: Vec4) -> bool {
     match cfg.non_finite {
         NonFinite::Spread => true,

@@ -1,11 +1,11 @@
-//! Light apart from paint and from shadow. What varies sharply within a surface is known at every geometry sample and not borrowed;
-//! what is borrowed is smooth.
+//! Separation of light from albedo and shadow. Albedo and shadow vary sharply within a surface, but are known at every geometry
+//! sample, so they are not borrowed. The light that is borrowed is smooth.
 //!
-//! A colour is taken to be a(ρ + vδ): the albedo a, the share v of the direct light that no shadow keeps away, and light ρ and δ
-//! that varies little from pixel to pixel. A shading sample t gives aₜδₜ as the direct light; a geometry sample s takes from it
-//! aₛ(ρₜ + vₛδₜ), which is aₛ/aₜ (color + (vₛ - vₜ) direct). Nothing is divided by v, so that what is in shadow keeps its rest.
-//! What does not follow the albedo, highlights and haze, is taken for light too, unless it is known apart: then it is borrowed as
-//! it is.
+//! A colour is modelled as a(ρ + vδ): the albedo a, the share v of the direct light that is not shadowed, and light ρ and δ
+//! that varies little from pixel to pixel. A shading sample t provides aₜδₜ as the direct light; a geometry sample s takes
+//! from it aₛ(ρₜ + vₛδₜ), which is aₛ/aₜ (color + (vₛ - vₜ) direct). There is no division by v, so samples in shadow keep
+//! their other light. Light that does not follow the albedo, such as highlights and haze, is rescaled as well, unless it is
+//! provided separately (`rest`): then it is borrowed unchanged.
 
 use super::Inputs;
 use super::colors::{Colors, color_at, is_kept, shaded};
@@ -15,10 +15,10 @@ use super::pattern::Place;
 use super::placed::shaded_place;
 use crate::prelude::*;
 
-/// What is known at every geometry sample and so not borrowed.
+/// Properties known at every geometry sample, and therefore not borrowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Demodulate {
-    /// Nothing: edges of paint and of shadow are as sharp as shading is dense.
+    /// None: edges of albedo and of shadow are only as sharp as the shading rate permits.
     None,
     /// The albedo.
     Albedo,
@@ -26,19 +26,19 @@ pub enum Demodulate {
     AlbedoShadow,
 }
 
-/// What a surface makes of light at a sample.
+/// Reflectance of a surface at a sample, and the direct light that reaches it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paint {
-    /// At least `albedo_floor`, at most [`BRIGHTEST`].
+    /// Albedo, at least `albedo_floor` and at most [`BRIGHTEST`].
     pub(super) albedo: Vec3,
-    /// Share of the direct light that reaches it.
+    /// Share of the direct light that reaches the sample.
     pub(super) lit: f32,
 }
 
-/// The largest half: what shines by itself may give what it shines with as its albedo.
+/// Largest 16-bit float. Surfaces that emit light may have their emission as albedo.
 pub(super) const BRIGHTEST: f32 = 65504.0;
 
-/// What the surface at a sample makes of light.
+/// Reflectance of the surface at a sample, and the direct light that reaches it.
 pub(super) fn paint(cfg: &Sraa, inputs: &Inputs, place: Place) -> Paint {
     match cfg.demodulate {
         Demodulate::None => Paint {
@@ -55,7 +55,7 @@ pub(super) fn paint(cfg: &Sraa, inputs: &Inputs, place: Place) -> Paint {
     }
 }
 
-/// Albedo and the share of the direct light at a sample of a pixel, as the G-buffer has them.
+/// Albedo and share of the direct light at a sample of a pixel, as stored in the G-buffer.
 pub(super) fn stored(cfg: &Sraa, colors: &Colors, at: IVec2, place: Place) -> Vec4 {
     texel(
         cfg,
@@ -68,7 +68,7 @@ pub(super) fn stored(cfg: &Sraa, colors: &Colors, at: IVec2, place: Place) -> Ve
     )
 }
 
-/// A channel of the albedo that can be divided by; what is not a number is the least.
+/// Clamps a channel of the albedo so that it can be divided by; NaN becomes the lower bound.
 fn bounded(cfg: &Sraa, albedo: f32) -> f32 {
     match cfg.guards {
         Guards::Fallback | Guards::None => albedo.max(cfg.albedo_floor).min(BRIGHTEST),
@@ -82,8 +82,8 @@ fn bounded(cfg: &Sraa, albedo: f32) -> f32 {
     }
 }
 
-/// A share of the direct light; what is not a number is none.
-#[allow(clippy::manual_clamp)] // which would keep it
+/// Clamps a share of the direct light to 0..=1; NaN becomes 0.
+#[allow(clippy::manual_clamp)] // `clamp` would keep it
 pub(super) fn share(cfg: &Sraa, lit: f32) -> f32 {
     match cfg.guards {
         Guards::Fallback | Guards::None => lit.max(0.0).min(1.0),
@@ -97,19 +97,19 @@ pub(super) fn share(cfg: &Sraa, lit: f32) -> f32 {
     }
 }
 
-/// What the direct light adds to a tap's colour out of shadow.
+/// Contribution of the unshadowed direct light to a tap's colour.
 fn direct(inputs: &Inputs, tap: Place) -> Vec4 {
     let light = shaded(inputs, tap, &inputs.colors.direct, &inputs.colors.extra_direct);
     light.xyz().extend(0.0)
 }
 
-/// What of a tap's colour does not follow the albedo.
+/// Part of a tap's colour that does not follow the albedo.
 fn rest(inputs: &Inputs, tap: Place) -> Vec4 {
     let light = shaded(inputs, tap, &inputs.colors.rest, &inputs.colors.extra_rest);
     light.xyz().extend(0.0)
 }
 
-/// Whether a tap's colour, and what is known of it, may count.
+/// Returns whether a tap's colour may contribute, together with its direct light and `rest`.
 pub(super) fn may_count(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4) -> bool {
     let kept = match cfg.demodulate {
         Demodulate::None | Demodulate::Albedo => is_kept(cfg, shaded),
@@ -122,8 +122,8 @@ pub(super) fn may_count(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4) -
     }
 }
 
-/// A tap's colour by its weight in the pixel. `reflected` is the weight times the albedo of the samples that it counts for, and
-/// `lit` of these what is lit.
+/// Colour of a tap, times its weight in the pixel. The first of `sums` is the weight times the albedo of the samples that use the
+/// tap; the second is also multiplied by their shares of the direct light.
 pub(super) fn weighed(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4, weight: f32, sums: (Vec3, Vec3)) -> Vec4 {
     match cfg.demodulate {
         Demodulate::None => weight * shaded,
@@ -134,7 +134,7 @@ pub(super) fn weighed(cfg: &Sraa, inputs: &Inputs, tap: Place, shaded: Vec4, wei
     }
 }
 
-/// The same of a tap whose paint is known.
+/// [`weighed`] for a tap whose paint is known.
 fn taken(
     cfg: &Sraa,
     inputs: &Inputs,
@@ -157,8 +157,8 @@ fn taken(
     }
 }
 
-/// The colour that a sample with a paint of its own takes from a tap, its pixel's only shading sample or a further one, whose surface
-/// is the sample's own or, if not `seen`, may be any.
+/// Colour that a sample with the paint `own` takes from a tap: the pixel's only shading sample, or a further one. With
+/// `seen`, the tap shows the sample's own surface; otherwise any surface.
 pub(super) fn repainted(cfg: &Sraa, inputs: &Inputs, tap: Place, own: &Paint, seen: bool) -> Vec4 {
     let shaded = color_at(inputs, tap);
     match cfg.demodulate {
@@ -174,7 +174,7 @@ pub(super) fn repainted(cfg: &Sraa, inputs: &Inputs, tap: Place, own: &Paint, se
 }
 
 impl Sraa {
-    /// Whether samples whose surface no tap shows are reconstructed apart from all others.
+    /// Returns whether samples whose surface no tap shows are reconstructed separately.
     pub(super) fn sets_apart(&self) -> bool {
         let can_be = self.resolve == Resolve::Box
             && self.normalisation == Normalisation::Shifted
@@ -185,7 +185,7 @@ impl Sraa {
             || (self.demodulate != Demodulate::None && can_be && self.unseen_floor > self.albedo_floor)
     }
 
-    /// Refuses what light cannot be taken apart for.
+    /// Panics if the options do not permit demodulation.
     pub(super) fn check_demodulate(&self) {
         if self.demodulate != Demodulate::None {
             assert!(

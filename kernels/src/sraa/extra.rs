@@ -23,7 +23,7 @@ struct Seen<'a> {
 ///
 /// A pixel is listed with its first sample that differs by more than `search_threshold` from all shading samples of the nine
 /// pixels around it. Where x + y is odd, the samples requested by neighbours with an even sum count as shaded, so that no surface
-/// shaded twice. Beyond the border the nearest pixel is repeated.
+/// is shaded twice. Beyond the border the nearest pixel is repeated.
 ///
 /// `extra_list` holds for each listed pixel its coordinates, as x + 65536 y, and the index of its sample. Its length is the
 /// budget: pixels beyond it are not listed. If it is too short, the order of the pixels determines which ones are listed.

@@ -1,10 +1,10 @@
-//! The scale of the guide: the one number by which it comes nearest to the colours of a picture. A guide that is too bright or too dark
-//! all over then harms no more.
+//! The scale of the guide: the factor that brings it nearest to the colours of a picture. With it, a guide that is too bright or
+//! too dark everywhere does no harm.
 //!
 //! > k = Σ w c·g / Σ w g·g, w = 1 / (c·c + g·g + ε), from 0 to [`MOST`]
 //!
-//! over the shading samples. By w bright and dark pixels count alike. What a good guide leaves out, as haze, makes k some other number
-//! than 1, and a guide that is scaled by it a worse one: near 1 it stays 1, and between [`NEAR`] and [`FAR_OFF`] it turns into k.
+//! over the shading samples. The weights w make bright and dark pixels count alike. Effects that a good guide omits, such as
+//! haze, move k away from 1: near 1 the scale stays 1, and between [`NEAR`] and [`FAR_OFF`] it blends into k.
 
 use super::colors::Colors;
 use super::gbuffer::GBuffer;
@@ -17,20 +17,20 @@ use crate::prelude::*;
 /// Width and height of a tile, in pixels.
 const TILE: i32 = 16;
 
-/// What is darker counts less.
+/// ε of the weights: much darker colours count less.
 const FAINT: f32 = 1.0e-4;
 
-/// The largest scale.
+/// Largest scale.
 const MOST: f32 = 1.5;
 
-/// Difference of the scale from 1 up to which it is 1.
+/// Difference of the fitted scale from 1 up to which it is replaced by 1.
 const NEAR: f32 = 0.25;
 
-/// The same from which on it is as it is fitted.
+/// Difference of the fitted scale from 1 beyond which it is used unchanged.
 const FAR_OFF: f32 = 0.5;
 
-/// Sums over a tile of 16×16 pixels for [`sraa_fit`]: w c·g in red and w g·g in green. `pixel` counts tiles, from the picture's upper
-/// left corner.
+/// Sums over a tile of 16×16 pixels for [`sraa_fit`]: w c·g in red and w g·g in green. `pixel` is the index of the tile,
+/// counted from the picture's upper left corner.
 pub fn sraa_fit_sums(
     cfg: &Sraa,
     gbuffer: &GBuffer,
@@ -70,9 +70,9 @@ pub fn sraa_fit_sums(
     vec4(both, own, 0.0, 0.0)
 }
 
-/// The scale of the guide in red, from the sums of all tiles: the image `guide_scale`, of which only the upper left pixel is read. Dispatch
-/// it for that one.
-#[allow(clippy::manual_clamp)] // which would keep what is not a number
+/// Scale of the guide in red, from the sums of all tiles: the image `guide_scale`, of which only the upper left pixel is read.
+/// Dispatch this kernel for that pixel only.
+#[allow(clippy::manual_clamp)] // `clamp` would keep NaN
 pub fn sraa_fit(cfg: &Sraa, sums: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
     cfg.check();
     let size = sums.size().as_ivec2();
@@ -82,7 +82,7 @@ pub fn sraa_fit(cfg: &Sraa, sums: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
             total += sums.load(pixel + ivec2(x, y));
         }
     }
-    // Without a guide anywhere none is added.
+    // If the guide is 0 everywhere, so is its scale.
     let scale = if total.y > 0.0 { total.x / total.y } else { 0.0 };
     let apart = scale.max(0.0).min(MOST) - 1.0;
     let share = ((apart.abs() - NEAR) / (FAR_OFF - NEAR)).clamp(0.0, 1.0);

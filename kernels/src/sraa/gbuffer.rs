@@ -1,4 +1,4 @@
-//! What the G-buffer holds, and how: depth and normals at every geometry sample.
+//! Contents and encodings of the G-buffer: depth and normals at every geometry sample.
 
 use super::metric::Metric;
 use super::options::{Guards, Sraa};
@@ -7,95 +7,95 @@ use super::view::{Projection, View};
 use crate::normals::{folded, unit};
 use crate::prelude::*;
 
-/// How the G-buffer holds depth.
+/// Encoding of depth in the G-buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// Along the view direction, in scene units; infinite where there is no geometry.
+    /// Distance along the view direction, in scene units; infinite where there is no geometry.
     Linear,
-    /// As projected, by either projection: 0 at the near plane, 1 at the far plane.
+    /// Projected depth, of either projection: 0 at the near plane, 1 at the far plane.
     Perspective,
-    /// As projected with near and far swapped: 1 at the near plane, 0 at the far plane.
+    /// Projected depth with near and far swapped: 1 at the near plane, 0 at the far plane.
     Reversed,
-    /// As projected with near and far swapped and no far plane: 1 at the near plane, 0 infinitely far.
+    /// Projected depth with near and far swapped and no far plane: 1 at the near plane, 0 infinitely far.
     ReversedInfinite,
 }
 
-/// How the G-buffer holds normals.
+/// Encoding of normals in the G-buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Normals {
-    /// As unit vectors, in a float format.
+    /// Unit vectors, in a float format.
     Float,
-    /// As 0.5 + 0.5 n, in a normalised format such as RGB8 or RGB10A2; renormalised if `renormalise` says so.
+    /// 0.5 + 0.5 n, in a normalised format such as RGB8 or RGB10A2; renormalised with `renormalise`.
     Unorm,
-    /// Unfolded to a square, each axis as 0.5 + 0.5 n, in a normalised format of two components such as RG8 or RG16.
+    /// Octahedral: unfolded to a square, each axis as 0.5 + 0.5 n, in a normalised format of two components such as RG8 or RG16.
     Octahedral,
-    /// Unfolded to a square, each axis in -1..1, with the depth in the same texel: half the reads. The depth is the sum of
-    /// the third and fourth component, so that two 16-bit floats hold one of 22 bits.
+    /// Octahedral, each axis in -1..1, with the depth in the same texel: half the reads. The depth is the sum of the third
+    /// and fourth component, so that two 16-bit floats hold one of 22 bits.
     Packed,
 }
 
-/// How the G-buffer holds the samples of a pixel.
+/// Storage of a pixel's samples in the G-buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// A layer for each; the pixel's centre, if that is shaded, in one more, the last (paper §3.4: one pass for each).
+    /// A layer for each sample; the pixel's centre, if it is shaded, is one more layer, the last (paper §3.4: one pass for each).
     Layers,
-    /// Side by side in one large texture (the listing's superresolution buffers): sample s of c columns is at column s % c
+    /// Side by side in one large texture (the listing's superresolution buffers): with c columns, sample s is at column s % c
     /// and row s / c of its pixel.
     Superresolution,
-    /// The samples of a multisampled texture (paper §3.4: one pass for all).
+    /// Samples of a multisampled texture (paper §3.4: one pass for all).
     Multisampled,
-    /// As layers, but depth in a storage buffer: the two come by different caches (paper §3.5). Of metrics that compare both.
+    /// Layers, but depth in a storage buffer: reads use two separate caches (paper §3.5). For metrics that compare both.
     Split,
 }
 
-/// The G-buffer. A shader binds only what its layout, its metric and its encodings need.
+/// The G-buffer. A shader binds only the inputs that its layout, metric and encodings need.
 ///
-/// Natively all are there, and those that are not read may be of any size: see [`GBuffer::unread`].
+/// Natively all inputs exist, and those that are not read may be of any size: see [`GBuffer::unread`].
 pub struct GBuffer {
-    /// Of layout=layers.
+    /// With layout=layers: depth.
     pub depth: FrameLayers<f32>,
-    /// Of layout=layers and layout=split.
+    /// With layout=layers and layout=split: normals.
     pub normal: FrameLayers<Vec4>,
-    /// Of layout=split: what `depth` is of layout=layers, row by row, layer after layer.
+    /// With layout=split: the contents of `depth`, row by row, layer after layer.
     pub depth_buffer: Buffer<f32>,
-    /// Of layout=layers with normals=packed.
+    /// With layout=layers and normals=packed: normals and depth.
     pub packed: FrameLayers<Vec4>,
-    /// Of layout=superresolution.
+    /// With layout=superresolution: depth.
     pub depth_grid: Texture<f32>,
-    /// Of layout=superresolution.
+    /// With layout=superresolution: normals.
     pub normal_grid: Texture<Vec4>,
-    /// Of layout=superresolution with normals=packed.
+    /// With layout=superresolution and normals=packed: normals and depth.
     pub packed_grid: Texture<Vec4>,
-    /// Of layout=multisampled.
+    /// With layout=multisampled: depth.
     pub depth_samples: Multisampled<f32>,
-    /// Of layout=multisampled.
+    /// With layout=multisampled: normals.
     pub normal_samples: Multisampled<Vec4>,
-    /// Of layout=multisampled with normals=packed.
+    /// With layout=multisampled and normals=packed: normals and depth.
     pub packed_samples: Multisampled<Vec4>,
-    /// At the pixel's centre, where that is shaded and the layout has no place for it.
+    /// Depth at the pixel's centre, if that is shaded and the layout has no place for it.
     pub centre_depth: Frame<f32>,
-    /// At the pixel's centre, where that is shaded and the layout has no place for it.
+    /// Normal at the pixel's centre, if that is shaded and the layout has no place for it.
     pub centre_normal: Frame<Vec4>,
-    /// At the pixel's centre, where that is shaded and the layout has no place for it.
+    /// With normals=packed: normal and depth at the pixel's centre, if that is shaded and the layout has no place for it.
     pub centre_packed: Frame<Vec4>,
 }
 
-/// The surface seen at one geometry sample.
+/// Surface seen at a geometry sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     /// Linear depth, at most 1e30.
     pub depth: f32,
-    /// Unit normal; of normals=unorm that are compared as they are stored, half of it and 0.5.
+    /// Unit normal; with normals=unorm compared as stored, 0.5 + 0.5 n.
     pub normal: Vec3,
 }
 
-/// More than any depth, and finite: the sky's infinite depth less itself is not a number.
+/// Larger than any depth, and finite: the difference of two infinite depths would be NaN.
 pub(super) const DEEPEST: f32 = 1.0e30;
 
-/// Less than any stored depth but 0.
+/// Smaller than any stored depth but 0.
 const SHORTEST: f32 = 1.0e-30;
 
-/// The surface seen at `place`, from `pixel`: as much of it as the metric compares.
+/// Surface seen at `place` relative to `pixel`, with only the properties that the metric compares.
 pub(super) fn surface(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, place: Place) -> Surface {
     let at = pixel + place.pixel;
     match cfg.normals {
@@ -151,7 +151,7 @@ impl GBuffer {
 
     fn packed(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> Vec4 {
         match (cfg.layout, place.centre) {
-            // Nothing is split of a texel that holds both.
+            // A texel that holds both is not split.
             (Layout::Layers | Layout::Split, _) => self.packed.load(pixel, place.sample),
             (_, true) => self.centre_packed.load(pixel),
             (Layout::Superresolution, _) => {
@@ -163,7 +163,7 @@ impl GBuffer {
     }
 }
 
-/// Texel of a quantity that each layout holds as it holds normals, at a sample of a pixel.
+/// Texel at a sample of a pixel, of an input with the same layouts as normals.
 pub(super) fn texel(
     cfg: &Sraa,
     layers: &FrameLayers<Vec4>,
@@ -182,7 +182,7 @@ pub(super) fn texel(
 }
 
 impl Sraa {
-    /// Columns and rows of the samples of a pixel in a superresolution texture: 2×2, 4×4, or as near as can be.
+    /// Columns and rows of the samples of a pixel in a superresolution texture: 2×2, 4×4, or as close to square as possible.
     pub fn grid(&self) -> IVec2 {
         let mut columns = 1;
         while columns * columns < self.samples() {
@@ -192,13 +192,13 @@ impl Sraa {
         ivec2(columns as i32, rows as i32)
     }
 
-    /// The sample, or the last one: the pixel's centre, which has a texture of its own, comes here too where it is not known which
-    /// it is.
+    /// Clamps the index to that of the last sample. A place known only at run time may be the pixel's centre, which has its
+    /// own texture but is looked up here too.
     pub(super) fn own(&self, sample: usize) -> usize {
         sample.min(self.samples() - 1)
     }
 
-    /// The texel of a superresolution texture of `size` that holds `sample` of `pixel`, or of the nearest pixel inside.
+    /// Texel of a superresolution texture of `size` that holds `sample` of `pixel`, clamped to the nearest pixel inside.
     pub(super) fn cell(&self, size: UVec2, pixel: IVec2, sample: usize) -> IVec2 {
         let grid = self.grid();
         let last = size.as_ivec2() / grid - 1;
@@ -207,22 +207,22 @@ impl Sraa {
     }
 }
 
-/// Depth along the view direction, in scene units.
+/// Converts a stored depth to the depth along the view direction, in scene units.
 fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
     let (near, far) = (view.near, view.far);
     let depth = match (cfg.projection, cfg.depth) {
         (_, Depth::Linear) => stored,
         (Projection::Parallel, Depth::Perspective) => near + (far - near) * stored,
         (Projection::Parallel, _) => far - (far - near) * stored,
-        // 1 - stored is exact near the far plane, where far - stored * (far - near) would cancel; and of an infinite far
-        // plane the share is 0.
+        // 1 - stored is exact near the far plane, where far - stored * (far - near) would cancel. With an infinite far plane,
+        // near / far is 0.
         (_, Depth::Perspective) => near / ((1.0 - stored) + near / far * stored),
         (_, Depth::Reversed) => near / (stored + near / far * (1.0 - stored)),
         (_, Depth::ReversedInfinite) => near / if stored > SHORTEST { stored } else { SHORTEST },
     };
     match cfg.guards {
         Guards::Fallback | Guards::None => depth.min(DEEPEST),
-        // What is infinite or not a number is as deep as the sky. `min` may give either of its operands if one is a NaN.
+        // Infinity and NaN become the depth of the sky. With a NaN operand, `min` may return either operand.
         Guards::Inline => {
             if depth.abs() < DEEPEST {
                 depth
@@ -233,7 +233,7 @@ fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
     }
 }
 
-/// The normal that a texel `n` holds, as [`Surface`] has it.
+/// Decodes the normal in the texel `n`, in the form of [`Surface`].
 fn decoded(cfg: &Sraa, n: Vec4) -> Vec3 {
     match cfg.normals {
         Normals::Float => n.xyz(),
@@ -246,7 +246,7 @@ fn decoded(cfg: &Sraa, n: Vec4) -> Vec3 {
 }
 
 impl GBuffer {
-    /// A G-buffer of which nothing may be read: single texels of zero, to be replaced by what a layout needs.
+    /// No G-buffer: single texels of zero, to be replaced by the inputs that the layout needs.
     pub fn unread() -> GBuffer {
         let scalar = || Frame::new(UVec2::ONE, vec![0.0]);
         let vector = || Frame::new(UVec2::ONE, vec![Vec4::ZERO]);

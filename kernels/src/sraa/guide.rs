@@ -1,9 +1,9 @@
-//! The additive guide: a cheap estimate g of the colour, known at every geometry sample, follows paint, shadow and slopes that one
-//! shading sample a pixel cannot.
+//! The additive guide: a cheap estimate g of the colour, known at every geometry sample. It follows albedo, shadow and
+//! slopes, which one shading sample a pixel cannot.
 //!
-//! Colours that the filter reads are c - g, with g at the place that is shaded; it borrows these differences as it would colours, for
-//! a weighted mean is linear. Afterwards the mean of g over the pixel's geometry samples is added. Where g is the colour the pixel is
-//! supersampled; where g is 0 nothing changes.
+//! The colours that the filter reads are c - g, with g at the position that is shaded. It borrows these differences as it
+//! would borrow colours, as a weighted mean is linear. Afterwards the mean of g over the pixel's geometry samples is added.
+//! Where g is the colour, the pixel is supersampled; where g is 0, nothing changes.
 
 use super::Inputs;
 use super::colors::Colors;
@@ -17,56 +17,56 @@ use super::total_share;
 use super::view::View;
 use crate::prelude::*;
 
-/// Estimate that colours are differences from.
+/// Estimate of the colour that is subtracted before filtering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guide {
     /// None: colours are borrowed as they are.
     None,
-    /// A guide, of which the mean over each pixel is added to the filtered differences.
+    /// A guide, whose mean over each pixel is added to the filtered differences.
     Add,
 }
 
-/// Source of the guide at a sample.
+/// Source of the guide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Estimate {
-    /// Images of the renderer's own.
+    /// Images that the renderer provides.
     Given,
-    /// The albedo times the light from one direction, where no shadow falls, and from all around.
+    /// Albedo times the light from one direction, outside of shadow, and from all around.
     Diffuse,
-    /// The same, and the light that the surface emits.
+    /// Albedo times that light, plus the light that the surface emits.
     Emissive,
 }
 
-/// Inputs of the guide. A shader binds only the part that its options need.
+/// Inputs of the guide. A shader binds only those that its options need.
 pub struct Guiding {
-    /// Of estimate=given with layout=layers and layout=split: the guide at each geometry sample in red, green and blue, linear; 0
-    /// where there is none, as in the sky.
+    /// With estimate=given, and layout=layers or layout=split: the guide at each geometry sample in red, green and blue,
+    /// linear; 0 where there is none, as in the sky.
     pub guide: FrameLayers<Vec4>,
-    /// The same of layout=superresolution.
+    /// `guide` with layout=superresolution.
     pub guide_grid: Texture<Vec4>,
-    /// The same of layout=multisampled.
+    /// `guide` with layout=multisampled.
     pub guide_samples: Multisampled<Vec4>,
-    /// The same at the pixel's centre, where that is shaded and the layout has no place for it.
+    /// `guide` at the pixel's centre, if that is shaded and the layout has no place for it.
     pub centre_guide: Frame<Vec4>,
-    /// Of estimate=emissive with layout=layers and layout=split: the light that the surface at each geometry sample emits, linear.
+    /// With estimate=emissive, and layout=layers or layout=split: light that the surface at each geometry sample emits, linear.
     pub emission: FrameLayers<Vec4>,
-    /// The same of layout=superresolution.
+    /// `emission` with layout=superresolution.
     pub emission_grid: Texture<Vec4>,
-    /// The same of layout=multisampled.
+    /// `emission` with layout=multisampled.
     pub emission_samples: Multisampled<Vec4>,
-    /// The same at the pixel's centre, where that is shaded and the layout has no place for it.
+    /// `emission` at the pixel's centre, if that is shaded and the layout has no place for it.
     pub centre_emission: Frame<Vec4>,
-    /// Of estimate=diffuse and emissive: unit vector towards the light, in the space that normals are in.
+    /// With estimate=diffuse and estimate=emissive: unit vector towards the light, in the space of the normals.
     pub light_direction: Vec3,
-    /// Linear colour that the light gives a white surface that faces it.
+    /// Linear colour of a white surface that faces the light, lit by it alone.
     pub light_color: Vec3,
-    /// Linear colour of the light from all around on a white surface.
+    /// Linear colour of a white surface lit only from all around.
     pub ambient: Vec3,
-    /// Of fitted=true: the scale of the guide in red, in the upper left pixel: the kernel `sraa_fit` writes it.
+    /// With fitted=true: scale of the guide in red, in the upper left pixel. The kernel `sraa_fit` writes it.
     pub guide_scale: Texture<Vec4>,
 }
 
-/// What the kernels of the guide look at.
+/// Inputs of the guide's kernels.
 pub(super) struct Estimated<'a> {
     pub(super) gbuffer: &'a GBuffer,
     pub(super) view: &'a View,
@@ -75,8 +75,8 @@ pub(super) struct Estimated<'a> {
     pub(super) pixel: IVec2,
 }
 
-/// Mean of the guide over the geometry samples of `pixel`, each by its share in the pixel: the image `guide_mean` of the filter. Alpha
-/// is 0.
+/// Mean of the guide over the geometry samples of `pixel`, weighted by their shares in the pixel: the image `guide_mean` of the
+/// filter. Alpha is 0.
 pub fn sraa_guide(
     cfg: &Sraa,
     gbuffer: &GBuffer,
@@ -103,8 +103,8 @@ pub fn sraa_guide(
     mean.extend(0.0)
 }
 
-/// Difference of the colour of `pixel` from the guide where it is shaded: the image `color` of the filter, for renderers that do not
-/// subtract the guide as they shade. Alpha stays.
+/// Difference between the colour of `pixel` and the guide at the position that is shaded: the image `color` of the filter, for
+/// renderers that do not subtract the guide as they shade. Alpha is unchanged.
 pub fn sraa_residual(
     cfg: &Sraa,
     gbuffer: &GBuffer,
@@ -129,7 +129,7 @@ pub fn sraa_residual(
     colors.color.load(pixel) - guide(cfg, &seen, place).extend(0.0)
 }
 
-/// The filtered differences of a pixel and the mean of its guide. No channel but alpha is below 0.
+/// Adds the mean of a pixel's guide to the filtered differences. Negative channels, except alpha, become 0.
 pub(super) fn guided(cfg: &Sraa, inputs: &Inputs, filtered: Vec4) -> Vec4 {
     match cfg.guide {
         Guide::None => filtered,
@@ -145,12 +145,12 @@ pub(super) fn guided(cfg: &Sraa, inputs: &Inputs, filtered: Vec4) -> Vec4 {
     }
 }
 
-/// A channel of a colour that is not below 0; not a number stays so.
+/// Clamps a channel to at least 0; NaN stays NaN.
 fn at_least_0(channel: f32) -> f32 {
     if channel < 0.0 { 0.0 } else { channel }
 }
 
-/// The guide at a geometry sample, as it counts.
+/// The guide at a geometry sample, scaled and with unusable values replaced by 0.
 fn guide(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     let found = unscaled(cfg, seen, place);
     if cfg.fitted {
@@ -160,7 +160,7 @@ fn guide(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     }
 }
 
-/// The guide at a geometry sample before it is scaled, as it counts.
+/// The guide at a geometry sample before it is scaled, with unusable values replaced by 0.
 pub(super) fn unscaled(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     let (guiding, at) = (seen.guiding, seen.pixel + place.pixel);
     let found = match cfg.estimate {
@@ -191,10 +191,10 @@ pub(super) fn unscaled(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     counted(cfg, found)
 }
 
-/// Light of one direction and from all around that a surface reflects; where nothing is drawn, 0.
+/// Light from one direction and from all around that a surface reflects; 0 where nothing is drawn.
 fn reflected(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     let guiding = seen.guiding;
-    // Depth and normal at length 1, whatever the filter compares.
+    // Depth and a unit normal, regardless of what the filter compares.
     let all = Sraa {
         metric: Metric::PlanesNormals,
         ..*cfg
@@ -202,7 +202,7 @@ fn reflected(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     let own = surface(&all, seen.gbuffer, seen.view, seen.pixel, place);
     let paint = stored(cfg, seen.colors, seen.pixel + place.pixel, place);
     let facing = own.normal.dot(guiding.light_direction);
-    // Not a number is neither.
+    // With a NaN, no direct light arrives.
     let arrives = if facing > 0.0 {
         facing * share(cfg, paint.w)
     } else {
@@ -215,7 +215,7 @@ fn reflected(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     }
 }
 
-/// A guide that counts: one that a half cannot hold, or that is not a number, is 0 both where it is subtracted and where it is added.
+/// Replaces a guide by 0 if a 16-bit float cannot hold it or it is NaN, both where it is subtracted and where it is added.
 fn counted(cfg: &Sraa, guide: Vec3) -> Vec3 {
     match cfg.guards {
         Guards::None => guide,
@@ -230,7 +230,7 @@ fn counted(cfg: &Sraa, guide: Vec3) -> Vec3 {
 }
 
 impl Guiding {
-    /// Inputs of which none may be read: single texels of zero, to be replaced by what the options need.
+    /// No inputs: single texels of zero, to be replaced by the inputs that the options need.
     pub fn unread() -> Guiding {
         let frame = || Frame::new(UVec2::ONE, vec![Vec4::ZERO]);
         let texture = || Texture::new(UVec2::ONE, vec![Vec4::ZERO]);
@@ -252,7 +252,7 @@ impl Guiding {
 }
 
 impl Sraa {
-    /// Refuses what differences cannot be taken apart for.
+    /// Panics if the options do not permit a guide.
     pub(super) fn check_guide(&self) {
         if self.guide == Guide::Add {
             assert!(

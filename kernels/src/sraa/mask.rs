@@ -1,4 +1,4 @@
-//! The mask: pixels that keep their own colour, as neither geometry nor shading varies there (paper §3.3).
+//! The mask: pixels that keep their own colour, because neither geometry nor shading varies there (paper §3.3).
 
 use super::colors::{color, is_kept, own_color};
 use super::options::{Mask, Sraa, Variation};
@@ -30,18 +30,18 @@ pub(super) fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &
     }
 }
 
-/// Whether no surface that the mask looks at differs from that of its sample.
+/// Returns whether all surfaces that the mask compares are equal to those of their samples.
 fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
     let largest = match cfg.variation {
         Variation::Around => variation_around::<TAPS, SIDE>(cfg, inputs),
-        // Unrolled, all surfaces would wait in registers for the filter behind the branch.
+        // Unrolled, all surfaces would stay in registers for the filter after the branch.
         Variation::Within if cfg.mask == Mask::Branch && cfg.samples() > 8 => variation_one_by_one(cfg, inputs),
         Variation::Within => variation_within(cfg, inputs),
     };
     largest <= cfg.mask_threshold
 }
 
-/// The largest difference of a geometry sample and a tap.
+/// Largest difference between a geometry sample and a tap.
 fn variation_around<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> f32 {
     let mut largest = 0.0f32;
     for sample in 0..cfg.reconstructed() {
@@ -58,7 +58,7 @@ fn variation_around<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &I
     largest
 }
 
-/// The largest difference of the pixel's own geometry samples and shading samples.
+/// Largest difference between the pixel's own geometry samples and its shading samples.
 fn variation_within(cfg: &Sraa, inputs: &Inputs) -> f32 {
     let mut largest = 0.0f32;
     for sample in 0..cfg.samples() {
@@ -71,13 +71,13 @@ fn variation_within(cfg: &Sraa, inputs: &Inputs) -> f32 {
     largest
 }
 
-/// The same in a loop.
+/// [`variation_within`] in a loop.
 #[cfg_attr(false, unroll(none))]
 fn variation_one_by_one(cfg: &Sraa, inputs: &Inputs) -> f32 {
     variation_within(cfg, inputs)
 }
 
-/// Whether no colour of the four neighbours that lie on the pixel's own plane differs from its own by more than `mask_step`.
+/// Returns whether the pixel's colour differs by at most `mask_step` from those of the four neighbours on its own plane.
 fn is_smooth(cfg: &Sraa, inputs: &Inputs) -> bool {
     let mut largest = 0.0f32;
     if cfg.mask_step < 1.0 {
@@ -96,7 +96,7 @@ fn is_smooth(cfg: &Sraa, inputs: &Inputs) -> bool {
     largest <= cfg.mask_step
 }
 
-/// The largest difference of two colours in a channel, as a display shows them.
+/// Largest difference of two colours in a channel, as a display shows them.
 fn step(a: Vec4, b: Vec4) -> f32 {
     let red = (displayed(a.x) - displayed(b.x)).abs();
     let green = (displayed(a.y) - displayed(b.y)).abs();
@@ -104,7 +104,7 @@ fn step(a: Vec4, b: Vec4) -> f32 {
     red.max(green).max(blue)
 }
 
-/// A channel at a gamma of 2, from -1 to 1; what is not a number is 1.
+/// Channel at a gamma of 2, from -1 to 1; NaN becomes 1.
 fn displayed(channel: f32) -> f32 {
     let bright = if channel.abs() < 1.0 { channel.abs() } else { 1.0 };
     if channel < 0.0 { -bright.sqrt() } else { bright.sqrt() }

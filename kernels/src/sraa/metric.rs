@@ -1,14 +1,14 @@
-//! What tells two surfaces apart (paper §3.2, Table 1).
+//! Differences between surfaces (paper §3.2, Table 1).
 
 use super::gbuffer::{Depth, Normals, Surface};
 use super::options::{Guards, Mask, Normalisation, Sraa, Turn};
 use super::view::{Projection, View};
 use crate::prelude::*;
 
-/// What tells two surfaces apart, from the dearest to the cheapest.
+/// Measure of the difference between two surfaces, from the most to the least expensive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
-    /// The larger of the distance from the sample's plane and the difference in normal.
+    /// The larger of the distance from a plane and the difference in normal.
     PlanesNormals,
     /// The larger of the differences in depth and in normal.
     DepthNormals,
@@ -18,53 +18,53 @@ pub enum Metric {
     Depth,
 }
 
-/// What a difference in depth counts as.
+/// Unit of differences in depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// Itself, in scene units.
+    /// Scene units.
     Absolute,
-    /// Its share of the sample's depth: a receding floor is as smooth far away as it is near.
+    /// Share of the sample's depth: a receding floor is as smooth far away as nearby.
     Relative,
 }
 
-/// From whose plane a distance is measured (paper §3.2, where it is that of the source: either reading).
+/// Plane from which distances are measured (paper §3.2: that of the source, which permits both readings).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
-    /// That of the geometry sample.
+    /// Plane of the geometry sample.
     Sample,
-    /// That of the tap.
+    /// Plane of the tap.
     Tap,
 }
 
-/// A geometry sample that taps are compared with.
+/// A geometry sample to compare taps with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
     surface: Surface,
     plane: Tilt,
-    /// Ray through the centre of the pixel that is filtered, and what is added for each pixel to the right and down: to the ray, or of
-    /// projection=parallel to where it begins.
+    /// Ray through the centre of the filtered pixel, and its change per pixel to the right and down; with
+    /// projection=parallel, the change of the ray's origin.
     rays: [Vec3; 3],
-    /// From the centre of the pixel that is filtered, in pixels, y down.
+    /// Position relative to the centre of the filtered pixel, in pixels, y down.
     at: Vec2,
     /// Square of the normal's length: 1, or 0 where nothing is drawn.
     square: f32,
-    /// Of metric=planes-normals: whether a surface is drawn there.
+    /// With metric=planes-normals: `true` if a surface is drawn there.
     is_drawn: bool,
 }
 
-/// How a plane is tilted, as rays see it: how much of the way along a ray to depth 1 is along the normal.
+/// Tilt of a plane relative to the rays: the component along the normal of a ray that ends at depth 1.
 #[derive(Clone, Copy, Debug)]
 struct Tilt {
-    /// Along the ray through the pixel's centre.
+    /// Value for the ray through the pixel's centre.
     along: f32,
-    /// More for each pixel to the right.
+    /// Increase per pixel to the right.
     right: f32,
-    /// More for each pixel down.
+    /// Increase per pixel down.
     down: f32,
 }
 
 impl Sample {
-    /// The sample at which `surface` is seen, `at` from the centre of `pixel`.
+    /// The sample that shows `surface`, at the offset `at` from the centre of `pixel`.
     pub(super) fn new(cfg: &Sraa, view: &View, surface: Surface, pixel: IVec2, at: Vec2) -> Sample {
         let ray = match cfg.projection {
             Projection::Perspective => view.ray(pixel),
@@ -86,18 +86,18 @@ impl Sample {
     }
 }
 
-/// Square of a normal's length below which it is none: renderers clear normals to 0.
+/// Square of a normal's length below which there is no normal: renderers clear normals to 0.
 const LEAST_SQUARE: f32 = 1.0 / 4096.0;
 
-/// The same above which a normal that is stored as 0.5 + 0.5 n is none: of a texel of zeros it is 3.
+/// Square of a normal's length above which one stored as 0.5 + 0.5 n is no normal: for a texel of zeros the square is 3.
 const MOST_SQUARE: f32 = 2.0;
 
-/// Linear depth, or share of the far plane's, from which on nothing is drawn.
+/// Linear depth, or share of the far plane's depth, from which on nothing is drawn.
 const BACKDROP: f32 = 1.0e20;
 const NEAR_FAR: f32 = 0.999;
 
-/// Whether a surface is drawn there, of metric=planes-normals. Where none is, there is no plane to measure from, and depths are compared. Normals
-/// that were cleared to anything else than 0 are told by depth: in world space such a sky would not be even.
+/// Returns whether a surface is drawn there, with metric=planes-normals. Without one there is no plane, so depths are compared.
+/// If normals are cleared to a value other than 0, depth decides: in world space such a sky would not be uniform.
 pub(super) fn is_drawn(cfg: &Sraa, view: &View, surface: &Surface, square: f32) -> bool {
     match cfg.metric {
         Metric::PlanesNormals => {
@@ -121,14 +121,14 @@ pub(super) fn is_drawn(cfg: &Sraa, view: &View, surface: &Surface, square: f32) 
 }
 
 impl Tilt {
-    /// Of no plane: distances from it are differences in depth.
+    /// Tilt where there is no plane: distances are differences in depth.
     const BY_DEPTH: Tilt = Tilt {
         along: 1.0,
         right: 0.0,
         down: 0.0,
     };
 
-    /// Of the plane with a normal.
+    /// Tilt of the plane with the given normal.
     fn new(rays: &[Vec3; 3], normal: Vec3) -> Tilt {
         Tilt {
             along: rays[0].dot(normal),
@@ -138,25 +138,25 @@ impl Tilt {
     }
 }
 
-/// Differences from here on are alike: nothing that a weight could tell apart, whatever tau. The bound keeps a
-/// difference exact enough to be shifted by the smallest one: of two that are a million apart, f32 would lose all that
-/// the exponential needs. Without it, samples that no tap saw are off by up to 0.05.
+/// Upper bound on differences: no weight distinguishes larger ones, whatever tau. The bound keeps a difference exact
+/// enough to be shifted by the smallest one: of two differences near a million, f32 would lose all the digits that
+/// the exponential needs. Without it, samples whose surface no tap shows are off by up to 0.05.
 pub(super) const FAR: f32 = 16.0;
 
-/// From this tau on a difference of [`FAR`] weighs nothing: exp(-16 * 16) is less than half of the smallest number of 32 bits.
+/// With at least this tau, the weight of a difference of [`FAR`] is 0: exp(-16 * 16) is less than half the smallest f32.
 const STEEP: f32 = 16.0;
 
-/// The least depth that another is divided by.
+/// Lower bound on a depth before dividing by it.
 const NEAREST: f32 = 1.0e-30;
 
-/// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones, at
-/// most [`FAR`]. Where that would weigh nothing, no bound is needed: weights that are not shifted are 0 beyond it too.
+/// Difference between the surface at a tap and that at a geometry sample: 0 for the same, 1 or more for unrelated ones, at
+/// most [`FAR`]. The bound is omitted if the weight at [`FAR`] is 0: weights that are not shifted are 0 beyond it too.
 pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
         Metric::PlanesNormals => {
             number(cfg, off_plane(cfg, sample, tap, at)).max(number(cfg, turned(cfg, sample, tap)))
         }
-        // Depths are numbers, and so is how far they are apart.
+        // Depths are never NaN, and neither are their differences.
         Metric::DepthNormals => deeper(cfg, sample, tap).max(number(cfg, turned(cfg, sample, tap))),
         Metric::Normals => number(cfg, turned(cfg, sample, tap)),
         Metric::Depth => deeper(cfg, sample, tap),
@@ -171,7 +171,7 @@ pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> 
     )
 }
 
-/// Whether the weight of a difference of [`FAR`] is 0 as it is of all beyond.
+/// Returns whether the weight is 0 for all differences of at least [`FAR`].
 fn weighs_nothing_far_away(cfg: &Sraa) -> bool {
     match cfg.normalisation {
         Normalisation::Shifted => false,
@@ -179,8 +179,8 @@ fn weighs_nothing_far_away(cfg: &Sraa) -> bool {
     }
 }
 
-/// A difference, or [`FAR`]: what is not a number, as of a normal that was divided by its length of zero, is of no surface at all.
-/// `min` and `max` would leave to the device what becomes of it.
+/// Replaces NaN by [`FAR`]: a normal that was divided by a length of zero belongs to no surface. The result of `min` and
+/// `max` for NaN depends on the device.
 fn number(cfg: &Sraa, apart: f32) -> f32 {
     match cfg.guards {
         Guards::Fallback | Guards::None => apart,
@@ -194,9 +194,9 @@ fn number(cfg: &Sraa, apart: f32) -> f32 {
     }
 }
 
-/// σp |(pₜ - pₛ)·nₛ|, or of nₜ. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is
-/// (zₜ - zₛ) rₜ·nₛ + zₛ (rₜ - rₛ)·nₛ, where rₜ - rₛ is exact: the points' own coordinates would cancel. From the tap's plane
-/// it is the same with the two exchanged. Of a parallel projection rays are alike, and what they begin at is apart instead.
+/// σp |(pₜ - pₛ)·nₛ|, or with nₜ. Points are depths along their rays, so (pₜ - pₛ)·nₛ is
+/// (zₜ - zₛ) rₜ·nₛ + zₛ (rₜ - rₛ)·nₛ, where rₜ - rₛ is exact; the points' coordinates would cancel. For the tap's plane, the
+/// two points are exchanged. In a parallel projection all rays are equal and their origins differ.
 fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let away = at - sample.at;
     let deeper = tap.depth - sample.surface.depth;
@@ -238,19 +238,19 @@ fn deeper(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
     }
 }
 
-/// 1 - a·b of two normals, as a·a - a·b: of a sample where nothing is drawn it is 0, and its depth alone counts. A tap with a normal of 0
-/// differs by 1 from every surface.
+/// 1 - a·b of two normals, as a·a - a·b: 0 for a sample where nothing is drawn, so that only its depth counts. A tap with a
+/// normal of 0 differs by 1 from every surface.
 fn turned(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
     let (a, b) = (sample.surface.normal, tap.normal);
     let turn = a - b;
     match (cfg.normals, cfg.metric) {
-        // Half as long, so that the square is a quarter.
+        // Stored normals are half as long, so the square is a quarter.
         (Normals::Unorm, Metric::DepthNormals | Metric::Normals) if !cfg.renormalise => 2.0 * turn.dot(turn),
         (Normals::Unorm, _) if !cfg.renormalise => 0.5 * turn.dot(turn),
         (_, Metric::Normals) => 0.5 * turn.dot(turn),
         _ => match cfg.turn {
             Turn::Chord => 0.5 * turn.dot(turn),
-            // Term by term, each of which a GPU fuses with the last.
+            // Subtracted term by term, so that a GPU fuses each with the last.
             Turn::Cosine => sample.square - a.x * b.x - a.y * b.y - a.z * b.z,
         },
     }

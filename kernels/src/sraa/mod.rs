@@ -1,8 +1,8 @@
 //! Subpixel Reconstruction Antialiasing (Chajdas, McGuire and Luebke 2011).
 //!
-//! Shading is known once a pixel or a little more often, geometry at several samples in it. Each geometry sample borrows
+//! Shading is known once a pixel or a little more often, geometry at several samples a pixel. Each geometry sample borrows
 //! its colour from the shading samples around it, most from those on the same surface; the pixel is the mean of its
-//! geometry samples. The paper's listing, with its slips mended and its suggestions built.
+//! geometry samples. The code follows the paper's listing, with its errors corrected and its suggestions implemented.
 
 mod colors;
 mod demodulate;
@@ -46,7 +46,7 @@ pub use pattern::{Pattern, Shading};
 pub use placed::sraa_place;
 pub use view::{Projection, View};
 
-/// What a pixel is filtered from.
+/// Inputs of the filter at a pixel.
 struct Inputs<'a> {
     gbuffer: &'a GBuffer,
     view: &'a View,
@@ -80,7 +80,7 @@ pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, history
     guided(cfg, &inputs, filtered)
 }
 
-/// The pixel's colour from the `TAPS` shading samples of the `SIDE` × `SIDE` pixels around it.
+/// Colour of the pixel from the `TAPS` shading samples of the `SIDE` × `SIDE` pixels around it.
 fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
     match cfg.guards {
         Guards::Inline | Guards::None => reconstructed::<TAPS, SIDE>(cfg, inputs),
@@ -96,7 +96,7 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
     }
 }
 
-/// The same with every test, for the few pixels that need one: so its loops stay loops.
+/// Filters the pixel again with every test. Few pixels reach this, so its loops are left in the shader.
 #[cfg_attr(false, unroll(none))]
 fn again<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
     let guarded = Sraa {
@@ -106,15 +106,15 @@ fn again<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> V
     reconstructed::<TAPS, SIDE>(&guarded, inputs)
 }
 
-/// The mean of the geometry samples, each with its colour from the taps around it.
+/// Mean of the geometry samples, each with its colour from the taps around it.
 fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
     let steepness = steepness(cfg);
     let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
-    // The same times what reflects light at the samples that a tap counts for, and times what reflects direct light.
+    // Weights times the albedo of the samples that use a tap, and also times their shares of the direct light.
     let mut reflected = [Vec3::ZERO; TAPS];
     let mut lit = [Vec3::ZERO; TAPS];
-    // How much of each tap is in the samples that the pixel is made of, whatever their sign.
+    // Share of each tap in the samples that make up the pixel, whatever their sign.
     let mut used = [0.0; TAPS];
     let mut unseen = 0;
     let mut past = Searched::NOTHING;
@@ -130,7 +130,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                 if reaches(cfg, place, cfg.tap(tap, SIDE)) {
                     let d = difference(cfg, inputs, place, &centre, own_tap(cfg, inputs, tap, SIDE));
                     distances[tap] = d;
-                    // Where it lies is a runtime value: it may be out of reach all the same.
+                    // The tap's position is a runtime value, so it may still be out of reach.
                     if cfg.history == 0 || falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE)) > 0.0 {
                         nearest = nearest.min(d);
                     }
@@ -146,13 +146,13 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                             Normalisation::Shifted => shift(cfg, nearest) - distances[tap],
                         };
                     let w = match cfg.falloff {
-                        // Where a tap lies is a runtime value: its falloff may be 0, which has no logarithm, and it may then be nearer
-                        // than the nearest in reach.
+                        // With runtime positions a falloff may be 0, which has no logarithm, and the difference of such a
+                        // tap may be smaller than `nearest`, which covers only taps in reach.
                         _ if cfg.history > 0 => {
                             exponent.min(0.0).exp2() * falloff(cfg, place, own_tap(cfg, inputs, tap, SIDE))
                         }
                         Falloff::None => exponent.exp2(),
-                        // The falloff as an exponent: it is added, not multiplied with.
+                        // The falloff as an exponent: added instead of multiplied.
                         _ => (exponent + falloff_exponent(cfg, place, cfg.tap(tap, SIDE))).exp2(),
                     };
                     tap_weights[tap] = w;
@@ -199,7 +199,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
         apart.color += past.color;
         apart.share += past.share;
     }
-    // Read by what demodulates alone.
+    // Read with demodulation only.
     let paints = (&reflected, &lit);
     let mean = match cfg.guards {
         Guards::Inline => mean_of_kept(cfg, inputs, &weights, paints, SIDE, apart),
@@ -208,7 +208,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     within_range(cfg, inputs, &used, SIDE, mean)
 }
 
-/// The mean of the taps' colours that may count, and of those of unseen samples.
+/// Mean of the taps' colours that may contribute, and of those of unseen samples.
 fn mean_of_kept<const TAPS: usize>(
     cfg: &Sraa,
     inputs: &Inputs,
@@ -223,7 +223,7 @@ fn mean_of_kept<const TAPS: usize>(
         let shaded = color(cfg, inputs, tap, side);
         let kept = may_count(cfg, inputs, cfg.tap(tap, side), shaded);
         let w = if kept { weights[tap] } else { 0.0 };
-        // 0 times an infinite colour is not 0.
+        // 0 times an infinite colour is NaN.
         let counts = match cfg.non_finite {
             NonFinite::Skip => kept,
             NonFinite::Spread => w != 0.0,
@@ -245,24 +245,24 @@ fn mean_of_kept<const TAPS: usize>(
     }
 }
 
-/// What a sum is of which a component is infinite, or none at all is if one is not a number; and, rarely, one of large colours, which
-/// are then filtered again for nothing.
+/// Bound on the sum of a colour's components. A sum with infinities is larger, and one with NaN fails the comparison. Very
+/// large colours may exceed it too; their pixels are filtered again needlessly.
 const TOO_LARGE: f32 = 1.0e38;
 
-/// Whether a tap may have weight for a sample: of a place that is a runtime value, whatever its distance.
+/// Returns whether a tap may have weight for a sample. With earlier frames, positions are runtime values, so every tap may.
 fn reaches(cfg: &Sraa, sample: Place, tap: Place) -> bool {
     cfg.history > 0 || falloff(cfg, sample, tap) > least(cfg)
 }
 
-/// How sharply weights fall, as a power of two.
+/// Rate at which weights fall with the difference, as an exponent of 2.
 fn steepness(cfg: &Sraa) -> f32 {
     (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST)
 }
 
-/// Less than any sum of weights that counts.
+/// Smaller than any sum of weights that counts.
 const EPSILON: f32 = 1.0e-30;
 
-/// As steep as the largest tau, and finite: an infinite one given at run time would make the nearest surface 0 times it.
+/// Steepness of the largest tau. An infinite runtime tau would make the nearest surface's exponent 0 times infinity, a NaN.
 const STEEPEST: f32 = 1.0e7;
 
 /// Sum of the shares of all reconstructed samples.
@@ -274,13 +274,13 @@ fn total_share(cfg: &Sraa) -> f32 {
     total
 }
 
-/// What is seen at a geometry sample.
+/// Surface at a geometry sample, ready to compare taps with.
 fn geometry_sample(cfg: &Sraa, inputs: &Inputs, place: Place) -> Sample {
     let seen = surface(cfg, inputs.gbuffer, inputs.view, inputs.pixel, place);
     Sample::new(cfg, inputs.view, seen, inputs.pixel, place.at)
 }
 
-/// How different the surface at a tap is from that at a geometry sample; of the sample itself, 0.
+/// Difference between the surface at a tap and that at a geometry sample; 0 if both are the same sample.
 fn difference(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, tap: Place) -> f32 {
     let tap = shaded_place(cfg, &inputs.colors.place, inputs.pixel, tap);
     if place.sample == tap.sample && place.pixel == tap.pixel {
@@ -315,7 +315,7 @@ fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
     }
 }
 
-/// What weighs no more is not looked at. A tent ends where a tap may lie, and of that a rounding would make a weight.
+/// Weight up to which a tap is ignored. A tent is 0 at positions where taps may lie; rounding would leave a tiny weight there.
 fn least(cfg: &Sraa) -> f32 {
     match cfg.falloff {
         Falloff::Tent if cfg.history == 0 => 1.0e-6f32.powf(cfg.sharpness),
@@ -323,7 +323,7 @@ fn least(cfg: &Sraa) -> f32 {
     }
 }
 
-/// The taps' colours by their weights, and those of unseen samples.
+/// Weighted mean of the taps' colours and of those of unseen samples.
 fn mean<const TAPS: usize>(
     cfg: &Sraa,
     inputs: &Inputs,
@@ -347,7 +347,7 @@ fn mean<const TAPS: usize>(
     result
 }
 
-/// The logarithm of a falloff that reaches: bounded by what it is more than, by which a shader knows that it is finite.
+/// Logarithm of the falloff of a tap in reach. The lower bound on it lets the shader compiler infer that the result is finite.
 fn falloff_exponent(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
     falloff(cfg, sample, tap).max(least(cfg).max(f32::MIN_POSITIVE)).log2()
 }

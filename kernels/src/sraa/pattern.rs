@@ -1,62 +1,62 @@
-//! Where in a pixel geometry and shading are sampled. Offsets are in pixels from the pixel's centre, y down.
+//! Positions of the geometry and shading samples in a pixel. Offsets are in pixels from the pixel's centre, y down.
 
 use super::gbuffer::{Layout, Normals};
 use super::metric::Metric;
 use super::options::{Normalisation, Resolve, Search, Sraa};
 use crate::prelude::*;
 
-/// Where in a pixel geometry is sampled.
+/// Positions of the geometry samples in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// A regular 2×2 grid.
+    /// Regular 2×2 grid.
     Ordered4,
-    /// The rotated grid that graphics hardware uses for 4× multisampling (D3D's standard pattern).
+    /// Rotated grid of 4× multisampling in graphics hardware (D3D's standard pattern).
     Latin4,
-    /// What graphics hardware uses for 8× multisampling (D3D's standard pattern).
+    /// Pattern of 8× multisampling in graphics hardware (D3D's standard pattern).
     Standard8,
-    /// A regular 4×4 grid.
+    /// Regular 4×4 grid.
     Ordered16,
-    /// Sixteen distinct rows and columns of a 16×16 grid, in the middle of their cells: the mean of all is the pixel's centre. Samples are
+    /// Centres of sixteen cells of a 16×16 grid, in distinct rows and columns, whose mean is the pixel's centre. Samples are
     /// numbered quadrant by quadrant.
     Latin16,
-    /// What graphics hardware uses for 16× multisampling (D3D's standard pattern): the same, 1/32 pixel up and to the left, in the
-    /// hardware's order.
+    /// Pattern of 16× multisampling in graphics hardware (D3D's standard pattern): `latin16` moved 1/32 pixel up and to the
+    /// left, in the hardware's order.
     Standard16,
-    /// Where the option `offsets` says.
+    /// Offsets from the option `offsets`.
     Listed,
 }
 
-/// Where in a pixel shading is sampled.
+/// Positions of the shading samples in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
-    /// At the first geometry sample: no geometry beyond the pattern's own is needed.
+    /// First geometry sample: no geometry beyond the pattern's own is needed.
     Sample0,
-    /// At the pixel's centre, whose geometry is sampled there too.
+    /// Pixel's centre, where geometry is sampled too.
     Centre,
-    /// At the geometry samples that the option `shaded` lists.
+    /// Geometry samples listed in the option `shaded`.
     Listed,
-    /// Where the image `place` says, pixel by pixel: at a geometry sample, or at the pixel's centre, whose geometry is sampled
-    /// too. The kernel `sraa_place` makes that image.
+    /// Position from the image `place`, per pixel: a geometry sample, or the pixel's centre, where geometry is sampled
+    /// too. The kernel `sraa_place` writes that image.
     Placed,
 }
 
-/// A sample, from the pixel that is filtered.
+/// Position of a sample relative to the filtered pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// The sample's pixel.
+    /// Pixel of the sample, relative to the filtered one.
     pub(super) pixel: IVec2,
-    /// Its number there: of the pattern, or one more for the pixel's centre.
+    /// Index of the sample in its pixel; the number of samples for the pixel's centre.
     pub(super) sample: usize,
-    /// Whether it is the pixel's centre.
+    /// `true` at the pixel's centre.
     pub(super) centre: bool,
-    /// Whether it is the pixel's further shading sample.
+    /// `true` for the pixel's further shading sample.
     pub(super) extra: bool,
-    /// From the centre of the pixel that is filtered, in pixels, y down.
+    /// Offset from the centre of the filtered pixel, in pixels, y down.
     pub(super) at: Vec2,
 }
 
 impl Sraa {
-    /// Number of geometry samples in a pixel, the pixel's centre not counted.
+    /// Number of geometry samples in a pixel, without the pixel's centre.
     pub fn samples(&self) -> usize {
         match self.pattern {
             Pattern::Ordered4 => 4,
@@ -89,8 +89,8 @@ impl Sraa {
         }
     }
 
-    /// The geometry sample at which shading sample `k` lies; of a pixel that is shaded where an image says, the one at which it
-    /// would lie otherwise.
+    /// Geometry sample at which shading sample `k` lies. With shading=placed, the position that a pixel has unless the image
+    /// moves it: the centre.
     pub fn shaded_sample(&self, k: usize) -> usize {
         match self.shading {
             Shading::Sample0 => 0,
@@ -99,7 +99,7 @@ impl Sraa {
         }
     }
 
-    /// Refuses what no filter can be made of.
+    /// Panics if the options contradict each other.
     pub(super) fn check(&self) {
         let samples = self.samples();
         if self.pattern == Pattern::Listed {
@@ -191,7 +191,7 @@ impl Sraa {
         );
     }
 
-    /// Number of geometry samples that are reconstructed for a pixel.
+    /// Number of geometry samples reconstructed for a pixel.
     pub(super) fn reconstructed(&self) -> usize {
         match self.resolve {
             Resolve::Box => self.samples(),
@@ -199,20 +199,20 @@ impl Sraa {
         }
     }
 
-    /// Number of the reconstructed sample that is visited in place `k`. Samples of a quadrant of a pixel follow each other, and quadrants
-    /// that lie side by side: they look at the same taps, and the others need not be known yet.
+    /// Index of the reconstructed sample that is visited as number `k`. The samples of a quadrant of a pixel follow each
+    /// other, as do adjacent quadrants: they use the same taps, so that few are held at a time.
     pub(super) fn visited(&self, k: usize) -> usize {
         let (pixel, own) = (k / self.samples(), k % self.samples());
         let sample = match self.pattern {
             Pattern::Standard8 => VISITED8[own],
             Pattern::Standard16 => VISITED16[own],
-            // These are numbered so, have one sample a quadrant, or are read in the order of rows.
+            // These are numbered in that order, have one sample a quadrant, or are visited row by row.
             _ => own,
         };
         pixel * self.samples() + sample
     }
 
-    /// Reconstructed sample `k`: one of the pixel's own, or of its neighbours'.
+    /// Position of reconstructed sample `k`: one of the pixel's own, or of its neighbours'.
     pub(super) fn place(&self, k: usize) -> Place {
         match self.resolve {
             Resolve::Box => self.geometry_sample(IVec2::ZERO, k),
@@ -220,7 +220,7 @@ impl Sraa {
         }
     }
 
-    /// Share of reconstructed sample `k` in the pixel, before all are made to sum to one.
+    /// Share of reconstructed sample `k` in the pixel, before the shares are normalised.
     pub(super) fn share(&self, k: usize) -> f32 {
         match self.resolve {
             Resolve::Box => 1.0,
@@ -244,8 +244,8 @@ impl Sraa {
         }
     }
 
-    /// Width and height of the square of pixels around the filtered one that taps may lie in. The farthest sample lies half a pixel
-    /// from its centre, or up to one and a half with a wider filter of samples.
+    /// Width and height of the square of pixels around the filtered one that contains all taps. The farthest sample lies
+    /// half a pixel from the pixel's centre, or up to one and a half with a resolve filter wider than a pixel.
     pub(super) fn side(&self) -> usize {
         let mut beyond = 1;
         if self.radius > 1.0 {
@@ -257,7 +257,7 @@ impl Sraa {
         2 * beyond + 1
     }
 
-    /// Tap `tap` of a square of `side` × `side` pixels: the shading samples of each, pixel by pixel.
+    /// Position of tap `tap` in a square of `side` × `side` pixels: the shading samples of each, pixel by pixel.
     pub(super) fn tap(&self, tap: usize, side: usize) -> Place {
         match self.shading {
             Shading::Sample0 => self.geometry_sample(neighbour(tap, side), 0),
@@ -269,7 +269,7 @@ impl Sraa {
         }
     }
 
-    /// The centre of a pixel.
+    /// Position of a pixel's centre.
     pub(super) fn centre(&self, pixel: IVec2) -> Place {
         Place {
             pixel,
@@ -280,7 +280,7 @@ impl Sraa {
         }
     }
 
-    /// A geometry sample of a pixel.
+    /// Position of a geometry sample of a pixel.
     pub(super) fn geometry_sample(&self, pixel: IVec2, sample: usize) -> Place {
         Place {
             pixel,
@@ -292,7 +292,7 @@ impl Sraa {
     }
 }
 
-/// The cubic of B = C = 1/3, 0 from 2 on.
+/// Mitchell and Netravali's cubic with B = C = 1/3; 0 from 2 on.
 fn mitchell(x: f32) -> f32 {
     let (x2, x3) = (x * x, x * x * x);
     if x < 1.0 {
@@ -304,7 +304,7 @@ fn mitchell(x: f32) -> f32 {
     }
 }
 
-/// sinc(x) sinc(x / 2), 0 from 2 on.
+/// sinc(x) sinc(x / 2); 0 from 2 on.
 fn lanczos(x: f32) -> f32 {
     let angle = std::f32::consts::PI * x;
     if x < 1.0e-3 {
@@ -316,12 +316,12 @@ fn lanczos(x: f32) -> f32 {
     }
 }
 
-/// Linear from 1 at zero to 0 at one, on each axis.
+/// Tent on each axis: linear from 1 at zero to 0 at one.
 pub(super) fn tent(away: Vec2) -> f32 {
     (1.0 - away.x.abs()).max(0.0) * (1.0 - away.y.abs()).max(0.0)
 }
 
-/// Pixel `k` of `side` × `side` ones around the middle one, row by row, relative to it.
+/// Pixel `k` of the `side` × `side` ones around the middle one, row by row, relative to it.
 pub(super) fn neighbour(k: usize, side: usize) -> IVec2 {
     let (k, side) = (k as i32, side as i32);
     ivec2(k % side - side / 2, k / side - side / 2)
@@ -333,16 +333,16 @@ fn ordered(sample: usize, side: usize) -> Vec2 {
     (cell.as_vec2() + 0.5) / side as f32 - 0.5
 }
 
-/// Column and row of a place, of `side` each over the pixel.
+/// Column and row of an offset in a `side` × `side` grid over the pixel.
 fn cell(offset: Vec2, side: usize) -> IVec2 {
     let place = (offset + 0.5) * side as f32;
     place.floor().as_ivec2().min(IVec2::splat(side as i32 - 1))
 }
 
-/// In sixteenths of a pixel.
+/// Offsets of the 4× pattern, in sixteenths of a pixel.
 const LATIN4: [IVec2; 4] = [ivec2(-2, -6), ivec2(6, -2), ivec2(-6, 2), ivec2(2, 6)];
 
-/// In sixteenths of a pixel.
+/// Offsets of the 8× pattern, in sixteenths of a pixel.
 const STANDARD8: [IVec2; 8] = [
     ivec2(1, -3),
     ivec2(-1, 3),
@@ -354,11 +354,11 @@ const STANDARD8: [IVec2; 8] = [
     ivec2(7, -7),
 ];
 
-/// Samples of the hardware's patterns quadrant by quadrant, clockwise from that of the first.
+/// Order of the hardware's samples, quadrant by quadrant, clockwise from the quadrant of the first.
 const VISITED8: [usize; 8] = [0, 7, 2, 6, 1, 4, 3, 5];
 const VISITED16: [usize; 16] = [0, 5, 6, 14, 2, 8, 11, 12, 1, 4, 10, 15, 3, 7, 9, 13];
 
-/// In sixteenths of a pixel.
+/// Offsets of the 16× pattern, in sixteenths of a pixel.
 const STANDARD16: [IVec2; 16] = [
     ivec2(1, 1),
     ivec2(-1, -3),

@@ -246,7 +246,7 @@ choices! {
         Given = "given",
         /// Albedo times light.
         Diffuse = "diffuse",
-        /// The same, and emitted light.
+        /// Albedo times light, plus emitted light.
         Emissive = "emissive",
     }
 }

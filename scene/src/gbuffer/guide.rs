@@ -13,7 +13,7 @@ use straightline_kernels::sraa::{
     Colors, GBuffer, Guiding, Pattern, Resolve, Shading, Sraa, View, sraa_fit, sraa_fit_sums, sraa_guide,
 };
 
-/// The largest half, by definition of the filter: a guide with a brighter channel is 0.
+/// The largest half. By definition of the filter, a guide with a brighter channel counts as 0.
 const BRIGHTEST: f32 = 65504.0;
 
 /// Returns the guide of every layer of the capture's geometry.
@@ -25,7 +25,7 @@ pub(super) fn layers(capture: &Capture) -> Result<&FrameLayers<Vec4>, GBufferErr
     })
 }
 
-/// Colours that are differences from the guide, and its mean for a filter with these options.
+/// Returns colours as differences from the guide, and the guide's mean, for a filter with these options.
 pub(super) fn colors(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
     let given = layers(capture)?;
     let cfg = configured(capture, options)?;
@@ -47,7 +47,7 @@ pub(super) fn colors(capture: &Capture, options: &OptionValues) -> Result<Inputs
     Ok(inputs)
 }
 
-/// The guide times a number, as it counts.
+/// Returns the guide times a number, as the filter counts it.
 fn scaled(guide: &FrameLayers<Vec4>, scale: f32) -> FrameLayers<Vec4> {
     let layer = |layer: &Frame<Vec4>| {
         let texels = layer.texels().iter().map(|texel| scale * counted(*texel));
@@ -56,7 +56,7 @@ fn scaled(guide: &FrameLayers<Vec4>, scale: f32) -> FrameLayers<Vec4> {
     FrameLayers::new(guide.layers().iter().map(layer).collect())
 }
 
-/// Differences of further colours from the guide times `scale` at the samples that `at` names.
+/// Returns differences of further colours from the guide times `scale`, at the samples in `at`.
 pub(crate) fn difference_at(
     color: &Frame<Vec4>,
     guide: &FrameLayers<Vec4>,
@@ -71,11 +71,11 @@ pub(crate) fn difference_at(
     Frame::new(color.size(), texels.collect())
 }
 
-/// The difference of each pixel's colour from the guide where it is shaded.
+/// Returns the difference of each pixel's colour from the guide at the shaded sample.
 fn color(capture: &Capture, guide: &FrameLayers<Vec4>) -> Frame<Vec4> {
     let layer = match (&capture.shading, &capture.place) {
         (ShadingSample::Sample(sample), _) => *sample,
-        // Of several the mean is not read.
+        // With several shading samples the mean is not read.
         (ShadingSample::Samples(_), _) => return capture.color.clone(),
         (ShadingSample::Centre | ShadingSample::Placed, None) => capture.samples.len(),
         (_, Some(place)) => return difference(&capture.color, guide, |k| place.texels()[k] as usize),
@@ -83,14 +83,14 @@ fn color(capture: &Capture, guide: &FrameLayers<Vec4>) -> Frame<Vec4> {
     difference(&capture.color, guide, |_| layer)
 }
 
-/// `color` less the guide in the layer that `layer` names for each texel.
+/// Returns `color` minus the guide, in the layer that `layer` returns for each texel.
 fn difference(color: &Frame<Vec4>, guide: &FrameLayers<Vec4>, layer: impl Fn(usize) -> usize) -> Frame<Vec4> {
     let texels = color.texels().iter().enumerate();
     let texels = texels.map(|(k, color)| *color - counted(guide.layers()[layer(k)].texels()[k]));
     Frame::new(color.size(), texels.collect())
 }
 
-/// A guide as it counts, alpha 0.
+/// Returns a guide as the filter counts it, with alpha 0.
 fn counted(guide: Vec4) -> Vec4 {
     match guide.truncate().abs().cmple(Vec3::splat(BRIGHTEST)).all() {
         true => guide.truncate().extend(0.0),
@@ -98,7 +98,7 @@ fn counted(guide: Vec4) -> Vec4 {
     }
 }
 
-/// Options of the kernels of the guide, as rustc compiles them, for a capture.
+/// Returns the options of the guide's kernels for a capture, as rustc compiles them.
 fn configured(capture: &Capture, options: &OptionValues) -> Result<Sraa, GBufferError> {
     let pattern = pattern_of(&capture.samples);
     let resolve = match options.choice("resolve") {
@@ -129,7 +129,7 @@ fn configured(capture: &Capture, options: &OptionValues) -> Result<Sraa, GBuffer
     })
 }
 
-/// View of which nothing is read.
+/// A view that no kernel reads.
 const UNSEEN: View = View {
     ray_corner: Vec3::ZERO,
     ray_right: Vec3::ZERO,
@@ -140,7 +140,7 @@ const UNSEEN: View = View {
     far: 1.0,
 };
 
-/// The mean of the guide: the kernel `sraa_guide`, as rustc compiles it.
+/// Returns the mean of the guide: the kernel `sraa_guide`, as rustc compiles it.
 fn mean(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Frame<Vec4> {
     let guiding = Guiding {
         guide: guide.clone(),
@@ -153,7 +153,7 @@ fn mean(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Frame<Vec4>
     Frame::new(size, places.map(|(x, y)| pixel(x, y)).collect())
 }
 
-/// The scale of the guide: the kernels `sraa_fit_sums` and `sraa_fit`, as rustc compiles them.
+/// Returns the scale of the guide: the kernels `sraa_fit_sums` and `sraa_fit`, as rustc compiles them.
 fn fitted(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Result<f32, GBufferError> {
     let shading = match (&capture.shading, &capture.place) {
         (ShadingSample::Centre, _) => Shading::Centre,

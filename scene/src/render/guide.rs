@@ -5,11 +5,11 @@ use crate::capture::Capture;
 use glam::Vec2;
 use straightline_kernels::prelude::FrameLayers;
 
-/// Gives a capture of what `renderer` draws the guide in every layer of its geometry: see [`Renderer::guide`].
+/// Adds the guide to a capture drawn by `renderer`, in every layer of its geometry: see [`Renderer::guide`].
 ///
 /// # Errors
 ///
-/// What the renderer refuses.
+/// Fails if the renderer does.
 pub fn add_guide(capture: &mut Capture, renderer: &dyn Renderer) -> Result<(), RenderError> {
     let mut places = capture.samples.clone();
     if places.len() < capture.layer_count() {

@@ -1,7 +1,7 @@
-//! Tables of documents, made of the records that they cite.
+//! Tables in documents, generated from the records that they cite.
 //!
-//! A table stands between `<!-- table NAME of FILE ... -->`, paths from `study/records/`, and `<!-- end -->`. What stands there
-//! must be what [`filled`] makes of the records.
+//! A table is delimited by `<!-- table NAME of FILE ... -->`, with paths from `study/records/`, and `<!-- end -->`.
+//! The text in between must equal the output of [`filled`].
 
 mod alive;
 mod budget;
@@ -33,11 +33,11 @@ use straightline_study::record::{
 
 pub use quality::GEOMETRIC;
 
-/// The document with every table made anew.
+/// Returns the document with every table regenerated.
 ///
 /// # Errors
 ///
-/// What is wrong with a marker or a record, for people.
+/// Describes an error in a marker or a record.
 pub fn filled(document: &str, records: &Path) -> Result<String, String> {
     let mut out = String::new();
     let mut lines = document.lines();

@@ -1,5 +1,5 @@
-//! The additive guide (`guide=add`): its kernels and the filter against their definitions in f64, hard cases included, and what it is
-//! worth on scenes whose colour varies within surfaces.
+//! The additive guide (`guide=add`): compares its kernels and the filter with their definitions in f64, hard cases
+//! included, and measures the gain on scenes whose colour varies within surfaces.
 
 use crate::common;
 
@@ -19,7 +19,7 @@ use straightline_tests::sraa::{self, Random, native, surfaces};
 
 const SIZE: UVec2 = uvec2(21, 17);
 
-/// The color of a pixel, and whether 32 bits decide as 64 do.
+/// The colour of a pixel, and `true` if 32 bits make the same decisions as 64.
 type Expected = Vec<([f64; 4], bool)>;
 
 fn compiled(kernel: &str, set: &Options, unroll: Unroll) -> Compiled {
@@ -30,7 +30,8 @@ fn with(set: &Options, more: &[(&str, &str)]) -> Options {
     [set.clone(), options(more)].concat()
 }
 
-/// Where the guide lies, where shading does, what the pixel is made of, and how normals and depths are stored.
+/// Option sets for the guide's layout, the shading sample, the source of the pixel's colour, and the encoding of
+/// normals and depths.
 fn sets() -> Vec<Options> {
     let others: [&[(&str, &str)]; 19] = [
         &[],
@@ -77,7 +78,7 @@ fn sets() -> Vec<Options> {
     sets.filter(|set| refusal(set).is_none()).collect()
 }
 
-/// Random surfaces, colours and guides, and all that an estimate is made of.
+/// Random surfaces, colours and guides, and all inputs of an estimate.
 fn inputs(set: &Options, seed: u64) -> Inputs {
     let mut inputs = surfaces::inputs(set, SIZE, seed);
     let guides: Vec<(String, Vec<Frame<Vec4>>)> = inputs.images.clone();
@@ -105,7 +106,8 @@ fn inputs(set: &Options, seed: u64) -> Inputs {
         .with_uniform("ambient", &[0.125, 0.25, 0.5])
 }
 
-/// The largest difference to the definition, as a share of what is larger than `scale`; all of it is finite.
+/// Returns the largest difference from the definition, relative to values larger than `scale`. Fails if a value is
+/// not finite.
 fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &Expected, what: &str, scale: f64) -> f64 {
     let (mut largest, mut compared) = (0.0f64, 0);
     for (k, (found, (color, is_sure))) in found.into_iter().zip(expected).enumerate() {
@@ -124,7 +126,7 @@ fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &Expected, what: &st
     largest
 }
 
-/// Definition of a kernel's pictures.
+/// Evaluates the definition of a kernel's pictures.
 fn defined(kernel: &str, set: &Options, inputs: &Inputs) -> Expected {
     let params = SraaParams::from_options(&values(set)).expect("options");
     let failed = |error| panic!("{kernel}, {set:?}: {error}");
@@ -144,7 +146,7 @@ fn defined(kernel: &str, set: &Options, inputs: &Inputs) -> Expected {
     }
 }
 
-/// How far a kernel is off its definition: in f64, in f32, and on the device.
+/// Returns the deviation of a kernel from its definition: in f64, in f32, and on the device.
 fn distances(bench: &Bench, kernel: &str, set: &Options, inputs: &Inputs, scale: f64) -> [f64; 3] {
     let expected = defined(kernel, set, inputs);
     let [mut in_f64, mut in_f32, mut on_device] = [0.0f64; 3];
@@ -166,7 +168,7 @@ fn distances(bench: &Bench, kernel: &str, set: &Options, inputs: &Inputs, scale:
     [in_f64, in_f32, on_device]
 }
 
-/// Inputs of a filter by depth have no normals.
+/// `true` if the options have this source of the guide. Filters by depth have no normals, so only `given`.
 fn way_is_there(set: &Options, way: &str) -> bool {
     way == "given" || values(set).choice("metric") != Some("depth")
 }
@@ -183,7 +185,7 @@ fn every_form_gives_what_the_definition_says() {
         };
         judge("sraa", &set);
         let ways = [("given", "false"), ("diffuse", "true"), ("emissive", "false")];
-        // Each layout and encoding with one of them at least, the first few with all.
+        // Each layout and encoding runs in at least one way, the first few in all.
         for (n, (way, fitted)) in ways.into_iter().enumerate() {
             if way_is_there(&set, way) && (k < 4 || k % ways.len() == n) {
                 let own = with(&set, &[("estimate", way), ("fitted", fitted)]);
@@ -199,7 +201,7 @@ fn every_form_gives_what_the_definition_says() {
     assert!(in_f64 < 1.0e-5 && in_f32 < 1.0e-4 && on_device < 1.0e-4);
 }
 
-/// With texels here and there that are not finite, that no half holds, or far brighter than any colour.
+/// Replaces some texels by values that are not finite, exceed a half, or are far brighter than any colour.
 fn hard(inputs: Inputs, names: &[&str], bad: &[f32]) -> Inputs {
     let mut random = Random(77);
     let mut inputs = inputs;
@@ -227,14 +229,14 @@ fn a_guide_that_is_not_finite_is_left_out() {
     let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 65536.0, -1.0e9, f32::MAX];
     for set in sets() {
         let values = values(&set);
-        // Of colours that are not finite lobes may leave a sum of weights near 0.
+        // With colours that are not finite, lobes may leave a sum of weights near 0.
         if values.choice("guards") == Some("none")
             || values.choice("non-finite") == Some("spread")
             || values.choice("resolve") == Some("mitchell")
         {
             continue;
         }
-        // Halves are what multisampled images hold: larger numbers become the largest there.
+        // Multisampled images hold halves, in which larger numbers become the largest half.
         let bad = match values.choice("layout") {
             Some("multisampled") => &bad[..3],
             _ => &bad,
@@ -256,7 +258,7 @@ fn a_guide_that_is_not_finite_is_left_out() {
         }
         let of_means = hard(inputs(&set, 33), &["guide_mean"], bad);
         judge("sraa", &set, &of_means, 1.0);
-        // A difference that is not finite has no weight, as any colour.
+        // A difference that is not finite has no weight, like any colour.
         if values.choice("guards") == Some("inline") {
             let of_colors = hard(inputs(&set, 34), &["color"], &bad[..3]);
             judge("sraa", &set, &of_colors, 1.0);
@@ -310,7 +312,7 @@ fn the_scale_is_that_of_the_definition() {
     }
 }
 
-/// The colour that differences and a mean are made of, in a capture of an even surface.
+/// Returns the filtered colour of an even surface, from differences and a mean.
 fn even(color: Vec4, guide: Vec4) -> [f32; 4] {
     let set = options(&[("guide", "add")]);
     let mut capture = surfaces::capture(&set, SIZE, 3);
@@ -325,7 +327,8 @@ fn even(color: Vec4, guide: Vec4) -> [f32; 4] {
     native::run(&set, &inputs)[0]
 }
 
-/// What is lost where a guide is far brighter than the colour is a rounding of the guide; a colour beyond a half stays.
+/// A guide far brighter than the colour loses at most a rounding of the guide. A colour larger than a
+/// half is kept.
 #[test]
 fn a_guide_costs_no_more_than_its_own_rounding() {
     let color = vec4(0.25, 3.0e4, 1.0e9, 1.0);
@@ -394,7 +397,7 @@ fn what_a_guide_cannot_go_with_is_refused_with_the_reason() {
     );
 }
 
-/// A scene's PSNR in dB: `full`, `guided`, and shaded at every sample.
+/// Returns a scene's PSNR in dB: `full`, `guided`, and shaded at every sample.
 fn judged(name: &str, pattern: &str) -> [f64; 3] {
     let scene = Scene::from_name(name).expect("a scene");
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
@@ -425,7 +428,7 @@ fn judged(name: &str, pattern: &str) -> [f64; 3] {
     all
 }
 
-/// A guide that is three times too bright harms, and does not if it is scaled.
+/// A guide three times too bright lowers the quality, but not if it is scaled.
 #[test]
 fn a_scaled_guide_may_be_too_bright() {
     let scene = Scene::from_name("posters").expect("a scene");
@@ -459,7 +462,7 @@ fn a_scaled_guide_may_be_too_bright() {
     assert!(scaled > right - 0.01, "{right}, {scaled}");
 }
 
-/// With a guide that knows the sun, its shadow and one constant of ambient light, paint and shadow are as supersampled.
+/// With a guide of the sun, its shadow and one constant of ambient light, paint and shadow match supersampling.
 #[test]
 fn paint_and_shadow_come_close_to_supersampling() {
     for name in ["posters", "awning"] {

@@ -17,7 +17,7 @@ use straightline_study::quality::{Method, Outcome, QualityError, Setup, Source, 
 use straightline_study::record::Family;
 use straightline_tests::impatient::StopsAfter;
 
-/// A line of slope 1/5 between light and dark, each pixel shaded at its centre, and what it should look like.
+/// A line of slope 1/5 between light and dark: each pixel shaded at its centre, and the reference.
 fn slope() -> (Frame<Vec4>, Frame<Vec4>) {
     let size = uvec2(64, 40);
     let light = |place: Vec2| if place.y < 12.0 + place.x / 5.0 { 0.8 } else { 0.05 };
@@ -69,7 +69,8 @@ fn filters_of_the_picture_smooth_a_line_and_leave_evenness_alone() {
             let after = metrics::psnr(&filter(&plain, transfer), &perfect);
             println!("{name} on {transfer:?}: {before:.2} dB before, {after:.2} dB after");
             assert!(after > before + 1.0, "{name} {transfer:?}: {before} {after}");
-            // In floats it does so by a rounding of its 16 bits, and in the bytes of a picture by nothing.
+            // A filter leaves an even picture unchanged: exactly in 8 bits, up to the rounding of its 16 bits in
+            // floats.
             let shown = picture::at_eight_bits(&even(color));
             assert_eq!(
                 picture::at_eight_bits(&filter(&shown, transfer)),
@@ -104,8 +105,8 @@ fn source(name: &str) -> Source {
     }
 }
 
-/// What a kernel of the user's reads and gives is what the others do: one that gives the picture is 1x, and options of SRAA that
-/// are the default are SRAA 4.
+/// User kernels have the same interface as the built-in methods: a kernel that returns the picture equals 1x, and
+/// SRAA with default options equals SRAA 4.
 #[test]
 fn methods_of_the_users_own() {
     let folder = std::env::temp_dir().join(format!("straightline-own-{}", std::process::id()));
@@ -154,7 +155,7 @@ fn methods_of_the_users_own() {
         of("blur").psnr,
         of("1x").psnr
     );
-    // What a scene has not is named.
+    // The error names an input that the scene does not provide.
     let setup = with(vec![own(format!("lights={}::lights", file.display()))]);
     let error = study_quality(&bench(), vec![source("railings")], &setup, &mut Silent).expect_err("no such picture");
     assert!(error.to_string().contains("`lights` reads `light`"), "{error}");
@@ -208,7 +209,7 @@ fn methods_on_a_scene() {
     let shares = &scene.shares;
     assert!((shares.geometry + shares.shading + shares.flat - 1.0).abs() < 1e-9);
     assert!(shares.unseen > 0.0 && shares.unseen < shares.geometry, "{shares:?}");
-    // The pixels' errors, put together again, are the picture's.
+    // The errors of the pixels, combined, equal that of the picture.
     let mse = |db: Option<f64>| db.map_or(0.0, |db| 10f64.powf(-db / 10.0));
     let plain = method("1x");
     let parts = shares.geometry * mse(plain.psnr_geometry)
@@ -223,7 +224,7 @@ fn methods_on_a_scene() {
             "{gap:?}"
         );
     }
-    // The figures are those of the pictures, as anybody reads them.
+    // The figures match those computed from the written pictures.
     let folder = std::env::temp_dir().join(format!("straightline-quality-{}", std::process::id()));
     let read = |stem: &str| {
         let bytes = &pictures[&format!("pictures/railings/{stem}.png")];
@@ -240,7 +241,7 @@ fn methods_on_a_scene() {
         assert_eq!(metrics::flip(&shown, &reference), method(name).flip, "{name}");
     }
     std::fs::remove_dir_all(&folder).expect("the folder goes");
-    // A second shading sample is worth what it costs.
+    // The gain of a second shading sample justifies its cost.
     let two = method("SRAA 4, two shading samples");
     assert!(two.psnr > method("SRAA 4").psnr + 0.5, "{}", two.psnr);
     println!("{:#?}", list_losses(scene));
