@@ -42,7 +42,7 @@ void main() {
     vec4 centre_l1 = mix(no_surface, vec4(own_l1.xyz, depth_l1), bvec4(is_bright_color_l1));
     vec4 centre_l2 = mix(no_surface, vec4(own_l2.xyz, depth_l2), bvec4(is_bright_color_l2));
     vec4 centre_l3 = mix(no_surface, vec4(own_l3.xyz, depth_l3), bvec4(is_bright_color_l3));
-    // j 0, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:99)
+    // j 0, i 0, k 1, lane 0: contribution of a pixel (kernels/src/quad/bilateral.rs:99)
     float z_j0i0k1l0 = (centre_l1.w - centre_l0.w) / 0.1;
     float z_j0i0k1l2 = (centre_l3.w - centre_l2.w) / 0.1;
     float weight_j0i0k1 = exp2((z_j0i0k1l0 * z_j0i0k1l0 + 0.25) * -0.7213475);
@@ -84,7 +84,7 @@ void main() {
     bool both_2 = all(lessThan(abs(seen_j0i1l1.xy), vec2(1.5e38)));
     bool both_3 = all(lessThan(abs(seen_j0i1l2.xy), vec2(1.5e38)));
     bool both_4 = all(lessThan(abs(seen_j0i1l3.xy), vec2(1.5e38)));
-    // j 0, i 1, lane 0: a pixel as it counts (kernels/src/quad/bilateral.rs:86)
+    // j 0, i 1, lane 0: a pixel with its guards applied (kernels/src/quad/bilateral.rs:86)
     bool is_bright_color_j0i1l0 = all(bvec2(both, abs(seen_j0i1l0.z) < 1.5e38));
     bool is_bright_color_j0i1l1 = all(bvec2(both_2, abs(seen_j0i1l1.z) < 1.5e38));
     bool is_bright_color_j0i1l2 = all(bvec2(both_3, abs(seen_j0i1l2.z) < 1.5e38));

@@ -44,7 +44,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 centre_l1 = (is_bright_color_l1 ? float4(own_l1.xyz, depth_l1) : no_surface);
     float4 centre_l2 = (is_bright_color_l2 ? float4(own_l2.xyz, depth_l2) : no_surface);
     float4 centre_l3 = (is_bright_color_l3 ? float4(own_l3.xyz, depth_l3) : no_surface);
-    // j 0, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:99)
+    // j 0, i 0, k 1, lane 0: contribution of a pixel (kernels/src/quad/bilateral.rs:99)
     float z_j0i0k1l0 = (centre_l1.w - centre_l0.w) / 0.1;
     float z_j0i0k1l2 = (centre_l3.w - centre_l2.w) / 0.1;
     float weight_j0i0k1 = exp2((z_j0i0k1l0 * z_j0i0k1l0 + 0.25) * -0.7213475);
@@ -88,7 +88,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     bool both_2 = all(abs(seen_j0i1l1.xy) < float2(1.5e38, 1.5e38));
     bool both_3 = all(abs(seen_j0i1l2.xy) < float2(1.5e38, 1.5e38));
     bool both_4 = all(abs(seen_j0i1l3.xy) < float2(1.5e38, 1.5e38));
-    // j 0, i 1, lane 0: a pixel as it counts (kernels/src/quad/bilateral.rs:86)
+    // j 0, i 1, lane 0: a pixel with its guards applied (kernels/src/quad/bilateral.rs:86)
     bool is_bright_color_j0i1l0 = all(bool2(both, abs(seen_j0i1l0.z) < 1.5e38));
     bool is_bright_color_j0i1l1 = all(bool2(both_2, abs(seen_j0i1l1.z) < 1.5e38));
     bool is_bright_color_j0i1l2 = all(bool2(both_3, abs(seen_j0i1l2.z) < 1.5e38));

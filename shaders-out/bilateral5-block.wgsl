@@ -38,7 +38,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let centre_l1 = select(no_surface, vec4f(own_l1.xyz, depth_l1), is_bright_color_l1);
     let centre_l2 = select(no_surface, vec4f(own_l2.xyz, depth_l2), is_bright_color_l2);
     let centre_l3 = select(no_surface, vec4f(own_l3.xyz, depth_l3), is_bright_color_l3);
-    // j 0, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:99)
+    // j 0, i 0, k 1, lane 0: contribution of a pixel (kernels/src/quad/bilateral.rs:99)
     let z_j0i0k1l0 = (centre_l1.w - centre_l0.w) / 0.1;
     let z_j0i0k1l2 = (centre_l3.w - centre_l2.w) / 0.1;
     let weight_j0i0k1 = exp2((z_j0i0k1l0 * z_j0i0k1l0 + 0.25) * -0.7213475);
@@ -80,7 +80,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let both_2 = all(abs(seen_j0i1l1.xy) < vec2f(1.5e38));
     let both_3 = all(abs(seen_j0i1l2.xy) < vec2f(1.5e38));
     let both_4 = all(abs(seen_j0i1l3.xy) < vec2f(1.5e38));
-    // j 0, i 1, lane 0: a pixel as it counts (kernels/src/quad/bilateral.rs:86)
+    // j 0, i 1, lane 0: a pixel with its guards applied (kernels/src/quad/bilateral.rs:86)
     let is_bright_color_j0i1l0 = both & (abs(seen_j0i1l0.z) < 1.5e38);
     let is_bright_color_j0i1l1 = both_2 & (abs(seen_j0i1l1.z) < 1.5e38);
     let is_bright_color_j0i1l2 = both_3 & (abs(seen_j0i1l2.z) < 1.5e38);

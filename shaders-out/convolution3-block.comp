@@ -117,7 +117,8 @@ void main() {
     vec4 sums_j1i1l1 = sums_j0i1l1 + product_2 + tap_j1i1l1 * 0.11111111;
     vec4 sums_j1i1l2 = sums_j0i1l2 + product_3 + tap_j1i1l2 * 0.11111111;
     vec4 sums_j1i1l3 = sums_j0i1l3 + product_4 + tap_j1i1l3 * 0.11111111;
-    // lane 0: horizontal and vertical messages apart (§2.8) (kernels/src/quad/convolution.rs:166)
+    // lane 0: sends horizontal and vertical messages separately (§2.8)
+    //   (kernels/src/quad/convolution.rs:166)
     vec4 down_l0 = sums_j0i1l0 + sums_j0i0l1;
     vec4 down_l1 = sums_j0i1l1 + sums_j0i0l0;
     vec4 down_l2 = sums_j0i1l2 + sums_j0i0l3;

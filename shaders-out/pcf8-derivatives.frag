@@ -16,7 +16,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
-    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    // k 0: kernels/src/quad/coordinates.rs:24
     bool numbers = all(lessThan(abs(coord), vec3(1e20)));
     vec3 finite = mix(vec3(0.0), coord, bvec3(numbers));
     vec2 size = vec2(textureSize(sampler2D(shadow, unfiltered), 0));

@@ -17,7 +17,7 @@ int2 size_of_shadow() {
 
 float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
-    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    // k 0: kernels/src/quad/coordinates.rs:24
     bool numbers = all(abs(coord) < float3(1e20, 1e20, 1e20));
     float3 finite = (numbers ? coord : float3(0.0, 0.0, 0.0));
     float2 size = float2(size_of_shadow());

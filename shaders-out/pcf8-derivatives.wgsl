@@ -12,7 +12,7 @@
 @fragment
 fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
-    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    // k 0: kernels/src/quad/coordinates.rs:24
     let numbers = all(abs(coord) < vec3f(1e20));
     let finite = select(vec3f(0.0), coord, numbers);
     let size = vec2f(vec2i(textureDimensions(shadow)));

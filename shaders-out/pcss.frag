@@ -25,7 +25,7 @@ ivec2 to_ivec2(vec2 x) {
 
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
-    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    // k 0: kernels/src/quad/coordinates.rs:24
     bool numbers = all(lessThan(abs(coord), vec3(1e20)));
     vec3 finite = mix(vec3(0.0), coord, bvec3(numbers));
     ivec2 shadow_size = textureSize(sampler2D(shadow, unfiltered), 0);
@@ -44,7 +44,7 @@ void main() {
     ivec2 at_k0_2 = clamp(to_ivec2(floor(product + at_k0 * 2.0)), ivec2(0), last);
     float depth_k0 = texelFetch(sampler2D(shadow, unfiltered), at_k0_2, 0).x;
     vec2 found_k0 = 0.0 + mix(vec2(0.0), vec2(depth_k0, 1.0), bvec2(depth_k0 < centre.z));
-    // k 1: how much light comes to each pixel of a quad (kernels/src/quad/pcss.rs:56)
+    // k 1: light on each pixel of a quad, 0 to 1, in every component (kernels/src/quad/pcss.rs:56)
     vec2 at_k1 = quad_vector + vec2(2.0, -2.0);
     ivec2 at_k1_2 = clamp(to_ivec2(floor(product + at_k1 * 2.0)), ivec2(0), last);
     float depth_k1 = texelFetch(sampler2D(shadow, unfiltered), at_k1_2, 0).x;

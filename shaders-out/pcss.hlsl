@@ -28,7 +28,7 @@ int2 to_int(float2 x) {
 
 float4 pcss(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
-    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    // k 0: kernels/src/quad/coordinates.rs:24
     bool numbers = all(abs(coord) < float3(1e20, 1e20, 1e20));
     float3 finite = (numbers ? coord : float3(0.0, 0.0, 0.0));
     int2 shadow_size = size_of_shadow();
@@ -47,7 +47,7 @@ float4 pcss(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target
     int2 at_k0_2 = clamp(to_int(floor(product + at_k0 * 2.0)), int2(0, 0), last);
     float depth_k0 = shadow.Load(int3(at_k0_2, 0));
     float2 found_k0 = 0.0 + (depth_k0 < centre.z ? float2(depth_k0, 1.0) : float2(0.0, 0.0));
-    // k 1: how much light comes to each pixel of a quad (kernels/src/quad/pcss.rs:56)
+    // k 1: light on each pixel of a quad, 0 to 1, in every component (kernels/src/quad/pcss.rs:56)
     float2 at_k1 = quad_vector + float2(2.0, -2.0);
     int2 at_k1_2 = clamp(to_int(floor(product + at_k1 * 2.0)), int2(0, 0), last);
     float depth_k1 = shadow.Load(int3(at_k1_2, 0));

@@ -17,7 +17,7 @@ fn to_vec2i(x: vec2f) -> vec2i {
 @fragment
 fn pcss(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
-    // k 0: coordinates as they count (kernels/src/quad/coordinates.rs:24)
+    // k 0: kernels/src/quad/coordinates.rs:24
     let numbers = all(abs(coord) < vec3f(1e20));
     let finite = select(vec3f(0.0), coord, numbers);
     let shadow_size = vec2i(textureDimensions(shadow));
@@ -36,7 +36,7 @@ fn pcss(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locat
     let at_k0_2 = clamp(to_vec2i(floor(product + at_k0 * 2.0)), vec2i(0), last);
     let depth_k0 = textureLoad(shadow, at_k0_2, 0);
     let found_k0 = 0.0 + select(vec2f(0.0), vec2f(depth_k0, 1.0), depth_k0 < centre.z);
-    // k 1: how much light comes to each pixel of a quad (kernels/src/quad/pcss.rs:56)
+    // k 1: light on each pixel of a quad, 0 to 1, in every component (kernels/src/quad/pcss.rs:56)
     let at_k1 = quad_vector + vec2f(2.0, -2.0);
     let at_k1_2 = clamp(to_vec2i(floor(product + at_k1 * 2.0)), vec2i(0), last);
     let depth_k1 = textureLoad(shadow, at_k1_2, 0);

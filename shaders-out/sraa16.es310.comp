@@ -61,7 +61,7 @@ void main() {
     float number_s0_t8 = (apart_s0_t8 < 16.0 ? apart_s0_t8 : 16.0);
     float d_s0_t8 = min(max(abs(seen_depth_s0 - shaded_depth_t8), number_s0_t8), 16.0);
     float nearest_s0_t8 = min(min(min(d_s0_t4, d_s0_t5), d_s0_t7), d_s0_t8);
-    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:148)
+    // sample 0, tap 4: mean of the geometry samples (kernels/src/sraa/mod.rs:148)
     float w_s0_t4 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t4) - 0.284038);
     float w_s0_t5 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t5) - 3.5570564);
     float w_s0_t7 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t7) - 3.5570564);
@@ -71,8 +71,7 @@ void main() {
     float weights_s0_t5 = w_s0_t5 * scale_s0;
     float weights_s0_t7 = w_s0_t7 * scale_s0;
     float weights_s0_t8 = w_s0_t8 * scale_s0;
-    // sample 1, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:213)
+    // sample 1, tap 4: kernels/src/sraa/gbuffer.rs:213
     float depth_s1 = texelFetch(depth, ivec3(pixel, 1), 0).x;
     float seen_depth_s1 = (abs(depth_s1) < 1e30 ? depth_s1 : 1e30);
     vec3 n_s1 = texelFetch(normal, ivec3(pixel, 1), 0).xyz;
@@ -500,7 +499,7 @@ void main() {
     float weights_s15_t2 = weights_s14_t2 + w_s15_t2 * scale_s15;
     float weights_s15_t4 = weights_s14_t4 + w_s15_t4 * scale_s15;
     float weights_s15_t5 = weights_s14_t5 + w_s15_t5 * scale_s15;
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:223)
+    // tap 0: mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:223)
     vec4 shaded_t0 = texelFetch(color, at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

@@ -53,7 +53,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s0_t8 = select(16.0, apart_s0_t8, apart_s0_t8 < 16.0);
     let d_s0_t8 = min(max(abs(seen_depth_s0 - shaded_depth_t8), number_s0_t8), 16.0);
     let nearest_s0_t8 = min(min(min(d_s0_t4, d_s0_t5), d_s0_t7), d_s0_t8);
-    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:148)
+    // sample 0, tap 4: mean of the geometry samples (kernels/src/sraa/mod.rs:148)
     let w_s0_t4 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t4) - 0.284038);
     let w_s0_t5 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t5) - 3.5570564);
     let w_s0_t7 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t7) - 3.5570564);
@@ -63,8 +63,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let weights_s0_t5 = w_s0_t5 * scale_s0;
     let weights_s0_t7 = w_s0_t7 * scale_s0;
     let weights_s0_t8 = w_s0_t8 * scale_s0;
-    // sample 1, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:213)
+    // sample 1, tap 4: kernels/src/sraa/gbuffer.rs:213
     let depth_s1 = textureLoad(depth, pixel, 1, 0).x;
     let seen_depth_s1 = select(1e30, depth_s1, abs(depth_s1) < 1e30);
     let n_s1 = textureLoad(normal, pixel, 1, 0).xyz;
@@ -492,7 +491,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let weights_s15_t2 = weights_s14_t2 + w_s15_t2 * scale_s15;
     let weights_s15_t4 = weights_s14_t4 + w_s15_t4 * scale_s15;
     let weights_s15_t5 = weights_s14_t5 + w_s15_t5 * scale_s15;
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:223)
+    // tap 0: mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:223)
     let shaded_t0 = textureLoad(color, at_t0, 0);
     let kept_t0 = all((bitcast<vec4u>(shaded_t0) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let w_t0 = select(0.0, weights_s11_t0, kept_t0);

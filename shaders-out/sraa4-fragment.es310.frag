@@ -53,7 +53,7 @@ void main() {
     float number_s0_t4 = (apart_s0_t4 < 16.0 ? apart_s0_t4 : 16.0);
     float d_s0_t4 = min(max(abs(seen_depth_s0 - shaded_depth_t4), number_s0_t4), 16.0);
     float nearest_s0_t4 = min(min(min(d_s0_t0, d_s0_t1), d_s0_t3), d_s0_t4);
-    // sample 0, tap 0: the mean of the geometry samples (kernels/src/sraa/mod.rs:148)
+    // sample 0, tap 0: mean of the geometry samples (kernels/src/sraa/mod.rs:148)
     float w_s0_t0 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t0) - 4.4150376);
     float w_s0_t1 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t1) - 1.6076826);
     float w_s0_t3 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t3) - 3.678072);
@@ -63,8 +63,7 @@ void main() {
     float weights_s0_t1 = w_s0_t1 * scale_s0;
     float weights_s0_t3 = w_s0_t3 * scale_s0;
     float weights_s0_t4 = w_s0_t4 * scale_s0;
-    // sample 1, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:213)
+    // sample 1, tap 1: kernels/src/sraa/gbuffer.rs:213
     float depth_s1 = texelFetch(depth, ivec3(pixel, 1), 0).x;
     float seen_depth_s1 = (abs(depth_s1) < 1e30 ? depth_s1 : 1e30);
     vec3 n_s1 = texelFetch(normal, ivec3(pixel, 1), 0).xyz;
@@ -165,7 +164,7 @@ void main() {
     float weights_s3_t5 = weights_s1_t5 + w_s3_t5 * scale_s3;
     float weights_s3_t7 = weights_s2_t7 + w_s3_t7 * scale_s3;
     float weights_s3_t8 = w_s3_t8 * scale_s3;
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:223)
+    // tap 0: mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:223)
     vec4 shaded_t0 = texelFetch(color, at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

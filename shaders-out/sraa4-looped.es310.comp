@@ -31,7 +31,7 @@ void main() {
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:123)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     float share = 1.0 / total;
     ivec2 last = frame - 1;
     float weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -42,18 +42,18 @@ void main() {
         if (abs(depth_2) < 1e30) {
             seen_depth = depth_2;
         }
-        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
+        // surface seen at `place` relative to `pixel` (kernels/src/sraa/gbuffer.rs:116)
         vec3 n = texelFetch(normal, ivec3(pixel, sample_value), 0).xyz;
         float square = n.x * n.x + n.y * n.y + n.z * n.z;
         bool is_equal = sample_value == 4;
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:70)
+            // position of tap `tap` of this frame (kernels/src/sraa/history.rs:70)
             ivec2 tap_pixel = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:131)
+                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), tap_pixel))))) {
                     d = 0.0;
@@ -80,7 +80,7 @@ void main() {
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         float sum = 0.0;
         float tap_weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (int tap = 0; tap < 9; tap++) {
@@ -92,7 +92,7 @@ void main() {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:169)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -101,11 +101,11 @@ void main() {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:222)
+    // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:222)
     vec4 result = vec4(0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:88)
+        // value of a shading result at a tap (kernels/src/sraa/colors.rs:88)
         ivec2 at = clamp(pixel + ivec2(tap % 3 - 1, tap / 3 - 1), ivec2(0), last);
         vec4 shaded = texelFetch(color, at, 0);
         bool kept = all(lessThan(floatBitsToUint(shaded) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));
@@ -114,12 +114,12 @@ void main() {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:232)
+            // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:204)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     vec4 mean = vec4(0.0);
     if (sum > 1e-30) {
         mean = result / sum;

@@ -29,7 +29,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:123)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     float share = 1.0 / total;
     int2 last = frame - 1;
     float weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
@@ -40,18 +40,18 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         if (abs(depth_2) < 1e30) {
             seen_depth = depth_2;
         }
-        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
+        // surface seen at `place` relative to `pixel` (kernels/src/sraa/gbuffer.rs:116)
         float3 n = normal.Load(int4(pixel, sample_2, 0)).xyz;
         float square = n.x * n.x + n.y * n.y + n.z * n.z;
         bool is_equal = sample_2 == 4;
         float distances[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:70)
+            // position of tap `tap` of this frame (kernels/src/sraa/history.rs:70)
             int2 tap_pixel = int2(tap % 3 - 1, tap / 3 - 1);
             float2 away = float2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:131)
+                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 float d;
                 if (all(bool2(is_equal, all(int2(0, 0) == tap_pixel)))) {
                     d = 0.0;
@@ -78,7 +78,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         float sum = 0.0;
         float tap_weights[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         for (int tap_2 = 0; tap_2 < 9; tap_2++) {
@@ -90,7 +90,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:169)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         float scale = share / sum;
         for (int tap_3 = 0; tap_3 < 9; tap_3++) {
             float2 away = float2(int2(tap_3 % 3 - 1, tap_3 / 3 - 1)) - place_at;
@@ -99,11 +99,11 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:222)
+    // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:222)
     float4 result = float4(0.0, 0.0, 0.0, 0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:88)
+        // value of a shading result at a tap (kernels/src/sraa/colors.rs:88)
         int2 at = clamp(pixel + int2(tap % 3 - 1, tap / 3 - 1), int2(0, 0), last);
         float4 shaded = color.Load(int3(at, 0));
         bool kept = all(
@@ -115,12 +115,12 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             w = weights[tap];
         }
         if (kept) {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:232)
+            // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:204)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     float4 mean = float4(0.0, 0.0, 0.0, 0.0);
     if (sum > 1e-30) {
         mean = result / sum;

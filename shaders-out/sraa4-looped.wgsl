@@ -25,7 +25,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:123)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     let share = 1.0 / total;
     let last = frame - 1;
     var weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -36,18 +36,18 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         if abs(depth_2) < 1e30 {
             seen_depth = depth_2;
         }
-        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
+        // surface seen at `place` relative to `pixel` (kernels/src/sraa/gbuffer.rs:116)
         let n = textureLoad(normal, pixel, sample, 0).xyz;
         let square = n.x * n.x + n.y * n.y + n.z * n.z;
         let is_equal = sample == 4;
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
-            // where tap `tap` of this frame is shaded (kernels/src/sraa/history.rs:70)
+            // position of tap `tap` of this frame (kernels/src/sraa/history.rs:70)
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:131)
+                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 var d: f32;
                 if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;
@@ -74,7 +74,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:141)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         var sum = 0.0;
         var tap_weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (var tap = 0; tap < 9; tap++) {
@@ -86,7 +86,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:169)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         let scale = share / sum;
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -95,11 +95,11 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:222)
+    // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:222)
     var result = vec4f(0.0);
     var sum = 0.0;
     for (var tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:88)
+        // value of a shading result at a tap (kernels/src/sraa/colors.rs:88)
         let at = clamp(pixel + vec2i(tap % 3 - 1, tap / 3 - 1), vec2i(0), last);
         let shaded = textureLoad(color, at, 0);
         let kept = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
@@ -108,12 +108,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             w = weights[tap];
         }
         if kept {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:232)
+            // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:204)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     var mean = vec4f(0.0);
     if sum > 1e-30 {
         mean = result / sum;

@@ -51,7 +51,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s0_t4 = select(16.0, apart_s0_t4, apart_s0_t4 < 16.0);
     let d_s0_t4 = min(max(abs(seen_depth_s0 - shaded_depth_t4), number_s0_t4), 16.0);
     let nearest_s0_t4 = min(min(min(d_s0_t0, d_s0_t1), d_s0_t3), d_s0_t4);
-    // sample 0, tap 0: the mean of the geometry samples (kernels/src/sraa/mod.rs:148)
+    // sample 0, tap 0: mean of the geometry samples (kernels/src/sraa/mod.rs:148)
     let w_s0_t0 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t0) - 4.4150376);
     let w_s0_t1 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t1) - 1.6076826);
     let w_s0_t3 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t3) - 3.678072);
@@ -61,8 +61,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let weights_s0_t1 = w_s0_t1 * scale_s0;
     let weights_s0_t3 = w_s0_t3 * scale_s0;
     let weights_s0_t4 = w_s0_t4 * scale_s0;
-    // sample 1, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:213)
+    // sample 1, tap 1: kernels/src/sraa/gbuffer.rs:213
     let depth_s1 = textureLoad(depth, pixel, 1, 0).x;
     let seen_depth_s1 = select(1e30, depth_s1, abs(depth_s1) < 1e30);
     let n_s1 = textureLoad(normal, pixel, 1, 0).xyz;
@@ -163,7 +162,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let weights_s3_t5 = weights_s1_t5 + w_s3_t5 * scale_s3;
     let weights_s3_t7 = weights_s2_t7 + w_s3_t7 * scale_s3;
     let weights_s3_t8 = w_s3_t8 * scale_s3;
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:223)
+    // tap 0: mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:223)
     let shaded_t0 = textureLoad(color, at_t0, 0);
     let kept_t0 = all((bitcast<vec4u>(shaded_t0) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let w_t0 = select(0.0, weights_s0_t0, kept_t0);

@@ -1,15 +1,52 @@
-//! Partially evaluates Rust image filters into straight-line shaders.
+//! Generates straight-line shaders from image filters in Rust, by partial evaluation.
 //!
-//! Path, text and options in; text out. No GPU, no file is touched outside [`config`] and [`files`].
+//! A kernel is a function in a documented subset of Rust. Its loops and branches over compile-time constants are resolved, and what
+//! remains is emitted as WGSL, GLSL, HLSL, MSL or SPIR-V, with a manifest and Rust bindings for the host. The crate needs no GPU, and
+//! touches no file outside of [`config`] and [`files`].
+//!
+//! # In a build script
+//!
+//! [`Config`] compiles built-in kernels and those of a crate, and writes shaders and bindings to `OUT_DIR`. The crate includes them by
+//! `straightline_runtime::include_shaders!()`.
+//!
+//! ```no_run
+//! // build.rs
+//! fn main() -> Result<(), straightline_codegen::config::Error> {
+//!     straightline_codegen::Config::new()
+//!         .kernel("sraa", |k| k.set("pattern", "latin4").set("metric", "depth"))
+//!         .file("src/kernels/glow.rs")
+//!         .compile()
+//! }
+//! ```
+//!
+//! # In a program
+//!
+//! A [`Kernel`] is a source, a [`ShaderSpec`] the description of one shader of it: its settings are those of the command line. The result
+//! is a [`Compiled`] kernel, with counts and the graph, and [`emit::Emitted`] files.
 //!
 //! ```
+//! use straightline_codegen::spec::Target;
 //! use straightline_codegen::{Kernel, ShaderSpec};
 //!
-//! let spec = ShaderSpec::new().set("pattern", "ordered4");
-//! let (sraa, _shader) = spec.emit(&Kernel::builtin("sraa")?)?;
-//! assert_eq!(sraa.counts.basic_blocks, 1);
+//! let text = "pub fn blurred(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+//!     let mut sum = Vec4::ZERO;
+//!     for x in -1..=1 {
+//!         sum += color.load(pixel + ivec2(x, 0));
+//!     }
+//!     sum / 3.0
+//! }";
+//! let kernel = Kernel::from_text("blurred.rs", text, "blurred");
+//! let (compiled, emitted) = ShaderSpec::new().emit(&kernel)?;
+//! assert_eq!(compiled.counts.basic_blocks, 1);
+//! let wgsl = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
+//! assert!(wgsl.contains("textureLoad") && !wgsl.contains("for ("));
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
+//!
+//! # Errors
+//!
+//! Every function returns [`diagnostic::Errors`]: messages with a code, a place in the kernel's source and the code to write instead. They
+//! print as rustc's do. A kernel cannot take unbounded time or memory: see [`Limits`].
 
 mod compiled;
 pub mod config;

@@ -29,9 +29,21 @@ pub fn print_list(args: &ListArgs) -> Result<(), Failure> {
 
 fn print_all() -> Result<(), Failure> {
     outln!("Kernels, for `emit`, `explain` and `run`:");
-    let width = CATALOGUE.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
-    for entry in CATALOGUE {
+    let of_their_own = || CATALOGUE.iter().filter(|entry| parent_kernel(entry).is_none());
+    let width = of_their_own().map(|entry| entry.name.len()).max().unwrap_or(0);
+    for entry in of_their_own() {
         outln!("  {:width$}  {}", entry.name, kernel_purpose(entry));
+        let passes = CATALOGUE
+            .iter()
+            .filter(|other| parent_kernel(other) == Some(entry.name));
+        let passes: Vec<&str> = passes.map(|pass| pass.name).collect();
+        if !passes.is_empty() {
+            let indent = " ".repeat(width + 4);
+            outln!(
+                "{}",
+                wrap_text(&format!("with {}", passes.join(", ")), WIDTH, &indent, &indent)
+            );
+        }
     }
     let engines: Vec<&str> = engine_names().collect();
     outln!("\nEngines, for `emit --engine NAME`:");
@@ -40,6 +52,17 @@ fn print_all() -> Result<(), Failure> {
     outln!("`list KERNEL` shows what a kernel does and its options, `list ENGINE` what is");
     outln!("written for an engine. A kernel of your own: FILE.rs, or FILE.rs::FUNCTION.");
     Ok(())
+}
+
+/// Returns the kernel of which an entry is a further pass, as `sraa_guide` is of `sraa`.
+fn parent_kernel(entry: &Entry) -> Option<&'static str> {
+    let mut names = CATALOGUE.iter().map(|other| other.name);
+    names.find(|parent| {
+        entry
+            .name
+            .strip_prefix(parent)
+            .is_some_and(|rest| rest.starts_with('_'))
+    })
 }
 
 /// Returns a kernel's purpose, without its authors.

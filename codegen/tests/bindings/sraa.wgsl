@@ -27,13 +27,13 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:127)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:111)
     let steepness = min(parameters.tau * 1.442695, 10000000.0);
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:139)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:123)
     let share = 1.0 / total;
     let last = frame - 1;
     var weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -52,7 +52,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:147)
+                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 var d: f32;
                 if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;
@@ -62,7 +62,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:352
+                        // kernels/src/sraa/mod.rs:289
                         shaded_depth = depth_3;
                     }
                     d = min(abs(seen_depth - shaded_depth), 16.0);
@@ -71,7 +71,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 nearest = min(nearest, d);
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:157)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:141)
         var sum = 0.0;
         var tap_weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for (var tap = 0; tap < 9; tap++) {
@@ -83,7 +83,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 sum += w;
             }
         }
-        // the mean of the geometry samples (kernels/src/sraa/mod.rs:185)
+        // mean of the geometry samples (kernels/src/sraa/mod.rs:169)
         let scale = share / sum;
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
@@ -92,11 +92,11 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:238)
+    // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:222)
     var result = vec4f(0.0);
     var sum = 0.0;
     for (var tap = 0; tap < 9; tap++) {
-        // what shading gave at a tap (kernels/src/sraa/colors.rs:84)
+        // value of a shading result at a tap (kernels/src/sraa/colors.rs:88)
         let at = clamp(pixel + vec2i(tap % 3 - 1, tap / 3 - 1), vec2i(0), last);
         let shaded = textureLoad(color, at, 0);
         let kept = all((bitcast<vec4u>(shaded) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
@@ -105,12 +105,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             w = weights[tap];
         }
         if kept {
-            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:248)
+            // mean of the taps' colours that may contribute (kernels/src/sraa/mod.rs:232)
             result += w * shaded;
         }
         sum += w;
     }
-    // the mean of the geometry samples (kernels/src/sraa/mod.rs:220)
+    // mean of the geometry samples (kernels/src/sraa/mod.rs:204)
     var mean = vec4f(0.0);
     if sum > 1e-30 {
         mean = result / sum;

@@ -2188,7 +2188,7 @@ pub mod waiting {
 }
 /// Antialiasing from 1x shading and subpixel geometry (SRAA, Chajdas et al. 2011).
 ///
-/// Generated for `albedo-floor` 0.04, `demodulate` none, `depth` linear, `depth-scale` 1, `difference` absolute, `extra` false, `falloff` tent, `guards` inline, `history` 0, `latin` false, `layout` layers, `mask` none, `mask-threshold` 0.002, `metric` depth, `non-finite` skip, `normalisation` shifted, `normals` float, `offsets` , `pattern` latin4, `plane` sample, `projection` perspective, `radius` 1, `renormalise` false, `resolve` box, `resolve-radius` 1, `rest` false, `search` none, `search-threshold` 0.05, `shaded` , `shading` centre, `sharpness` 1, `sigma` 0.4, `tau` uniform, `turn` cosine, `unseen` 0.01, `unseen-floor` 0.25, `variation` around; loops unrolled: `none`.
+/// Generated for `albedo-floor` 0.04, `demodulate` none, `depth` linear, `depth-scale` 1, `difference` absolute, `estimate` given, `extra` false, `falloff` tent, `fitted` false, `guards` inline, `guide` none, `history` 0, `latin` false, `layout` layers, `mask` none, `mask-step` 1, `mask-threshold` 0.002, `metric` depth, `non-finite` skip, `normalisation` shifted, `normals` float, `offsets` , `pattern` latin4, `plane` sample, `projection` perspective, `radius` 1, `renormalise` false, `resolve` box, `resolve-radius` 1, `rest` false, `search` none, `search-threshold` 0.05, `shaded` , `shading` centre, `sharpness` 1, `sigma` 0.4, `tau` uniform, `turn` cosine, `unseen` 0.01, `unseen-floor` 0.25, `variation` around; loops unrolled: `none`.
 #[allow(
     dead_code,
     non_camel_case_types,
@@ -2400,7 +2400,7 @@ pub mod sraa {
         };
         Shader::generated(
             WGSL,
-            0x5cd8_5b7c_1c4f_f7fb,
+            0xbbf6_b355_8024_4793,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("sraa"),

@@ -36,7 +36,12 @@ fn page() -> String {
             } else {
                 format!(" {}", knob.value)
             };
-            page += &format!("\n### {}\n\n{}.\n\n", knob.name, knob.help().replace(". ", ".\n"));
+            let help = format!("{}.", knob.help());
+            let sentences: Vec<String> = help
+                .split_inclusive(". ")
+                .map(|sentence| wrapped(sentence.trim()))
+                .collect();
+            page += &format!("\n### {}\n\n{}\n\n", knob.name, sentences.join("\n"));
             page += &format!("`--{}{value}`, `{}`", knob.name, knob.call);
             let default = knob.value_texts(&ShaderSpec::new()).join(",");
             page += &match (knob.arity, default.as_str()) {
@@ -46,6 +51,22 @@ fn page() -> String {
         }
     }
     page
+}
+
+/// Breaks a sentence into lines of at most 120 columns.
+fn wrapped(sentence: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in sentence.split(' ') {
+        let line = lines.last().map_or(0, |line| line.chars().count());
+        if line > 0 && line + 1 + word.chars().count() > 120 {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            *line += if line.is_empty() { "" } else { " " };
+            *line += word;
+        }
+    }
+    lines.join("\n")
 }
 
 #[test]

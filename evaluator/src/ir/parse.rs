@@ -388,7 +388,7 @@ impl GraphParser {
             "thread" => Op::Thread,
             "grouporigin" => Op::GroupOrigin,
             "inside" => Op::Inside,
-            "message" => {
+            "quad_swap" => {
                 let found = QuadDirection::ALL
                     .into_iter()
                     .find(|d| format!("{d:?}") == words.concat());
@@ -413,7 +413,7 @@ impl GraphParser {
             ),
             "unary" => Op::Unary(parse_unary(word(0)?).ok_or_else(|| missing("operation"))?),
             "binary" => Op::Binary(parse_binary(word(0)?).ok_or_else(|| missing("operation"))?),
-            "unused" => Op::Undef,
+            "undef" => Op::Undef,
             "dot" => Op::Dot,
             "cross" => Op::Cross,
             "clamp" => Op::Clamp,

@@ -201,7 +201,7 @@ fn print_op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::GatherCompare {
             texture: t, sampler: s, ..
         } => format!("gathercompare {} {}{at}", texture(t), sampler(s)),
-        Op::QuadSwap(direction) => format!("message {direction:?}"),
+        Op::QuadSwap(direction) => format!("quad_swap {direction:?}"),
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),

@@ -114,7 +114,7 @@ impl MultisampledGeometry {
                 label: Some("straightline samples"),
                 layout: Some(&pipeline_layout(device, &[&layout])),
                 module: &module,
-                entry_point: Some("sample"),
+                entry_point: Some("read_sample"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 cache: None,
             });

@@ -20,7 +20,7 @@ impl Plugin for OrientationPlugin {
 /// Put it on a camera.
 #[derive(Component, ExtractComponent, Clone, Copy, ShaderType)]
 pub struct Orientation {
-    /// Of the pixel two rows below.
+    /// Weight of the pixel two rows below.
     pub below: f32,
 }
 

@@ -2,7 +2,7 @@
 // Written by straightline 0.1.0; do not edit. See README.md.
 
 //!PARAM below
-//!DESC Of the pixel two rows below.
+//!DESC Weight of the pixel two rows below.
 //!TYPE float
 //!MINIMUM 0.0
 //!MAXIMUM 1.0

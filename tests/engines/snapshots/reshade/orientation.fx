@@ -6,7 +6,7 @@
 uniform float below <
     ui_type = "slider";
     ui_label = "below";
-    ui_tooltip = "Of the pixel two rows below.";
+    ui_tooltip = "Weight of the pixel two rows below.";
     ui_min = 0.0;
     ui_max = 1.0;
 > = 0.5;

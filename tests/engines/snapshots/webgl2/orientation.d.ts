@@ -17,7 +17,7 @@ export interface Target {
 export interface Filter {
     /** Set them before `draw`. */
     uniforms: {
-        /** Of the pixel two rows below. */
+        /** Weight of the pixel two rows below. */
         below: number;
     };
     /** Draws one triangle over the target. Leaves blending, depth, stencil, scissor and culling off. */

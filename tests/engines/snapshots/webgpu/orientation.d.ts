@@ -10,7 +10,7 @@ export interface Inputs {
 export interface Filter {
     /** Set them before `encode`. They are written to the queue by `encode`: one set of them for each submission. */
     uniforms: {
-        /** Of the pixel two rows below. */
+        /** Weight of the pixel two rows below. */
         below: number;
     };
     /** Encodes one render pass that covers the target. */
