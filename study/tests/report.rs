@@ -38,7 +38,7 @@ fn ratio(median: f64) -> Ratio {
 }
 
 fn loops() -> LoopsRecord {
-    let form = |kind, ms, faster| Form {
+    let form = |kind, ms, faster| FormRecord {
         kind,
         loops: 2,
         statements: 120,

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_bench::execute::Inputs;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::ir::{Element, Graph, Target};
+use straightline_codegen::ir::{Element, Graph, OutputTarget};
 use straightline_codegen::{Compiled, Kernel, Settings};
 
 /// Words that some language has a use for, and names that texts, engines and hosts have; all are names in Rust, keywords by `r#`.
@@ -361,7 +361,7 @@ pub fn host_names(compiled: &Compiled, options: &[String]) -> Vec<String> {
     let given = graph
         .targets
         .iter()
-        .filter(|t| !t.name.starts_with(Target::DEFAULT_NAME));
+        .filter(|t| !t.name.starts_with(OutputTarget::DEFAULT_NAME));
     names.extend(given.map(|t| t.name.clone()));
     let whole = |u: &straightline_codegen::ir::Uniform| u.part.as_ref().map_or(&u.name, |part| &part.of).clone();
     names.extend(graph.uniforms.iter().map(whole));

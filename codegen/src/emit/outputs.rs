@@ -1,7 +1,7 @@
 //! Outputs of a shader: a value for each target of a pixel.
 
 use super::ast::{Expr, Op, Ty};
-use straightline_evaluator::ir::{Scalar, Target, Type};
+use straightline_evaluator::ir::{OutputTarget, Scalar, Type};
 use straightline_manifest::{Component, Format};
 
 /// A value that the shader outputs for each pixel.
@@ -19,7 +19,7 @@ pub struct BoundOutput {
 
 impl BoundOutput {
     /// Describes a target of a kernel; `colour` is the format of colours.
-    pub fn new(target: &Target, colour: Format) -> BoundOutput {
+    pub fn new(target: &OutputTarget, colour: Format) -> BoundOutput {
         BoundOutput {
             name: target.name.clone(),
             ty: target.ty,

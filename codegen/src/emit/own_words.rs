@@ -7,7 +7,7 @@ pub const UNIFORMS: &str = "parameters";
 /// Name of the sampler that GLSL needs to refer to a texture; never used for filtering.
 pub const SAMPLER: &str = "unfiltered";
 /// Name of the output of a kernel with a single value.
-pub const OUTPUT: &str = straightline_evaluator::ir::Target::DEFAULT_NAME;
+pub const OUTPUT: &str = straightline_evaluator::ir::OutputTarget::DEFAULT_NAME;
 /// Prefix for an output with the name of an input, in lists of both: `output.depth`.
 pub const OF_OUTPUT: &str = "output.";
 /// Name of the structure of several outputs.

@@ -13,7 +13,7 @@ use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
-    Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, SharedArray, Structure, Target as Picture,
+    Access, Buffer, Element, Invocation, Memory, NodeId, Op, OutputTarget as Picture, Sampler, SharedArray, Structure,
     Texture, Type, Uniform, Varying,
 };
 use straightline_evaluator::passes::layers_read;

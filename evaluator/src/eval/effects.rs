@@ -9,7 +9,7 @@ use super::buffers::value_named;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
-use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Target, Type};
+use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, OutputTarget, Scalar, Type};
 
 /// Methods of a buffer of atomics, with their operations.
 const ATOMICS: [(&str, AtomicOp); 8] = [
@@ -91,7 +91,7 @@ impl Evaluator<'_> {
         };
         let name = &*self.input_name(name);
         let images = &mut self.builder.graph_mut().images;
-        images.push(Target {
+        images.push(OutputTarget {
             name: name.to_owned(),
             ty,
         });

@@ -5,7 +5,7 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::Function;
 use crate::front::unraw;
-use crate::ir::{Invocation, NodeId, Scalar, Target, Type};
+use crate::ir::{Invocation, NodeId, OutputTarget, Scalar, Type};
 
 /// Minimum number of colour attachments that WebGPU guarantees.
 const MOST: usize = 8;
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
             };
             let name = self.output_name(&name, &targets);
             let ty = self.ty(id);
-            targets.push(Target { name, ty });
+            targets.push(OutputTarget { name, ty });
             results.push(id);
         }
         let written = targets.len() + self.builder.graph().images.len();
@@ -45,7 +45,7 @@ impl Evaluator<'_> {
     }
 
     /// Unique name of a result: the field's, unless an image that the kernel writes has it.
-    fn output_name(&self, name: &str, targets: &[Target]) -> String {
+    fn output_name(&self, name: &str, targets: &[OutputTarget]) -> String {
         let images = &self.builder.graph().images;
         self.free_name(unraw(name), &|name| {
             images.iter().chain(targets).any(|target| target.name == name)
@@ -69,7 +69,7 @@ impl Evaluator<'_> {
             }
             _ => value,
         };
-        let numbered = |k: usize| format!("{}_{k}", Target::DEFAULT_NAME);
+        let numbered = |k: usize| format!("{}_{k}", OutputTarget::DEFAULT_NAME);
         match value {
             Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_lasting_effects() => Ok(Vec::new()),
             Value::Tuple(parts) if !parts.is_empty() => {
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
             }
             Value::Struct { ty, fields } => {
                 let Some(structure) = self.library.structs.get(&**ty) else {
-                    return Err(self.no_target(Target::DEFAULT_NAME, value, span));
+                    return Err(self.no_target(OutputTarget::DEFAULT_NAME, value, span));
                 };
                 let mut parts = Vec::new();
                 for (k, (name, part)) in fields.iter().enumerate() {
@@ -89,11 +89,11 @@ impl Evaluator<'_> {
                     parts.push((name, part.clone(), at));
                 }
                 match parts.is_empty() {
-                    true => Err(self.no_target(Target::DEFAULT_NAME, value, span)),
+                    true => Err(self.no_target(OutputTarget::DEFAULT_NAME, value, span)),
                     false => Ok(parts),
                 }
             }
-            other => Ok(vec![(Target::DEFAULT_NAME.to_owned(), other.clone(), span)]),
+            other => Ok(vec![(OutputTarget::DEFAULT_NAME.to_owned(), other.clone(), span)]),
         }
     }
 
@@ -107,7 +107,7 @@ impl Evaluator<'_> {
             Value::Int(_) => "a `usize`".to_owned(),
             other => other.describe(),
         };
-        let (what, label) = match name == Target::DEFAULT_NAME {
+        let (what, label) = match name == OutputTarget::DEFAULT_NAME {
             true if matches!(value, Value::Tuple(parts) if parts.is_empty()) => (
                 "a kernel that gives nothing and writes nothing".to_owned(),
                 "the kernel",

@@ -2,7 +2,7 @@
 
 use super::expr::{Lower, label_name};
 use super::name::Name;
-use super::targets::Kind;
+use super::targets::BreakKind;
 use super::tree::{Arm, Block, Expr, ExprKind, Pattern, Statement, Type};
 use crate::diagnostic::Span;
 use syn::parse::{Parse, ParseStream};
@@ -83,7 +83,9 @@ impl Lower {
     pub fn while_let(&mut self, e: &syn::ExprWhile) -> ExprKind {
         let (subject, pattern, guard) = self.let_condition(&e.cond);
         let name = label_name(e.label.as_ref().map(|l| &l.name));
-        let (body, _) = self.with_target(name.clone(), Kind::Other("while"), |lower| lower.lower_block(&e.body));
+        let (body, _) = self.with_target(name.clone(), BreakKind::Other("while"), |lower| {
+            lower.lower_block(&e.body)
+        });
         let body = self.expr_at(ExprKind::Block(body), e.body.span());
         let end = self.expr_at(ExprKind::Break(None), e.while_token.span());
         let arms = vec![make_arm(pattern, guard, body), make_arm(Pattern::Wild, None, end)];

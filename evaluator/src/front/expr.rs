@@ -4,7 +4,7 @@ use super::choice::has_let;
 use super::name::Name;
 use super::names::Names;
 use super::parts::takes_apart;
-use super::targets::{Kind, Target};
+use super::targets::{BreakKind, BreakTarget};
 use super::token_span;
 use super::tree::{Block, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -39,7 +39,7 @@ pub struct Lower {
     pub in_parameters: bool,
     depth: u32,
     /// Loops and labelled blocks that a `break` may leave, outermost first.
-    pub targets: Vec<Target>,
+    pub targets: Vec<BreakTarget>,
     /// Type parameters that are called, with their types.
     pub functions: HashMap<String, Type>,
     /// Everything that was found wrong.
@@ -259,7 +259,9 @@ impl Lower {
                 let over = self.lower_expr(&e.expr);
                 let label = label_name(e.label.as_ref().map(|l| &l.name));
                 let (unroll, pattern) = (self.unroll_attribute(&e.attrs), self.lower_pattern(&e.pat));
-                let (body, _) = self.with_target(label.clone(), Kind::Other("for"), |lower| lower.lower_block(&e.body));
+                let (body, _) = self.with_target(label.clone(), BreakKind::Other("for"), |lower| {
+                    lower.lower_block(&e.body)
+                });
                 ExprKind::For(Box::new(ForLoop {
                     label,
                     unroll,
@@ -273,8 +275,9 @@ impl Lower {
             syn::Expr::While(e) => {
                 let label = label_name(e.label.as_ref().map(|l| &l.name));
                 let condition = self.lower_expr(&e.cond);
-                let (body, _) =
-                    self.with_target(label.clone(), Kind::Other("while"), |lower| lower.lower_block(&e.body));
+                let (body, _) = self.with_target(label.clone(), BreakKind::Other("while"), |lower| {
+                    lower.lower_block(&e.body)
+                });
                 self.lower_while(condition, body, label, &e.attrs)
             }
             syn::Expr::Loop(e) => self.lower_loop(e),

@@ -7,7 +7,7 @@ use super::expr::Lower;
 use super::foreign::{Import, is_prelude_type};
 use super::names::Names;
 use super::reach::Mentions;
-use super::tree::{Enum, Fields, Function, Generic, Library, Param, Struct, Type, Variant};
+use super::tree::{Enum, EnumVariant, Fields, Function, Generic, Library, Param, Struct, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
@@ -374,7 +374,7 @@ impl Items {
     fn add_enum(&mut self, file: u32, item: &syn::ItemEnum) {
         let name = item.ident.to_string();
         let mut lower = self.lower_of(file);
-        let variants = item.variants.iter().map(|variant| Variant {
+        let variants = item.variants.iter().map(|variant| EnumVariant {
             name: variant.ident.to_string(),
             docs: doc_text(&variant.attrs),
             fields: lower_fields(&mut lower, &variant.fields),

@@ -7,16 +7,16 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use syn::spanned::Spanned;
 
 /// A loop or labelled block that a `break` may leave.
-pub struct Target {
+pub struct BreakTarget {
     label: Option<String>,
-    kind: Kind,
+    kind: BreakKind,
     /// `true` if a `break` out of it has a value.
     valued: bool,
 }
 
 /// Kinds of what a `break` may lead out of.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum BreakKind {
     /// `loop`.
     Loop,
     /// `for`, `while`, which give no value.
@@ -30,10 +30,10 @@ impl Lower {
     pub fn with_target<T>(
         &mut self,
         label: Option<String>,
-        kind: Kind,
+        kind: BreakKind,
         lower: impl FnOnce(&mut Self) -> T,
     ) -> (T, bool) {
-        self.targets.push(Target {
+        self.targets.push(BreakTarget {
             label,
             kind,
             valued: false,
@@ -56,7 +56,7 @@ impl Lower {
             kind: ExprKind::Bool(true),
             span: self.token_span(e.loop_token.span()),
         };
-        let (body, valued) = self.with_target(name.clone(), Kind::Loop, |lower| lower.lower_block(&e.body));
+        let (body, valued) = self.with_target(name.clone(), BreakKind::Loop, |lower| lower.lower_block(&e.body));
         let ends = !valued && has_break(&body, name.as_deref());
         let kind = self.lower_while(always, body, name, &e.attrs);
         if matches!(kind, ExprKind::For(_)) && !ends {
@@ -79,7 +79,9 @@ impl Lower {
     pub fn lower_labelled(&mut self, e: &syn::ExprBlock) -> ExprKind {
         let name = label_name(e.label.as_ref().map(|l| &l.name)).unwrap_or_default();
         let span = self.token_span(e.span());
-        let (mut body, valued) = self.with_target(Some(name.clone()), Kind::Block, |lower| lower.lower_block(&e.block));
+        let (mut body, valued) = self.with_target(Some(name.clone()), BreakKind::Block, |lower| {
+            lower.lower_block(&e.block)
+        });
         if valued && let Some(value) = body.value.take() {
             let at = value.span;
             let assigned = self.assign_break_value(self.targets.len(), *value, at);
@@ -129,11 +131,11 @@ impl Lower {
         let span = self.token_span(e.span());
         let found = self.targets.iter().rposition(|target| match &name {
             Some(_) => target.label == name,
-            None => target.kind != Kind::Block,
+            None => target.kind != BreakKind::Block,
         });
         // That there is none is said by inference.
         let Some(depth) = found else { return leave };
-        if let Kind::Other(word) = self.targets[depth].kind {
+        if let BreakKind::Other(word) = self.targets[depth].kind {
             self.errors.push(
                 Diagnostic::error_at(
                     Code::Leaving,

@@ -396,14 +396,14 @@ pub struct Enum {
     /// Generic parameters in order.
     pub generics: Vec<Generic>,
     /// Variants in order.
-    pub variants: Vec<Variant>,
+    pub variants: Vec<EnumVariant>,
     /// The traits that it derives.
     pub derives: Vec<String>,
 }
 
 /// A variant of an enum.
 #[derive(Clone, Debug)]
-pub struct Variant {
+pub struct EnumVariant {
     /// Name of the variant.
     pub name: String,
     /// Documentation.
@@ -525,7 +525,7 @@ impl Library {
     }
 
     /// The enum and the variant that a path ends with, and the variant's position.
-    pub fn find_variant<'l>(&'l self, path: &'l [String]) -> Option<(&'l str, usize, &'l Variant)> {
+    pub fn find_variant<'l>(&'l self, path: &'l [String]) -> Option<(&'l str, usize, &'l EnumVariant)> {
         let [.., ty, name] = path else { return None };
         let definition = self.enums.get(ty)?;
         let k = definition.position(name)?;

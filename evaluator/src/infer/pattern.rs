@@ -4,7 +4,7 @@ use super::Checker;
 use super::types::Ty;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
-use crate::front::tree::{Expr, ExprKind, Pattern, Variant};
+use crate::front::tree::{EnumVariant, Expr, ExprKind, Pattern};
 use crate::ir::UnaryOp;
 
 impl<'l> Checker<'l> {
@@ -180,7 +180,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Notes an error about a pattern that leaves out what a variant holds.
-    fn holds_data(&mut self, path: &[String], variant: &Variant, span: Span) {
+    fn holds_data(&mut self, path: &[String], variant: &EnumVariant, span: Span) {
         let name = path.join("::");
         let named = variant.fields.iter().any(|(name, ..)| name.parse::<usize>().is_err());
         let rest = if named { " { .. }" } else { "(..)" };

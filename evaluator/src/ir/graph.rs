@@ -69,21 +69,21 @@ pub struct Sampler {
 
 /// A value that a kernel computes for each pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Target {
-    /// Name: [`Target::DEFAULT_NAME`], or that of a field of the kernel's structure.
+pub struct OutputTarget {
+    /// Name: [`OutputTarget::DEFAULT_NAME`], or that of a field of the kernel's structure.
     pub name: String,
     /// A float or integer, or a vector of them.
     pub ty: Type,
 }
 
-impl Target {
+impl OutputTarget {
     /// Name of the target of a kernel with a single result.
     pub const DEFAULT_NAME: &'static str = "destination";
 
     /// The default target: one `vec4f` colour.
-    pub fn default_color() -> Target {
-        Target {
-            name: Target::DEFAULT_NAME.to_owned(),
+    pub fn default_color() -> OutputTarget {
+        OutputTarget {
+            name: OutputTarget::DEFAULT_NAME.to_owned(),
             ty: Type::value(Scalar::F32, 4),
         }
     }
@@ -176,7 +176,7 @@ pub struct Graph {
     /// Buffers, by the index that `Op::BufferLoad` carries.
     pub buffers: Vec<Buffer>,
     /// Images of the frame's size that are written at any position, by the index that `Memory::Image` carries.
-    pub images: Vec<Target>,
+    pub images: Vec<OutputTarget>,
     /// Workgroup memory, by the index that `Memory::Shared` carries.
     pub shared: Vec<SharedArray>,
     /// Samplers, by the index that `Op::Sample` carries.
@@ -186,7 +186,7 @@ pub struct Graph {
     /// Interpolated values, by the index that `Op::Varying` carries.
     pub varyings: Vec<Varying>,
     /// Values that the kernel computes for each pixel.
-    pub targets: Vec<Target>,
+    pub targets: Vec<OutputTarget>,
     /// Pixels that an invocation computes.
     pub invocation: Invocation,
     /// Names of tallies, by the index that `Op::Tally` carries.
@@ -253,7 +253,7 @@ impl Graph {
     }
 
     /// All images that the kernel writes: its targets, and those written at any position.
-    pub fn written_targets(&self) -> impl Iterator<Item = &Target> + Clone {
+    pub fn written_targets(&self) -> impl Iterator<Item = &OutputTarget> + Clone {
         self.targets.iter().chain(&self.images)
     }
 
@@ -327,7 +327,7 @@ impl<'r> Builder<'r> {
         };
         let graph = Graph {
             regions: vec![body],
-            targets: vec![Target::default_color()],
+            targets: vec![OutputTarget::default_color()],
             ..Graph::default()
         };
         Builder {

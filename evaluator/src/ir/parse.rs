@@ -4,8 +4,8 @@
 
 use super::{
     Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Element, Event, Graph, Invocation, Memory, Node, NodeId, Op,
-    Origin, QuadDirection, Region, RegionId, Sampler, Scalar, SharedArray, Structure, Target, Texture, TextureKind,
-    Type, UnaryOp, Uniform, UniformPart, Varying,
+    Origin, OutputTarget, QuadDirection, Region, RegionId, Sampler, Scalar, SharedArray, Structure, Texture,
+    TextureKind, Type, UnaryOp, Uniform, UniformPart, Varying,
 };
 
 /// An error in the text of a graph.
@@ -48,7 +48,7 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
     }
     reader.event(Event::Close(Graph::BODY));
     if reader.graph.targets.is_empty() && !reader.gives_nothing {
-        reader.graph.targets.push(Target::default_color());
+        reader.graph.targets.push(OutputTarget::default_color());
     }
     Ok(reader.graph)
 }
@@ -86,7 +86,7 @@ impl GraphParser {
             "image" => {
                 let (name, kind) = split_name(rest)?;
                 let ty = parse_type(kind)?;
-                self.graph.images.push(Target { name, ty });
+                self.graph.images.push(OutputTarget { name, ty });
                 Ok(())
             }
             "shared" => self.shared(rest),
@@ -105,7 +105,7 @@ impl GraphParser {
             "target" => {
                 let (name, kind) = split_name(rest)?;
                 let ty = parse_type(kind)?;
-                self.graph.targets.push(Target { name, ty });
+                self.graph.targets.push(OutputTarget { name, ty });
                 Ok(())
             }
             "invocation" => self.invocation(rest),

@@ -14,7 +14,7 @@
 //! output %7
 //! ```
 
-use super::{Access, Element, Event, Field, Graph, Invocation, NodeId, Op, Scalar, Target, Type};
+use super::{Access, Element, Event, Field, Graph, Invocation, NodeId, Op, OutputTarget, Scalar, Type};
 use std::fmt::Write;
 
 /// Prints the whole graph.
@@ -103,7 +103,7 @@ fn print_tables(graph: &Graph) -> String {
     }
     if graph.targets.is_empty() {
         text += "target none\n";
-    } else if graph.targets != [Target::default_color()] {
+    } else if graph.targets != [OutputTarget::default_color()] {
         for t in &graph.targets {
             let _ = writeln!(text, "target {}: {}", t.name, t.ty);
         }

@@ -1,8 +1,8 @@
 //! Every rule of the verifier is broken by one change of a graph that keeps all of them.
 
 use straightline_evaluator::ir::{
-    Access, AtomicOp, BinaryOp, Buffer, Builder, Element, Graph, Invocation, Memory, Node, NodeId, Op, QuadDirection,
-    RegionId, Rules, Sampler, Scalar, SharedArray, Target, Texture, TextureKind, Type, UnaryOp, Uniform,
+    Access, AtomicOp, BinaryOp, Buffer, Builder, Element, Graph, Invocation, Memory, Node, NodeId, Op, OutputTarget,
+    QuadDirection, RegionId, Rules, Sampler, Scalar, SharedArray, Texture, TextureKind, Type, UnaryOp, Uniform,
     verify::verify_graph,
 };
 
@@ -244,19 +244,19 @@ fn every_rule_is_checked() {
         ("results for each pixel", |g| g.regions[0].results.clear()),
         ("results for each pixel", |g| g.regions[0].results[0] = NodeId(2)),
         ("results for each pixel: vec4<f32>, i32", |g| {
-            g.targets.push(Target {
+            g.targets.push(OutputTarget {
                 name: "k".to_owned(),
                 ty: Type::I32,
             })
         }),
         ("the target k is of no numbers", |g| {
-            g.targets[0] = Target {
+            g.targets[0] = OutputTarget {
                 name: "k".to_owned(),
                 ty: Type::BOOL,
             }
         }),
         ("the target destination is of no numbers, or there are two of it", |g| {
-            g.targets.push(Target::default_color())
+            g.targets.push(OutputTarget::default_color())
         }),
         // 6: lanes.
         ("no lane", |g| {

@@ -32,7 +32,7 @@ pub enum Family {
 
 /// A kernel with options.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Form {
+pub struct KernelForm {
     /// Name in records: `sraa`, `sraa paper`.
     pub name: String,
     /// The built-in kernel.
@@ -76,9 +76,9 @@ const KEPT_EVEN: &[(&str, &str)] = &[
     ("variation", "within"),
 ];
 
-impl Form {
-    fn new(name: &str, family: Family, options: &[(&str, &str)]) -> Form {
-        Form {
+impl KernelForm {
+    fn new(name: &str, family: Family, options: &[(&str, &str)]) -> KernelForm {
+        KernelForm {
             name: name.to_owned(),
             kernel: family.kernel_name().to_owned(),
             family,
@@ -89,119 +89,124 @@ impl Form {
         }
     }
 
-    fn without_promises(mut self) -> Form {
+    fn without_promises(mut self) -> KernelForm {
         self.promises = false;
         self
     }
 
-    fn with_fast_math(mut self) -> Form {
+    fn with_fast_math(mut self) -> KernelForm {
         self.math = Math::Fast;
         self
     }
 
-    fn taking_options(mut self) -> Form {
+    fn taking_options(mut self) -> KernelForm {
         self.takes_options = true;
         self
     }
 
     /// Returns every studied form.
-    pub fn all() -> Vec<Form> {
+    pub fn all() -> Vec<KernelForm> {
         use Family::*;
         vec![
-            Form::new("sraa", Sraa, &[]).taking_options(),
-            Form::new("sraa fallback", Sraa, &[("guards", "fallback")]).taking_options(),
-            Form::new("sraa fast", Sraa, &[]).with_fast_math().taking_options(),
-            Form::new("sraa 16", Sraa, &[("pattern", "latin16")]),
-            Form::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
-            Form::new("sraa normals", Sraa, &[("metric", "normals")]),
-            Form::new("sraa depth", Sraa, &[("metric", "depth")]),
-            Form::new(
+            KernelForm::new("sraa", Sraa, &[]).taking_options(),
+            KernelForm::new("sraa fallback", Sraa, &[("guards", "fallback")]).taking_options(),
+            KernelForm::new("sraa fast", Sraa, &[])
+                .with_fast_math()
+                .taking_options(),
+            KernelForm::new("sraa 16", Sraa, &[("pattern", "latin16")]),
+            KernelForm::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
+            KernelForm::new("sraa normals", Sraa, &[("metric", "normals")]),
+            KernelForm::new("sraa depth", Sraa, &[("metric", "depth")]),
+            KernelForm::new(
                 "sraa planes of taps",
                 Sraa,
                 &[("metric", "planes-normals"), ("plane", "tap")],
             ),
-            Form::new("sraa radius 2", Sraa, &[("radius", "2")]),
-            Form::new(
+            KernelForm::new("sraa radius 2", Sraa, &[("radius", "2")]),
+            KernelForm::new(
                 "sraa gaussian",
                 Sraa,
                 &[("resolve", "gaussian"), ("resolve-radius", "1.25")],
             ),
-            Form::new(
+            KernelForm::new(
                 "sraa lanczos",
                 Sraa,
                 &[("resolve", "lanczos"), ("resolve-radius", "1.5")],
             ),
-            Form::new("sraa split", Sraa, &[("layout", "split")]),
-            Form::new("sraa relative", Sraa, &[("difference", "relative")]),
-            Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
-            Form::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),
-            Form::new("sraa placed", Sraa, PLACED),
-            Form::new(
+            KernelForm::new("sraa split", Sraa, &[("layout", "split")]),
+            KernelForm::new("sraa relative", Sraa, &[("difference", "relative")]),
+            KernelForm::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
+            KernelForm::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),
+            KernelForm::new("sraa placed", Sraa, PLACED),
+            KernelForm::new(
                 "sraa kept even",
                 Sraa,
                 &[PlacedBy::Planes.options(), KEPT_EVEN].concat(),
             ),
-            Form::new("sraa mask", Sraa, &[("mask", "select")]),
-            Form::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).without_promises(),
-            Form::new("sraa paper", Sraa, PAPER).without_promises().taking_options(),
-            Form::new("stalker", Stalker, &[]),
-            Form::new("stalker linear", Stalker, &[("depth", "linear")]),
-            Form::new("stalker paper", Stalker, &[("form", "paper"), ("non-finite", "spread")]).without_promises(),
-            Form::new("tabula-rasa", TabulaRasa, &[]),
-            Form::new(
+            KernelForm::new("sraa mask", Sraa, &[("mask", "select")]),
+            KernelForm::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).without_promises(),
+            KernelForm::new("sraa paper", Sraa, PAPER)
+                .without_promises()
+                .taking_options(),
+            KernelForm::new("stalker", Stalker, &[]),
+            KernelForm::new("stalker linear", Stalker, &[("depth", "linear")]),
+            KernelForm::new("stalker paper", Stalker, &[("form", "paper"), ("non-finite", "spread")])
+                .without_promises(),
+            KernelForm::new("tabula-rasa", TabulaRasa, &[]),
+            KernelForm::new(
                 "tabula-rasa paper",
                 TabulaRasa,
                 &[("form", "paper"), ("non-finite", "spread")],
             )
             .without_promises(),
-            Form::new("upsampling", Upsampling, &[]),
-            Form::new(
+            KernelForm::new("upsampling", Upsampling, &[]),
+            KernelForm::new(
                 "upsampling normals",
                 Upsampling,
                 &[("reads", "apart"), ("normals", "true")],
             ),
-            Form::new("upsampling gaussian", Upsampling, &[("screen", "gaussian")]),
-            Form::new("bilateral", Bilateral, &[]),
-            Form::new("bilateral fast", Bilateral, &[]).with_fast_math(),
-            Form::new("convolution", Convolution, &[]),
-            Form::new(
+            KernelForm::new("upsampling gaussian", Upsampling, &[("screen", "gaussian")]),
+            KernelForm::new("bilateral", Bilateral, &[]),
+            KernelForm::new("bilateral fast", Bilateral, &[]).with_fast_math(),
+            KernelForm::new("convolution", Convolution, &[]),
+            KernelForm::new(
                 "convolution 7x7",
                 Convolution,
                 &[("radius", "3"), ("weights", "binomial")],
             ),
-            Form::new(
+            KernelForm::new(
                 "convolution bilinear",
                 Convolution,
                 &[("radius", "3"), ("taps", "bilinear")],
             ),
-            Form::new("ssao", Ssao, &[]),
-            Form::new("ssao alone", Ssao, &[("sharing", "alone")]),
-            Form::new("pcf", Pcf, &[]),
-            Form::new("pcf four", Pcf, &[("width", "four"), ("weights", "quadratic")]),
-            Form::new("pcf prewitt", Pcf, &[("gradient", "prewitt")]),
-            Form::new("pcf fitted", Pcf, &[("weights", "quadratic"), ("gradient", "fitted")]),
-            Form::new("pcf gather", Pcf, &[("method", "gather"), ("weights", "cubic")]),
-            Form::new("pcf bilinear", Pcf, &[("method", "bilinear"), ("weights", "gaussian")]),
-            Form::new(
+            KernelForm::new("ssao", Ssao, &[]),
+            KernelForm::new("ssao alone", Ssao, &[("sharing", "alone")]),
+            KernelForm::new("pcf", Pcf, &[]),
+            KernelForm::new("pcf four", Pcf, &[("width", "four"), ("weights", "quadratic")]),
+            KernelForm::new("pcf prewitt", Pcf, &[("gradient", "prewitt")]),
+            KernelForm::new("pcf fitted", Pcf, &[("weights", "quadratic"), ("gradient", "fitted")]),
+            KernelForm::new("pcf gather", Pcf, &[("method", "gather"), ("weights", "cubic")]),
+            KernelForm::new("pcf bilinear", Pcf, &[("method", "bilinear"), ("weights", "gaussian")]),
+            KernelForm::new(
                 "pcf naive",
                 Pcf,
                 &[("method", "naive"), ("width", "four"), ("weights", "linear")],
             ),
-            Form::new("pcf lookup", Pcf, &[("weights", "lookup")]),
-            Form::new("pcss", Pcss, &[]),
-            Form::new("pcss alone", Pcss, &[("sharing", "alone")]),
+            KernelForm::new("pcf lookup", Pcf, &[("weights", "lookup")]),
+            KernelForm::new("pcss", Pcss, &[]),
+            KernelForm::new("pcss alone", Pcss, &[("sharing", "alone")]),
         ]
     }
 
     /// Returns a built-in kernel with options, if its family is studied.
-    pub fn from_kernel(kernel: &str, options: &[OptionText]) -> Option<Form> {
+    pub fn from_kernel(kernel: &str, options: &[OptionText]) -> Option<KernelForm> {
         let family = Family::ALL.into_iter().find(|family| family.kernel_name() == kernel)?;
         let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
-        Some(Form {
+        Some(KernelForm {
             name: [&[kernel.to_owned()], &words[..]].concat().join(" "),
             options: options.to_vec(),
             takes_options: true,
-            ..Form::new(kernel, family, &[])
+            ..KernelForm::new(kernel, family, &[])
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
-use super::form::{self, Family, Form, choice_or};
+use super::form::{self, Family, KernelForm, choice_or};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_bench::execute::Inputs;
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -11,7 +11,7 @@ use straightline_oracle::oracle::{self, Shading, SraaParams};
 use straightline_scene::encode::{self, DepthEncoding, NormalEncoding};
 
 /// Inputs of a form in a case, and the parameters of its definition.
-pub struct Reads {
+pub struct CaseInputs {
     /// Images and uniforms.
     pub inputs: Inputs,
     /// Parameters of SRAA's definition.
@@ -19,11 +19,11 @@ pub struct Reads {
 }
 
 /// Builds the inputs of a form with `options` in a case.
-pub fn build_reads(case: &Case, form: &Form, options: &OptionValues) -> Result<Reads, HardError> {
+pub fn build_case_inputs(case: &Case, form: &KernelForm, options: &OptionValues) -> Result<CaseInputs, HardError> {
     let inputs = match form.family {
         Family::Sraa => {
             let params = sraa_params(case, options)?;
-            return Ok(Reads {
+            return Ok(CaseInputs {
                 inputs: sraa_inputs(case, &params),
                 params: Some(params),
             });
@@ -63,7 +63,7 @@ pub fn build_reads(case: &Case, form: &Form, options: &OptionValues) -> Result<R
             )
             .with_image("lookup", cubic_table(form::shadow_filter_width(options) as f32 / 2.0)),
     };
-    Ok(Reads { inputs, params: None })
+    Ok(CaseInputs { inputs, params: None })
 }
 
 /// Returns the definition's parameters, with uniforms set by the case.

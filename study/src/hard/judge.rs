@@ -3,8 +3,8 @@
 use super::HardError;
 use super::case::Case;
 use super::expected::{Expected, expected_result, half_limit};
-use super::form::Form;
-use super::inputs::{Reads, build_reads};
+use super::form::KernelForm;
+use super::inputs::{CaseInputs, build_case_inputs};
 use super::reals::{Flushed, Loose};
 use crate::builtin::load_builtin;
 use crate::record::{Executor, HardResult};
@@ -18,9 +18,9 @@ use straightline_runtime::Pass;
 /// A form on a case, with the expected result.
 pub struct Trial<'a> {
     case: &'a Case,
-    form: &'a Form,
+    form: &'a KernelForm,
     options: Vec<OptionText>,
-    reads: Reads,
+    reads: CaseInputs,
     expected: Expected,
 }
 
@@ -32,9 +32,9 @@ struct Found {
 
 impl<'a> Trial<'a> {
     /// Creates the trial of a form with `options` on a case.
-    pub fn new(case: &'a Case, form: &'a Form, options: Vec<OptionText>) -> Result<Trial<'a>, HardError> {
+    pub fn new(case: &'a Case, form: &'a KernelForm, options: Vec<OptionText>) -> Result<Trial<'a>, HardError> {
         let values = form.option_values(&options)?;
-        let reads = build_reads(case, form, &values)?;
+        let reads = build_case_inputs(case, form, &values)?;
         let expected = expected_result(form, &values, &reads)?;
         Ok(Trial {
             case,
@@ -205,7 +205,7 @@ fn ulp_at(x: f64, precision: Precision) -> f64 {
 }
 
 /// Compiles a form with its options in a case.
-pub fn compile_form(form: &Form, options: &[OptionText]) -> Result<Compiled, HardError> {
+pub fn compile_form(form: &KernelForm, options: &[OptionText]) -> Result<Compiled, HardError> {
     let settings = straightline_codegen::Settings::new()
         .set_all(options.to_vec())
         // Each invocation computes a quad: the stage is a compute shader.

@@ -1,6 +1,6 @@
 //! Numerical stability: named cases that are hard to compute, kernels in several options, precisions and executors.
 //!
-//! [`run_cases`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by
+//! [`run_cases`] computes every form of a kernel ([`KernelForm`]) in every case ([`Case`]) that it is for: by the interpreter, by
 //! the interpreter with subnormal numbers flushed, by the interpreter as inexact as WGSL allows, and by the shader that is
 //! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`straightline_oracle::oracle`])
 //! and held to a bound that follows from an error analysis of the case's inputs ([`straightline_oracle::oracle::bound`]).
@@ -19,7 +19,7 @@ mod run;
 mod verdict;
 
 pub use case::{Case, Normal, Place, Seen};
-pub use form::{Family, Form, PAPER};
+pub use form::{Family, KernelForm, PAPER};
 pub use reals::{Flushed, Loose};
 pub use run::{Selection, judged_as, run_cases};
 pub use verdict::half_precision_verdict;

@@ -1,7 +1,7 @@
 //! Runs the selected cases, forms and precisions in all executors.
 
 use super::case::Case;
-use super::form::Form;
+use super::form::KernelForm;
 use super::judge::{Trial, compile_form};
 use super::verdict::half_verdicts;
 use super::{HardError, cases};
@@ -21,7 +21,7 @@ pub struct Selection {
     /// Cases.
     pub cases: Vec<Case>,
     /// Forms of kernels.
-    pub forms: Vec<Form>,
+    pub forms: Vec<KernelForm>,
     /// Precisions.
     pub precisions: Vec<Precision>,
 }
@@ -31,7 +31,7 @@ impl Default for Selection {
     fn default() -> Self {
         Selection {
             cases: cases::all_cases(),
-            forms: Form::all(),
+            forms: KernelForm::all(),
             precisions: Precision::ALL.to_vec(),
         }
     }
@@ -113,13 +113,13 @@ pub fn run_cases(
 /// # Errors
 ///
 /// If either cannot be compiled or run.
-pub fn judged_as(case: &Case, form: &Form, promise: &Form) -> Result<Vec<HardResult>, HardError> {
+pub fn judged_as(case: &Case, form: &KernelForm, promise: &KernelForm) -> Result<Vec<HardResult>, HardError> {
     let compiled = compile_form(form, &form.options)?;
     Trial::new(case, promise, promise.options.clone())?.run_interpreters(&compiled, Precision::F32)
 }
 
 /// Returns the forms that a case applies to.
-pub fn build_trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'a>)>, HardError> {
+pub fn build_trials<'a>(case: &'a Case, forms: &'a [KernelForm]) -> Result<Vec<(Key, Trial<'a>)>, HardError> {
     let for_it = forms.iter().filter_map(|form| Some((form, form.in_case(case)?)));
     for_it
         .map(|(form, options)| {
@@ -131,7 +131,7 @@ pub fn build_trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, T
 
 /// Compiles every form with the options of every applicable case, once.
 fn compile_forms(selection: &Selection, progress: &mut dyn Progress) -> Result<BTreeMap<Key, Compiled>, HardError> {
-    let mut needed: BTreeMap<Key, &Form> = BTreeMap::new();
+    let mut needed: BTreeMap<Key, &KernelForm> = BTreeMap::new();
     for case in &selection.cases {
         for form in &selection.forms {
             if let Some(options) = form.in_case(case) {
@@ -139,7 +139,7 @@ fn compile_forms(selection: &Selection, progress: &mut dyn Progress) -> Result<B
             }
         }
     }
-    let needed: Vec<(Key, &Form)> = needed.into_iter().collect();
+    let needed: Vec<(Key, &KernelForm)> = needed.into_iter().collect();
     progress.begin("compiling kernels", needed.len());
     let mut all = BTreeMap::new();
     for some in needed.chunks(8) {

@@ -1,7 +1,7 @@
 //! Verdict on half precision: the kernels whose error stays within what can be seen in every case that scenes have.
 
 use super::case::Case;
-use super::form::Form;
+use super::form::KernelForm;
 use super::judge::compile_form;
 use super::run::build_trials;
 use super::{HardError, cases};
@@ -22,7 +22,7 @@ use straightline_kernels::{OptionText, OptionValue, OptionValues};
 /// small, and for demodulated colours, guides and earlier frames, which none has; others if it does not compile.
 pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
-    let form = Form::from_kernel(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
+    let form = KernelForm::from_kernel(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
     let values = form.option_values(&options)?;
     let is_plain = |value: &OptionValue| value.choice() == Some("none") || value.number() == Some(0.0);
     for name in ["demodulate", "guide", "history"] {
@@ -60,14 +60,14 @@ pub fn half_precision_verdict(kernel: &str, options: &[OptionText]) -> Result<Ha
 /// # Errors
 ///
 /// [`HardError::Kernel`] for a form with an option that its kernel does not take.
-pub fn half_verdicts(forms: &[Form], done: &[HardCase]) -> Result<Vec<HalfVerdict>, HardError> {
-    let ran = |form: &&Form| done.iter().any(|case| half_results(case, form).next().is_some());
+pub fn half_verdicts(forms: &[KernelForm], done: &[HardCase]) -> Result<Vec<HalfVerdict>, HardError> {
+    let ran = |form: &&KernelForm| done.iter().any(|case| half_results(case, form).next().is_some());
     let ran = forms.iter().filter(ran);
     ran.map(|form| Ok(half_verdict(form, &form.option_values(&form.options)?, done)))
         .collect()
 }
 
-fn half_results<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardResult> {
+fn half_results<'a>(case: &'a HardCase, form: &'a KernelForm) -> impl Iterator<Item = &'a HardResult> {
     let half = case
         .results
         .iter()
@@ -75,7 +75,7 @@ fn half_results<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = 
     half.filter(|r| r.kernel == form.name)
 }
 
-fn half_verdict(form: &Form, values: &OptionValues, done: &[HardCase]) -> HalfVerdict {
+fn half_verdict(form: &KernelForm, values: &OptionValues, done: &[HardCase]) -> HalfVerdict {
     let common = done.iter().filter(|case| case.common);
     let all: Vec<(&HardCase, &HardResult)> = common
         .flat_map(|c| half_results(c, form).map(move |r| (c, r)))

@@ -8,7 +8,7 @@ mod subjects;
 pub(crate) mod truth;
 
 use crate::progress::Progress;
-use crate::record::{Form, FormKind, KernelForms};
+use crate::record::{FormKind, FormRecord, KernelForms};
 use forms::{Forms, Ready, Stand};
 use glam::{UVec2, Vec4};
 use std::time::Duration;
@@ -168,7 +168,7 @@ fn measure_subject(
             continue;
         };
         let counts = &form.emitted.manifest.counts;
-        measured.push(Form {
+        measured.push(FormRecord {
             kind: form.kind,
             loops: counts.loops,
             statements: counts.statements,

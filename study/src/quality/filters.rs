@@ -1,6 +1,6 @@
 //! Methods made ready on a device, to be run and timed.
 
-use super::methods::{Kind, Method};
+use super::methods::{Method, MethodKind};
 use super::resolves;
 use super::shot::Shot;
 use super::{QualityError, check_stopped};
@@ -84,7 +84,7 @@ impl<'a> Filters<'a> {
                 let filter = filter.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
                 let filtered = filter.filter_shot(self.bench, method, shot)?;
                 Ok(match kind {
-                    Kind::Fxaa(transfer) => transfer.decode_picture(&filtered),
+                    MethodKind::Fxaa(transfer) => transfer.decode_picture(&filtered),
                     _ => filtered,
                 })
             }
@@ -114,15 +114,17 @@ impl<'a> Filters<'a> {
                 }
                 (Runner::Mlaa, _) => 2 * PICTURE * pixels,
                 (Runner::Merged(shader), _) => shader.traffic_bytes(self.bench, method, shot)? + 2 * PICTURE * pixels,
-                (Runner::Resolved(_), Kind::Plain) => PICTURE * pixels,
-                (Runner::Resolved(_), Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+                (Runner::Resolved(_), MethodKind::Plain) => PICTURE * pixels,
+                (Runner::Resolved(_), MethodKind::Supersampled(n)) => {
+                    (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels
+                }
                 // Depth and normal of every sample, which of two aggregates it is of, and what is known of those.
-                (Runner::Resolved(_), Kind::Aggregated) => {
+                (Runner::Resolved(_), MethodKind::Aggregated) => {
                     let samples = gbuffer::pattern_offsets(method.pattern()).map_or(0, |samples| samples.len() as u64);
                     (samples * GEOMETRY + 2 * (GEOMETRY + PICTURE) + PICTURE) * pixels
                 }
                 // Four bits a sample say whose colour it has.
-                (Runner::Resolved(_), Kind::Covered) => (4 * (GEOMETRY + PICTURE) + PICTURE + 8) * pixels,
+                (Runner::Resolved(_), MethodKind::Covered) => (4 * (GEOMETRY + PICTURE) + PICTURE + 8) * pixels,
                 (Runner::Resolved(_), _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
             });
         }
@@ -204,22 +206,22 @@ impl<'a> Filters<'a> {
 
 fn make_runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, QualityError> {
     let kernel = match method.kind {
-        Kind::Sraa | Kind::Merged => Kernel::builtin("sraa")?,
-        Kind::Edge(name) => Kernel::builtin(name)?,
-        Kind::Own => method
+        MethodKind::Sraa | MethodKind::Merged => Kernel::builtin("sraa")?,
+        MethodKind::Edge(name) => Kernel::builtin(name)?,
+        MethodKind::Own => method
             .kernel
             .clone()
             .ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?,
-        Kind::Fxaa(_) => fxaa_kernel(),
-        Kind::Mlaa => return Ok(Runner::Mlaa),
-        Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
-        Kind::Plain
-        | Kind::Multisampled
-        | Kind::Directional
-        | Kind::Classified
-        | Kind::Covered
-        | Kind::Aggregated
-        | Kind::Supersampled(_) => {
+        MethodKind::Fxaa(_) => fxaa_kernel(),
+        MethodKind::Mlaa => return Ok(Runner::Mlaa),
+        MethodKind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
+        MethodKind::Plain
+        | MethodKind::Multisampled
+        | MethodKind::Directional
+        | MethodKind::Classified
+        | MethodKind::Covered
+        | MethodKind::Aggregated
+        | MethodKind::Supersampled(_) => {
             let passes = resolves::resolve_kernels(method);
             let shaders = passes.iter().map(|kernel| Shader::new(bench, kernel, &[]));
             return Ok(Runner::Resolved(shaders.collect::<Result<_, _>>()?));
@@ -227,7 +229,7 @@ fn make_runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Qu
     };
     let shader = Shader::new(bench, &kernel, method.options())?;
     Ok(match method.shading_sample() {
-        _ if method.kind == Kind::Merged => Runner::Merged(Box::new(shader)),
+        _ if method.kind == MethodKind::Merged => Runner::Merged(Box::new(shader)),
         shading => {
             let mut shaders = Vec::new();
             if shading == ShadingSample::Placed {
@@ -316,9 +318,9 @@ impl Shader {
     fn upload_inputs(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
         let capture = shot.capture_for(method)?;
         let inputs = match method.kind {
-            Kind::Edge(_) => one_a_pixel(capture, &self.compiled)?,
-            Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
-            Kind::Own => gbuffer_of(capture, &self.manifest)?,
+            MethodKind::Edge(_) => one_a_pixel(capture, &self.compiled)?,
+            MethodKind::Fxaa(transfer) => of_the_picture(capture, transfer),
+            MethodKind::Own => gbuffer_of(capture, &self.manifest)?,
             _ => match shot.extra_for(method) {
                 None => gbuffer::sraa_inputs(capture, &self.compiled.options)?,
                 Some(extra) => extra.sraa_inputs(capture, &self.compiled.options)?,

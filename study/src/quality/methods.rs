@@ -12,7 +12,7 @@ use straightline_scene::render::PlacedBy;
 
 /// Kind of a method, beyond its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum MethodKind {
     /// The shaded picture as it is.
     Plain,
     /// The kernel `sraa`.
@@ -49,7 +49,7 @@ pub struct Method {
     /// For people.
     pub name: String,
     /// Kind of the method.
-    pub kind: Kind,
+    pub kind: MethodKind,
     /// The kernel, if it is the user's.
     pub kernel: Option<Kernel>,
     /// Options of its kernel that are set, for records and for compiling it.
@@ -67,7 +67,7 @@ pub struct Method {
 }
 
 impl Method {
-    pub(super) fn new(name: &str, kind: Kind, options: &[(&str, &str)]) -> Method {
+    pub(super) fn new(name: &str, kind: MethodKind, options: &[(&str, &str)]) -> Method {
         let own = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
         let method = Method {
             name: name.to_owned(),
@@ -103,7 +103,7 @@ impl Method {
     fn parse_options(&self, options: &[OptionText]) -> Result<OptionValues, Errors> {
         match (&self.kernel, self.kind) {
             (Some(kernel), _) => kernel.option_values(options),
-            (None, Kind::Edge(name)) => load_builtin(name)?.option_values(options),
+            (None, MethodKind::Edge(name)) => load_builtin(name)?.option_values(options),
             (None, _) => load_builtin("sraa")?.option_values(options),
         }
     }
@@ -136,10 +136,10 @@ impl Method {
             }
         }
         let (kind, own) = match kernel {
-            "sraa" => (Kind::Sraa, None),
-            "stalker" => (Kind::Edge("stalker"), None),
-            "tabula_rasa" => (Kind::Edge("tabula_rasa"), None),
-            file => (Kind::Own, Some(Kernel::from_argument(file)?)),
+            "sraa" => (MethodKind::Sraa, None),
+            "stalker" => (MethodKind::Edge("stalker"), None),
+            "tabula_rasa" => (MethodKind::Edge("tabula_rasa"), None),
+            file => (MethodKind::Own, Some(Kernel::from_argument(file)?)),
         };
         let method = Method {
             kernel: own,
@@ -156,7 +156,7 @@ impl Method {
     /// Restricts the method to the capture's own samples.
     pub fn for_capture(&self, capture: &Capture) -> Method {
         let given = |name: &str| self.options.iter().any(|(own, _)| own == name);
-        if self.kind != Kind::Sraa {
+        if self.kind != MethodKind::Sraa {
             return self.clone();
         }
         let sampled = gbuffer::sampled_at(capture).into_iter();
@@ -188,29 +188,29 @@ impl Method {
     /// Returns the method's kind in records.
     pub fn family(&self) -> Family {
         match self.kind {
-            Kind::Plain => Family::None,
-            Kind::Sraa | Kind::Merged => Family::Sraa,
-            Kind::Edge(_) => Family::Edge,
-            Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa => Family::Picture,
-            Kind::Multisampled
-            | Kind::Directional
-            | Kind::Classified
-            | Kind::Covered
-            | Kind::Aggregated
-            | Kind::Supersampled(_) => Family::Supersampling,
-            Kind::Own => Family::Own,
+            MethodKind::Plain => Family::None,
+            MethodKind::Sraa | MethodKind::Merged => Family::Sraa,
+            MethodKind::Edge(_) => Family::Edge,
+            MethodKind::Fxaa(_) | MethodKind::Smaa(_) | MethodKind::Mlaa => Family::Picture,
+            MethodKind::Multisampled
+            | MethodKind::Directional
+            | MethodKind::Classified
+            | MethodKind::Covered
+            | MethodKind::Aggregated
+            | MethodKind::Supersampled(_) => Family::Supersampling,
+            MethodKind::Own => Family::Own,
         }
     }
 
     /// Returns whether the method comes after bloom and tone mapping where those are: filters of the displayed picture do.
     pub fn is_last(&self) -> bool {
-        self.last || matches!(self.kind, Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa)
+        self.last || matches!(self.kind, MethodKind::Fxaa(_) | MethodKind::Smaa(_) | MethodKind::Mlaa)
     }
 
     /// The pattern of its geometry samples.
     pub fn pattern(&self) -> &str {
         match self.kind {
-            Kind::Supersampled(16) | Kind::Covered => "latin16",
+            MethodKind::Supersampled(16) | MethodKind::Covered => "latin16",
             _ => self.values.choice("pattern").unwrap_or("latin4"),
         }
     }
@@ -301,9 +301,9 @@ pub fn to_file_stem(name: &str) -> String {
 
 /// All methods; with `quick` without the variants of SRAA that differ little.
 pub fn list_methods(quick: bool) -> Vec<Method> {
-    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, MethodKind::Sraa, options);
     let mut all = vec![
-        Method::new("1x", Kind::Plain, &[]).main(),
+        Method::new("1x", MethodKind::Plain, &[]).main(),
         sraa("SRAA 4", &[]).main().with_gap_analysis(),
         sraa("SRAA 16", &[("pattern", "latin16")]).main().with_gap_analysis(),
     ];
@@ -337,20 +337,20 @@ pub fn list_methods(quick: bool) -> Vec<Method> {
         ]);
     }
     all.extend([
-        Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]),
-        Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]),
+        Method::new("S.T.A.L.K.E.R.", MethodKind::Edge("stalker"), &[]),
+        Method::new("Tabula Rasa", MethodKind::Edge("tabula_rasa"), &[]),
     ]);
     all.extend(of_the_picture());
     all.extend([
-        Method::new("SRAA 4 and MLAA", Kind::Merged, &[("mask", "select")]).with_picture(),
-        Method::new("MSAA 4", Kind::Multisampled, &[]).with_picture(),
-        Method::new("MSAA 4, directional", Kind::Directional, &[]).with_picture(),
-        Method::new("MSAA 4, deferred", Kind::Classified, &[]).with_picture(),
-        Method::new("CSAA 16", Kind::Covered, &[]).with_picture(),
-        Method::new("AGAA 4", Kind::Aggregated, &[]).with_picture(),
-        Method::new("AGAA 16", Kind::Aggregated, &[("pattern", "latin16")]).with_picture(),
-        Method::new("4x", Kind::Supersampled(4), &[]).main(),
-        Method::new("16x", Kind::Supersampled(16), &[]).main(),
+        Method::new("SRAA 4 and MLAA", MethodKind::Merged, &[("mask", "select")]).with_picture(),
+        Method::new("MSAA 4", MethodKind::Multisampled, &[]).with_picture(),
+        Method::new("MSAA 4, directional", MethodKind::Directional, &[]).with_picture(),
+        Method::new("MSAA 4, deferred", MethodKind::Classified, &[]).with_picture(),
+        Method::new("CSAA 16", MethodKind::Covered, &[]).with_picture(),
+        Method::new("AGAA 4", MethodKind::Aggregated, &[]).with_picture(),
+        Method::new("AGAA 16", MethodKind::Aggregated, &[("pattern", "latin16")]).with_picture(),
+        Method::new("4x", MethodKind::Supersampled(4), &[]).main(),
+        Method::new("16x", MethodKind::Supersampled(16), &[]).main(),
     ]);
     all
 }
@@ -369,7 +369,7 @@ fn extension_variants() -> Vec<Method> {
             let basis = [("pattern", pattern), RELATIVE[0], RELATIVE[1]];
             Method::new(
                 &format!("SRAA {samples}, {what}"),
-                Kind::Sraa,
+                MethodKind::Sraa,
                 &[&basis, options].concat(),
             )
         };
@@ -388,7 +388,7 @@ fn extension_variants() -> Vec<Method> {
         ]);
         let by_planes = |what: &str, options: &[(&str, &str)]| {
             let basis = [&[("pattern", pattern)], PlacedBy::Planes.options(), options].concat();
-            Method::new(&format!("SRAA {samples}, {what}"), Kind::Sraa, &basis)
+            Method::new(&format!("SRAA {samples}, {what}"), MethodKind::Sraa, &basis)
         };
         all.extend([
             by_planes("placed and searched by planes", &[PLACED, SEARCHED]).main(),
@@ -414,12 +414,16 @@ fn presets() -> Vec<Method> {
     for (samples, pattern) in [("4", "latin4"), ("16", "latin16")] {
         for name in ["fast", "edges", "full", "guided"] {
             let options = [("preset", name), ("pattern", pattern)];
-            all.push(Method::new(&format!("SRAA {samples}, {name}"), Kind::Sraa, &options));
+            all.push(Method::new(
+                &format!("SRAA {samples}, {name}"),
+                MethodKind::Sraa,
+                &options,
+            ));
         }
         let options = [("preset", "guided"), ("pattern", pattern), ("fitted", "true")];
         all.push(Method::new(
             &format!("SRAA {samples}, guided, scaled"),
-            Kind::Sraa,
+            MethodKind::Sraa,
             &options,
         ));
     }
@@ -434,12 +438,12 @@ pub(super) const SEARCHED: (&str, &str) = ("search", "five");
 const DEMODULATED: (&str, &str) = ("demodulate", "albedo-shadow");
 
 fn metric_variants() -> Vec<Method> {
-    let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
+    let sraa = |name, metric| Method::new(name, MethodKind::Sraa, &[("metric", metric)]);
     vec![
         sraa("SRAA 4, planes and normals", "planes-normals"),
         Method::new(
             "SRAA 4, planes of taps and normals",
-            Kind::Sraa,
+            MethodKind::Sraa,
             &[("metric", "planes-normals"), ("plane", "tap")],
         ),
         sraa("SRAA 4, normals", "normals"),
@@ -452,7 +456,7 @@ pub(super) const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("de
 
 /// Filters of the reconstructed samples.
 fn resolve_variants() -> Vec<Method> {
-    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, MethodKind::Sraa, options);
     vec![
         sraa("SRAA 4, tent 0.75", &[("resolve", "tent"), ("resolve-radius", "0.75")]),
         sraa("SRAA 4, tent", &[("resolve", "tent")]),
@@ -470,7 +474,7 @@ fn resolve_variants() -> Vec<Method> {
 }
 
 fn radius_variants() -> Vec<Method> {
-    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, MethodKind::Sraa, options);
     vec![
         sraa("SRAA 4, radius 1.5", &[("radius", "1.5")]),
         sraa("SRAA 4, radius 2", &[("radius", "2")]),
@@ -479,7 +483,7 @@ fn radius_variants() -> Vec<Method> {
 }
 
 fn falloff_variants() -> Vec<Method> {
-    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, MethodKind::Sraa, options);
     vec![
         sraa("SRAA 4, no falloff", &[("falloff", "none")]),
         sraa("SRAA 4, Gaussian falloff", &[("falloff", "gaussian")]),
@@ -494,11 +498,11 @@ fn falloff_variants() -> Vec<Method> {
 
 fn of_the_picture() -> Vec<Method> {
     vec![
-        Method::new("FXAA", Kind::Fxaa(Transfer::Srgb), &[]).main(),
-        Method::new("FXAA on light", Kind::Fxaa(Transfer::Linear), &[]),
-        Method::new("SMAA", Kind::Smaa(Transfer::Srgb), &[]).main(),
-        Method::new("SMAA on light", Kind::Smaa(Transfer::Linear), &[]),
-        Method::new("MLAA", Kind::Mlaa, &[]).main(),
+        Method::new("FXAA", MethodKind::Fxaa(Transfer::Srgb), &[]).main(),
+        Method::new("FXAA on light", MethodKind::Fxaa(Transfer::Linear), &[]),
+        Method::new("SMAA", MethodKind::Smaa(Transfer::Srgb), &[]).main(),
+        Method::new("SMAA on light", MethodKind::Smaa(Transfer::Linear), &[]),
+        Method::new("MLAA", MethodKind::Mlaa, &[]).main(),
     ]
 }
 
@@ -515,10 +519,10 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
     };
     let samples = capture.samples.len();
     let sraa = |what: &str, options: &[(&str, &str)]| {
-        Method::new(&format!("SRAA {samples}{what}"), Kind::Sraa, &[]).with_options(with(options))
+        Method::new(&format!("SRAA {samples}{what}"), MethodKind::Sraa, &[]).with_options(with(options))
     };
     let normals = capture.normal.is_some();
-    let mut all = vec![Method::new("1x", Kind::Plain, &[]).with_picture()];
+    let mut all = vec![Method::new("1x", MethodKind::Plain, &[]).with_picture()];
     let mut absent: Vec<(String, String)> = Vec::new();
     let no_normals = "the capture has no normal.exr";
     if normals {
@@ -548,8 +552,8 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
             absent.push((format!("SRAA {samples}, planes and normals"), reason));
         }
         if capture.colors.is_empty() && capture.place.is_none() {
-            all.push(Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]));
-            all.push(Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]));
+            all.push(Method::new("S.T.A.L.K.E.R.", MethodKind::Edge("stalker"), &[]));
+            all.push(Method::new("Tabula Rasa", MethodKind::Edge("tabula_rasa"), &[]));
         } else {
             let reason = "the capture is not shaded at one place in all pixels".to_owned();
             absent.push(("S.T.A.L.K.E.R., Tabula Rasa".to_owned(), reason));

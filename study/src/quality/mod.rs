@@ -42,7 +42,7 @@ pub use error::QualityError;
 pub use figures::{FIGURES, Figure, Made, Pane};
 pub use film::{Film, REFERENCE, Shooting, film_scene};
 pub use losses::list_losses;
-pub use methods::{Kind, Method, OwnError, list_methods, methods_of};
+pub use methods::{Method, MethodKind, OwnError, list_methods, methods_of};
 pub use motion::{BEFORE, Sequence, in_motion, methods_in_motion};
 pub use shot::Shot;
 pub use surfaces::{Point, Surfaces};

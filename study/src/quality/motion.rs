@@ -1,6 +1,6 @@
 //! Methods in a still, a pan, a turn and with a moving object: consecutive frames, as `history` needs them.
 
-use super::methods::{Kind, Method, PLACED, RELATIVE, SEARCHED};
+use super::methods::{Method, MethodKind, PLACED, RELATIVE, SEARCHED};
 use super::pan::{SIDE, error_frame, mean_square};
 use super::shot::render_supersampled;
 use super::{QualityError, check_stopped};
@@ -71,7 +71,11 @@ pub fn methods_in_motion() -> Vec<Method> {
     for (samples, pattern) in [(4, "latin4"), (16, "latin16")] {
         let sraa = |what: &str, own: &[(&str, &str)]| {
             let basis = [("pattern", pattern), RELATIVE[0], RELATIVE[1]];
-            Method::new(&format!("SRAA {samples}, {what}"), Kind::Sraa, &[&basis, own].concat())
+            Method::new(
+                &format!("SRAA {samples}, {what}"),
+                MethodKind::Sraa,
+                &[&basis, own].concat(),
+            )
         };
         all.extend([
             sraa("relative depth", &[]),
@@ -81,7 +85,7 @@ pub fn methods_in_motion() -> Vec<Method> {
                 "history, placed and searched",
                 &[&[PLACED, SEARCHED], &REMEMBERED[..]].concat(),
             ),
-            Method::new(&format!("{samples}x"), Kind::Supersampled(samples), &[]),
+            Method::new(&format!("{samples}x"), MethodKind::Supersampled(samples), &[]),
         ]);
     }
     all
@@ -143,14 +147,14 @@ impl Sequence {
     pub fn make_pictures(&mut self, bench: &Bench, method: &Method) -> Result<Vec<Frame<Vec4>>, QualityError> {
         let samples = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
         let made: Result<Vec<Frame<Vec4>>, QualityError> = match method.kind {
-            Kind::Supersampled(_) => {
+            MethodKind::Supersampled(_) => {
                 let supersampled = |renderer: &CpuRenderer| {
                     let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.draw_shaded(*at)).collect();
                     mean_frame(&shaded?).ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
                 };
                 self.renderers.iter().map(supersampled).collect()
             }
-            Kind::Sraa => self.filter_frames(bench, method, &samples),
+            MethodKind::Sraa => self.filter_frames(bench, method, &samples),
             _ => Err(QualityError::NotInMotion(method.name.clone())),
         };
         Ok(made?.iter().map(picture::at_eight_bits).collect())

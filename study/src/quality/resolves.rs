@@ -5,7 +5,7 @@ use super::QualityError;
 use super::bounds::{
     along_edges, by_coverage, find_stored_sample, multisampled_frames, once_a_surface, where_edges_are,
 };
-use super::methods::{Kind, Method, NEAR_LATIN4};
+use super::methods::{Method, MethodKind, NEAR_LATIN4};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use glam::{UVec2, UVec4, Vec3, Vec4};
@@ -36,15 +36,15 @@ pub fn resolve_picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, Qual
         surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     };
     Ok(match method.kind {
-        Kind::Supersampled(samples) => shot.supersampled_mean(samples)?,
-        Kind::Aggregated => shot.aggregated_for(method)?.picture(),
-        Kind::Covered => by_coverage(&surfaces()?, shot.shaded_frames(16)?, &NEAR_LATIN4),
-        Kind::Directional => {
+        MethodKind::Supersampled(samples) => shot.supersampled_mean(samples)?,
+        MethodKind::Aggregated => shot.aggregated_for(method)?.picture(),
+        MethodKind::Covered => by_coverage(&surfaces()?, shot.shaded_frames(16)?, &NEAR_LATIN4),
+        MethodKind::Directional => {
             let offsets = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
             along_edges(&surfaces()?, shot.shaded_frames(4)?, &offsets)
         }
-        Kind::Classified => where_edges_are(&surfaces()?, shot.shaded_frames(4)?),
-        Kind::Multisampled => once_a_surface(&surfaces()?, shot.shaded_frames(4)?),
+        MethodKind::Classified => where_edges_are(&surfaces()?, shot.shaded_frames(4)?),
+        MethodKind::Multisampled => once_a_surface(&surfaces()?, shot.shaded_frames(4)?),
         _ => shot.any_capture()?.color.clone(),
     })
 }
@@ -52,12 +52,12 @@ pub fn resolve_picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, Qual
 /// Returns the passes that resolve a method's samples, in order; empty for a single sample.
 pub fn resolve_kernels(method: &Method) -> Vec<Kernel> {
     match method.kind {
-        Kind::Directional => vec![kernel!("directional", "directional")],
-        Kind::Classified => vec![kernel!("classified", "classified")],
-        Kind::Covered => vec![kernel!("coverage", "coverage")],
-        Kind::Multisampled | Kind::Supersampled(4) => vec![kernel!("mean", "mean4")],
-        Kind::Supersampled(16) => vec![kernel!("mean", "mean16")],
-        Kind::Aggregated => {
+        MethodKind::Directional => vec![kernel!("directional", "directional")],
+        MethodKind::Classified => vec![kernel!("classified", "classified")],
+        MethodKind::Covered => vec![kernel!("coverage", "coverage")],
+        MethodKind::Multisampled | MethodKind::Supersampled(4) => vec![kernel!("mean", "mean4")],
+        MethodKind::Supersampled(16) => vec![kernel!("mean", "mean16")],
+        MethodKind::Aggregated => {
             let first = if method.pattern() == "latin16" {
                 "aggregate16"
             } else {
@@ -76,10 +76,10 @@ pub fn resolve_kernels(method: &Method) -> Vec<Kernel> {
 /// As [`resolve_picture`].
 pub fn resolve_inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError> {
     let missing = || QualityError::NotDrawn(method.name.clone());
-    if method.kind == Kind::Aggregated {
+    if method.kind == MethodKind::Aggregated {
         return Ok(of_aggregates(shot.aggregated_for(method)?));
     }
-    if let Kind::Supersampled(samples) = method.kind {
+    if let MethodKind::Supersampled(samples) = method.kind {
         let shaded = shot.shaded_frames(samples)?;
         let size = shaded.first().ok_or_else(missing)?.size();
         return Ok(vec![Inputs::new(size).with_layers("colors", shaded.to_vec())]);
@@ -88,10 +88,10 @@ pub fn resolve_inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, Quali
     let surfaces = Surfaces::from_captures(&[capture]).ok_or_else(missing)?;
     let inputs = Inputs::new(capture.size);
     Ok(match method.kind {
-        Kind::Multisampled | Kind::Directional => {
+        MethodKind::Multisampled | MethodKind::Directional => {
             vec![inputs.with_layers("colors", multisampled_frames(&surfaces, shot.shaded_frames(4)?))]
         }
-        Kind::Covered => {
+        MethodKind::Covered => {
             let colors = shot.shaded_frames(16)?;
             let kept = NEAR_LATIN4.iter().filter_map(|sample| colors.get(*sample).cloned());
             vec![
@@ -100,7 +100,7 @@ pub fn resolve_inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, Quali
                     .with_integers("codes", vec![sample_codes(&surfaces)]),
             ]
         }
-        Kind::Classified => {
+        MethodKind::Classified => {
             let normal = capture.normal.as_ref().ok_or_else(missing)?;
             let rays = capture.perspective_rays().ok_or_else(missing)?;
             let samples = capture.samples.len();

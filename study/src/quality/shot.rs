@@ -1,6 +1,6 @@
 //! Everything that methods read of one picture.
 
-use super::methods::{Kind, Method};
+use super::methods::{Method, MethodKind};
 use super::{QualityError, check_stopped};
 use crate::progress::Progress;
 use glam::{DVec4, UVec2, Vec2, Vec4};
@@ -71,16 +71,16 @@ impl Shot {
                 let further = render::shade_extra(renderer, capture, pixels / BUDGET)?;
                 shot.extra.insert(method.capture_name(), further);
             }
-            if method.kind == Kind::Aggregated {
+            if method.kind == MethodKind::Aggregated {
                 check_stopped(progress)?;
                 let samples = gbuffer::pattern_offsets(method.pattern()).unwrap_or_default();
                 let shaded = render::render_aggregated(renderer, &samples)?;
                 shot.aggregated.insert(method.pattern().to_owned(), shaded);
             }
             let several = match method.kind {
-                Kind::Multisampled | Kind::Directional | Kind::Classified => 4,
-                Kind::Covered => 16,
-                Kind::Supersampled(several) => several,
+                MethodKind::Multisampled | MethodKind::Directional | MethodKind::Classified => 4,
+                MethodKind::Covered => 16,
+                MethodKind::Supersampled(several) => several,
                 _ => continue,
             };
             if let Entry::Vacant(vacant) = shot.shaded.entry(several) {

@@ -82,7 +82,7 @@ impl FormKind {
 
 /// A kernel in one form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Form {
+pub struct FormRecord {
     /// Kind of the form.
     pub kind: FormKind,
     /// Number of loops left.
@@ -118,14 +118,14 @@ pub struct KernelForms {
     /// Input of the runs.
     pub input: String,
     /// Forms of the kernel, `Looped` first. Missing forms are omitted.
-    pub forms: Vec<Form>,
+    pub forms: Vec<FormRecord>,
     /// Missing forms, with the reasons.
     pub absent: Vec<(FormKind, String)>,
 }
 
 impl KernelForms {
     /// Returns the form of that kind, if the kernel has it.
-    pub fn form(&self, kind: FormKind) -> Option<&Form> {
+    pub fn form(&self, kind: FormKind) -> Option<&FormRecord> {
         self.forms.iter().find(|form| form.kind == kind)
     }
 }

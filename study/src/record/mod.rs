@@ -24,7 +24,7 @@ pub use film::{FilmRecord, FilmedMethod};
 pub use frame::{Frame, FrameMethod, FrameRecord, PassTimes, TimedPass};
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
-pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
+pub use loops::{FormKind, FormRecord, KernelForms, LoopsRecord};
 pub use motion::{Motion, MotionRecord, MovedMethod, MovedScene};
 pub use quads::{QuadWay, QuadsRecord};
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};

@@ -2,7 +2,7 @@
 
 use super::plot::{Dot, Line, Plot, Scale, format_number};
 use super::{ReportError, format_caption, format_options};
-use crate::record::{Form, FormKind, KernelForms, LoopsRecord};
+use crate::record::{FormKind, FormRecord, KernelForms, LoopsRecord};
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
@@ -183,7 +183,7 @@ fn build_kernel(kernel: &KernelForms) -> Kernel {
     }
 }
 
-fn build_row(form: &Form) -> Row {
+fn build_row(form: &FormRecord) -> Row {
     let error = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.0e}"));
     Row {
         form: form.kind.display_name(),

@@ -5,19 +5,19 @@ use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::{Branches, ReadOrder, Settings, Unroll};
 
 /// Policies for loops and branches; kernels are made for the first, which must accept all of them.
-pub const FORMS: &[Form] = &[
-    Form(Unroll::Full, Branches::AsLoops),
-    Form(Unroll::None, Branches::AsLoops),
-    Form(Unroll::Partial(2), Branches::AsLoops),
-    Form(Unroll::Partial(3), Branches::Select),
-    Form(Unroll::Full, Branches::Keep),
+pub const FORMS: &[PolicyForm] = &[
+    PolicyForm(Unroll::Full, Branches::AsLoops),
+    PolicyForm(Unroll::None, Branches::AsLoops),
+    PolicyForm(Unroll::Partial(2), Branches::AsLoops),
+    PolicyForm(Unroll::Partial(3), Branches::Select),
+    PolicyForm(Unroll::Full, Branches::Keep),
 ];
 
 /// Policies for loops, and for branches on runtime values. If branches do not follow loops, reads come row by row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Form(pub Unroll, pub Branches);
+pub struct PolicyForm(pub Unroll, pub Branches);
 
-impl Form {
+impl PolicyForm {
     /// The settings that compile a kernel to this form.
     pub fn settings(self) -> Settings {
         Settings::new().unroll(self.0).branches(self.1).reads(match self.1 {
@@ -27,7 +27,7 @@ impl Form {
     }
 }
 
-impl fmt::Display for Form {
+impl fmt::Display for PolicyForm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "loops {}, branches {}", self.0, self.1)
     }

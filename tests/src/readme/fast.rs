@@ -1,7 +1,7 @@
 //! Gain from mathematics that may change roundings.
 
 use super::markdown;
-use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
+use straightline_study::record::{Asked, FormKind, FormRecord, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
 /// Cycles by a compiler, and errors on a driver, of exact and of fast mathematics.
 pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, String> {
@@ -36,7 +36,7 @@ pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, St
             .kernels
             .iter()
             .find(|kernel| kernel.kernel == asked.kernel && kernel.options == asked.options)?;
-        let form = |kind| -> Option<&Form> { timed.form(kind) };
+        let form = |kind| -> Option<&FormRecord> { timed.form(kind) };
         let (exact, fast) = (form(FormKind::Full), form(FormKind::FullFast));
         Some(vec![
             asked.kernel.clone(),

@@ -2,7 +2,7 @@
 
 use super::markdown;
 use straightline_isa::Figures;
-use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
+use straightline_study::record::{Asked, FormKind, FormRecord, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
 /// Instructions that read or write images, registers, cycles and latency of kernels without gathers and with them; of those
 /// of which no branch is left but the border's, whose cycles are no guesses.
@@ -64,7 +64,7 @@ pub fn times(records: &[LoopsRecord]) -> Result<String, String> {
     }
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
     let rows = first.kernels.iter().filter_map(|kernel| {
-        let reads = |kind| kernel.form(kind).map(|form: &Form| form.reads.to_string());
+        let reads = |kind| kernel.form(kind).map(|form: &FormRecord| form.reads.to_string());
         let mut cells = vec![
             kernel.kernel.clone(),
             reads(FormKind::Full)?,

@@ -2,7 +2,7 @@
 
 use super::markdown;
 use straightline_bench::execute::Ratio;
-use straightline_study::record::{Form, FormKind, KernelForms, LoopsRecord};
+use straightline_study::record::{FormKind, FormRecord, KernelForms, LoopsRecord};
 
 /// Gain from unrolling every kernel, in the fewest columns.
 pub fn in_short(record: &LoopsRecord) -> String {
@@ -142,7 +142,7 @@ fn ratio(kernel: &KernelForms, kind: FormKind) -> String {
 }
 
 /// Change of a count by unrolling.
-fn change(kernel: &KernelForms, count: fn(&Form) -> u32) -> String {
+fn change(kernel: &KernelForms, count: fn(&FormRecord) -> u32) -> String {
     match (kernel.form(FormKind::Looped), kernel.form(FormKind::Full)) {
         (Some(looped), Some(full)) if count(looped) == count(full) => count(full).to_string(),
         (Some(looped), Some(full)) => format!("{} → {}", count(looped), count(full)),
@@ -150,7 +150,7 @@ fn change(kernel: &KernelForms, count: fn(&Form) -> u32) -> String {
     }
 }
 
-fn off(form: Option<&Form>) -> String {
+fn off(form: Option<&FormRecord>) -> String {
     match form.and_then(|form| form.difference_999) {
         None => "–".to_owned(),
         Some(0.0) => "0".to_owned(),

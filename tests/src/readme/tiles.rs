@@ -2,7 +2,7 @@
 
 use super::markdown;
 use straightline_isa::Figures;
-use straightline_study::record::{Asked, Form, FormKind, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
+use straightline_study::record::{Asked, FormKind, FormRecord, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
 
 /// Cycles by a compiler: each pixel reading for itself, and by workgroups.
 pub fn cycles(record: &IsaRecord) -> Result<String, String> {
@@ -59,7 +59,9 @@ pub fn times(record: &LoopsRecord) -> String {
         "2×2 pixels",
         "**shared by workgroups**",
     ];
-    let ms = |form: Option<&Form>| form.map_or_else(|| "–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms));
+    let ms = |form: Option<&FormRecord>| {
+        form.map_or_else(|| "–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms))
+    };
     let rows = record.kernels.iter().filter_map(|kernel| {
         let (full, tile) = (kernel.form(FormKind::Full)?, kernel.form(FormKind::FullTile)?);
         Some(vec![

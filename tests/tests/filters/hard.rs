@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use straightline_bench::execute::Clock;
 use straightline_codegen::{Kernel, OptionKind, Precision, Settings};
 use straightline_kernels::{CATALOGUE, HalfPrecision};
-use straightline_study::hard::{self, Form, HardError, Selection};
+use straightline_study::hard::{self, HardError, KernelForm, Selection};
 use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, Executor, HardRecord, Record};
 use straightline_tests::impatient::StopsAfter;
@@ -93,7 +93,7 @@ fn bounds_are_as_tight_as_rounding() {
     ];
     let selection = Selection {
         cases: names.map(|name| hard::find_case(name).expect("a case")).into(),
-        forms: Form::all()
+        forms: KernelForm::all()
             .into_iter()
             .filter(|form| form.name.starts_with("sraa") && form.promises)
             .collect(),
@@ -125,7 +125,7 @@ fn bounds_are_as_tight_as_rounding() {
 fn half_precision_keeps_to_its_analysis() {
     let selection = Selection {
         cases: hard::all_cases().into_iter().filter(|case| case.common).collect(),
-        forms: Form::all()
+        forms: KernelForm::all()
             .into_iter()
             .filter(|form| form.kernel == "sraa" && form.promises)
             .collect(),
@@ -155,9 +155,9 @@ fn half_precision_keeps_to_its_analysis() {
 #[test]
 fn the_net_catches() {
     let case = hard::find_case("round-edge").expect("a case");
-    let form = |tau: &str| Form {
+    let form = |tau: &str| KernelForm {
         options: vec![("tau".to_owned(), tau.to_owned())],
-        ..Form::all().remove(0)
+        ..KernelForm::all().remove(0)
     };
     for (tau, kept) in [("500", true), ("501", false)] {
         let found = hard::judged_as(&case, &form(tau), &form("500")).expect("it runs");
@@ -263,7 +263,7 @@ fn what_was_done_is_kept_and_a_record_is_read_as_it_was_written() {
             .filter(|case| case.options.is_empty())
             .take(6)
             .collect(),
-        forms: Form::all().into_iter().take(1).collect(),
+        forms: KernelForm::all().into_iter().take(1).collect(),
         precisions: vec![Precision::F32],
     };
     // Compiles one form, and runs two cases.

@@ -10,7 +10,7 @@ use straightline_scene::render::{Aggregate, CpuRenderer, Surface};
 use straightline_scene::scene::{SKY_DEPTH, Scene};
 use straightline_study::progress::Silent;
 use straightline_study::quality::resolves;
-use straightline_study::quality::{Kind, Method, Shot, list_methods};
+use straightline_study::quality::{Method, MethodKind, Shot, list_methods};
 
 const SIZE: UVec2 = UVec2::new(96, 54);
 
@@ -79,7 +79,7 @@ fn aggregates_are_those_of_the_definition() {
     let bench = common::bench();
     for scene in ["creases", "railings", "emissive"] {
         let (methods, shot) = shots(scene);
-        for method in methods.iter().filter(|method| method.kind == Kind::Aggregated) {
+        for method in methods.iter().filter(|method| method.kind == MethodKind::Aggregated) {
             let aggregated = shot.aggregated_for(method).expect("drawn");
             let compiled = resolves::resolve_kernels(method)[0]
                 .compile(&Settings::default())

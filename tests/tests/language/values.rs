@@ -6,7 +6,7 @@ use straightline_codegen::{EmitOptions, Format, Kernel, Stage};
 use straightline_foreign::vulkan::{Device, Driver};
 use straightline_kernels::prelude::*;
 use straightline_tests::bare::{LANGUAGES, Shader};
-use straightline_tests::random::forms::{FORMS, Form};
+use straightline_tests::random::forms::{FORMS, PolicyForm};
 
 /// Most that a driver may be off, of the larger of 1 and the value's size. `exp` and `pow` of large arguments are the least
 /// accurate.
@@ -240,7 +240,7 @@ fn ones(pixels: usize) -> Inputs {
 }
 
 /// Runs a kernel on drivers in each language, and names all pixels that differ from the expected ones.
-fn on_drivers(kernel: &Kernel, forms: &[Form], expected: &[(&str, Vec4)]) {
+fn on_drivers(kernel: &Kernel, forms: &[PolicyForm], expected: &[(&str, Vec4)]) {
     let inputs = ones(expected.len());
     let mut wrong = Vec::new();
     for form in forms {

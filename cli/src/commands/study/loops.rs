@@ -157,7 +157,7 @@ fn print(record: &LoopsRecord) {
 
 fn table_rows(kernel: &KernelForms) -> Vec<Vec<String>> {
     let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.1e}"));
-    let row = |(k, form): (usize, &straightline_study::record::Form)| {
+    let row = |(k, form): (usize, &straightline_study::record::FormRecord)| {
         vec![
             if k == 0 { kernel.kernel.clone() } else { String::new() },
             form.kind.display_name().to_owned(),

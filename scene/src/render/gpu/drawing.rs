@@ -71,17 +71,17 @@ impl Drawn<'_> {
 }
 
 /// Target that a pass draws into.
-pub(super) struct Target<'a> {
+pub(super) struct ColorTarget<'a> {
     view: &'a TextureView,
     clear: wgpu::Color,
     /// Texture for the mean of each pixel's samples, which then are not kept.
     resolved: Option<&'a TextureView>,
 }
 
-impl<'a> Target<'a> {
+impl<'a> ColorTarget<'a> {
     /// Cleared to `clear`, and kept.
     pub fn cleared(view: &'a TextureView, clear: wgpu::Color) -> Self {
-        Target {
+        ColorTarget {
             view,
             clear,
             resolved: None,
@@ -90,7 +90,7 @@ impl<'a> Target<'a> {
 
     /// Writes the mean of the target's samples to `mean`.
     pub fn resolved(self, mean: &'a TextureView) -> Self {
-        Target {
+        ColorTarget {
             resolved: Some(mean),
             ..self
         }
@@ -117,7 +117,7 @@ pub(super) struct Drawing<'a> {
     pub label: &'static str,
     pub pipeline: &'a wgpu::RenderPipeline,
     pub group: &'a wgpu::BindGroup,
-    pub targets: &'a [Target<'a>],
+    pub targets: &'a [ColorTarget<'a>],
     /// For the depth test.
     pub tested: &'a TextureView,
     /// Pipeline of the background, with the same group.

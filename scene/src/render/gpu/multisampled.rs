@@ -1,6 +1,6 @@
 //! A 4× multisampled pass instead of four shifted ones (paper §3.4).
 
-use super::drawing::{Drawing, Drawn, Target, full_view};
+use super::drawing::{ColorTarget, Drawing, Drawn, full_view};
 use super::guard::with_error_scope;
 use super::pipelines::{Pipelines, group_layout, pipeline_layout, storage_binding, uniform_binding};
 use super::resources::{DEPTH_FORMAT, Resources, create_bind_group};
@@ -200,7 +200,10 @@ impl Multisampled {
             label: "straightline multisampled geometry",
             pipeline: &self.pipeline,
             group,
-            targets: &[Target::cleared(&depth, SKY_AT), Target::cleared(&normal, SKY_FACING)],
+            targets: &[
+                ColorTarget::cleared(&depth, SKY_AT),
+                ColorTarget::cleared(&normal, SKY_FACING),
+            ],
             tested: &tested,
             behind: None,
             timestamps,

@@ -1,6 +1,6 @@
 //! The two pipelines: triangles to G-buffer, G-buffer to colours.
 
-use super::drawing::{Drawing, Drawn, Target, full_view};
+use super::drawing::{ColorTarget, Drawing, Drawn, full_view};
 use super::resources::{Resources, TEXEL_FORMAT};
 use crate::scene::Scene;
 use glam::UVec2;
@@ -77,8 +77,8 @@ impl Pipelines {
             pipeline: &self.geometry,
             group,
             targets: &[
-                Target::cleared(&normal_depth, sky),
-                Target::cleared(&color_material, wgpu::Color::TRANSPARENT),
+                ColorTarget::cleared(&normal_depth, sky),
+                ColorTarget::cleared(&color_material, wgpu::Color::TRANSPARENT),
             ],
             tested: &tested,
             behind: None,

@@ -6,7 +6,7 @@ use crate::scene::{Material, Vertex};
 use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
 
 /// A stretch of triangles as a file gives them, in the file's world space. Nothing of it is trusted.
-pub(super) struct Part {
+pub(super) struct MeshPart {
     /// Name in the file, for messages.
     pub name: String,
     pub positions: Vec<Vec3>,
@@ -62,7 +62,7 @@ impl Place {
 const DIAGONAL: f32 = 10.0;
 
 /// Joins `parts`, or says what is wrong with one of them.
-pub(super) fn assemble_parts(parts: Vec<Part>) -> Result<Assembled, String> {
+pub(super) fn assemble_parts(parts: Vec<MeshPart>) -> Result<Assembled, String> {
     let mut mesh = Assembled {
         vertices: Vec::new(),
         triangles: Vec::new(),
@@ -82,7 +82,7 @@ pub(super) fn assemble_parts(parts: Vec<Part>) -> Result<Assembled, String> {
     Ok(mesh)
 }
 
-fn check_part(part: &Part) -> Result<(), String> {
+fn check_part(part: &MeshPart) -> Result<(), String> {
     let name = &part.name;
     let count = part.positions.len();
     if let Some(at) = part.positions.iter().position(|position| !position.is_finite()) {
@@ -126,7 +126,7 @@ fn check_part(part: &Part) -> Result<(), String> {
 
 /// Texels to a unit of length around each position: by the areas in the image and in space of the triangles that it is a
 /// corner of.
-fn texel_densities(part: &Part, paint: &Paint) -> Vec<f32> {
+fn texel_densities(part: &MeshPart, paint: &Paint) -> Vec<f32> {
     let mut areas = vec![DVec2::ZERO; part.positions.len()];
     let texels = paint.size.as_dvec2();
     for triangle in &part.triangles {
@@ -144,7 +144,7 @@ fn texel_densities(part: &Part, paint: &Paint) -> Vec<f32> {
 
 impl Assembled {
     /// Adds a checked part: corners with a normal each, wound to agree with them.
-    fn add(&mut self, part: Part) {
+    fn add(&mut self, part: MeshPart) {
         let corner = |triangle: [u32; 3]| triangle.map(|index| part.positions[index as usize]);
         let visible = part
             .triangles

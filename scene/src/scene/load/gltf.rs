@@ -1,7 +1,7 @@
 //! glTF 2.0, as text or binary.
 
 use super::accessor::{read_floats, read_indices};
-use super::assemble::{Normals, Paint, Part};
+use super::assemble::{MeshPart, Normals, Paint};
 use super::parse::{parse, unescape_uri};
 use super::texture::{HALF, Library, decode_image};
 use super::{MAX_BYTES, MAX_TRIANGLES, read_file};
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use straightline_files::{self as files, shorten};
 
 /// Every mesh of the default scene, in world space, and its textures.
-pub(super) fn read_gltf(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
+pub(super) fn read_gltf(path: &Path) -> Result<(Vec<MeshPart>, Textures), SceneError> {
     let bytes = read_file(path)?;
     let parts = || {
         let (document, blob) = parse(&bytes)?;
@@ -87,7 +87,7 @@ struct Model<'a> {
 }
 
 impl Model<'_> {
-    fn read_parts(&self) -> Result<(Vec<Part>, Textures), String> {
+    fn read_parts(&self) -> Result<(Vec<MeshPart>, Textures), String> {
         let scene = self.document.default_scene().or_else(|| self.document.scenes().next());
         let scene = scene.ok_or("it has no scene")?;
         let mut parts = Vec::new();
@@ -123,7 +123,7 @@ impl Model<'_> {
         primitive: &Primitive,
         place: Mat4,
         library: &mut Library<usize>,
-    ) -> Result<Part, String> {
+    ) -> Result<MeshPart, String> {
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
         let positions = vectors(&read_floats::<3>(&positions, self.buffers)?);
         let normals = match primitive.get(&Semantic::Normals) {
@@ -139,7 +139,7 @@ impl Model<'_> {
             Some(accessor) => read_indices(&accessor, self.buffers)?,
             None => (0..positions.len() as u32).collect(),
         };
-        Ok(Part {
+        Ok(MeshPart {
             name: name.to_owned(),
             colors: self.vertex_colors(primitive, positions.len())?,
             paint: self.read_paint(primitive, library)?,

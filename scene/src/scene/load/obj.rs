@@ -1,6 +1,6 @@
 //! Wavefront OBJ with its material libraries.
 
-use super::assemble::{Normals, Paint, Part};
+use super::assemble::{MeshPart, Normals, Paint};
 use super::read_file;
 use super::texture::{Library, alpha_cutoff, decode_image};
 use crate::scene::{Image, SceneError, Textures};
@@ -20,7 +20,7 @@ const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
 };
 
 /// Every object of the file, and its textures.
-pub(super) fn read_obj(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
+pub(super) fn read_obj(path: &Path) -> Result<(Vec<MeshPart>, Textures), SceneError> {
     let bytes = read_file(path)?;
     check_faces(path, &bytes)?;
     let base = path.parent().unwrap_or(Path::new(""));
@@ -53,7 +53,7 @@ pub(super) fn read_obj(path: &Path) -> Result<(Vec<Part>, Textures), SceneError>
         let paint = read_paint(&model.mesh, material, base, &mut library)?;
         Ok(to_part(model, material, paint))
     };
-    let parts: Result<Vec<Part>, SceneError> = models.into_iter().map(part).collect();
+    let parts: Result<Vec<MeshPart>, SceneError> = models.into_iter().map(part).collect();
     Ok((parts?, library.finish()))
 }
 
@@ -131,10 +131,10 @@ fn in_line(path: &Path, at: usize, problem: &str) -> SceneError {
     }
 }
 
-fn to_part(model: tobj::Model, material: Option<&Material>, paint: Option<Paint>) -> Part {
+fn to_part(model: tobj::Model, material: Option<&Material>, paint: Option<Paint>) -> MeshPart {
     let vectors = |numbers: &[f32]| -> Vec<Vec3> { numbers.chunks_exact(3).map(Vec3::from_slice).collect() };
     let mesh = &model.mesh;
-    Part {
+    MeshPart {
         name: format!("object `{}`", model.name),
         positions: vectors(&mesh.positions),
         normals: match mesh.normals.as_slice() {

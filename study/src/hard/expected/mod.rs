@@ -20,8 +20,8 @@ mod sums;
 
 use super::HardError;
 use super::case::Case;
-use super::form::{Family, Form, choice_or};
-use super::inputs::Reads;
+use super::form::{Family, KernelForm, choice_or};
+use super::inputs::CaseInputs;
 use glam::{IVec2, Vec4};
 use straightline_bench::execute::Inputs;
 use straightline_kernels::OptionValues;
@@ -46,7 +46,7 @@ pub struct Expected {
 }
 
 /// Returns the expected result of a form with `options`.
-pub fn expected_result(form: &Form, options: &OptionValues, reads: &Reads) -> Result<Expected, HardError> {
+pub fn expected_result(form: &KernelForm, options: &OptionValues, reads: &CaseInputs) -> Result<Expected, HardError> {
     let inputs = &reads.inputs;
     match form.family {
         Family::Sraa => {

@@ -2,7 +2,7 @@
 
 use super::works::Works;
 use super::{Given, Place, Texel, Text, World, computed};
-use crate::random::forms::{FORMS, Form, is_internal, same};
+use crate::random::forms::{FORMS, PolicyForm, is_internal, same};
 use std::collections::BTreeMap;
 use std::fmt;
 use straightline_codegen::Kernel;
@@ -14,7 +14,7 @@ pub enum Difference {
     /// A value of a form is not the native one.
     Value {
         /// The form.
-        form: Form,
+        form: PolicyForm,
         /// Position of the value.
         place: Place,
         /// The native value.
@@ -23,9 +23,9 @@ pub enum Difference {
         found: Texel,
     },
     /// A form cannot be run, or gives another number of values.
-    Broken(Form, String),
+    Broken(PolicyForm, String),
     /// The generator made a mistake and says so.
-    Internal(Form, String),
+    Internal(PolicyForm, String),
     /// The generator or the interpreter panicked.
     Panicked(String),
 }
@@ -138,12 +138,12 @@ pub enum NotRun {
 /// # Errors
 ///
 /// The generator refuses it, or the interpreter cannot run it.
-pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Given, NotRun> {
+pub fn interpret(kernel: &Kernel, form: PolicyForm, world: &World) -> Result<Given, NotRun> {
     worked(kernel, form, world).map(|(given, _)| given)
 }
 
 /// As [`interpret`], with the work of compiling the kernel.
-fn worked(kernel: &Kernel, form: Form, world: &World) -> Result<(Given, u64), NotRun> {
+fn worked(kernel: &Kernel, form: PolicyForm, world: &World) -> Result<(Given, u64), NotRun> {
     let compiled = kernel.compile(&form.settings()).map_err(NotRun::Refused)?;
     let given = computed::<f32>(&compiled, world).map_err(NotRun::Failed)?;
     Ok((given, compiled.work))

@@ -1,7 +1,7 @@
 //! Kernels on a real driver, against what rustc makes of them.
 
 use super::{Given, Place, Texel, Text, World, computed};
-use crate::random::forms::{FORMS, Form};
+use crate::random::forms::{FORMS, PolicyForm};
 use crate::{compilers, passthrough};
 use std::fmt;
 use straightline_bench::execute::{AllWritten, Bench, Inputs};
@@ -22,7 +22,7 @@ const LAST_PLACES: f64 = 4.0;
 
 impl Ways {
     /// The forms of the kernel of a seed.
-    fn forms(self, seed: u64) -> &'static [Form] {
+    fn forms(self, seed: u64) -> &'static [PolicyForm] {
         let one = (seed % FORMS.len() as u64) as usize;
         match self {
             Ways::Forms => FORMS,
@@ -41,7 +41,7 @@ pub struct Shaders {
 
 #[derive(Debug)]
 struct Shader {
-    form: Form,
+    form: PolicyForm,
     compiled: Compiled,
     /// As GLSL, if that is asked for and can be written.
     glsl: Option<Result<Glsl, String>>,
@@ -65,7 +65,7 @@ pub struct Driver {
 
 /// A form, and the language that the driver is given it in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way(Form, Target);
+pub struct Way(PolicyForm, Target);
 
 /// Forms and languages that each kernel is emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ mod pictures;
 mod resources;
 
 use super::GpuRenderer;
-use super::drawing::{Drawing, Target, full_view};
+use super::drawing::{ColorTarget, Drawing, full_view};
 use super::pipelines::WORKGROUP;
 use crate::render::RenderError;
 use crate::scene::Scene;
@@ -203,8 +203,8 @@ impl FramePasses {
             pipeline: &self.targets.auxiliary,
             group: &place.geometry,
             targets: &[
-                Target::cleared(depth, super::multisampled::SKY_AT),
-                Target::cleared(normal, super::multisampled::SKY_FACING),
+                ColorTarget::cleared(depth, super::multisampled::SKY_AT),
+                ColorTarget::cleared(normal, super::multisampled::SKY_FACING),
             ],
             tested: &tested,
             behind: None,
@@ -220,7 +220,7 @@ impl FramePasses {
             label: "straightline forward",
             pipeline: &forward.surfaces,
             group: &forward.group,
-            targets: &[Target::cleared(&color, wgpu::Color::TRANSPARENT).resolved(&picture)],
+            targets: &[ColorTarget::cleared(&color, wgpu::Color::TRANSPARENT).resolved(&picture)],
             tested: &tested,
             behind: Some(&forward.sky),
             timestamps: timestamps.map(Timestamps::render_writes),
