@@ -194,8 +194,8 @@ impl Kernel {
         };
         let beside: Vec<&OptionText> = settings.iter().filter(|(name, _)| name != PRESET).collect();
         let is_set = |name: &str| beside.iter().any(|(known, _)| known == name);
-        let own = preset.options.iter().filter(|(name, _)| !is_set(name));
-        let own = own.map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        let own = preset.options().filter(|(name, _)| !is_set(name));
+        let own = own.map(|(name, value)| (name.to_owned(), value.to_owned()));
         Ok(own.chain(beside.iter().map(|option| (*option).clone())).collect())
     }
 

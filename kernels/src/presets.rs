@@ -7,71 +7,69 @@ pub struct Preset {
     pub name: &'static str,
     /// Description in one line: effect and requirements.
     pub summary: &'static str,
+    /// Groups of options and their values, some of which presets share.
+    groups: &'static [Options],
+}
+
+type Options = &'static [(&'static str, &'static str)];
+
+impl Preset {
     /// Options and their values. All others have their defaults.
-    pub options: &'static [(&'static str, &'static str)],
+    pub fn options(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.groups.iter().copied().flatten().copied()
+    }
 }
 
 /// Presets of a kernel without any.
 pub(crate) const NO_PRESETS: &[Preset] = &[];
+
+/// Comparison by planes, and a search for surfaces that no tap shows.
+const EDGES: Options = &[
+    ("metric", "planes-normals"),
+    ("difference", "relative"),
+    ("depth-scale", "10"),
+    ("search", "five"),
+    ("search-threshold", "0.004"),
+];
+
+/// Shading where `sraa_place` says; a pixel of one plane keeps its colour.
+const PLACED: Options = &[
+    ("unseen", "0.003"),
+    ("shading", "placed"),
+    ("mask", "branch"),
+    ("variation", "within"),
+];
 
 /// Presets of the SRAA kernels.
 pub(crate) const SRAA_PRESETS: &[Preset] = &[
     Preset {
         name: "paper",
         summary: "the paper's filter: all defaults",
-        options: &[],
+        groups: &[],
     },
     Preset {
         name: "fast",
         summary: "depth alone, no normals; tests of colours and depths only where a pixel is not finite",
-        options: &[
+        groups: &[&[
             ("metric", "depth"),
             ("difference", "relative"),
             ("depth-scale", "3"),
             ("guards", "fallback"),
-        ],
+        ]],
     },
     Preset {
         name: "edges",
         summary: "planes, and a search for surfaces that no tap shows: depth and normals are all it needs",
-        options: &[
-            ("metric", "planes-normals"),
-            ("difference", "relative"),
-            ("depth-scale", "10"),
-            ("search", "five"),
-            ("search-threshold", "0.004"),
-        ],
+        groups: &[EDGES],
     },
     Preset {
         name: "full",
         summary: "the same, shaded where `sraa_place` says; pixels of one plane and even shading keep their colour",
-        options: &[
-            ("metric", "planes-normals"),
-            ("difference", "relative"),
-            ("depth-scale", "10"),
-            ("unseen", "0.003"),
-            ("search", "five"),
-            ("search-threshold", "0.004"),
-            ("shading", "placed"),
-            ("mask", "branch"),
-            ("variation", "within"),
-            ("mask-step", "0.03"),
-        ],
+        groups: &[EDGES, PLACED, &[("mask-step", "0.03")]],
     },
     Preset {
         name: "guided",
         summary: "the same with a guide, an estimate of the colour at every geometry sample",
-        options: &[
-            ("metric", "planes-normals"),
-            ("difference", "relative"),
-            ("depth-scale", "10"),
-            ("unseen", "0.003"),
-            ("search", "five"),
-            ("search-threshold", "0.004"),
-            ("shading", "placed"),
-            ("mask", "branch"),
-            ("variation", "within"),
-            ("guide", "add"),
-        ],
+        groups: &[EDGES, PLACED, &[("guide", "add")]],
     },
 ];

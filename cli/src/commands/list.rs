@@ -125,14 +125,15 @@ fn print_preset(preset: &Preset) {
     outln!();
     let summary = format!("{}: {}", preset.name, preset.summary);
     outln!("{}", wrap_text(&summary, WIDTH, "  ", "      "));
-    if !preset.options.is_empty() {
-        outln!("{}", wrap_text(&settings(preset).join(" "), WIDTH, "    ", "    "));
+    let settings = settings(preset);
+    if !settings.is_empty() {
+        outln!("{}", wrap_text(&settings.join(" "), WIDTH, "    ", "    "));
     }
 }
 
 /// Options of a preset as they are set.
 fn settings(preset: &Preset) -> Vec<String> {
-    let options = preset.options.iter();
+    let options = preset.options();
     options.map(|(name, value)| format!("{name}={value}")).collect()
 }
 

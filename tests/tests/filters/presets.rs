@@ -16,14 +16,16 @@ fn a_preset_is_its_options() {
                 let compiled = kernel.compile(&Settings::new().set_all(options(set)));
                 compiled.unwrap_or_else(|errors| panic!("{name}, {set:?}:\n{errors}"))
             };
-            let (named, listed) = (compile(&[("preset", preset.name)]), compile(preset.options));
+            let (named, listed) = (
+                compile(&[("preset", preset.name)]),
+                compile(&preset.options().collect::<Vec<_>>()),
+            );
             assert_eq!(named.options, listed.options, "{name}, {}", preset.name);
             assert_eq!(named.changed, listed.changed, "{name}, {}", preset.name);
             assert!(
                 preset
-                    .options
-                    .iter()
-                    .all(|(option, _)| named.changed.contains(&(*option).to_owned()))
+                    .options()
+                    .all(|(option, _)| named.changed.contains(&option.to_owned()))
             );
         }
     }
