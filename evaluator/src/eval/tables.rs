@@ -190,14 +190,17 @@ impl Evaluator<'_> {
         })))
     }
 
+    /// Returns an index as a node. Refuses a constant that is out of range.
+    fn checked_index(&mut self, index: &Value, len: usize, span: Span) -> Eval<NodeId> {
+        match self.known_int(index) {
+            Some(k) if usize::try_from(k).is_ok_and(|k| k >= len) => Err(out_of_range(k, len, span).into()),
+            _ => self.index_node(index, span),
+        }
+    }
+
     /// Returns an element of a table.
     pub fn row_of_table(&mut self, table: &Table, index: &Value, span: Span) -> Eval {
-        if let Some(k) = self.known_int(index)
-            && usize::try_from(k).is_ok_and(|k| k >= table.len)
-        {
-            return Err(out_of_range(k, table.len, span).into());
-        }
-        let index = self.index_node(index, span)?;
+        let index = self.checked_index(index, table.len, span)?;
         let row = match table.from {
             Some(from) => self.builder.add(Op::Binary(BinaryOp::Add), [from, index], Type::I32),
             None => index,
@@ -238,12 +241,7 @@ impl Evaluator<'_> {
 
     /// Returns a table with a part of one element replaced.
     pub fn set_in_table(&mut self, table: &Table, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
-        if let Some(k) = self.known_int(index)
-            && usize::try_from(k).is_ok_and(|k| k >= table.len)
-        {
-            return Err(out_of_range(k, table.len, span).into());
-        }
-        let row = self.index_node(index, span)?;
+        let row = self.checked_index(index, table.len, span)?;
         let element = self.set_row(&table.element, (row, table.len), rest, new, span)?;
         Ok(Table::whole(table.len, element))
     }
@@ -285,12 +283,7 @@ impl Evaluator<'_> {
                 Ok(Value::Enum(Rc::new(choice)))
             }
             (Value::Table(inner), Step::Index(index)) => {
-                if let Some(k) = self.known_int(index)
-                    && usize::try_from(k).is_ok_and(|k| k >= inner.len)
-                {
-                    return Err(out_of_range(k, inner.len, span).into());
-                }
-                let index = self.index_node(index, span)?;
+                let index = self.checked_index(index, inner.len, span)?;
                 let from = self.build_integer_op(BinaryOp::Mul, row, inner.len as u32);
                 let at = self.builder.add(Op::Binary(BinaryOp::Add), [from, index], Type::I32);
                 let element = self.set_row(&inner.element, (at, count * inner.len), rest, new, span)?;
