@@ -101,7 +101,7 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
 ///
 /// # Errors
 ///
-/// Those of `fill`, and those of the system.
+/// Errors of `fill`, and errors of the system.
 pub fn fill_file<E>(
     path: &Path,
     fill: impl FnOnce(&mut io::BufWriter<File>) -> Result<(), E>,

@@ -10,12 +10,12 @@ use straightline_codegen::{Config, Kernel, Overrides, ShaderSpec, Stage};
 const INTRODUCTION: &str = "# Settings of a shader
 
 Settings describe how a shader is computed and written.
-A setting has the same name, values and default wherever you set it:
+A setting has the same name, values and default wherever you set it.
 
-* in `build.rs`: a method of the kernel's configuration, of `ShaderSpec`, or of its half `Settings` or `EmitOptions`;
-* on the command line: `--NAME` of `emit` and `check`; commands that run a kernel take those of the first half;
-* on the page: a control, and a key of the messages to its generator;
-* in `engine.toml`: a key of a shader, for settings that the engine determines.
+* In `build.rs`, a method of the kernel's configuration, of `ShaderSpec`, or of its half `Settings` or `EmitOptions`.
+* On the command line, `--NAME` of `emit` and `check`; commands that run a kernel take those of the first half.
+* On the page, a control, and a key of the messages to its generator.
+* In `engine.toml`, a key of a shader, for settings that the engine determines.
 ";
 
 /// Returns the expected contents of `docs/settings.md`.

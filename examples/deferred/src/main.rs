@@ -4,7 +4,7 @@
 //! picture.png` needs no window: `--size 1280x720`, `--time 2.5`, `--without-sraa` and `--without-placing` select the picture,
 //! `--timestamps` enables those of software drivers as well. `web/build` builds a web page.
 //!
-//! Where to read: `renderer.rs` has the passes of a frame in order, `scene.rs` the scene, `window.rs`, `web.rs` and
+//! Files: `renderer.rs` has the passes of a frame in order, `scene.rs` the scene, `window.rs`, `web.rs` and
 //! `picture.rs` the outputs, `clock.rs` the frame times.
 
 mod clock;

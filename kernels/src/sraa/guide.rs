@@ -3,7 +3,7 @@
 //!
 //! The colours that the filter reads are c - g, with g at the position that is shaded. It borrows these differences as it
 //! would borrow colours, as a weighted mean is linear. Afterwards the mean of g over the pixel's geometry samples is added.
-//! Where g is the colour, the pixel is supersampled; where g is 0, nothing changes.
+//! A pixel is supersampled if g is its colour, and unchanged if g is 0.
 
 use super::Inputs;
 use super::colors::Colors;

@@ -3,7 +3,7 @@
 //! > g(s) = a(s) (A + max(0, n(s)·l) v(s) L) + e(s), or as an image says; G(p) = Σₛ rₛ g(s) / Σₛ rₛ
 //!
 //! with the albedo a, the light A from all around, and L from the direction l, of which the share v arrives, and the emitted light e.
-//! Where nothing is drawn the first term is 0. A guide with a channel beyond the largest half, or that is not a number, is 0.
+//! The first term is 0 where nothing is drawn. A guide with a channel beyond the largest half, or that is not a number, is 0.
 
 use super::gbuffer::{GBuffer, Stored, find_images, find_stored, find_vector};
 use super::{Definition, Estimate, Metric, OracleError, Resolved, SraaParams};

@@ -80,7 +80,7 @@ impl Draw {
     ///
     /// # Errors
     ///
-    /// Those of [`Pass::from_shader`](crate::Pass::from_shader); [`Error::VertexShader`] for a vertex shader that does not
+    /// Errors of [`Pass::from_shader`](crate::Pass::from_shader); [`Error::VertexShader`] for a vertex shader that does not
     /// compile; [`Error::Pipeline`] for a shader of another stage or for regions, a bind group that the kernel uses itself,
     /// a varying that the vertex shader does not return or returns with another type, and any other error of wgpu about the
     /// pipeline. With the feature `manifest`, such a varying is an [`Error::Varying`], by name, and a vertex shader without

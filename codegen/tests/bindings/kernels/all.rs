@@ -1,4 +1,4 @@
-/// One of each kind of resource that kernels read.
+/// Resources of every kind that kernels read.
 pub fn all(
     color: &Frame<Vec4>,
     stack: &FrameLayers<f32>,

@@ -233,7 +233,7 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
 }
 
 /// The four texels of low resolution around the pixel's centre, weighed: by their distance on the screen, times Gaussians.
-/// Where none is of a like surface, the one with the nearest depth.
+/// If none is of a similar surface, the tap with the nearest depth counts.
 pub fn upsample_pixel(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
     let taps = upsampling_taps(inputs, at);
     let (mut sum, mut total) = ([0.0; 4], 0.0);

@@ -96,7 +96,7 @@ fn at(sorted: &[f32], share: f64) -> f32 {
 
 #[test]
 fn all_catalogued_kernels_are_tested() {
-    // What `sraa_extra` lists first, a device decides, and no half holds the sums of a picture.
+    // The order of the list of `sraa_extra` depends on the device, and no half holds the sums of a picture.
     let names = straightline_kernels::CATALOGUE.iter().map(|e| e.name);
     let names: Vec<&str> = names
         .filter(|name| !["sraa_extra", "sraa_fit_sums", "sraa_fit"].contains(name))
