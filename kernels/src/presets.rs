@@ -65,11 +65,11 @@ pub(crate) const SRAA_PRESETS: &[Preset] = &[
     Preset {
         name: "full",
         summary: "the same, shaded where `sraa_place` says; pixels of one plane and even shading keep their colour",
-        groups: &[EDGES, PLACED, &[("mask-step", "0.03")]],
+        groups: &[EDGES, PLACED, &[("mask-threshold", "0.001"), ("mask-step", "0.03")]],
     },
     Preset {
         name: "guided",
-        summary: "the same with a guide, an estimate of the colour at every geometry sample",
-        groups: &[EDGES, PLACED, &[("guide", "add")]],
+        summary: "the same with a guide, an estimate of the colour at every geometry sample, scaled to fit the picture",
+        groups: &[EDGES, PLACED, &[("guide", "add"), ("fitted", "true")]],
     },
 ];

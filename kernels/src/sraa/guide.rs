@@ -40,7 +40,7 @@ pub enum Estimate {
 /// Inputs of the guide. A shader binds only those that its options need.
 pub struct Guiding {
     /// With estimate=given, and layout=layers or layout=split: the guide at each geometry sample in red, green and blue,
-    /// linear; 0 where there is none, as in the sky.
+    /// linear; 0 where there is none. In haze it includes the haze, and is the sky's colour in the sky.
     pub guide: FrameLayers<Vec4>,
     /// `guide` with layout=superresolution.
     pub guide_grid: Texture<Vec4>,
@@ -62,7 +62,7 @@ pub struct Guiding {
     pub light_color: Vec3,
     /// Linear colour of a white surface lit only from all around.
     pub ambient: Vec3,
-    /// With fitted=true: scale of the guide in red, in the upper left pixel. The kernel `sraa_fit` writes it.
+    /// With fitted=true: scale of each channel of the guide, in the upper left pixel. The kernel `sraa_fit` writes it.
     pub guide_scale: Texture<Vec4>,
 }
 
@@ -154,7 +154,7 @@ fn at_least_0(channel: f32) -> f32 {
 fn guide(cfg: &Sraa, seen: &Estimated, place: Place) -> Vec3 {
     let found = unscaled(cfg, seen, place);
     if cfg.fitted {
-        counted(cfg, seen.guiding.guide_scale.load(IVec2::ZERO).x * found)
+        counted(cfg, seen.guiding.guide_scale.load(IVec2::ZERO).xyz() * found)
     } else {
         found
     }

@@ -23,7 +23,8 @@ pub enum Metric {
 pub enum Difference {
     /// Scene units.
     Absolute,
-    /// Share of the sample's depth: a receding floor is as smooth far away as nearby.
+    /// Share of the sample's depth: a receding floor is as smooth far away as nearby. With metric=planes-normals, a tap that is
+    /// farther or nearer by half of the depth is unrelated even on the sample's plane, as at the horizon.
     Relative,
 }
 
@@ -227,7 +228,23 @@ fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
             }
         }
     };
-    cfg.depth_scale * off.abs()
+    let off = cfg.depth_scale * off.abs();
+    match (cfg.projection, cfg.difference) {
+        (Projection::Perspective, Difference::Relative) => off.max(stretched((deeper / nearest).abs())),
+        _ => off,
+    }
+}
+
+/// Change of depth along a plane, as a share of the sample's depth, up to which a tap may show what the sample shows.
+const FAR_ALONG: f32 = 0.5;
+
+/// Increase of the difference per unit of that share beyond it: [`FAR`] is soon reached.
+const STRETCH: f32 = 400.0;
+
+/// Difference of a tap that lies far along the sample's plane. A pixel at the horizon spans hundreds of units of a floor, over
+/// which haze and detail change as between surfaces.
+fn stretched(share: f32) -> f32 {
+    STRETCH * share - STRETCH * FAR_ALONG
 }
 
 fn deeper(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {

@@ -13,8 +13,8 @@
 
 use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
-    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Plane, Projection,
-    Search, SraaParams, Tap, clamp_difference, is_finite, normal_distance,
+    Definition, Difference, EPSILON, FAR_ALONG, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Plane,
+    Projection, STRETCH, Search, SraaParams, Tap, clamp_difference, is_finite, normal_distance,
 };
 use rayon::prelude::*;
 use straightline_scene::inputs::Inputs;
@@ -454,8 +454,16 @@ impl Definition<'_> {
             };
             scaled(-step * along + far * aside, off)
         };
+        let stretched = || match (self.params.projection, self.params.difference) {
+            (Projection::Perspective, Difference::Relative) => {
+                let share = step.abs() * per_depth;
+                let off = step_off * per_depth + share * scale_off + 2.0 * u * (share + FAR_ALONG) + rounding.smallest;
+                Range::around(STRETCH * (share - FAR_ALONG), STRETCH * off)
+            }
+            _ => Range::around(0.0, 0.0),
+        };
         match self.params.metric {
-            Metric::PlanesNormals => by_plane().max(by_normal()),
+            Metric::PlanesNormals => by_plane().max(stretched()).max(by_normal()),
             Metric::DepthNormals => by_depth().max(by_normal()),
             Metric::Normals => by_normal(),
             Metric::Depth => by_depth(),

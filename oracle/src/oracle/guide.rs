@@ -7,6 +7,7 @@
 
 use super::gbuffer::{GBuffer, Stored, find_images, find_stored, find_vector};
 use super::{Definition, Estimate, Metric, OracleError, Resolved, SraaParams};
+use glam::Vec4;
 use straightline_scene::inputs::Inputs;
 
 /// The largest half.
@@ -41,49 +42,61 @@ pub fn guide(inputs: &Inputs, params: &SraaParams) -> Result<Vec<[f64; 3]>, Orac
 ///
 /// [`OracleError::Input`] if an image or a number that the guide needs is missing or does not fit.
 pub fn residual(inputs: &Inputs, params: &SraaParams) -> Result<Vec<[f64; 4]>, OracleError> {
+    let guides = shaded_guides(inputs, params)?;
+    let colors = find_images(inputs, "color", 1)?[0].texels();
+    let difference = |(color, guide): (&Vec4, [f64; 3])| {
+        let [red, green, blue, alpha] = color.to_array().map(f64::from);
+        [red - guide[0], green - guide[1], blue - guide[2], alpha]
+    };
+    Ok(colors.iter().zip(guides).map(difference).collect())
+}
+
+/// Returns the guide where each pixel is shaded.
+fn shaded_guides(inputs: &Inputs, params: &SraaParams) -> Result<Vec<[f64; 3]>, OracleError> {
     let params = params_of_the_guide(params);
     let definition = Definition::new(inputs, &params)?;
     let guide = Guide::new(inputs, &params)?;
-    let color = &find_images(inputs, "color", 1)?[0];
-    let difference = |(pixel, color): ([i32; 2], &glam::Vec4)| {
+    let at = |pixel: [i32; 2]| {
         let sample = definition.gbuffer.shaded_at(pixel, definition.shaded[0]);
-        let [red, green, blue] = guide.at(&definition, pixel, ([0, 0], sample));
-        let color = color.to_array().map(f64::from);
-        [color[0] - red, color[1] - green, color[2] - blue, color[3]]
+        guide.at(&definition, pixel, ([0, 0], sample))
     };
-    Ok(pixels(inputs).zip(color.texels()).map(difference).collect())
+    Ok(pixels(inputs).map(at).collect())
 }
 
-/// Returns the scale by which the guide is nearest to the colours where pixels are shaded: k = Σ w c·g / Σ w g·g from 0 to 1.5, with
-/// w = 1 / (c·c + g·g + 10⁻⁴), without colours that are not finite; 0 without a guide anywhere. Up to a quarter from 1 it is 1, and
-/// from a half on k, with a straight line for the share of k − 1 between.
+/// Returns the scale of each channel at which the colours differ from the guide most evenly where pixels are shaded:
+/// k = Σ w Δc Δg / Σ w Δg Δg from 0 to 4, with w = 1 / (Δc Δc + Δg Δg + 10⁻⁴), over the steps Δ between pixels that share an edge,
+/// both with finite colours; 0 if the guide is the same everywhere.
 ///
 /// # Errors
 ///
 /// [`OracleError::Input`] if an image or a number that the guide needs is missing or does not fit.
-pub fn scale(inputs: &Inputs, params: &SraaParams) -> Result<f64, OracleError> {
+pub fn scale(inputs: &Inputs, params: &SraaParams) -> Result<[f64; 3], OracleError> {
     let params = SraaParams {
         fitted: false,
-        ..params_of_the_guide(params)
+        ..params.clone()
     };
-    let differences = residual(inputs, &params)?;
-    let (mut both, mut own) = (0.0, 0.0);
-    for (color, difference) in find_images(inputs, "color", 1)?[0].texels().iter().zip(differences) {
-        if !color.is_finite() {
+    let guides = shaded_guides(inputs, &params)?;
+    let colors = find_images(inputs, "color", 1)?[0].texels();
+    let (width, height) = (inputs.size.x as usize, inputs.size.y as usize);
+    let beside = (0..height).flat_map(|y| (1..width).map(move |x| (y * width + x - 1, y * width + x)));
+    let below = (1..height).flat_map(|y| (0..width).map(move |x| ((y - 1) * width + x, y * width + x)));
+    let (mut both, mut own) = ([0.0; 3], [0.0; 3]);
+    for (from, to) in beside.chain(below) {
+        if !colors[from].is_finite() || !colors[to].is_finite() {
             continue;
         }
-        let color = color.to_array().map(f64::from);
-        let guide = [0, 1, 2].map(|axis| color[axis] - difference[axis]);
-        let dot = |a: &[f64], b: &[f64]| -> f64 { (0..3).map(|axis| a[axis] * b[axis]).sum() };
-        let weight = 1.0 / (dot(&color, &color) + dot(&guide, &guide) + 1.0e-4);
-        both += weight * dot(&color, &guide);
-        own += weight * dot(&guide, &guide);
+        for axis in 0..3 {
+            let color = f64::from(colors[to][axis]) - f64::from(colors[from][axis]);
+            let guide = guides[to][axis] - guides[from][axis];
+            let weight = 1.0 / (color * color + guide * guide + 1.0e-4);
+            both[axis] += weight * color * guide;
+            own[axis] += weight * guide * guide;
+        }
     }
-    let apart = match own > 0.0 {
-        true => (both / own).clamp(0.0, 1.5) - 1.0,
-        false => -1.0,
-    };
-    Ok(1.0 + apart * (4.0 * apart.abs() - 1.0).clamp(0.0, 1.0))
+    Ok([0, 1, 2].map(|axis| match own[axis] > 0.0 {
+        true => (both[axis] / own[axis]).clamp(0.0, 4.0),
+        false => 0.0,
+    }))
 }
 
 /// Parameters under which depth and normals are read, whatever the filter compares.
@@ -111,7 +124,7 @@ struct Guide<'a> {
     emission: Option<Stored<'a>>,
     /// Direction and colour of the light, and the light from all around.
     light: [[f64; 3]; 3],
-    scale: f64,
+    scale: [f64; 3],
 }
 
 impl<'a> Guide<'a> {
@@ -124,8 +137,11 @@ impl<'a> Guide<'a> {
             emission: None,
             light: [[0.0; 3]; 3],
             scale: match params.fitted {
-                true => f64::from(find_images(inputs, "guide_scale", 1)?[0].texels()[0].x),
-                false => 1.0,
+                true => find_images(inputs, "guide_scale", 1)?[0].texels()[0]
+                    .truncate()
+                    .to_array()
+                    .map(f64::from),
+                false => [1.0; 3],
             },
         };
         if params.estimate == Estimate::Given {
@@ -163,7 +179,7 @@ impl<'a> Guide<'a> {
             [red, green, blue] = [0, 1, 2].map(channel);
         }
         let counts = |guide: &[f64; 3]| guide.iter().all(|channel| channel.abs() <= BRIGHTEST);
-        let scaled = [red, green, blue].map(|channel| self.scale * channel);
+        let scaled = [self.scale[0] * red, self.scale[1] * green, self.scale[2] * blue];
         if counts(&[red, green, blue]) && counts(&scaled) {
             scaled
         } else {

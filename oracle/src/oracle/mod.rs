@@ -67,6 +67,11 @@ const SMALLEST_NORMAL: f64 = f32::MIN_POSITIVE as f64;
 /// not a number.
 const FAR: f64 = 16.0;
 
+/// Change of depth along a plane, as a share of the sample's depth, up to which a tap tells something of the sample, and increase of the
+/// difference per unit of that share beyond it, by definition of the filter.
+const FAR_ALONG: f64 = 0.5;
+const STRETCH: f64 = 400.0;
+
 /// Weights that sum to no more are none, by definition of the filter.
 const EPSILON: f64 = 1.0e-30;
 
@@ -495,9 +500,17 @@ impl<'a> Definition<'a> {
                 .sum();
             scale * apart.abs()
         };
+        // Far along the plane, as at the horizon, a tap tells nothing of a sample.
+        let stretched = || match (self.params.projection, self.params.difference) {
+            (Projection::Perspective, Difference::Relative) => STRETCH * (step.abs() * per_depth - FAR_ALONG),
+            _ => 0.0,
+        };
         let turned = || normal_distance(self.params, sample.normal, tap.normal);
         match self.params.metric {
-            Metric::PlanesNormals => clamp_difference(plane()).max(clamp_difference(turned())),
+            Metric::PlanesNormals => [plane(), stretched(), turned()]
+                .map(clamp_difference)
+                .into_iter()
+                .fold(0.0, f64::max),
             Metric::DepthNormals => clamp_difference(depths()).max(clamp_difference(turned())),
             Metric::Normals => clamp_difference(turned()),
             Metric::Depth => clamp_difference(depths()),

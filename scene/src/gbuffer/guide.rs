@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers, Texture};
 use straightline_kernels::sraa::{
-    Colors, GBuffer, Guiding, Pattern, Resolve, Shading, Sraa, View, sraa_fit, sraa_fit_sums, sraa_guide,
+    Colors, FitSums, GBuffer, Guiding, Pattern, Resolve, Shading, Sraa, View, sraa_fit, sraa_fit_sums, sraa_guide,
 };
 
 /// The largest half. By definition of the filter, a guide with a brighter channel counts as 0.
@@ -31,13 +31,13 @@ pub(super) fn colors(capture: &Capture, options: &OptionValues) -> Result<Inputs
     let cfg = configured(capture, options)?;
     let scale = match options.flag("fitted") {
         Some(true) => fitted(&cfg, capture, given)?,
-        _ => 1.0,
+        _ => Vec3::ONE,
     };
     let guide = &scaled(given, scale);
     let mut inputs = Inputs::new(capture.size)
         .with_image("color", color(capture, guide))
         .with_image("guide_mean", mean(&cfg, capture, guide))
-        .with_image("guide_scale", Frame::new(UVec2::ONE, vec![Vec4::splat(scale)]));
+        .with_image("guide_scale", Frame::new(UVec2::ONE, vec![scale.extend(0.0)]));
     if !capture.colors.is_empty() {
         let shaded = capture.shaded_layers();
         let colors = capture.colors.iter().zip(shaded);
@@ -47,10 +47,10 @@ pub(super) fn colors(capture: &Capture, options: &OptionValues) -> Result<Inputs
     Ok(inputs)
 }
 
-/// Returns the guide times a number, as the filter counts it.
-fn scaled(guide: &FrameLayers<Vec4>, scale: f32) -> FrameLayers<Vec4> {
+/// Returns the guide times a scale, as the filter counts it.
+fn scaled(guide: &FrameLayers<Vec4>, scale: Vec3) -> FrameLayers<Vec4> {
     let layer = |layer: &Frame<Vec4>| {
-        let texels = layer.texels().iter().map(|texel| scale * counted(*texel));
+        let texels = layer.texels().iter().map(|texel| scale.extend(0.0) * counted(*texel));
         Frame::new(layer.size(), texels.collect())
     };
     FrameLayers::new(guide.layers().iter().map(layer).collect())
@@ -61,12 +61,12 @@ pub(crate) fn difference_at(
     color: &Frame<Vec4>,
     guide: &FrameLayers<Vec4>,
     at: &Frame<u32>,
-    scale: f32,
+    scale: Vec3,
 ) -> Frame<Vec4> {
     let texels = color.texels().iter().zip(at.texels()).enumerate();
     let texels = texels.map(|(k, (color, sample))| {
         let layer = guide.layers().get(*sample as usize);
-        *color - scale * layer.map_or(Vec4::ZERO, |layer| counted(layer.texels()[k]))
+        *color - scale.extend(0.0) * layer.map_or(Vec4::ZERO, |layer| counted(layer.texels()[k]))
     });
     Frame::new(color.size(), texels.collect())
 }
@@ -154,7 +154,7 @@ fn mean(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Frame<Vec4>
 }
 
 /// Returns the scale of the guide: the kernels `sraa_fit_sums` and `sraa_fit`, as rustc compiles them.
-fn fitted(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Result<f32, GBufferError> {
+fn fitted(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Result<Vec3, GBufferError> {
     let shading = match (&capture.shading, &capture.place) {
         (ShadingSample::Centre, _) => Shading::Centre,
         (ShadingSample::Placed, Some(_)) => Shading::Placed,
@@ -181,7 +181,9 @@ fn fitted(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Result<f3
     }
     let (gbuffer, tiles) = (GBuffer::unread(), capture.size.map(|axis| axis.div_ceil(16)).as_ivec2());
     let places = (0..tiles.y).flat_map(|y| (0..tiles.x).map(move |x| ivec2(x, y)));
-    let sums = places.map(|tile| sraa_fit_sums(&cfg, &gbuffer, &UNSEEN, &colors, &guiding, tile));
-    let sums = Texture::new(tiles.as_uvec2(), sums.collect());
-    Ok(sraa_fit(&cfg, &sums, IVec2::ZERO).x)
+    let sums: Vec<FitSums> = places
+        .map(|tile| sraa_fit_sums(&cfg, &gbuffer, &UNSEEN, &colors, &guiding, tile))
+        .collect();
+    let texture = |of: fn(&FitSums) -> Vec4| Texture::new(tiles.as_uvec2(), sums.iter().map(of).collect());
+    Ok(sraa_fit(&cfg, &texture(|sums| sums.both), &texture(|sums| sums.own), IVec2::ZERO).truncate())
 }

@@ -45,7 +45,7 @@ impl Extra {
         let scale = inputs.images.iter().find(|(name, _)| name == "guide_scale");
         let color = match (&capture.guide, scale) {
             (Some(guide), Some((_, scale))) => {
-                let scale = scale[0].texels()[0].x;
+                let scale = scale[0].texels()[0].truncate();
                 gbuffer::difference_at(&self.color, guide, &self.sample, scale)
             }
             _ => self.color.clone(),

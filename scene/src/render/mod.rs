@@ -88,8 +88,9 @@ pub trait Renderer {
     /// Linear RGB that the sun adds to [`shade_surface`](Self::shade_surface) of a surface where no shadow falls.
     fn direct_light(&self, surface: &Surface, place: Vec2) -> Vec3;
 
-    /// Returns a cheap estimate of [`shade_surface`](Self::shade_surface), as `guide=add` needs it: the albedo times the sun's light where no shadow falls and
-    /// one constant of ambient light, the sun's highlight, and the light that the surface emits; 0 in the sky. It has no haze.
+    /// Returns a cheap estimate of [`shade_surface`](Self::shade_surface), as `guide=add` needs it: the albedo times the sun's light
+    /// where no shadow falls and one constant of ambient light, the sun's highlight, the light that the surface emits, and haze. In
+    /// the sky it is the sky's colour.
     fn guide(&self, surface: &Surface, place: Vec2) -> Vec3;
 
     /// Albedo of what is seen `offset` from each pixel's centre, linear RGB, and in alpha the share of the sun's light that no

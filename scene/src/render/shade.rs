@@ -51,20 +51,28 @@ pub(super) fn surface_paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -
     reflected.extend(sun_visibility(lighting, surface, ray))
 }
 
-/// Returns an estimate of a surface's colour without haze: the sun with its highlight, one constant of ambient light for all directions,
-/// and emission; 0 of the sky.
+/// Returns an estimate of a surface's colour: the sun with its highlight, one constant of ambient light for all directions, emission, and
+/// haze. The sky is its own estimate, so that nothing jumps where haze meets it.
 pub(super) fn guide(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     if surface.depth >= SKY_DEPTH {
-        return Vec3::ZERO;
+        return sky(lighting, ray.normalize()).clamp(Vec3::ZERO, Vec3::ONE);
     }
     if surface.material as u32 == Material::Emissive as u32 {
-        return surface.color * EMISSION;
+        return through_haze(lighting, surface, ray, surface.color * EMISSION);
     }
     let facing = surface.normal.dot(lighting.sun_direction.truncate()).max(0.0);
     let facing = facing * sun_visibility(lighting, surface, ray);
     let sun = lighting.sun_color.truncate();
     let ambient = 0.5 * (lighting.ground + lighting.zenith).truncate();
-    surface_albedo(lighting, surface, ray) * (ambient + sun * facing) + sun * highlight(lighting, surface, ray, facing)
+    let reflected = surface_albedo(lighting, surface, ray) * (ambient + sun * facing);
+    let lit = reflected + sun * highlight(lighting, surface, ray, facing);
+    through_haze(lighting, surface, ray, lit)
+}
+
+/// Returns the light of a surface, and of the haze before it.
+fn through_haze(lighting: &Lighting, surface: &Surface, ray: Vec3, lit: Vec3) -> Vec3 {
+    let clear = (-lighting.sun_direction.w * surface.depth * ray.length()).exp2();
+    lighting.horizon.truncate().lerp(lit, clear)
 }
 
 /// Returns the sun's highlight on a surface that faces as much of its light.
@@ -137,12 +145,7 @@ fn shade_sunlit(lighting: &Lighting, surface: &Surface, ray: Vec3, visible: f32)
         lit = surface.color * EMISSION;
         most = MOST;
     }
-    let clear = (-lighting.sun_direction.w * surface.depth * ray.length()).exp2();
-    lighting
-        .horizon
-        .truncate()
-        .lerp(lit, clear)
-        .clamp(Vec3::ZERO, Vec3::splat(most))
+    through_haze(lighting, surface, ray, lit).clamp(Vec3::ZERO, Vec3::splat(most))
 }
 
 /// The largest half: what a texture of 16 bits holds.

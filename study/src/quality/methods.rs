@@ -420,9 +420,9 @@ fn presets() -> Vec<Method> {
                 &options,
             ));
         }
-        let options = [("preset", "guided"), ("pattern", pattern), ("fitted", "true")];
+        let options = [("preset", "guided"), ("pattern", pattern), ("fitted", "false")];
         all.push(Method::new(
-            &format!("SRAA {samples}, guided, scaled"),
+            &format!("SRAA {samples}, guided, unscaled"),
             MethodKind::Sraa,
             &options,
         ));

@@ -64,14 +64,14 @@ pub fn scenes(record: &QualityRecord) -> String {
     let head: Vec<&str> = ["scene", "samples"]
         .into_iter()
         .chain(PRESETS.map(|(preset, _)| preset))
-        .chain(["scaled guide", "supersampling"])
+        .chain(["unscaled guide", "supersampling"])
         .collect();
     let rows = record.scenes.iter().flat_map(|scene| {
         ["4", "16"].map(|samples| {
             let mut row = vec![scene.scene.clone(), samples.to_owned()];
             let methods = PRESETS.map(|(preset, _)| method(preset, samples));
             row.extend(methods.iter().map(|name| cell(scene, name)));
-            row.push(cell(scene, &method("guided, scaled", samples)));
+            row.push(cell(scene, &method("guided, unscaled", samples)));
             row.push(cell(scene, &format!("{samples}x")));
             row
         })
@@ -87,7 +87,7 @@ pub fn goals(files: &[&Path]) -> Result<String, String> {
     let record = QualityRecord::read(file).map_err(|error| error.to_string())?;
     let mut rows = Vec::new();
     for (samples, of_mean, of_worst) in [("4", 0.05, 0.2), ("16", 0.2, 0.6)] {
-        for (what, preset) in [("guided", "guided"), ("guided, scaled", "guided, scaled")] {
+        for (what, preset) in [("guided", "guided"), ("guided, unscaled", "guided, unscaled")] {
             let below = below(&record, preset, samples)?;
             rows.push(vec![
                 format!("{what}, {samples} samples below {samples}×: mean; worst, dB"),
