@@ -11,6 +11,7 @@ pub mod emit;
 pub mod explain;
 #[cfg(feature = "study")]
 pub mod figures;
+mod footprint;
 pub mod list;
 #[cfg_attr(not(feature = "study"), path = "without_machine.rs")]
 mod machine;
