@@ -3,6 +3,7 @@
 use super::footprint::{footprint_json, write_drawing};
 use super::machine;
 use super::notes::find_notes;
+use super::paper::count_for_paper;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
@@ -51,7 +52,7 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     let bound = bound_names(&described);
     let features = described.features.join(", ");
     let counts = described.counts;
-    let paper = compiled.paper_counts();
+    let paper = count_for_paper(&kernel, &compiled)?;
     let remarks = find_notes(&kernel, &args.kernel.options.settings(), &compiled);
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);

@@ -17,6 +17,7 @@ pub mod list;
 mod machine;
 mod notes;
 pub mod page;
+mod paper;
 #[cfg(feature = "study")]
 pub mod quads;
 pub mod resolve;
