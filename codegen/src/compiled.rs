@@ -41,6 +41,8 @@ pub struct Compiled {
     pub transport: Option<Transport>,
     /// Outcome of texel sharing for the requested reads.
     pub sharing: Option<Arc<Sharing>>,
+    /// Graph before a workgroup shared its texels, if that was requested.
+    pub unshared: Option<Arc<Graph>>,
     /// Reads that became gathers, if requested.
     pub gathered: Arc<[Gathered]>,
     /// For a kernel whose invocations are lanes: the graph in which one invocation computes the whole quad.

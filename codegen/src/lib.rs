@@ -51,7 +51,9 @@
 mod compiled;
 pub mod config;
 pub mod default_set;
+pub mod drawing;
 pub mod emit;
+pub mod footprint;
 mod kernel;
 mod pipeline;
 pub mod spec;

@@ -68,6 +68,7 @@ pub fn compile(
         transport,
         quad,
         sharing,
+        unshared,
         gathered,
         ..
     } = pipeline.run_stages(graph)?;
@@ -90,6 +91,7 @@ pub fn compile(
         schedule,
         transport,
         sharing,
+        unshared,
         gathered,
         quad,
         limits: settings.limits(),

@@ -43,6 +43,8 @@ pub struct Work<'s> {
     pub quad: Option<Arc<Graph>>,
     /// Outcome of texel sharing by workgroups.
     pub sharing: Option<Arc<Sharing>>,
+    /// Graph before texels are shared by workgroups.
+    pub unshared: Option<Arc<Graph>>,
     /// Reads that became gathers.
     pub gathered: Arc<[Gathered]>,
 }
@@ -56,6 +58,7 @@ impl<'s> Work<'s> {
             transport: settings.transport,
             quad: None,
             sharing: None,
+            unshared: None,
             gathered: Arc::default(),
         }
     }

@@ -155,6 +155,9 @@ pub struct ExplainArgs {
     /// navi21 or navi31
     #[arg(long, value_name = "FAMILY")]
     pub isa: Option<Family>,
+    /// Also draw the texels that an invocation reads, with weights and messages, to this SVG file
+    #[arg(long, value_name = "FILE.svg", value_hint = ValueHint::FilePath)]
+    pub draw: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -1,13 +1,16 @@
 //! `explain`: operation counts of a kernel, per pixel.
 
+use super::footprint::{footprint_json, write_drawing};
 use super::machine;
 use super::notes::find_notes;
+use super::paper::count_for_paper;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
+use straightline_codegen::footprint::find_footprint;
 use straightline_codegen::passes::{Gathered, Sharing};
 use straightline_codegen::{Compiled, EmitOptions, ReadOrder, Unroll};
 use straightline_kernels::{OptionValue, PaperCounts};
@@ -16,6 +19,11 @@ use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 /// Prints the counts of one kernel with one set of options.
 pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     if let Some(code) = Code::from_number(&args.kernel.kernel) {
+        if args.draw.is_some() {
+            return Err(Failure::Usage(
+                "--draw goes with a kernel, not with an error code".to_owned(),
+            ));
+        }
         explain_code(code, args.json);
         return Ok(());
     }
@@ -25,6 +33,9 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
             outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
         }
     })?;
+    if let Some(path) = &args.draw {
+        write_drawing(path, &compiled, &find_footprint(&compiled))?;
+    }
     // Statements and live values are counted in the emitted text.
     let options = EmitOptions::new()
         .stage(super::natural_stage(&compiled))
@@ -41,11 +52,12 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     let bound = bound_names(&described);
     let features = described.features.join(", ");
     let counts = described.counts;
-    let paper = compiled.paper_counts();
+    let paper = count_for_paper(&kernel, &compiled)?;
     let remarks = find_notes(&kernel, &args.kernel.options.settings(), &compiled);
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
+        out.insert("footprint".into(), footprint_json(&find_footprint(&compiled)));
         if !remarks.is_empty() {
             out.insert("notes".into(), json!(remarks));
         }

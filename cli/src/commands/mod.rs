@@ -11,11 +11,13 @@ pub mod emit;
 pub mod explain;
 #[cfg(feature = "study")]
 pub mod figures;
+mod footprint;
 pub mod list;
 #[cfg_attr(not(feature = "study"), path = "without_machine.rs")]
 mod machine;
 mod notes;
 pub mod page;
+mod paper;
 #[cfg(feature = "study")]
 pub mod quads;
 pub mod resolve;

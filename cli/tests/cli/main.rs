@@ -7,6 +7,7 @@ mod check;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
+mod draw;
 mod emit;
 mod features;
 mod figures;

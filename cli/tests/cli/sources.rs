@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use common::{here, straightline};
+use common::{finishes, here, straightline};
 use std::path::Path;
 
 /// The cells of every row.
@@ -97,4 +97,28 @@ fn commands_files_and_sections_are_there() {
         }
     }
     assert!(commands > 80 && files > 25, "{commands} commands and {files} files");
+}
+
+/// The paper's counts stand beside ours where the options are the paper's. They are counted from the kernel.
+#[test]
+fn counts_of_the_paper_are_those_of_its_options() {
+    let counts = |options: &[&str]| {
+        let said = finishes(&[&["explain", "sraa", "--json"], options].concat());
+        let said: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+        let of = |name: &str| said[name].as_u64();
+        of("paper_weight_evaluations").zip(of("paper_texture_reads"))
+    };
+    // Section 3.5.
+    assert_eq!(counts(&[]), Some((25, 58)));
+    assert_eq!(counts(&["--set", "pattern=latin16"]), Some((81, 194)));
+    assert_eq!(counts(&["--set", "preset=paper"]), Some((25, 58)));
+    for option in [
+        "metric=depth",
+        "radius=2",
+        "search=five",
+        "pattern=standard8",
+        "layout=superresolution",
+    ] {
+        assert_eq!(counts(&["--set", option]), None, "{option}");
+    }
 }

@@ -36,6 +36,7 @@ pub fn share_by_workgroup(work: &mut Work<'_>) -> Result<Made, Refusal> {
     let (graph, found) = passes::by_workgroup(&work.graph, threads)
         .map_err(|why| refused(why, "let invocations share by themselves: leave `share` out"))?;
     work.sharing = Some(Arc::new(found));
+    work.unshared = Some(Arc::new(std::mem::take(&mut work.graph)));
     Ok(Made::Kernel(graph))
 }
 
