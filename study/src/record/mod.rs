@@ -77,7 +77,7 @@ impl IntervalKind {
     /// Name for readers.
     pub fn display_name(self) -> &'static str {
         match self {
-            IntervalKind::Earlier => "intervals: eight rounds in ten",
+            IntervalKind::Earlier => "intervals: eight rounds in ten, of frames the quartiles",
             IntervalKind::Blocks => "intervals: 95 %, by blocks of rounds",
         }
     }
